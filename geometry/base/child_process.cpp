@@ -1,0 +1,314 @@
+#include "geometry/base/child_process.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+extern char** environ;
+
+namespace cutterflow {
+namespace {
+
+constexpr std::array<int, 3> k_stop_signals{SIGINT, SIGTERM, SIGHUP};
+
+// What the signal handler needs; a handler may touch nothing else. One child runs at a time.
+volatile std::sig_atomic_t g_child = 0;
+volatile std::sig_atomic_t g_received = 0;
+
+extern "C" void pass_on(int signal_number) {
+    const int saved_errno = errno;
+    g_received = signal_number;
+    if (g_child > 0) ::kill(static_cast<pid_t>(g_child), signal_number);
+    errno = saved_errno;
+}
+
+/// Passes stop signals on to the child while it lives; the caller's own handling is back afterwards.
+class SignalRelay {
+public:
+    SignalRelay() {
+        g_child = 0;
+        g_received = 0;
+        struct sigaction action {};
+        action.sa_handler = pass_on;
+        sigemptyset(&action.sa_mask);
+        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &action, &previous_[i]);
+    }
+    ~SignalRelay() {
+        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &previous_[i], nullptr);
+        g_child = 0;
+    }
+    SignalRelay(const SignalRelay&) = delete;
+    SignalRelay& operator=(const SignalRelay&) = delete;
+
+    void attach(pid_t child) {
+        g_child = child;
+        if (g_received != 0) ::kill(child, g_received);  // it came before the child was known
+    }
+    static int received() { return g_received; }
+
+private:
+    std::array<struct sigaction, k_stop_signals.size()> previous_{};
+};
+
+class FileDescriptor {
+public:
+    explicit FileDescriptor(int number) : number_(number) {}
+    ~FileDescriptor() { close(); }
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
+    int number() const { return number_; }
+    void close() {
+        if (number_ >= 0) ::close(number_);
+        number_ = -1;
+    }
+
+private:
+    int number_;
+};
+
+/// The Debian package that brings a program; empty when unknown.
+std::string package_of(const std::string& program) {
+    static const std::set<std::string> openfoam{"blockMesh",           "snappyHexMesh", "checkMesh",      "surfaceFeatureExtract",
+                                                "createBaffles",       "createPatch",   "topoSet",        "splitMeshRegions",
+                                                "mergeOrSplitBaffles", "decomposePar",  "reconstructPar", "reconstructParMesh",
+                                                "simpleFoam",          "pimpleFoam",    "potentialFoam",  "renumberMesh",
+                                                "foamToVTK",           "postProcess",   "foamDictionary", "mapFields"};
+    static const std::map<std::string, std::string> others{{"mpirun", "openmpi-bin"}, {"gnuplot", "gnuplot-nox"}};
+    if (openfoam.count(program) > 0) return "openfoam";
+    const auto found = others.find(program);
+    return found == others.end() ? "" : found->second;
+}
+
+Mistake missing_program(const std::string& program) {
+    const std::string package = package_of(std::filesystem::path(program).filename().string());
+    if (package.empty())
+        return {"", fmt::format("the program {} was not found", program), "It is built with this project",
+                "Run ./bootstrap in the repository, or add the program's folder to PATH"};
+    return {"", fmt::format("the program {} was not found on PATH", program), fmt::format("It comes with the Debian package {}", package),
+            fmt::format("Run ./bootstrap in the repository, or apt-get install {}", package)};
+}
+
+bool is_program(const std::filesystem::path& path) {
+    return !std::filesystem::is_directory(path) && ::access(path.c_str(), X_OK) == 0;
+}
+
+/// Path of a program by name or path; empty when it is not there.
+std::filesystem::path locate(const std::string& name) {
+    if (name.find('/') == std::string::npos) return find_program(name);
+    const std::filesystem::path path = std::filesystem::absolute(name);
+    return is_program(path) ? path : std::filesystem::path();
+}
+
+std::vector<std::string> merged_environment(const std::map<std::string, std::string>& additions) {
+    std::vector<std::string> merged;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string text(*entry);
+        if (additions.count(text.substr(0, text.find('='))) == 0) merged.push_back(text);
+    }
+    for (const auto& [name, value] : additions) merged.push_back(name + "=" + value);
+    return merged;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    return pointers;
+}
+
+void require_system(int error, const std::string& doing) {
+    if (error != 0) throw std::system_error(error, std::generic_category(), doing);
+}
+
+/// Starts the program with its output on `output`, nothing on its standard input, in a process group of its own: the terminal's Ctrl-C
+/// reaches it through SignalRelay alone, once.
+pid_t spawn(const std::filesystem::path& program, const ChildCommand& command, int output) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    require_system(posix_spawn_file_actions_init(&actions), "preparing a child process");
+    require_system(posix_spawnattr_init(&attributes), "preparing a child process");
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+    if (!command.working_directory.empty()) posix_spawn_file_actions_addchdir_np(&actions, command.working_directory.c_str());
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    for (const int number : k_stop_signals) sigaddset(&defaults, number);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+
+    std::vector<std::string> arguments = command.arguments;
+    std::vector<std::string> environment = merged_environment(command.environment);
+    pid_t child = 0;
+    const int error =
+        posix_spawn(&child, program.c_str(), &actions, &attributes, pointers_to(arguments).data(), pointers_to(environment).data());
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    if (error != 0)
+        throw ToolError({"", fmt::format("{} could not be started: {}", program.string(), std::strerror(error)),
+                         fmt::format("It is to run in {}", command.working_directory.empty() ? "." : command.working_directory.string()),
+                         "Check that the folder exists and the program may be executed"});
+    return child;
+}
+
+/// Waits for the child in any case; kills it first when the caller leaves by an exception.
+class ChildGuard {
+public:
+    explicit ChildGuard(pid_t child) : child_(child) {}
+    ~ChildGuard() {
+        if (child_ == 0) return;
+        ::kill(child_, SIGTERM);
+        wait();
+    }
+    ChildGuard(const ChildGuard&) = delete;
+    ChildGuard& operator=(const ChildGuard&) = delete;
+
+    /// Exit code and core seconds.
+    std::pair<int, double> wait() {
+        int status = 0;
+        struct rusage usage {};
+        while (::wait4(child_, &status, 0, &usage) < 0 && errno == EINTR) {
+        }
+        child_ = 0;
+        const auto seconds = [](const timeval& time) {
+            return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+        };
+        const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+        return {code, seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+    }
+
+private:
+    pid_t child_;
+};
+
+/// Copies the child's output to the log and hands its complete lines on.
+class OutputReader {
+public:
+    OutputReader(const std::filesystem::path& log, const std::function<void(const std::string&)>& each_line) : each_line_(each_line) {
+        if (log.empty()) return;
+        if (log.has_parent_path()) std::filesystem::create_directories(log.parent_path());
+        log_.open(log, std::ios::binary | std::ios::trunc);
+        if (!log_)
+            throw UserError(fmt::format("cannot write the log {}", log.string()), "Its folder must be writable", "Check its permissions");
+    }
+
+    void read_all(int input) {
+        std::array<char, 65536> buffer;
+        while (true) {
+            const ssize_t count = ::read(input, buffer.data(), buffer.size());
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) break;
+            take(buffer.data(), static_cast<std::size_t>(count));
+        }
+        if (!line_.empty() && each_line_) each_line_(line_);
+    }
+
+private:
+    void take(const char* text, std::size_t count) {
+        if (log_.is_open()) log_.write(text, static_cast<std::streamsize>(count)).flush();
+        if (!each_line_) return;
+        line_.append(text, count);
+        std::size_t begin = 0;
+        for (std::size_t end = line_.find('\n'); end != std::string::npos; end = line_.find('\n', begin)) {
+            each_line_(line_.substr(begin, end - begin));
+            begin = end + 1;
+        }
+        line_.erase(0, begin);
+    }
+
+    std::ofstream log_;
+    const std::function<void(const std::string&)>& each_line_;
+    std::string line_;
+};
+
+std::string last_lines(const std::filesystem::path& log, std::size_t count) {
+    std::ifstream stream(log);
+    std::deque<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.empty()) continue;
+        lines.push_back("    " + line);
+        if (lines.size() > count) lines.pop_front();
+    }
+    return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+}  // namespace
+
+std::filesystem::path find_program(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::string folders = path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path;
+    folders += ':';
+    std::size_t begin = 0;
+    for (std::size_t end = folders.find(':'); end != std::string::npos; end = folders.find(':', begin)) {
+        const std::filesystem::path candidate = std::filesystem::path(folders.substr(begin, end - begin)) / name;
+        if (end > begin && is_program(candidate)) return candidate;
+        begin = end + 1;
+    }
+    return {};
+}
+
+void require_programs(const std::vector<std::string>& programs) {
+    std::vector<Mistake> missing;
+    for (const std::string& program : programs)
+        if (locate(program).empty()) missing.push_back(missing_program(program));
+    if (!missing.empty()) throw ToolError(missing);
+}
+
+ChildResult run_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line) {
+    const std::filesystem::path program = locate(command.arguments.at(0));
+    if (program.empty()) throw ToolError(missing_program(command.arguments[0]));
+
+    OutputReader reader(command.log, each_line);
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) require_system(errno, "opening a pipe");
+    const FileDescriptor input(ends[0]);
+    FileDescriptor output(ends[1]);
+
+    const auto begin = std::chrono::steady_clock::now();
+    SignalRelay relay;
+    const pid_t pid = spawn(program, command, output.number());
+    ChildGuard child(pid);
+    relay.attach(pid);
+    output.close();
+    reader.read_all(input.number());
+    const auto [exit_code, core_s] = child.wait();
+    const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (SignalRelay::received() != 0)
+        throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), ::strsignal(SignalRelay::received())));
+    return {exit_code, wall_s, core_s};
+}
+
+Mistake failure_of(const ChildCommand& command, const ChildResult& result) {
+    const std::string log =
+        command.log.empty() ? "" : fmt::format(". Its log {} ends with\n{}\n", command.log.string(), last_lines(command.log, 12));
+    const int signal_number = result.exit_code - 128;
+    const std::string how = signal_number > 0 ? fmt::format("was killed by signal {} ({})", signal_number, ::strsignal(signal_number))
+                                              : fmt::format("ended with exit code {}", result.exit_code);
+    return {"", fmt::format("{} {}{}", fmt::join(command.arguments, " "), how, log), "It must end with exit code 0",
+            "Read the log from its first error on"};
+}
+
+ChildResult require_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line) {
+    const ChildResult result = run_child(command, each_line);
+    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    return result;
+}
+
+}  // namespace cutterflow

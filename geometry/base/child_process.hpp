@@ -1,0 +1,55 @@
+#pragma once
+/// \file Programs started as children: without a shell, with their output kept in a log file.
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/base/error.hpp"
+
+namespace cutterflow {
+
+/// What to start. Arguments go to the program as they are; no shell ever sees them.
+struct ChildCommand {
+    std::vector<std::string> arguments;              ///< program (searched on PATH) and its arguments
+    std::filesystem::path working_directory;         ///< empty: the caller's
+    std::filesystem::path log;                       ///< receives standard output and error; overwritten
+    std::map<std::string, std::string> environment;  ///< added to the caller's environment
+};
+
+/// How it ended.
+struct ChildResult {
+    int exit_code = 0;  ///< 128 + signal when a signal ended it
+    double wall_s = 0.0;
+    double core_s = 0.0;  ///< user and system time of the child and its waited-for descendants
+};
+
+/// Runs a program to its end. `each_line` (may be empty) is called with every complete line of output while the program runs, after it
+/// was written to the log. SIGINT and SIGTERM that reach the caller are passed on to the child, which is waited for; then the call throws
+/// Interrupted.
+/// \throws ToolError  when the program is not found or cannot be started (names it, its package when known, and what to do)
+ChildResult run_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
+
+/// As run_child, but an exit code other than 0 throws ToolError, which quotes the log's last lines and names the log.
+ChildResult require_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
+
+/// What an exit code other than 0 is told as: how the program ended, the log's name and last lines.
+Mistake failure_of(const ChildCommand& command, const ChildResult& result);
+
+/// Full path of a program on PATH; empty when there is none.
+std::filesystem::path find_program(const std::string& name);
+
+/// \param programs  names on PATH, or paths
+/// \throws ToolError  naming every one that is not there, its package and what to do
+void require_programs(const std::vector<std::string>& programs);
+
+/// The run was stopped by the user (SIGINT or SIGTERM); what was done is kept.
+class Interrupted : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+}  // namespace cutterflow

@@ -1,0 +1,90 @@
+#pragma once
+/// \file Typed, documented parameters of the project's TOML files (studies, cutters). One declaration per key serves reading, checking,
+/// the commented template, `cutterflow params` and the manual page.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow {
+
+enum class ParameterKind { number, integer, text, choice, boolean, path, vector3 };
+
+using ParameterValue = std::variant<double, std::int64_t, std::string, bool, Vec3>;
+
+/// One key. The unit stands in the key's name too (`rotor.speed_rpm`); values keep the file's unit, conversion happens where a struct is
+/// filled.
+struct Parameter {
+    std::string key;  ///< "section.name_unit"; for repeated tables "feed.count" with `repeated`
+    ParameterKind kind = ParameterKind::number;
+    std::string unit;                             ///< for people: "rpm", "m3/s", "-" ...
+    std::optional<ParameterValue> default_value;  ///< none: the key is required, unless `optional`
+    bool optional = false;                        ///< may be absent without a default; `derived_from` says what is used then
+    std::optional<double> minimum, maximum;       ///< inclusive bounds
+    bool minimum_excluded = false;                ///< the minimum itself is not allowed (a discharge of 0)
+    std::vector<std::string> choices;             ///< for ParameterKind::choice
+    std::string help;                             ///< one or two sentences
+    std::string derived_from;                     ///< how an absent optional value is derived
+    bool repeated = false;  ///< member of an array of tables: of [[feed]] for "feed.count"; arrays nest ("feed.class.share")
+    std::string reference;  ///< key in docs/references.bib, may be empty
+};
+
+using ParameterTable = std::vector<Parameter>;
+
+/// The values of one file (or of one of its repeated tables).
+class ParameterValues {
+public:
+    bool has(const std::string& key) const;
+    const ParameterValue* find(const std::string& key) const;  ///< null when it has no value
+    double number(const std::string& key) const;               ///< also of an integer
+    std::int64_t integer(const std::string& key) const;
+    const std::string& text(const std::string& key) const;  ///< text, choice or path
+    bool boolean(const std::string& key) const;
+    const Vec3& vector3(const std::string& key) const;
+    /// The tables of an array of tables, in the file's order; their keys are full ("feed.count").
+    const std::vector<ParameterValues>& tables(const std::string& name) const;
+
+    void set(const std::string& key, ParameterValue value);
+    std::vector<ParameterValues>& tables_for_writing(const std::string& name);
+
+    /// Where a key stands ("study.toml:12"), for messages; empty when it has its default.
+    std::string where(const std::string& key) const;
+    void set_where(const std::string& key, std::string where);
+
+private:
+    template <typename T>
+    const T& get(const std::string& key) const;
+
+    std::map<std::string, ParameterValue> values_;
+    std::map<std::string, std::string> where_;
+    std::map<std::string, std::vector<ParameterValues>> tables_;
+};
+
+/// Reads a TOML file against a table and fills in defaults.
+/// \throws UserError  with every mistake of the file: not readable, not TOML, unknown key (with the nearest known one), wrong type,
+///                    outside its bounds, not among its choices, missing
+ParameterValues read_parameters(const ParameterTable& table, const std::filesystem::path& file);
+
+/// As read_parameters, from text; `name` stands for the file in messages.
+ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name);
+
+/// A value as TOML writes it.
+std::string toml_text(const ParameterValue& value);
+
+/// TOML text with every key of the table, its help, unit, bounds and default as comments. Required keys are left to fill in; `values`
+/// (may be null) replaces defaults.
+std::string commented_toml(const ParameterTable& table, const ParameterValues* values = nullptr);
+
+/// The table as aligned text for a terminal, and as a Markdown manual page.
+std::string parameters_text(const ParameterTable& table);
+std::string parameters_markdown(const ParameterTable& table);
+
+/// The word of `known` nearest to `word` (edit distance at most a third of its length), or empty.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace cutterflow

@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameter_words.hpp"
+
+namespace cutterflow {
+namespace {
+
+using namespace parameter_words;
+
+std::string join_key(const std::string& section, const std::string& name) {
+    return section.empty() ? name : section + "." + name;
+}
+
+bool is_inside(const std::string& key, const std::string& section) {
+    return section.empty() || key.rfind(section + ".", 0) == 0;
+}
+
+bool is_section(const ParameterTable& table, const std::string& name) {
+    return std::any_of(table.begin(), table.end(), [&](const Parameter& p) { return is_inside(p.key, name); });
+}
+
+const Parameter* find_parameter(const ParameterTable& table, const std::string& key) {
+    const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.key == key; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+std::string node_text(const toml::node& node) {
+    std::ostringstream stream;
+    stream << toml::toml_formatter(node, toml::format_flags::none);
+    std::string text = stream.str();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+/// The number of a TOML integer or float; none for anything else.
+std::optional<double> number_in(const toml::node& node) {
+    if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+    if (const auto* number = node.as_floating_point()) return number->get();
+    return std::nullopt;
+}
+
+std::optional<Vec3> vector_in(const toml::node& node) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() != 3) return std::nullopt;
+    Vec3 vector;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::optional<double> component = number_in(*array->get(i));
+        if (!component) return std::nullopt;
+        vector[static_cast<Eigen::Index>(i)] = *component;
+    }
+    return vector;
+}
+
+/// The node's value if it has the parameter's type.
+std::optional<ParameterValue> typed_value(const Parameter& parameter, const toml::node& node) {
+    switch (parameter.kind) {
+        case ParameterKind::number:
+            if (const auto number = number_in(node)) return *number;
+            return std::nullopt;
+        case ParameterKind::integer:
+            if (const auto* integer = node.as_integer()) return integer->get();
+            return std::nullopt;
+        case ParameterKind::text:
+        case ParameterKind::choice:
+        case ParameterKind::path:
+            if (const auto* text = node.as_string()) return text->get();
+            return std::nullopt;
+        case ParameterKind::boolean:
+            if (const auto* boolean = node.as_boolean()) return boolean->get();
+            return std::nullopt;
+        case ParameterKind::vector3:
+            if (const auto vector = vector_in(node)) return *vector;
+            return std::nullopt;
+    }
+    throw std::logic_error("unknown ParameterKind");
+}
+
+/// Reads one file's tree against the table and collects every mistake on the way.
+class Reader {
+public:
+    Reader(const ParameterTable& table, std::string name) : table_(table), name_(std::move(name)) {}
+
+    ParameterValues read(const toml::table& root) {
+        ParameterValues values;
+        read_section(root, "", values);
+        fill_in(values, "", name_);
+        return values;
+    }
+
+    const std::vector<Mistake>& mistakes() const { return mistakes_; }
+
+private:
+    std::string where(const toml::node& node) const { return fmt::format("{}:{}", name_, node.source().begin.line); }
+
+    void add(std::string where, std::string what, std::string rule, std::string remedy) {
+        mistakes_.push_back({std::move(where), std::move(what), std::move(rule), std::move(remedy)});
+    }
+
+    void read_section(const toml::table& section, const std::string& prefix, ParameterValues& values) {
+        // toml++ sorts keys; mistakes are to appear in the file's order.
+        std::vector<std::pair<std::string, const toml::node*>> entries;
+        for (const auto& [key, node] : section) entries.emplace_back(std::string(key.str()), &node);
+        std::sort(entries.begin(), entries.end(),
+                  [](const auto& a, const auto& b) { return a.second->source().begin < b.second->source().begin; });
+        for (const auto& [name, node] : entries) read_entry(join_key(prefix, name), *node, values);
+    }
+
+    void read_entry(const std::string& key, const toml::node& node, ParameterValues& values) {
+        if (const Parameter* parameter = find_parameter(table_, key)) return read_value(*parameter, node, values);
+        if (!is_section(table_, key)) return report_unknown(key, node);
+        if (is_repeated_section(table_, key)) return read_repeated(key, node, values);
+        if (const toml::table* section = node.as_table()) return read_section(*section, key, values);
+        add(where(node), fmt::format("{} = {} is no section", key, node_text(node)), fmt::format("{} holds keys of its own", key),
+            fmt::format("Write [{}] on a line of its own and its keys below", key));
+    }
+
+    void read_repeated(const std::string& key, const toml::node& node, ParameterValues& values) {
+        const toml::array* array = node.as_array();
+        const bool tables_only =
+            array != nullptr && std::all_of(array->begin(), array->end(), [](const toml::node& item) { return item.is_table(); });
+        if (!tables_only)
+            return add(where(node), fmt::format("{} is not a list of tables", key), fmt::format("{} may stand several times", key),
+                       fmt::format("Write [[{}]] with two brackets and its keys below", key));
+        for (const toml::node& item : *array) {
+            ParameterValues member;
+            read_section(*item.as_table(), key, member);
+            fill_in(member, key, where(item));
+            values.tables_for_writing(key).push_back(std::move(member));
+        }
+    }
+
+    void read_value(const Parameter& parameter, const toml::node& node, ParameterValues& values) {
+        values.set_where(parameter.key, where(node));
+        const std::optional<ParameterValue> value = typed_value(parameter, node);
+        if (!value)
+            return add(where(node), fmt::format("{} = {} has the wrong type", parameter.key, node_text(node)),
+                       fmt::format("It must be {}", with_unit(parameter, kind_text(parameter.kind))), "Correct the value");
+        if (!check_finite(parameter, *value, node) || !check_bounds(parameter, *value, node) || !check_choice(parameter, *value, node))
+            return;
+        values.set(parameter.key, *value);
+    }
+
+    bool check_finite(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
+        const auto* number = std::get_if<double>(&value);
+        const auto* vector = std::get_if<Vec3>(&value);
+        if ((number == nullptr || std::isfinite(*number)) && (vector == nullptr || vector->allFinite())) return true;
+        add(where(node), fmt::format("{} = {} is not finite", parameter.key, node_text(node)), "It must be a finite number",
+            "Correct the value");
+        return false;
+    }
+
+    bool check_bounds(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
+        double number = 0.0;
+        if (const auto* real = std::get_if<double>(&value)) {
+            number = *real;
+        } else if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+            number = static_cast<double>(*integer);
+        } else {
+            return true;
+        }
+        const bool low = parameter.minimum && (parameter.minimum_excluded ? number <= *parameter.minimum : number < *parameter.minimum);
+        const bool high = parameter.maximum && number > *parameter.maximum;
+        if (!low && !high) return true;
+        add(where(node), fmt::format("{} = {} is too {}", parameter.key, toml_text(value), low ? "low" : "high"),
+            fmt::format("It must be {}", bounds_text(parameter)),
+            has_unit(parameter) ? fmt::format("Correct the value; its unit is {}", parameter.unit) : "Correct the value");
+        return false;
+    }
+
+    bool check_choice(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
+        if (parameter.kind != ParameterKind::choice) return true;
+        const std::string& text = std::get<std::string>(value);
+        if (std::find(parameter.choices.begin(), parameter.choices.end(), text) != parameter.choices.end()) return true;
+        const std::string nearest = nearest_word(text, parameter.choices);
+        add(where(node), fmt::format("{} = {} is no choice", parameter.key, quoted(text)),
+            fmt::format("It must be one of {}", join(parameter.choices, ", ")),
+            nearest.empty() ? "Choose one of them" : fmt::format("Did you mean \"{}\"?", nearest));
+        return false;
+    }
+
+    void report_unknown(const std::string& key, const toml::node& node) {
+        const bool section = node.is_table() || node.is_array_of_tables();
+        const std::string nearest = section ? nearest_word(key, sections_of(table_)) : nearest_key(key);
+        add(where(node), fmt::format("{} {} is unknown", section ? "section" : "key", key), known_neighbours(key),
+            nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest));
+    }
+
+    /// A key of nearly this name in the same place, else one of this very name in another section.
+    std::string nearest_key(const std::string& key) const {
+        std::vector<std::string> keys;
+        for (const Parameter& parameter : table_) keys.push_back(parameter.key);
+        const std::string nearest = nearest_word(key, keys);
+        if (!nearest.empty()) return nearest;
+        std::vector<std::string> names;
+        std::transform(keys.begin(), keys.end(), std::back_inserter(names), name_of);
+        const std::string nearest_name = nearest_word(name_of(key), names);
+        const auto found = std::find(names.begin(), names.end(), nearest_name);
+        return found == names.end() ? "" : keys[static_cast<std::size_t>(found - names.begin())];
+    }
+
+    std::string known_neighbours(const std::string& key) const {
+        std::vector<std::string> known;
+        const std::string section = section_of(key);
+        for (const Parameter& parameter : table_)
+            if (section_of(parameter.key) == section) known.push_back(name_of(parameter.key));
+        if (section.empty() || known.empty()) return fmt::format("The file's sections are {}", join(sections_of(table_), ", "));
+        return fmt::format("The keys of {} are {}", section, join(known, ", "));
+    }
+
+    /// Defaults and missing keys of one place: the file outside its arrays of tables (section ""), or one table of an array.
+    void fill_in(ParameterValues& values, const std::string& repeated_section, const std::string& place) {
+        for (const Parameter& parameter : table_) {
+            const bool belongs = repeated_section.empty() ? !parameter.repeated : section_of(parameter.key) == repeated_section;
+            if (!belongs || values.has(parameter.key) || !values.where(parameter.key).empty()) continue;
+            if (parameter.default_value) {
+                values.set(parameter.key, *parameter.default_value);
+            } else if (!parameter.optional) {
+                add(place, fmt::format("{} is missing", parameter.key), "It is required and has no default: " + parameter.help,
+                    fmt::format("Add {} ({}) to [{}]", name_of(parameter.key), with_unit(parameter, kind_text(parameter.kind)),
+                                parameter.repeated ? "[" + repeated_section + "]" : section_of(parameter.key)));
+            }
+        }
+    }
+
+    const ParameterTable& table_;
+    std::string name_;
+    std::vector<Mistake> mistakes_;
+};
+
+toml::table parse_toml(const std::string& toml, const std::string& name) {
+    try {
+        return toml::parse(toml, name);
+    } catch (const toml::parse_error& error) {
+        throw UserError({{fmt::format("{}:{}", name, error.source().begin.line), std::string(error.description()),
+                          "The file must be TOML: [section], key = value, text in quotes", "Correct that line"}});
+    }
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name) {
+    Reader reader(table, name);
+    ParameterValues values = reader.read(parse_toml(toml, name));
+    if (!reader.mistakes().empty()) throw UserError(reader.mistakes());
+    return values;
+}
+
+ParameterValues read_parameters(const ParameterTable& table, const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(file))
+        throw UserError(fmt::format("cannot read {}", file.string()), "It must be a readable TOML file",
+                        "Check the path and its permissions");
+    const std::string toml{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    return parse_parameters(table, toml, file.string());
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+    std::string nearest;
+    std::size_t best = word.size() / 3 + 1;
+    for (const std::string& candidate : known) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best) {
+            best = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+}  // namespace cutterflow

@@ -1,0 +1,247 @@
+#include "geometry/base/parameter.hpp"
+
+#include <filesystem>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+
+using namespace cutterflow;
+
+namespace {
+
+Parameter make(const std::string& key, ParameterKind kind) {
+    Parameter parameter;
+    parameter.key = key;
+    parameter.kind = kind;
+    parameter.help = "Help of " + key + ".";
+    return parameter;
+}
+
+/// One key of every kind, a required one, a derived one, and an array of tables with another inside.
+ParameterTable sample_table() {
+    Parameter speed = make("rotor.speed_rpm", ParameterKind::number);
+    speed.unit = "rpm";
+    speed.minimum = 0.0;
+    speed.maximum = 120.0;
+    Parameter direction = make("rotor.direction", ParameterKind::choice);
+    direction.choices = {"right_handed", "left_handed"};
+    direction.default_value = std::string("right_handed");
+    Parameter blades = make("rotor.blades", ParameterKind::integer);
+    blades.default_value = std::int64_t{6};
+    blades.minimum = 1.0;
+    Parameter discharge = make("suction.discharge_m3_s", ParameterKind::number);
+    discharge.unit = "m3/s";
+    discharge.minimum = 0.0;
+    discharge.minimum_excluded = true;
+    discharge.default_value = 0.12;
+    Parameter radius = make("suction.mouth_radius_m", ParameterKind::number);
+    radius.optional = true;
+    radius.derived_from = "0.25 ring radius";
+    Parameter axis = make("suction.axis", ParameterKind::vector3);
+    axis.default_value = Vec3(0.0, 0.0, 1.0);
+    Parameter file = make("suction.file", ParameterKind::path);
+    file.default_value = std::string("a \"b\".stl");
+    Parameter open = make("suction.open", ParameterKind::boolean);
+    open.default_value = false;
+    Parameter count = make("feed.count", ParameterKind::integer);
+    count.repeated = true;
+    count.minimum = 1.0;
+    Parameter seed = make("feed.seed", ParameterKind::integer);
+    seed.repeated = true;
+    seed.default_value = std::int64_t{1};
+    Parameter diameter = make("feed.class.diameter_m", ParameterKind::number);
+    diameter.repeated = true;
+    diameter.unit = "m";
+    diameter.default_value = 0.02;
+    return {speed, direction, blades, discharge, radius, axis, file, open, count, seed, diameter};
+}
+
+std::vector<Mistake> mistakes_in(const std::string& toml) {
+    try {
+        parse_parameters(sample_table(), toml, "study.toml");
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.code(), ExitCode::user_input);
+        return error.mistakes();
+    }
+    return {};
+}
+
+std::string only_mistake_in(const std::string& toml) {
+    const std::vector<Mistake> mistakes = mistakes_in(toml);
+    EXPECT_EQ(mistakes.size(), 1u) << toml;
+    return mistakes.empty() ? "" : mistakes.front().text();
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << "\n lacks: " << part;
+}
+
+}  // namespace
+
+TEST(Parameter, reads_every_kind_and_fills_in_defaults) {
+    const ParameterValues values = parse_parameters(sample_table(), R"(
+[rotor]
+speed_rpm = 60
+direction = "left_handed"
+[suction]
+axis = [1, 0.5, 0]
+open = true
+file = "Cutter Head (rev B).STL"
+)",
+                                                    "study.toml");
+    EXPECT_EQ(values.number("rotor.speed_rpm"), 60.0);
+    EXPECT_EQ(values.text("rotor.direction"), "left_handed");
+    EXPECT_EQ(values.integer("rotor.blades"), 6);
+    EXPECT_EQ(values.number("rotor.blades"), 6.0);
+    EXPECT_EQ(values.number("suction.discharge_m3_s"), 0.12);
+    EXPECT_EQ(values.vector3("suction.axis"), Vec3(1.0, 0.5, 0.0));
+    EXPECT_TRUE(values.boolean("suction.open"));
+    EXPECT_EQ(values.text("suction.file"), "Cutter Head (rev B).STL");
+    EXPECT_FALSE(values.has("suction.mouth_radius_m"));
+    EXPECT_EQ(values.where("rotor.speed_rpm"), "study.toml:3");
+    EXPECT_EQ(values.where("rotor.blades"), "");
+    EXPECT_TRUE(values.tables("feed").empty());
+    EXPECT_THROW(values.number("suction.mouth_radius_m"), std::logic_error);
+    EXPECT_THROW(values.number("suction.file"), std::logic_error);
+}
+
+TEST(Parameter, reads_arrays_of_tables_and_arrays_inside_them) {
+    const ParameterValues values = parse_parameters(sample_table(), R"(
+rotor.speed_rpm = 60.5
+[[feed]]
+count = 3
+[[feed.class]]
+diameter_m = 0.01
+[[feed.class]]
+[[feed]]
+count = 4
+seed = 7
+)",
+                                                    "study.toml");
+    ASSERT_EQ(values.tables("feed").size(), 2u);
+    const ParameterValues& first = values.tables("feed")[0];
+    EXPECT_EQ(first.integer("feed.count"), 3);
+    EXPECT_EQ(first.integer("feed.seed"), 1);
+    ASSERT_EQ(first.tables("feed.class").size(), 2u);
+    EXPECT_EQ(first.tables("feed.class")[0].number("feed.class.diameter_m"), 0.01);
+    EXPECT_EQ(first.tables("feed.class")[1].number("feed.class.diameter_m"), 0.02);
+    EXPECT_EQ(values.tables("feed")[1].integer("feed.seed"), 7);
+    EXPECT_EQ(values.tables("feed")[1].where("feed.count"), "study.toml:9");
+}
+
+TEST(Parameter, reports_every_mistake_of_a_file_at_once_in_its_order) {
+    const std::vector<Mistake> mistakes = mistakes_in(R"([suction]
+discharge_m3_s = 0
+[rotor]
+speed_rpn = 60
+direction = "left"
+[[feed]]
+count = "three"
+)");
+    ASSERT_EQ(mistakes.size(), 5u);
+    EXPECT_EQ(mistakes[0].where, "study.toml:2");
+    expect_contains(mistakes[0].text(), "suction.discharge_m3_s = 0 is too low. It must be above 0 m3/s.");
+    EXPECT_EQ(mistakes[1].where, "study.toml:4");
+    expect_contains(mistakes[1].text(), "key rotor.speed_rpn is unknown");
+    expect_contains(mistakes[1].text(), "Did you mean rotor.speed_rpm?");
+    EXPECT_EQ(mistakes[2].where, "study.toml:5");
+    expect_contains(mistakes[2].text(), "one of right_handed, left_handed");
+    EXPECT_EQ(mistakes[3].where, "study.toml:7");
+    expect_contains(mistakes[3].text(), "feed.count = \"three\" has the wrong type. It must be a whole number");
+    EXPECT_EQ(mistakes[4].where, "study.toml");
+    expect_contains(mistakes[4].text(), "rotor.speed_rpm is missing");
+}
+
+TEST(Parameter, names_a_misplaced_key_and_a_misspelt_section) {
+    expect_contains(only_mistake_in("rotor.speed_rpm = 1\nsuction.speed_rpm = 2\n"), "Did you mean rotor.speed_rpm?");
+    const std::string section = only_mistake_in("rotor.speed_rpm = 1\n[sucktion]\nopen = true\n");
+    expect_contains(section, "section sucktion is unknown");
+    expect_contains(section, "Did you mean suction?");
+    expect_contains(only_mistake_in("rotor.speed_rpm = 1\nnonsense_altogether = 2\n"),
+                    "The file's sections are rotor, suction, feed, feed.class");
+}
+
+TEST(Parameter, refuses_values_outside_their_type_or_bounds) {
+    const std::string good = "rotor.speed_rpm = 1\n";
+    expect_contains(only_mistake_in("rotor.speed_rpm = 120.5"), "It must be 0 to 120 rpm");
+    expect_contains(only_mistake_in("rotor.speed_rpm = -1"), "too low");
+    expect_contains(only_mistake_in("rotor.speed_rpm = nan"), "not finite");
+    expect_contains(only_mistake_in("rotor.speed_rpm = true"), "wrong type");
+    expect_contains(only_mistake_in(good + "rotor.blades = 6.0"), "a whole number");
+    expect_contains(only_mistake_in(good + "rotor.blades = 0"), "at least 1");
+    expect_contains(only_mistake_in(good + "suction.axis = [1, 2]"), "three numbers");
+    expect_contains(only_mistake_in(good + "suction.axis = [1, 2, inf]"), "not finite");
+    expect_contains(only_mistake_in(good + "suction.file = 3"), "a path in quotes");
+    EXPECT_TRUE(mistakes_in("rotor.speed_rpm = 120").empty());
+    EXPECT_TRUE(mistakes_in("rotor.speed_rpm = 0").empty());
+}
+
+TEST(Parameter, tells_sections_and_arrays_of_tables_apart) {
+    expect_contains(only_mistake_in("rotor.speed_rpm = 1\nsuction = 3"), "Write [suction] on a line of its own");
+    expect_contains(only_mistake_in("rotor.speed_rpm = 1\n[feed]\ncount = 1"), "Write [[feed]] with two brackets");
+    expect_contains(only_mistake_in("rotor.speed_rpm = 1\n[[feed]]\nseed = 1"), "study.toml:2: feed.count is missing");
+}
+
+TEST(Parameter, explains_a_file_that_is_not_toml_or_not_there) {
+    expect_contains(only_mistake_in("[rotor]\nspeed_rpm = \n"), "study.toml:2");
+    try {
+        read_parameters(sample_table(), "/nonexistent/study.toml");
+        FAIL() << "a missing file was read";
+    } catch (const UserError& error) {
+        expect_contains(error.what(), "cannot read /nonexistent/study.toml");
+    }
+    EXPECT_THROW(read_parameters(sample_table(), std::filesystem::temp_directory_path()), UserError);
+}
+
+TEST(Parameter, template_with_values_reads_back_as_the_same_values) {
+    const ParameterValues values = parse_parameters(sample_table(), R"(
+rotor.speed_rpm = 0.1
+suction.mouth_radius_m = 0.30000000000000004
+[[feed]]
+count = 3
+[[feed.class]]
+diameter_m = 1e-3
+[[feed]]
+count = 5
+)",
+                                                    "study.toml");
+    const ParameterValues again = parse_parameters(sample_table(), commented_toml(sample_table(), &values), "again.toml");
+    EXPECT_EQ(again.number("rotor.speed_rpm"), 0.1);
+    EXPECT_EQ(again.number("suction.mouth_radius_m"), 0.30000000000000004);
+    EXPECT_EQ(again.text("suction.file"), "a \"b\".stl");
+    EXPECT_EQ(again.vector3("suction.axis"), Vec3(0.0, 0.0, 1.0));
+    ASSERT_EQ(again.tables("feed").size(), 2u);
+    ASSERT_EQ(again.tables("feed")[0].tables("feed.class").size(), 1u);
+    EXPECT_EQ(again.tables("feed")[0].tables("feed.class")[0].number("feed.class.diameter_m"), 1e-3);
+    EXPECT_EQ(again.tables("feed")[1].integer("feed.count"), 5);
+}
+
+TEST(Parameter, template_leaves_required_keys_to_fill_in) {
+    const std::string text = commented_toml(sample_table());
+    const std::vector<Mistake> mistakes = mistakes_in(text);
+    ASSERT_EQ(mistakes.size(), 2u);
+    expect_contains(mistakes[0].text(), "feed.count is missing");
+    expect_contains(mistakes[1].text(), "rotor.speed_rpm is missing");
+    expect_contains(text, "# speed_rpm =\n");
+    expect_contains(text, "without it: 0.25 ring radius");
+}
+
+TEST(Parameter, lists_hold_every_key) {
+    const std::string text = parameters_text(sample_table());
+    const std::string markdown = parameters_markdown(sample_table());
+    for (const Parameter& parameter : sample_table()) {
+        expect_contains(text, parameter.help.substr(0, 7));
+        expect_contains(markdown, parameter.help);
+    }
+    expect_contains(markdown, "## [[feed.class]]");
+    expect_contains(markdown, "right_handed \\| left_handed");
+}
+
+TEST(Parameter, nearest_word_allows_a_third_of_the_letters_to_differ) {
+    EXPECT_EQ(nearest_word("dischrge", {"direction", "discharge"}), "discharge");
+    EXPECT_EQ(nearest_word("abc", {"abd"}), "abd");
+    EXPECT_EQ(nearest_word("abc", {"axx"}), "");
+    EXPECT_EQ(nearest_word("", {"a"}), "");
+}

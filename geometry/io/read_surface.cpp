@@ -1,0 +1,142 @@
+#include "geometry/io/read_surface.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <assimp/Importer.hpp>
+
+#include "geometry/base/error.hpp"
+#include "geometry/io/ply_layout.hpp"
+
+namespace cutterflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_formats = "Cutterflow reads STL (ASCII or binary), OBJ and PLY";
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule, const std::string& remedy) {
+    throw UserError(std::vector<Mistake>{{file.string(), what, rule, remedy}});
+}
+
+std::string extension_of(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
+
+std::string bytes_of(const fs::path& file) {
+    if (!fs::exists(file)) refuse(file, "the file does not exist", k_formats, "Check the path");
+    if (!fs::is_regular_file(file)) refuse(file, "this is not a file", k_formats, "Name the surface file itself");
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    if (!in && !in.eof()) refuse(file, "the file cannot be read", k_formats, "Check its permissions");
+    if (bytes.empty()) refuse(file, "the file is empty (0 bytes)", k_formats, "Export the surface again");
+    return bytes;
+}
+
+/// A binary STL holds an 80 byte title, the number of triangles, and 50 bytes for each.
+constexpr std::size_t k_stl_head = 84;
+constexpr std::size_t k_stl_triangle = 50;
+
+std::size_t announced_size(const std::string& stl) {
+    std::uint32_t triangles = 0;
+    std::memcpy(&triangles, stl.data() + 80, sizeof triangles);
+    return k_stl_head + k_stl_triangle * static_cast<std::size_t>(triangles);
+}
+
+/// Many a binary STL also starts with "solid": only the size tells.
+bool is_ascii_stl(const std::string& bytes) {
+    if (bytes.size() >= k_stl_head && announced_size(bytes) == bytes.size()) return false;
+    return bytes.compare(0, 5, "solid") == 0 && bytes.find('\0') == std::string::npos;
+}
+
+/// Cuts bytes that some programs append after a binary STL, refuses what is too short.
+void check_stl(const fs::path& file, std::string& bytes) {
+    if (is_ascii_stl(bytes)) {
+        if (bytes.find("endsolid") == std::string::npos)
+            refuse(file, "the ASCII STL is truncated: it has no \"endsolid\"", "A whole file ends with it",
+                   "Export or copy the file again");
+        return;
+    }
+    if (bytes.size() < k_stl_head)
+        refuse(file, fmt::format("this is no STL: {} bytes", bytes.size()),
+               "A binary STL has 84 bytes or more, an ASCII one starts with \"solid\"", "Export the surface again");
+    const std::size_t announced = announced_size(bytes);
+    if (bytes.size() < announced)
+        refuse(file, fmt::format("the file is no STL or a truncated one: {} bytes", bytes.size()),
+               fmt::format("As a binary STL it announces {} triangles, which need {} bytes", (announced - k_stl_head) / k_stl_triangle,
+                           announced),
+               "Export or copy the file again");
+    bytes.resize(announced);
+}
+
+void append(TriangleSurface& surface, const aiMesh& mesh, const fs::path& file) {
+    const std::size_t offset = surface.points.size();
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D& v = mesh.mVertices[i];
+        const Vec3 point(v.x, v.y, v.z);
+        if (!point.allFinite())
+            refuse(file, fmt::format("point {} has the coordinates ({}, {}, {})", offset + i, v.x, v.y, v.z),
+                   "Coordinates must be finite numbers", "Export the surface again");
+        surface.points.push_back(point);
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        if (face.mNumIndices != 3) continue;  // points and lines
+        Triangle triangle{};
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            if (face.mIndices[corner] >= mesh.mNumVertices)
+                refuse(file, fmt::format("face {} names point {}", f, face.mIndices[corner]),
+                       fmt::format("The file has {} points", mesh.mNumVertices), "The file is damaged or truncated: export it again");
+            triangle.at(corner) = static_cast<std::uint32_t>(offset + face.mIndices[corner]);
+        }
+        surface.triangles.push_back(triangle);
+    }
+}
+
+}  // namespace
+
+TriangleSurface read_surface(const fs::path& file) {
+    const std::string extension = extension_of(file);
+    if (extension != ".stl" && extension != ".obj" && extension != ".ply")
+        refuse(file, fmt::format("the file name ends in \"{}\"", extension), k_formats, "Export the surface in one of these formats");
+    std::string bytes = bytes_of(file);
+    if (extension == ".stl") check_stl(file, bytes);
+    if (extension == ".ply") {
+        const std::string defect = ply_defect(bytes);
+        if (!defect.empty()) refuse(file, defect, "A whole PLY holds what its header announces", "Export or copy the file again");
+    }
+
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, extension.c_str() + 1);
+    if (scene == nullptr)
+        refuse(file, fmt::format("the file cannot be understood ({})", importer.GetErrorString()), k_formats,
+               "It is damaged, truncated or of another format: export it again");
+    TriangleSurface surface;
+    for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(surface, *scene->mMeshes[m], file);
+    if (surface.triangles.empty())
+        refuse(file, "the file holds no triangles", "A surface is needed, not points or lines", "Export the solid's surface");
+    return welded(surface);
+}
+
+ImportedSurface import_cutter(const fs::path& file, std::optional<LengthUnit> given) {
+    TriangleSurface surface = read_surface(file);
+    try {
+        const UnitDecision unit = decide_unit(0.5 * bounds_of(surface).extent().maxCoeff(), given);
+        return {transformed(surface, Eigen::Affine3d(Eigen::Scaling(metres_per(unit.unit)))), unit};
+    } catch (const UserError& error) {
+        std::vector<Mistake> mistakes = error.mistakes();
+        for (Mistake& mistake : mistakes) mistake.where = file.string();
+        throw UserError(std::move(mistakes));
+    }
+}
+
+}  // namespace cutterflow

@@ -1,0 +1,25 @@
+#pragma once
+/// \file Import of STL (ASCII and binary), OBJ and PLY.
+#include <filesystem>
+#include <optional>
+
+#include "geometry/length_unit.hpp"
+#include "geometry/surface.hpp"
+
+namespace cutterflow {
+
+/// Reads a surface in the file's own unit. Polygons are cut into triangles and points with equal coordinates are joined; nothing is
+/// repaired. \throws UserError  when the file is missing, empty, truncated, no STL, OBJ or PLY, holds no triangles or coordinates that are
+/// not
+///                    finite numbers
+TriangleSurface read_surface(const std::filesystem::path& file);
+
+struct ImportedSurface {
+    TriangleSurface surface;  ///< [m]
+    UnitDecision unit;
+};
+
+/// read_surface, then decide_unit, scaled to metres.
+ImportedSurface import_cutter(const std::filesystem::path& file, std::optional<LengthUnit> given);
+
+}  // namespace cutterflow
