@@ -1,0 +1,149 @@
+#include "meshing/build_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/run_names.hpp"
+#include "meshing/background_mesh.hpp"
+#include "meshing/foam_command.hpp"
+#include "meshing/mesh_dictionaries.hpp"
+
+namespace cutterflow {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* k_restore_report = "interface_restore.json";
+constexpr const char* k_probe_report = "mesh_probe.json";
+constexpr int k_angles_per_pitch = 12;
+
+/// One program of the stage; `weight` is its usual share of the time.
+struct Step {
+    fs::path program;
+    std::vector<std::string> arguments;
+    double weight;
+};
+
+std::string read_text(const fs::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+std::string foam_list(const std::vector<double>& numbers) {
+    return fmt::format("({})", fmt::join(numbers, " "));
+}
+
+/// Adds up what the programs take, and tells the observer.
+class StepRunner {
+public:
+    StepRunner(fs::path directory, double total_weight, const MeshObserver& observer)
+        : directory_(std::move(directory)), total_weight_(total_weight), observer_(observer) {}
+
+    void run(const Step& step) {
+        if (observer_) observer_(done_ / total_weight_, step.program.filename().string());
+        const ChildResult result = require_child(foam_command(directory_, step.program.string(), step.arguments));
+        wall_s += result.wall_s;
+        core_s += result.core_s;
+        done_ += step.weight;
+    }
+
+    double wall_s = 0.0, core_s = 0.0;
+
+private:
+    fs::path directory_;
+    double total_weight_;
+    const MeshObserver& observer_;
+    double done_ = 0.0;
+};
+
+/// cutterInterfaceRestore needs the mesh as blockMesh made it.
+void keep_background(const fs::path& mesh_case) {
+    fs::remove_all(mesh_case / "constant" / "background");
+    fs::create_directories(mesh_case / "constant" / "background");
+    fs::copy(mesh_case / "constant" / "polyMesh", mesh_case / "constant" / "background" / "polyMesh", fs::copy_options::recursive);
+}
+
+/// The mesh alone, without what snappyHexMesh and topoSet leave beside it.
+void move_mesh(const fs::path& mesh_case, const fs::path& run_directory) {
+    const fs::path target = run_directory / "constant" / "polyMesh";
+    fs::remove_all(target);
+    fs::create_directories(target);
+    for (const char* file : {"boundary", "cellZones", "faces", "neighbour", "owner", "points"})
+        fs::rename(mesh_case / "constant" / "polyMesh" / file, target / file);
+    fs::remove_all(mesh_case / "constant" / "polyMesh");
+    fs::remove_all(mesh_case / "constant" / "background");
+}
+
+}  // namespace
+
+std::vector<double> probe_angles(const RotorZone& rotor) {
+    std::vector<double> angles;
+    for (int i = 0; i < k_angles_per_pitch; ++i) angles.push_back(rotor.facet_angle() * i / k_angles_per_pitch);
+    for (int i = 1; i < k_angles_per_pitch; ++i) angles.push_back(2.0 * k_pi * i / k_angles_per_pitch + angles[i]);
+    return angles;
+}
+
+std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshPlan& plan) {
+    const std::array<std::pair<const char*, FoamDictionary>, 8> dictionaries = {
+        {{"controlDict", mesh_control()},
+         {"fvSchemes", mesh_schemes()},
+         {"fvSolution", FoamDictionary()},
+         {"blockMeshDict", background_mesh(plan)},
+         {"surfaceFeatureExtractDict", feature_extraction(steel_surfaces())},
+         {"snappyHexMeshDict", steel_cut(plan)},
+         {"topoSetDict", outlet_selection(plan)},
+         {"createPatchDict", final_patches()}}};
+    std::vector<fs::path> written;
+    for (const auto& [name, dictionary] : dictionaries) {
+        written.push_back(fs::path(k_mesh_case) / "system" / name);
+        write_foam_file(run_directory / written.back(), "dictionary", dictionary);
+    }
+    for (const std::string& name : steel_surfaces()) {
+        const std::string file = name + ".stl";
+        written.push_back(fs::path(k_mesh_case) / "constant" / "triSurface" / file);
+        fs::create_directories((run_directory / written.back()).parent_path());
+        fs::copy_file(run_directory / "geometry" / file, run_directory / written.back(), fs::copy_options::overwrite_existing);
+    }
+    return written;
+}
+
+MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const fs::path& programs, const MeshObserver& observer) {
+    const fs::path mesh_case = run_directory / k_mesh_case;
+    const fs::path own = fs::absolute(programs);  // the programs start in the mesh's folder
+    const std::string sides = fmt::format("({} {})", k_rotor_side_patch, k_stator_side_patch);
+    const std::vector<Step> cut = {
+        {"surfaceFeatureExtract", {}, 1.0},
+        {"snappyHexMesh", {"-overwrite"}, 80.0},
+        {own / "cutterInterfaceRestore", {"-patches", sides, "-output", k_restore_report}, 2.0},
+        {"topoSet", {}, 1.0},
+        {"createPatch", {"-overwrite"}, 2.0},
+        {"checkMesh", {}, 3.0},
+        {own / "cutterMeshProbe", {"-angles", foam_list(probe_angles(plan.rotor)), "-output", k_probe_report}, 10.0},
+    };
+    StepRunner runner(mesh_case, 100.0, observer);
+    runner.run({"blockMesh", {}, 1.0});
+    keep_background(mesh_case);
+    for (const Step& step : cut) runner.run(step);
+
+    MeshReport report;
+    report.preset = plan.input.resolution.preset;
+    report.prediction = plan.prediction;
+    report.quality = parse_check_mesh(read_text(mesh_case / "log.checkMesh"), (mesh_case / "log.checkMesh").string());
+    report.figures = parse_probe(json::parse(read_text(mesh_case / k_probe_report)), json::parse(read_text(mesh_case / k_restore_report)));
+    report.gates = check_mesh_gates(plan, report.quality, report.figures);
+    report.wall_s = runner.wall_s;
+    report.core_s = runner.core_s;
+    move_mesh(mesh_case, run_directory);
+    std::ofstream(run_directory / names::mesh_report) << to_json(report).dump(2) << '\n';
+    return report;
+}
+
+}  // namespace cutterflow

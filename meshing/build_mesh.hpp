@@ -1,0 +1,35 @@
+#pragma once
+/// \file The mesh stage: from a plan and the steel's surfaces to constant/polyMesh and mesh.json.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "meshing/mesh_report.hpp"
+
+namespace cutterflow {
+
+/// Folder of a run directory in which the mesh is made: an OpenFOAM case of its own, with dictionaries and logs.
+inline constexpr const char* k_mesh_case = "mesh";
+
+/// Called before each program with the share of the stage that is done and the program's name.
+using MeshObserver = std::function<void(double fraction, const std::string& program)>;
+
+/// Writes the case in which the mesh is made: dictionaries, and copies of geometry/{cutter,backplate,suction_pipe}.stl. What is there
+/// already is overwritten; the user's own changes belong on top of it before build_mesh.
+/// \return the files that were written, relative to the run directory
+std::vector<std::filesystem::path> write_mesh_case(const std::filesystem::path& run_directory, const MeshPlan& plan);
+
+/// Makes the mesh in the case that write_mesh_case wrote, moves it to constant/polyMesh of the run directory and writes mesh.json.
+/// blockMesh (rotor and stator without common points), surfaceFeatureExtract and snappyHexMesh (steel), cutterInterfaceRestore
+/// (interface points back in place), topoSet and createPatch (outlet, cyclicAMI), checkMesh and cutterMeshProbe (figures).
+/// \param programs  folder of cutterInterfaceRestore and cutterMeshProbe
+/// \return the report; a mesh whose gates failed is kept, to be looked at: require_mesh_gates decides
+/// \throws ToolError  when a program is missing or fails
+MeshReport build_mesh(const std::filesystem::path& run_directory, const MeshPlan& plan, const std::filesystem::path& programs,
+                      const MeshObserver& observer = {});
+
+/// Rotor angles [rad] at which the interface is measured: within one azimuthal pitch, and the same offsets spread over the turn.
+std::vector<double> probe_angles(const RotorZone& rotor);
+
+}  // namespace cutterflow

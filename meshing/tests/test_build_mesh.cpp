@@ -1,0 +1,123 @@
+#include "meshing/build_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_names.hpp"
+#include "geometry/crown_cutter.hpp"
+#include "geometry/io/write_stl.hpp"
+
+namespace cutterflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A head of four stout blades, ring radius 0.10 m.
+CrownParameters small_parameters() {
+    CrownParameters p;
+    p.ring_radius = 0.10;
+    p.ring_inner_radius = 0.07;
+    p.ring_height = 0.03;
+    p.hub_radius = 0.035;
+    p.hub_depth = 0.11;
+    p.hub_height = 0.04;
+    p.hub_cap_height = 0.01;
+    p.blade_count = 4;
+    p.blade_wrap = 30.0 * k_pi / 180.0;
+    p.blade_thickness = 0.02;
+    p.blade_depth_at_ring = 0.028;
+    p.blade_depth_at_hub = 0.03;
+    p.contour_exponent = 2.0;
+    p.edge_length = 0.01;
+    return p;
+}
+
+MeshInput small_input(const TriangleSurface& cutter) {
+    MeshInput input;
+    input.ring_radius = 0.10;
+    input.cutter = extent_of_cutter(cutter);
+    input.steel.plate_radius = 0.10;
+    input.steel.gap = 0.03;
+    input.steel.plate_thickness = 0.02;
+    input.steel.mouth = {0.06, 0.02, 0.3};
+    input.steel.pipe_wall = 0.012;
+    input.steel.pipe_top = 0.16;
+    input.steel.edge_length = 0.01;
+    input.tank = {0.4, -0.25, 0.12};
+    input.resolution = {"tiny", 0.3, 1.15, 1.7};
+    input.rotation_speed = 2.0 * k_pi;
+    input.discharge = 0.002;
+    input.max_courant = 0.9;
+    return input;
+}
+
+std::vector<std::string> failed_gates(const MeshReport& report) {
+    std::vector<std::string> names;
+    for (const MeshGate& gate : report.gates)
+        if (!gate.passed()) names.push_back(gate.name);
+    return names;
+}
+
+/// A run directory with the surfaces of the small head.
+class BuildMesh : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::remove_all(run);
+        fs::create_directories(run / "geometry");
+        const StationarySteel steel = generate_stationary_steel(input.steel);
+        write_stl(cutter, run / names::cutter_surface);
+        write_stl(steel.backplate, run / names::backplate_surface);
+        write_stl(steel.suction_pipe, run / names::suction_pipe_surface);
+    }
+
+    MeshReport build() {
+        write_mesh_case(run, plan);
+        return build_mesh(run, plan, fs::path(CUTTERFLOW_BUILD_DIR) / "bin");
+    }
+
+    const fs::path run =
+        fs::path(testing::TempDir()) / ("build_mesh_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    TriangleSurface cutter = generate_crown_cutter(small_parameters());
+    MeshInput input = small_input(cutter);
+    MeshPlan plan = plan_mesh(input);
+};
+
+TEST_F(BuildMesh, passes_every_gate) {
+    const MeshReport report = build();
+    EXPECT_NO_THROW(require_mesh_gates(report));
+    EXPECT_NEAR(static_cast<double>(report.figures.cells), report.prediction.cells, 0.25 * report.prediction.cells);
+    EXPECT_EQ(report.figures.rotor_side.faces, plan.interface_faces());
+    EXPECT_GT(report.figures.rotor_side.drift, 0.0);
+    // The steel's cells are half as large as those of the background.
+    EXPECT_NEAR(report.cell_size_at_cutter(), 0.5 * plan.cell_size, 0.3 * plan.cell_size);
+
+    for (const char* file : {"boundary", "cellZones", "faces", "neighbour", "owner", "points"})
+        EXPECT_TRUE(fs::exists(run / "constant" / "polyMesh" / file)) << file;
+    const nlohmann::json json = nlohmann::json::parse(std::ifstream(run / names::mesh_report));
+    EXPECT_EQ(json["cells"], report.figures.cells);
+    EXPECT_EQ(json["gates"].size(), 11u);
+}
+
+TEST_F(BuildMesh, sees_that_steel_got_lost) {
+    CrownParameters p = small_parameters();
+    p.blade_count = 3;
+    write_stl(generate_crown_cutter(p), run / names::cutter_surface);
+    EXPECT_EQ(failed_gates(build()), std::vector<std::string>{"relative error of the steel's volume in the rotor zone"});
+}
+
+TEST_F(BuildMesh, sees_that_refinement_reached_the_interface) {
+    const Eigen::Affine3d wider(Eigen::Scaling(1.35, 1.35, 1.0));
+    write_stl(transformed(cutter, wider), run / names::cutter_surface);
+    const std::vector<std::string> failed = failed_gates(build());
+    EXPECT_NE(std::find(failed.begin(), failed.end(), "interface faces that refinement split"), failed.end());
+}
+
+}  // namespace
+}  // namespace cutterflow
