@@ -1,0 +1,80 @@
+/// \file cutterFoam: the coupled solver, an ordinary OpenFOAM application. On a case without constant/couplingProperties, or without its
+/// section `rock`, it is a pure flow solver.
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include <mpi.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/app/models_in_use.hpp"
+#include "solver/coupling/coupled_run.hpp"
+#include "solver/coupling/csv_recorder.hpp"
+#include "solver/foam/coupling_dictionary.hpp"
+#include "solver/foam/foam_fluid_engine.hpp"
+#include "solver/foam/foam_session.hpp"
+#include "solver/foam/pstream_communicator.hpp"
+#include "solver/liggghts/liggghts_engine.hpp"
+
+namespace {
+
+using namespace cutterflow;
+
+std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& session, const foam::CouplingDictionary& dictionary,
+                                                     const foam::FoamFluidEngine& fluid, bool writes) {
+    if (!writes) return std::make_unique<coupling::SilentRecorder>();
+    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, fluid.time());
+    const auto models = models_in_use(dictionary, fluid);
+    std::cout << "Models that are on:\n";
+    for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
+    std::cout << std::endl;
+    recorder->describe(models, program_versions());
+    return recorder;
+}
+
+void run(int argc, char** argv) {
+    foam::FoamSession session(argc, argv);
+    foam::PstreamCommunicator communicator;
+    foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
+
+    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock);
+    std::unique_ptr<liggghts::LiggghtsEngine> dem;
+    if (dictionary.dem) {
+        dictionary.dem->log = session.case_folder() / "log.liggghts";
+        dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, fluid.rotor(), MPI_COMM_WORLD);
+    }
+    const auto recorder = make_recorder(session, dictionary, fluid, communicator.rank() == 0);
+
+    coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder, session.case_folder());
+    const auto checkpoint = coupling::newest_checkpoint(session.case_folder());
+    if (!checkpoint.empty()) coupled.resume(checkpoint);
+
+    while (fluid.running() && !coupled.finished()) coupled.step();
+    coupled.finish();
+}
+
+/// Says why the run ends, once, and ends all ranks with the failure's code. Failures that the user can mend are thrown on every rank alike;
+/// anything else may have struck one rank alone, so that the others must be stopped.
+int explain(const std::exception& error) {
+    int started = 0;
+    MPI_Initialized(&started);
+    int rank = 0;
+    if (started != 0) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const auto* failure = dynamic_cast<const Failure*>(&error);
+    const int code = static_cast<int>(failure != nullptr ? failure->code() : ExitCode::defect);
+    if (rank == 0 || failure == nullptr) std::cerr << "cutterFoam: " << error.what() << std::endl;
+    if (failure == nullptr && started != 0) MPI_Abort(MPI_COMM_WORLD, code);
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    int code = static_cast<int>(ExitCode::done);
+    try {
+        run(argc, argv);
+    } catch (const std::exception& error) {
+        code = explain(error);
+    }
+    return code;
+}

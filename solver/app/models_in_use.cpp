@@ -1,0 +1,54 @@
+#include "solver/app/models_in_use.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+namespace cutterflow {
+namespace {
+
+void add_flow_models(const foam::FoamFluidEngine& fluid, std::vector<coupling::ModelNote>& notes) {
+    notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
+    const double speed = fluid.rotor().speed;
+    if (speed != 0.0) notes.push_back({fmt::format("sliding mesh at {:.6g} rad/s", speed), "constant/dynamicMeshDict turns the zone rotor"});
+}
+
+void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {
+    const coupling::KernelSettings& kernel = settings.kernel;
+    notes.push_back({fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma, kernel.min_width_in_cells),
+                     "rock is larger than cells; steel hides what lies behind it"});
+    notes.push_back({"d(void fraction)/dt in the pressure equation", "rock displaces fluid"});
+    const coupling::ClosureSettings& closures = settings.closures;
+    notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)), "closures.drag"});
+    if (closures.hindrance != "none") notes.push_back({"hindrance: " + closures.hindrance, "neighbouring rock raises the drag"});
+    if (closures.added_mass > 0.0) notes.push_back({fmt::format("added mass {:.3g}", closures.added_mass), "rock is only a few times denser than the fluid"});
+    notes.push_back({"fluid acceleration force rho V Du/Dt", "the fluid's pressure gradient acts on rock"});
+}
+
+void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {
+    const coupling::ContactSettings& contact = dem.contact;
+    notes.push_back({fmt::format("contact: Hertz-Mindlin, E = {:.3g} Pa, friction {:.3g}, restitution {:.3g}", contact.youngs_modulus, contact.friction,
+                                 contact.restitution),
+                     "rock hits rock and steel"});
+    if (contact.wet_restitution) notes.push_back({"wet restitution after Legendre", "the fluid in the gap damps slow impacts"});
+}
+
+}  // namespace
+
+std::vector<coupling::ModelNote> models_in_use(const foam::CouplingDictionary& dictionary, const foam::FoamFluidEngine& fluid) {
+    std::vector<coupling::ModelNote> notes;
+    add_flow_models(fluid, notes);
+    if (!dictionary.coupling.has_rock) return notes;
+    add_coupling_models(dictionary.coupling, notes);
+    add_contact_models(*dictionary.dem, notes);
+    return notes;
+}
+
+std::map<std::string, std::string> program_versions() {
+    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+    int length = 0;
+    MPI_Get_library_version(mpi, &length);
+    const std::string library(mpi, static_cast<std::size_t>(length));
+    return {{"cutterFoam", CUTTERFLOW_VERSION}, {"OpenFOAM", CUTTERFLOW_OPENFOAM_VERSION}, {"LIGGGHTS", "3.8.0"}, {"MPI", library.substr(0, library.find(','))}};
+}
+
+}  // namespace cutterflow

@@ -1,0 +1,183 @@
+#include "solver/coupling/checkpoint.hpp"
+
+#include <cstdint>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_names.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char* k_state_file = "state.json";
+constexpr const char* k_schema = "cutterflow.state/1";
+
+json to_json(const Vec3& v) {
+    return {v[0], v[1], v[2]};
+}
+Vec3 vector_of(const json& j) {
+    return Vec3(j.at(0), j.at(1), j.at(2));
+}
+
+template <class T>
+json to_json(const std::optional<T>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+template <class T>
+std::optional<T> optional_of(const json& j) {
+    if (j.is_null()) return std::nullopt;
+    return j.get<T>();
+}
+
+json to_json(const TrackedRock& rock) {
+    return {{"id", rock.id},
+            {"diameter_m", rock.diameter},
+            {"density_kg_m3", rock.density},
+            {"position_m", to_json(rock.position)},
+            {"in_run", rock.in_run},
+            {"inside", rock.inside},
+            {"was_inside", rock.was_inside},
+            {"sucked_up", rock.sucked_up},
+            {"last_exit_bin", to_json(rock.last_exit_bin)},
+            {"first_exit_time_s", to_json(rock.first_exit_time)},
+            {"first_exit_azimuth_rad", to_json(rock.first_exit_azimuth)}};
+}
+
+TrackedRock rock_of(const json& j) {
+    TrackedRock rock;
+    rock.id = j.at("id");
+    rock.diameter = j.at("diameter_m");
+    rock.density = j.at("density_kg_m3");
+    rock.position = vector_of(j.at("position_m"));
+    rock.in_run = j.at("in_run");
+    rock.inside = j.at("inside");
+    rock.was_inside = j.at("was_inside");
+    rock.sucked_up = j.at("sucked_up");
+    rock.last_exit_bin = optional_of<std::size_t>(j.at("last_exit_bin"));
+    rock.first_exit_time = optional_of<double>(j.at("first_exit_time_s"));
+    rock.first_exit_azimuth = optional_of<double>(j.at("first_exit_azimuth_rad"));
+    return rock;
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule) {
+    throw UserError({{file.string(), what, rule, "Remove this checkpoint folder; the run then resumes from the one before"}});
+}
+
+std::string carry_file(int rank) {
+    return fmt::format("carry.{}", rank);
+}
+
+/// Folders that are called by a time.
+std::map<double, fs::path> time_folders(const fs::path& root) {
+    std::map<double, fs::path> found;
+    if (!fs::is_directory(root)) return found;
+    for (const auto& entry : fs::directory_iterator(root)) {
+        const std::string name = entry.path().filename().string();
+        char* end = nullptr;
+        const double time = std::strtod(name.c_str(), &end);
+        if (entry.is_directory() && end != name.c_str() && *end == '\0') found[time] = entry.path();
+    }
+    return found;
+}
+
+std::map<double, fs::path> checkpoints_of(const fs::path& case_folder) {
+    return time_folders(case_folder / names::checkpoints);
+}
+
+}  // namespace
+
+void write_state(const fs::path& folder, const RunState& state) {
+    json j{{"schema", k_schema}, {"time_s", state.time}, {"rotor_angle_rad", state.rotor_angle}, {"ranks", state.ranks}};
+    j["handled_feed"] = state.handled_feed;
+    j["booked"] = {{"volume_m3", state.booked.volume}, {"momentum_n_s", to_json(state.booked.momentum)}};
+    j["rocks"] = json::array();
+    for (const auto& [id, rock] : state.rocks) j["rocks"].push_back(to_json(rock));
+    std::ofstream stream(folder / k_state_file);
+    stream << j.dump(1) << '\n';
+    stream.close();
+    if (!stream) throw std::runtime_error((folder / k_state_file).string() + ": the checkpoint cannot be written");
+}
+
+RunState read_state(const fs::path& folder) {
+    const fs::path file = folder / k_state_file;
+    std::ifstream stream(file);
+    if (!stream) refuse(file, "the file cannot be read", "A checkpoint holds the state of the run");
+    try {
+        const json j = json::parse(stream);
+        if (j.at("schema") != k_schema)
+            refuse(file, fmt::format("schema {} is not {}", j.at("schema").dump(), k_schema), "Versions must match");
+        RunState state;
+        state.time = j.at("time_s");
+        state.rotor_angle = j.at("rotor_angle_rad");
+        state.ranks = j.at("ranks");
+        state.handled_feed = j.at("handled_feed").get<std::vector<int>>();
+        state.booked = {j.at("booked").at("volume_m3"), vector_of(j.at("booked").at("momentum_n_s"))};
+        for (const json& rock : j.at("rocks")) state.rocks[rock.at("id")] = rock_of(rock);
+        return state;
+    } catch (const json::exception& error) {
+        refuse(file, error.what(), "The file is one that cutterFoam wrote");
+    }
+}
+
+void write_carry(const fs::path& folder, int rank, gsl::span<const Vec3> carry) {
+    std::ofstream stream(folder / carry_file(rank), std::ios::binary);
+    const auto count = static_cast<std::uint64_t>(carry.size());
+    stream.write(reinterpret_cast<const char*>(&count), sizeof count);
+    stream.write(reinterpret_cast<const char*>(carry.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
+    stream.close();
+    if (!stream) throw std::runtime_error((folder / carry_file(rank)).string() + ": the checkpoint cannot be written");
+}
+
+std::vector<Vec3> read_carry(const fs::path& folder, int rank, std::size_t cells) {
+    const fs::path file = folder / carry_file(rank);
+    std::ifstream stream(file, std::ios::binary);
+    std::uint64_t count = 0;
+    stream.read(reinterpret_cast<char*>(&count), sizeof count);
+    if (!stream || count != cells)
+        refuse(file, fmt::format("the carried momentum of {} cells is needed, {} are there", cells, count),
+               "A run resumes on the mesh and the number of ranks that it had");
+    std::vector<Vec3> carry(cells);
+    stream.read(reinterpret_cast<char*>(carry.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
+    if (!stream) refuse(file, "the file is cut short", "The file is one that cutterFoam wrote");
+    return carry;
+}
+
+fs::path newest_checkpoint(const fs::path& case_folder) {
+    const auto found = checkpoints_of(case_folder);
+    return found.empty() ? fs::path() : found.rbegin()->second;
+}
+
+std::vector<fs::path> drop_times_after_checkpoint(const fs::path& case_folder) {
+    std::vector<fs::path> dropped;
+    const auto checkpoints = checkpoints_of(case_folder);
+    if (checkpoints.empty()) return dropped;
+    // The checkpoint and the fluid's folder of its time carry the same name, so that their times compare exactly.
+    const double last = checkpoints.rbegin()->first;
+    std::vector<fs::path> roots{case_folder};
+    for (const auto& entry : fs::directory_iterator(case_folder))
+        if (entry.is_directory() && entry.path().filename().string().rfind("processor", 0) == 0) roots.push_back(entry.path());
+    for (const fs::path& root : roots)
+        for (const auto& [time, folder] : time_folders(root)) {
+            if (time <= last) continue;
+            fs::remove_all(folder);
+            dropped.push_back(folder);
+        }
+    return dropped;
+}
+
+void prune_checkpoints(const fs::path& case_folder, int keep) {
+    auto found = checkpoints_of(case_folder);
+    while (static_cast<int>(found.size()) > keep) {
+        fs::remove_all(found.begin()->second);
+        found.erase(found.begin());
+    }
+}
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,44 @@
+#pragma once
+/// \file The coupled algorithm's own state in a checkpoint folder, and the folders themselves.
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "solver/coupling/communicator.hpp"
+#include "solver/coupling/fate_tracker.hpp"
+#include "solver/coupling/rock_coupling.hpp"
+
+namespace cutterflow::coupling {
+
+/// What a run knows beside fluid and DEM. Written and read back to the bit.
+struct RunState {
+    double time = 0.0;
+    double rotor_angle = 0.0;
+    int ranks = 1;
+    std::vector<int> handled_feed;  ///< ids of the feed that are placed or rejected
+    std::map<int, TrackedRock> rocks;
+    BookedExchange booked;
+};
+
+/// state.json of a checkpoint folder. \throws UserError when it cannot be read
+void write_state(const std::filesystem::path& folder, const RunState& state);
+RunState read_state(const std::filesystem::path& folder);
+
+/// carry.<rank>: the momentum that this rank's cells have yet to receive.
+void write_carry(const std::filesystem::path& folder, int rank, gsl::span<const Vec3> carry);
+/// \throws UserError  when the file is not there or holds another number of cells: the mesh is split otherwise than it was
+std::vector<Vec3> read_carry(const std::filesystem::path& folder, int rank, std::size_t cells);
+
+/// Newest complete checkpoint of a case (`checkpoints/<time>`), or an empty path.
+std::filesystem::path newest_checkpoint(const std::filesystem::path& case_folder);
+
+/// Removes the fluid's time folders (of the case and of its processor folders) that are later than the newest checkpoint: what a killed run
+/// wrote after it. Does nothing without a checkpoint. To be called by one rank before the fluid picks its latest time.
+/// \return the folders that were removed
+std::vector<std::filesystem::path> drop_times_after_checkpoint(const std::filesystem::path& case_folder);
+
+/// Removes all but the `keep` newest checkpoints and what an interrupted one left.
+void prune_checkpoints(const std::filesystem::path& case_folder, int keep);
+
+}  // namespace cutterflow::coupling

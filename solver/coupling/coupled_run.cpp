@@ -1,0 +1,323 @@
+#include "solver/coupling/coupled_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/base/run_names.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Angles [rad] of mesh and walls may differ by rounding only.
+constexpr double k_angle_tolerance = 1e-9;
+
+/// Adds the wall time of its life to a sum [s].
+class Timer {
+public:
+    explicit Timer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+    ~Timer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_;
+};
+
+void append(std::vector<Mistake>& all, const UserError& error) {
+    all.insert(all.end(), error.mistakes().begin(), error.mistakes().end());
+}
+
+}  // namespace
+
+CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine* dem,
+                       Communicator& communicator, RunRecorder& recorder, const fs::path& case_folder)
+    : settings_(settings), fluid_(fluid), dem_(dem), communicator_(communicator), recorder_(recorder), case_folder_(case_folder) {
+    std::vector<Mistake> mistakes = check_settings(settings, properties, names::coupling_properties);
+    if (settings.has_rock && !settings.rock_feed.empty()) {
+        try {
+            feed_ = read_rock_feed(settings.rock_feed);
+        } catch (const UserError& error) {
+            append(mistakes, error);
+        }
+    }
+    if (settings.fates && mistakes.empty()) {
+        try {
+            const Contour contour = read_contour(*settings.fates);
+            const FateTracker tracker(*settings.fates, contour);
+            if (settings.outflow) outflow_.emplace(contour, tracker.bins(), settings.outflow->offset);
+            if (settings.has_rock) fates_ = tracker;
+        } catch (const UserError& error) {
+            append(mistakes, error);
+        }
+    }
+    if (!mistakes.empty()) throw UserError(mistakes);
+    if (settings.has_rock) rock_ = std::make_unique<RockCoupling>(settings, properties, fluid, *dem, communicator);
+
+    double cells = static_cast<double>(fluid.cells().centres.size());
+    communicator.sum(gsl::span<double>(&cells, 1));
+    run_cost_.cells = cells;
+    run_cost_.ranks = communicator.size();
+    last_checkpoint_ = fluid.time();
+}
+
+void CoupledRun::step() {
+    cost_ = CostRow();
+    double seconds = 0.0;
+    {
+        const Timer timer(seconds);
+        insert_due_rock();
+        sample_flow();
+        begin_fluid_step();
+        move_rock();
+        map_rock();
+        end_fluid_step();
+        book();
+        report();
+    }
+    report_cost(seconds);
+}
+
+Moment CoupledRun::now() const {
+    return {fluid_.time(), fluid_.rotor().angle(fluid_.time())};
+}
+
+void CoupledRun::insert_due_rock() {
+    if (!has_rock()) return;
+    const Timer timer(cost_.mapping);
+    const auto later = std::find_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return rock.time > fluid_.time(); });
+    if (later == feed_.begin()) return;
+    const std::vector<FeedRock> due(feed_.begin(), later);
+    feed_.erase(feed_.begin(), later);
+    const std::vector<int> rejected = rock_->insert(due);
+    for (const FeedRock& rock : due) {
+        handled_feed_.push_back(rock.id);
+        if (std::find(rejected.begin(), rejected.end(), rock.id) != rejected.end()) {
+            recorder_.rejected({rock.id, fluid_.time(), "overlaps a rock or a wall or lies outside the domain"});
+            continue;
+        }
+        const Rocks& rocks = dem_->rocks();
+        const auto p = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), rock.id) - rocks.id.begin());
+        recorder_.event(fates_->place(rock.id, rock.diameter, rock.density, rocks.position[p], rocks.velocity[p], now()));
+    }
+}
+
+void CoupledRun::sample_flow() {
+    if (!has_rock()) return;
+    const Timer timer(cost_.mapping);
+    rock_->sample();
+}
+
+void CoupledRun::begin_fluid_step() {
+    step_start_ = now();
+    const Timer timer(cost_.mesh_motion);
+    fluid_.begin_step(has_rock() ? rock_->travel_limit() : std::numeric_limits<double>::infinity());
+}
+
+void CoupledRun::move_rock() {
+    if (!has_rock()) return;
+    const Timer timer(cost_.dem);
+    moved_ = rock_->move();
+    require_equal_angles();
+}
+
+void CoupledRun::require_equal_angles() const {
+    const double mesh = fluid_.rotor().angle(fluid_.time());
+    const double walls = dem_->rotor_angle();
+    // The walls' angle is measured within one turn.
+    if (std::abs(std::remainder(walls - mesh, 2.0 * k_pi)) <= k_angle_tolerance * std::max(1.0, std::abs(mesh))) return;
+    throw CheckFailure(
+        {"", fmt::format("the rotor's walls stand at {:.12g} rad, its mesh at {:.12g} rad, at time {:.9g} s", walls, mesh, fluid_.time()),
+         "Fluid and rock must see the same rotor", "Report this as a defect"});
+}
+
+void CoupledRun::map_rock() {
+    if (!has_rock()) return;
+    const Timer timer(cost_.mapping);
+    rock_->map();
+}
+
+void CoupledRun::end_fluid_step() {
+    const Timer timer(cost_.fluid);
+    if (has_rock())
+        fluid_.end_step(rock_->void_fraction_old(), rock_->void_fraction_new(), rock_->exchange());
+    else
+        fluid_.end_step({}, {}, {});
+}
+
+void CoupledRun::book() {
+    if (!has_rock()) return;
+    const Timer timer(cost_.mapping);
+    balance_ = rock_->book();
+    for (const std::string& warning : rock_->take_warnings()) recorder_.warning(fluid_.time(), warning);
+    follow_fates(moved_);
+}
+
+void CoupledRun::follow_fates(const DemStep& moved) {
+    for (const RockEvent& event : fates_->move(dem_->rocks(), step_start_, now())) recorder_.event(event);
+    for (std::size_t k = 0; k < moved.left_domain.size(); ++k)
+        for (const RockEvent& event :
+             fates_->leave(moved.left_domain[k], moved.left_position[k], moved.left_velocity[k], step_start_, now()))
+            recorder_.event(event);
+}
+
+void CoupledRun::report() {
+    const Timer timer(cost_.output);
+    report_loads_and_balance();
+    if (outflow_) recorder_.outflow(fluid_.time(), outflow_->sample(fluid_));
+    if (has_rock()) recorder_.fates(fluid_.time(), fates_->totals());
+    if (fluid_.write_if_due() && has_rock()) record_picture();
+    // Half a step of slack, so that checkpoints do not fall behind their interval by a step each time.
+    if (settings_.checkpoint && fluid_.time() + 0.5 * fluid_.time_step() >= last_checkpoint_ + settings_.checkpoint->interval)
+        write_checkpoint();
+}
+
+void CoupledRun::report_loads_and_balance() {
+    const FluidLoads loads = fluid_.loads();
+    const double speed = fluid_.rotor().speed;
+    LoadsRow row{fluid_.time(), now().rotor_angle, loads.torque_pressure, loads.torque_viscous, moved_.cutter_torque, 0.0};
+    row.power = -(row.torque_pressure + row.torque_viscous + row.torque_rock) * speed;
+    recorder_.loads(row);
+
+    BalanceRow balance;
+    balance.time = fluid_.time();
+    balance.solid_volume_error = balance_.solid_volume_error;
+    balance.momentum_exchange_error = balance_.momentum_exchange_error;
+    const double through = std::abs(loads.outlet_flow);
+    balance.flow_balance_error = through > 0.0 ? std::abs(loads.boundary_flow) / through : 0.0;
+    balance.interface_imbalance = loads.interface_imbalance;
+    balance.continuity_error = loads.continuity_error;
+    balance.outlet_flow = loads.outlet_flow;
+    balance.outlet_pressure = loads.outlet_pressure;
+    balance.solid_fraction_max = balance_.solid_fraction_max;
+    balance.courant_max = loads.courant_max;
+    balance.overlap_ratio_max = moved_.max_overlap_ratio;
+    balance.dem_substeps = moved_.substeps;
+    balance.contacts = moved_.contacts;
+    if (has_rock()) {
+        balance.rocks = static_cast<int>(dem_->rocks().size());
+        balance.exchanged_volume = rock_->booked().volume;
+        balance.exchanged_momentum = rock_->booked().momentum.norm();
+    }
+    recorder_.balance(balance);
+}
+
+void CoupledRun::record_picture() {
+    const Rocks& rocks = dem_->rocks();
+    std::vector<Fate> fates;
+    for (const int id : rocks.id) fates.push_back(fates_->fate_of(id));
+    recorder_.picture({fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, fates});
+}
+
+void CoupledRun::report_cost(double step_seconds) {
+    double seconds[] = {step_seconds, cost_.fluid, cost_.mesh_motion, cost_.mapping, cost_.dem, cost_.output};
+    communicator_.max(seconds);
+    const CostRow row{fluid_.time(), seconds[0], seconds[1], seconds[2], seconds[3], seconds[4], seconds[5]};
+    recorder_.cost(row);
+    ++run_cost_.steps;
+    run_cost_.wall += row.step;
+    run_cost_.totals.step += row.step;
+    run_cost_.totals.fluid += row.fluid;
+    run_cost_.totals.mesh_motion += row.mesh_motion;
+    run_cost_.totals.mapping += row.mapping;
+    run_cost_.totals.dem += row.dem;
+    run_cost_.totals.output += row.output;
+}
+
+bool CoupledRun::finished() const {
+    return settings_.stop && has_rock() && feed_.empty() && fates_->totals().undecided() <= settings_.stop->undecided;
+}
+
+void CoupledRun::finish() {
+    if (settings_.checkpoint && fluid_.time() > last_checkpoint_) write_checkpoint();
+    if (has_rock()) recorder_.outcomes(fates_->outcomes());
+    recorder_.finished(run_cost_);
+    recorder_.flush();
+}
+
+void CoupledRun::wait_for_all() {
+    double nothing = 0.0;
+    communicator_.sum(gsl::span<double>(&nothing, 1));
+}
+
+void CoupledRun::write_checkpoint() {
+    fluid_.write_now();
+    const bool writes = communicator_.rank() == 0;
+    const fs::path folder = case_folder_ / names::checkpoints / fluid_.time_name();
+    fs::path part = folder;
+    part += ".part";
+    if (writes) {
+        fs::remove_all(part);
+        fs::create_directories(part);
+    }
+    wait_for_all();
+    write_state_files(part);
+    recorder_.flush();
+    wait_for_all();
+    if (writes) {
+        fs::remove_all(folder);
+        fs::rename(part, folder);
+        prune_checkpoints(case_folder_, settings_.checkpoint ? settings_.checkpoint->keep : 1);
+    }
+    last_checkpoint_ = fluid_.time();
+}
+
+void CoupledRun::write_state_files(const fs::path& folder) {
+    RunState state;
+    state.time = fluid_.time();
+    state.rotor_angle = now().rotor_angle;
+    state.ranks = communicator_.size();
+    state.handled_feed = handled_feed_;
+    if (has_rock()) {
+        state.rocks = fates_->rocks();
+        state.booked = rock_->booked();
+        dem_->write_checkpoint(folder);
+        write_carry(folder, communicator_.rank(), rock_->carry());
+        recorder_.outcomes(fates_->outcomes());
+    }
+    if (communicator_.rank() == 0) write_state(folder, state);
+}
+
+void CoupledRun::resume(const fs::path& checkpoint) {
+    const RunState state = read_state(checkpoint);
+    const auto refuse = [&](const std::string& what, const std::string& rule, const std::string& remedy) {
+        throw UserError({{checkpoint.string(), what, rule, remedy}});
+    };
+    if (std::abs(state.time - fluid_.time()) > 1e-9 * std::max(1.0, std::abs(state.time)))
+        refuse(fmt::format("the checkpoint is of time {:.9g} s, the run starts at {:.9g} s", state.time, fluid_.time()),
+               "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start anew");
+    if (state.ranks != communicator_.size())
+        refuse(fmt::format("the checkpoint was written on {} ranks, this run has {}", state.ranks, communicator_.size()),
+               "A run resumes on the mesh and the number of ranks that it had", fmt::format("Start it on {} ranks", state.ranks));
+    handled_feed_ = state.handled_feed;
+    last_checkpoint_ = fluid_.time();
+    if (!has_rock()) return;
+    const std::set<int> handled(handled_feed_.begin(), handled_feed_.end());
+    feed_.erase(std::remove_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return handled.count(rock.id) > 0; }), feed_.end());
+
+    std::vector<Vec3> carry;
+    double failed = 0.0;
+    std::string reason;
+    try {
+        carry = read_carry(checkpoint, communicator_.rank(), fluid_.cells().centres.size());
+    } catch (const UserError& error) {
+        failed = 1.0;
+        reason = error.what();
+    }
+    // One rank's trouble ends the run on all of them.
+    communicator_.max(gsl::span<double>(&failed, 1));
+    if (failed > 0.0) refuse(reason.empty() ? "the carried momentum of another rank does not fit" : reason, "", "");
+
+    dem_->read_checkpoint(checkpoint);
+    require_equal_angles();
+    fates_->restore(state.rocks);
+    rock_->restore(std::move(carry), state.booked);
+}
+
+}  // namespace cutterflow::coupling

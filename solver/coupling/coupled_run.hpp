@@ -1,0 +1,99 @@
+#pragma once
+/// \file The coupled run: one step of fluid and rock, as named stages.
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "solver/coupling/checkpoint.hpp"
+#include "solver/coupling/communicator.hpp"
+#include "solver/coupling/dem_engine.hpp"
+#include "solver/coupling/fate_tracker.hpp"
+#include "solver/coupling/fluid_engine.hpp"
+#include "solver/coupling/outflow_sampler.hpp"
+#include "solver/coupling/rock_coupling.hpp"
+#include "solver/coupling/run_recorder.hpp"
+#include "solver/coupling/settings.hpp"
+
+namespace cutterflow::coupling {
+
+/// Advances fluid and rock together.
+///
+/// One step from t to t + dt, with x the rocks' positions, w the deposit and psi the sampling weights (sum over cells of weight times
+/// volume = 1 for every rock):
+///   insert_due_rock   rock of the feed enters; the void fraction is replaced without a source
+///   sample_flow       u, alpha, Du/Dt at every rock with psi(x(t)) on the mesh at t
+///   begin_fluid_step  the fluid picks dt (rock travels <= 0.25 min(sigma, dx)) and moves the mesh
+///   move_rock         (rho_s + C_AM rho_f) V dv/dt = D(v)(u - v) + (1 + C_AM) rho_f V Du/Dt + weight - buoyancy + contacts, every DEM step
+///   map_rock          alpha from w(x(t)) and w(x(t + dt)), both on the mesh at t + dt; momentum exchange with w(x(t + dt))
+///   end_fluid_step    momentum, pressure with d(alpha)/dt, turbulence
+///   book              what the fluid did not receive of the rocks' impulse is carried to the next step; fates, balances
+///   report            rows, fields, checkpoint
+/// Without rock only the fluid's two stages and their reports remain.
+class CoupledRun {
+public:
+    /// \param dem       null without rock
+    /// \param recorder  a SilentRecorder on all ranks but the first
+    /// \throws UserError  with every mistake of settings, feed and contour
+    CoupledRun(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine* dem,
+               Communicator& communicator, RunRecorder& recorder, const std::filesystem::path& case_folder);
+
+    /// One step, see above. \throws CheckFailure when the engines disagree about the rotor's angle, or rock is outside the fluid's mesh
+    void step();
+
+    /// True when the stop rule holds: every feed is in and the undecided share is small enough.
+    bool finished() const;
+
+    /// Writes what stands at the run's end: a checkpoint of the present time (when checkpoints are on), outcomes, cost.
+    void finish();
+
+    /// Takes up the state of a checkpoint folder (rock, fates, accumulators, carried momentum). The fluid already stands at its time.
+    /// \throws UserError  when the checkpoint is of another time, another number of ranks or cannot be read
+    void resume(const std::filesystem::path& checkpoint);
+
+    /// Writes `checkpoints/<time name>`; collective.
+    void write_checkpoint();
+
+private:
+    void insert_due_rock();
+    void sample_flow();
+    void begin_fluid_step();
+    void move_rock();
+    void map_rock();
+    void end_fluid_step();
+    void book();
+    void report();
+
+    bool has_rock() const { return rock_ != nullptr; }
+    Moment now() const;
+    void require_equal_angles() const;
+    void follow_fates(const DemStep& moved);
+    void report_loads_and_balance();
+    void report_cost(double step_seconds);
+    void record_picture();
+    void write_state_files(const std::filesystem::path& folder);
+    void wait_for_all();
+
+    CouplingSettings settings_;
+    FluidEngine& fluid_;
+    DemEngine* dem_;
+    Communicator& communicator_;
+    RunRecorder& recorder_;
+    std::filesystem::path case_folder_;
+
+    std::unique_ptr<RockCoupling> rock_;
+    std::optional<FateTracker> fates_;
+    std::optional<OutflowSampler> outflow_;
+    std::vector<FeedRock> feed_;  // not yet handled, sorted by time
+    std::vector<int> handled_feed_;
+
+    Moment step_start_;
+    DemStep moved_;
+    ExchangeBalance balance_;
+    CostRow cost_;  // of the step under way
+    RunCost run_cost_;
+    double last_checkpoint_ = 0.0;
+};
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,68 @@
+#pragma once
+/// \file Port to the DEM: rocks and their contacts. solver/liggghts implements it; tests use fakes. Every call is collective.
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include <gsl/span>
+
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::coupling {
+
+/// All rocks of the run, the same on every rank, sorted by id. Arrays of equal length.
+struct Rocks {
+    std::vector<int> id;
+    std::vector<Vec3> position;          ///< [m], absolute frame
+    std::vector<Vec3> velocity;          ///< [m/s]
+    std::vector<Vec3> angular_velocity;  ///< [rad/s]
+    std::vector<double> diameter;        ///< [m]
+    std::vector<double> density;         ///< [kg/m3]
+    std::size_t size() const { return id.size(); }
+};
+
+/// Force [N] that the fluid exerts on rock `index` (of rocks() as they were when advance was called) when it moves with `velocity` [m/s]:
+/// drag and the Du/Dt parts. Neither weight nor buoyancy (the engine adds both) nor the -dv/dt part of added mass (it stands in the
+/// engine's inertia).
+using HydrodynamicForce = std::function<Vec3(std::size_t index, const Vec3& velocity)>;
+
+/// What one call of advance did.
+struct DemStep {
+    std::vector<Vec3>
+        impulse;  ///< of HydrodynamicForce on each rock of rocks() after the call [N s]: sum of force times DEM step, ends half
+    std::vector<int> left_domain;     ///< ids of rocks that left the DEM domain in the call; no longer in rocks()
+    std::vector<Vec3> left_position;  ///< their last positions
+    std::vector<Vec3> left_velocity;
+    std::vector<Vec3> left_impulse;
+    double cutter_torque = 0.0;      ///< mean torque of rock contacts on the rotating steel about the axis [N m]
+    double max_overlap_ratio = 0.0;  ///< largest overlap over rock radius seen at the call's end
+    int substeps = 0;                ///< DEM steps of the call
+    int contacts = 0;                ///< rock-rock and rock-wall contacts at the call's end
+};
+
+class DemEngine {
+public:
+    virtual ~DemEngine() = default;
+
+    virtual const Rocks& rocks() const = 0;
+
+    /// Largest DEM time step [s] that the contacts allow with the given rocks (fraction of Rayleigh and Hertz times).
+    virtual double largest_time_step() const = 0;
+
+    /// Inserts rocks (ids new, arrays of rocks sorted by id). Those that would overlap a rock or a wall are not inserted.
+    /// \return ids that were inserted
+    virtual std::vector<int> insert(const Rocks& rocks) = 0;
+    virtual void remove(gsl::span<const int> ids) = 0;
+
+    /// Advances by `duration` [s] in a whole number of equal steps, at most largest_time_step() long; the rotor turns along.
+    virtual DemStep advance(double duration, const HydrodynamicForce& force) = 0;
+
+    /// Angle [rad] that the rotating walls have turned since time 0, measured on the walls themselves.
+    virtual double rotor_angle() const = 0;
+
+    /// Writes rocks with their contact history into an existing folder / reads them back (before any insert).
+    virtual void write_checkpoint(const std::filesystem::path& folder) = 0;
+    virtual void read_checkpoint(const std::filesystem::path& folder) = 0;
+};
+
+}  // namespace cutterflow::coupling

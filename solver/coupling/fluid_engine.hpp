@@ -1,0 +1,113 @@
+#pragma once
+/// \file Port to the fluid solver: flat arrays over this rank's cells, in mesh order. solver/foam implements it; tests use fakes.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gsl/span>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::coupling {
+
+/// Rigid rotation of the rotor: angle(t) = speed * t, the one source for mesh, DEM walls and reports.
+struct RotorMotion {
+    RotationAxis axis;
+    double speed = 0.0;  ///< [rad/s], right-handed about the axis; 0 = no rotor turns
+    double angle(double time) const { return speed * time; }
+};
+
+/// The cells of this rank. They do not move in their zone's frame: rotor cells are given at rotor angle 0, stator cells where they stand.
+/// The arrays (and those of Steel) stay as they are, in place and value, for the engine's life.
+struct Cells {
+    gsl::span<const Vec3> centres;           ///< [m], zone's frame
+    gsl::span<const double> volumes;         ///< [m3]
+    gsl::span<const double> sizes;           ///< cell size dx [m], smooth in space
+    gsl::span<const std::uint8_t> in_rotor;  ///< 1 for rotor cells
+};
+
+/// A triangle of steel, in its zone's frame (as Cells).
+struct SteelTriangle {
+    Vec3 a, b, c;
+};
+
+/// All steel faces of the whole mesh (every rank has all of them): what hides a cell from a rock.
+struct Steel {
+    gsl::span<const SteelTriangle> rotor;
+    gsl::span<const SteelTriangle> stator;
+};
+
+/// Fields at the present time, one value per cell of this rank.
+struct FluidFields {
+    gsl::span<const Vec3> velocity;               ///< interstitial fluid velocity, absolute [m/s]
+    gsl::span<const Vec3> material_acceleration;  ///< Du/Dt [m/s2]
+    gsl::span<const double> void_fraction;        ///< [-]
+};
+
+/// What the rocks hand to the fluid over one step, per cell. The fluid's momentum equation (divided by the fluid's density) receives
+///   explicit_source - drag_rate (u_new - u_old) - inertia (Du/Dt_new - Du/Dt_old)   [m/s2]
+/// where "old" are the fields that FluidEngine::fields() showed when the step began, carried by the moving cells.
+struct MomentumExchange {
+    gsl::span<const Vec3> explicit_source;  ///< force on the fluid per mixture volume over fluid density [m/s2]
+    gsl::span<const double> drag_rate;      ///< linearised drag [1/s], >= 0
+    gsl::span<const double> inertia;        ///< (1 + C_AM) solid fraction [-], >= 0
+};
+
+/// Forces of the flow on the rotating steel about the rotor's axis, and flows through the boundary, at the present time (whole mesh).
+struct FluidLoads {
+    double torque_pressure = 0.0;  ///< [N m], positive about the axis' direction
+    double torque_viscous = 0.0;   ///< [N m]
+    double outlet_flow = 0.0;      ///< volume flow out of the suction pipe [m3/s]
+    double boundary_flow = 0.0;    ///< net volume flow out through all patches, the interface included: 0 when every cell closes [m3/s]
+    double interface_imbalance =
+        0.0;                        ///< |flow out of the rotor's side - flow into the stator's side| / gross flow through the interface [-]
+    double continuity_error = 0.0;  ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / gross boundary flow [-]
+    double courant_max = 0.0;
+    double outlet_pressure = 0.0;  ///< area mean of p* at the outlet [m2/s2]
+};
+
+class FluidEngine {
+public:
+    virtual ~FluidEngine() = default;
+
+    virtual Cells cells() const = 0;
+    virtual Steel steel() const = 0;
+    virtual RotorMotion rotor() const = 0;
+    virtual FluidFields fields() const = 0;
+
+    virtual double time() const = 0;            ///< of fields() [s]
+    virtual std::string time_name() const = 0;  ///< of fields(), as the engine's own folders are called
+    virtual double time_step() const = 0;       ///< of the step under way or just done [s]
+    /// False when the end time is reached or the user asked to stop (controlDict stopAt, signals).
+    virtual bool running() = 0;
+
+    /// Begins a step: picks its length from the Courant limit and `travel_limit` [s] (what rocks and interface allow; infinity: no limit),
+    /// advances the time, moves the mesh. After it, fields() still shows the old values in the moved cells.
+    virtual void begin_step(double travel_limit) = 0;
+
+    /// Ends the step: solves momentum, pressure (with d(alpha)/dt from the two void fractions, both evaluated on the moved mesh) and
+    /// turbulence. \param void_fraction_old  for the rocks' old positions, \param void_fraction_new  for their new ones; one per cell.
+    virtual void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
+                          const MomentumExchange& exchange) = 0;
+
+    /// Replaces the present void fraction without a source (rock was inserted or removed).
+    virtual void reset_void_fraction(gsl::span<const double> void_fraction) = 0;
+
+    /// What the fluid really received in the last step, per cell [m/s2]: the expression at MomentumExchange with the solved fields.
+    virtual gsl::span<const Vec3> received() const = 0;
+
+    /// Fluid velocity at points of the absolute frame (whole mesh; collective): value of the cell that holds or is nearest to the point,
+    /// carried to it with the cell's gradient. The same result on every rank.
+    virtual void sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> velocity) = 0;
+
+    virtual FluidLoads loads() = 0;
+
+    /// Writes the fields when the case's write control says so. \return true when it wrote
+    virtual bool write_if_due() = 0;
+    /// Writes the fields of the present time as a restart state, whatever the write control says.
+    virtual void write_now() = 0;
+};
+
+}  // namespace cutterflow::coupling

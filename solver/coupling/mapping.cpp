@@ -1,0 +1,205 @@
+#include "solver/coupling/mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/physics/kernels.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+// Spacing of the visibility's lattice over the kernel width.
+constexpr double k_lattice_spacing = 0.5;
+
+}  // namespace
+
+Mapping::Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator)
+    : trees_(cells), sizes_(cells, communicator), visibility_(steel, trees_), axis_(axis), kernel_(kernel), communicator_(communicator) {
+    visibility_.set_frames(frames_);
+}
+
+void Mapping::set_rotor_angle(double angle) {
+    if (angle == angle_) return;
+    angle_ = angle;
+    frames_ = ZoneFrames(axis_, angle);
+    visibility_.set_frames(frames_);
+}
+
+Stencils Mapping::build(const RockShapes& rocks) {
+    Stencils stencils;
+    stencils.first.push_back(0);
+    std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const double size = sizes_.at(frames_, rocks.position[p]);
+        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * size);
+        const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
+        stencils.cell_size.push_back(size);
+        stencils.width.push_back(width);
+        stencils.in_rotor.push_back(sizes_.nearest(frames_, rocks.position[p]).zone == rotor ? 1 : 0);
+        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
+        add_entries(rocks.position[p], width, stencils);
+        add_sums(stencils, p, sums);
+    }
+    communicator_.sum(sums);
+
+    std::vector<std::size_t> hidden;
+    for (std::size_t p = 0; p < rocks.size(); ++p)
+        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) hidden.push_back(p);
+    if (!hidden.empty()) replace_hidden(rocks, hidden, stencils, sums);
+
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            stencils.deposit[i] /= sums[2 * p];
+            stencils.sample[i] /= sums[2 * p + 1];
+        }
+    }
+    return stencils;
+}
+
+/// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at.
+void Mapping::add_entries(const Vec3& position, double width, Stencils& stencils) {
+    const double inverse_width2 = 1.0 / (width * width);
+    for (const Zone zone : k_zones) {
+        found_.clear();
+        trees_.of(zone).within(frames_.from_absolute(zone, position), physics::k_kernel_reach * width, found_);
+        for (const Neighbour& n : found_) {
+            const double visible = visibility_.visible_fraction(n.index);
+            if (visible == 0.0) continue;
+            const double q = n.squared_distance * inverse_width2;
+            stencils.cell.push_back(n.index);
+            stencils.deposit.push_back(visible * physics::gaussian_weight(q));
+            stencils.sample.push_back(visible * physics::quadratic_weight(q));
+        }
+    }
+    stencils.first.push_back(stencils.cell.size());
+}
+
+void Mapping::add_sums(const Stencils& stencils, std::size_t rock, std::vector<double>& sums) const {
+    for (std::size_t i = stencils.first[rock]; i < stencils.first[rock + 1]; ++i) {
+        const double volume = trees_.cells().volumes[static_cast<std::size_t>(stencils.cell[i])];
+        sums[2 * rock] += stencils.deposit[i] * volume;
+        sums[2 * rock + 1] += stencils.sample[i] * volume;
+    }
+}
+
+/// Rocks that see no cell (the mesh's steel and the DEM's walls differ a little, and the centre of a small rock can lie inside the mesh's
+/// steel): they look from the centre of the nearest cell.
+void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils,
+                             std::vector<double>& sums) {
+    hidden_rocks_ += hidden.size();
+    Stencils replaced;
+    replaced.first.push_back(0);
+    replaced.cell_size = stencils.cell_size;
+    replaced.width = stencils.width;
+    replaced.in_rotor = stencils.in_rotor;
+    std::vector<double> new_sums(sums.size(), 0.0);
+    auto next = hidden.begin();
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        if (next != hidden.end() && *next == p) {
+            visibility_.look_from_point(sizes_.nearest(frames_, rocks.position[p]).centre,
+                                        physics::k_kernel_reach * 2.0 * stencils.width[p]);
+            add_entries(rocks.position[p], stencils.width[p], replaced);
+            add_sums(replaced, p, new_sums);
+            ++next;
+            continue;
+        }
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            replaced.cell.push_back(stencils.cell[i]);
+            replaced.deposit.push_back(stencils.deposit[i]);
+            replaced.sample.push_back(stencils.sample[i]);
+        }
+        replaced.first.push_back(replaced.cell.size());
+    }
+    communicator_.sum(new_sums);
+    for (const std::size_t p : hidden) {
+        sums[2 * p] = new_sums[2 * p];
+        sums[2 * p + 1] = new_sums[2 * p + 1];
+        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) {
+            const Vec3& x = rocks.position[p];
+            throw CheckFailure({"",
+                                fmt::format("rock {} at ({:.6g} {:.6g} {:.6g}) m has no cell of the mesh within {:.3g} m", rocks.id[p],
+                                            x[0], x[1], x[2], physics::k_kernel_reach * stencils.width[p]),
+                                "Rock must stay where the fluid is", "Let rock.domain end inside the mesh"});
+        }
+    }
+    stencils = std::move(replaced);
+}
+
+void deposit(const Stencils& stencils, gsl::span<const double> amount, gsl::span<double> cell_values) {
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i)
+            cell_values[static_cast<std::size_t>(stencils.cell[i])] += stencils.deposit[i] * amount[p];
+}
+
+void deposit(const Stencils& stencils, gsl::span<const Vec3> amount, gsl::span<Vec3> cell_values) {
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i)
+            cell_values[static_cast<std::size_t>(stencils.cell[i])] += stencils.deposit[i] * amount[p];
+}
+
+namespace {
+
+// Overfull cells are brought this much below the limit, so that the passes, which approach it from above, end below it.
+constexpr double k_below_limit = 1e-3;
+constexpr int k_most_passes = 200;
+
+/// Shrinks the weights in overfull cells; local. \return sums of w V per rock
+std::vector<double> shrink(Stencils& stencils, const std::vector<double>& solid_fraction, gsl::span<const double> cell_volume,
+                           double target) {
+    std::vector<double> sums(stencils.size(), 0.0);
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(stencils.cell[i]);
+            if (solid_fraction[c] > target) stencils.deposit[i] *= target / solid_fraction[c];
+            sums[p] += stencils.deposit[i] * cell_volume[c];
+        }
+    return sums;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> redistribute(gsl::span<Stencils* const> stencils, gsl::span<const double> rock_volume,
+                                              gsl::span<const double> cell_volume, double limit, Communicator& communicator) {
+    std::vector<std::vector<double>> fractions(stencils.size());
+    const auto refill = [&] {
+        double largest = 0.0;
+        for (std::size_t s = 0; s < stencils.size(); ++s) {
+            fractions[s].assign(cell_volume.size(), 0.0);
+            deposit(*stencils[s], rock_volume, fractions[s]);
+            for (const double f : fractions[s]) largest = std::max(largest, f);
+        }
+        communicator.max(gsl::span<double>(&largest, 1));
+        return largest;
+    };
+    const double target = (1.0 - k_below_limit) * limit;
+    double largest = refill();
+    for (int pass = 0; largest > limit && pass < k_most_passes; ++pass) {
+        for (std::size_t s = 0; s < stencils.size(); ++s) {
+            std::vector<double> sums = shrink(*stencils[s], fractions[s], cell_volume, target);
+            communicator.sum(sums);
+            for (std::size_t p = 0; p < stencils[s]->size(); ++p)
+                for (std::size_t i = stencils[s]->first[p]; i < stencils[s]->first[p + 1]; ++i) stencils[s]->deposit[i] /= sums[p];
+        }
+        largest = refill();
+    }
+    return fractions;
+}
+
+double normalisation_error(const Stencils& stencils, gsl::span<const double> cell_volume, Communicator& communicator) {
+    std::vector<double> sums(2 * stencils.size(), 0.0);
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            const double volume = cell_volume[static_cast<std::size_t>(stencils.cell[i])];
+            sums[2 * p] += stencils.deposit[i] * volume;
+            sums[2 * p + 1] += stencils.sample[i] * volume;
+        }
+    communicator.sum(sums);
+    double worst = 0.0;
+    for (const double sum : sums) worst = std::max(worst, std::abs(sum - 1.0));
+    return worst;
+}
+
+}  // namespace cutterflow::coupling

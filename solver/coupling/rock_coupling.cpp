@@ -1,0 +1,332 @@
+#include "solver/coupling/rock_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/physics/catalogue.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+/// Rock and interface travel at most this share of kernel width and cell size per step.
+constexpr double k_travel_share = 0.25;
+
+std::vector<double> volumes_of(const Rocks& rocks) {
+    std::vector<double> volumes;
+    for (const double d : rocks.diameter) volumes.push_back(physics::sphere_volume(d));
+    return volumes;
+}
+
+std::vector<double> void_fraction_of(const std::vector<double>& solid_fraction) {
+    std::vector<double> void_fraction(solid_fraction.size());
+    std::transform(solid_fraction.begin(), solid_fraction.end(), void_fraction.begin(), [](double f) { return 1.0 - f; });
+    return void_fraction;
+}
+
+/// A cell that is all but full of rock leaves the fluid's equations without a meaning.
+constexpr double k_solvable_solid_fraction = 0.95;
+
+double largest_of(const std::vector<double>& solid_fraction, Communicator& communicator) {
+    double largest = 0.0;
+    for (const double f : solid_fraction) largest = std::max(largest, f);
+    communicator.max(gsl::span<double>(&largest, 1));
+    return largest;
+}
+
+/// \throws CheckFailure  when redistribution found no room
+void require_room(double largest_solid_fraction, double limit) {
+    if (largest_solid_fraction <= k_solvable_solid_fraction) return;
+    throw CheckFailure(
+        {"", fmt::format("a cell holds a solid fraction of {:.3f}", largest_solid_fraction),
+         fmt::format("Rock is spread until no cell holds more than kernel.maxSolidFraction = {}; here all cells in reach are full", limit),
+         "Place less rock there, or widen kernel.gamma"});
+}
+
+/// The rocks to place, sorted by id.
+Rocks rocks_of(const std::vector<FeedRock>& due) {
+    std::vector<const FeedRock*> sorted;
+    for (const FeedRock& rock : due) sorted.push_back(&rock);
+    std::sort(sorted.begin(), sorted.end(), [](const FeedRock* a, const FeedRock* b) { return a->id < b->id; });
+    Rocks rocks;
+    for (const FeedRock* rock : sorted) {
+        rocks.id.push_back(rock->id);
+        rocks.position.push_back(rock->position);
+        rocks.velocity.push_back(rock->velocity.value_or(Vec3::Zero()));
+        rocks.angular_velocity.push_back(Vec3::Zero());
+        rocks.diameter.push_back(rock->diameter);
+        rocks.density.push_back(rock->density);
+    }
+    return rocks;
+}
+
+}  // namespace
+
+RockCoupling::RockCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
+                           Communicator& communicator)
+    : settings_(settings),
+      properties_(properties),
+      fluid_(fluid),
+      dem_(dem),
+      communicator_(communicator),
+      drag_(physics::find_drag_law(settings.closures.drag)),
+      hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
+      mapping_(fluid.cells(), fluid.steel(), fluid.rotor().axis, settings.kernel, communicator),
+      interface_passage_time_(mapping_.sizes().interface_passage_time(fluid.rotor())),
+      carry_(fluid.cells().centres.size(), Vec3::Zero()) {
+    map_present_rock();
+}
+
+RockShapes RockCoupling::shapes(const std::vector<Vec3>& position) const {
+    return {dem_.rocks().id, position, dem_.rocks().diameter};
+}
+
+void RockCoupling::map_present_rock() {
+    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    present_ = mapping_.build(shapes(dem_.rocks().position));
+}
+
+void RockCoupling::restore(std::vector<Vec3> carry, const BookedExchange& booked) {
+    carry_ = std::move(carry);
+    booked_ = booked;
+    map_present_rock();
+}
+
+std::vector<int> RockCoupling::insert(const std::vector<FeedRock>& due) {
+    Rocks candidates = rocks_of(due);
+    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    std::vector<FlowAtRock> flow;
+    sample_with(mapping_.build({candidates.id, candidates.position, candidates.diameter}), flow);
+    for (const FeedRock& rock : due) {
+        const auto p =
+            static_cast<std::size_t>(std::lower_bound(candidates.id.begin(), candidates.id.end(), rock.id) - candidates.id.begin());
+        if (!rock.velocity) candidates.velocity[p] = flow[p].velocity;
+    }
+    const std::vector<int> inserted = dem_.insert(candidates);
+    std::vector<int> rejected;
+    for (std::size_t p = 0; p < candidates.size(); ++p) {
+        if (std::find(inserted.begin(), inserted.end(), candidates.id[p]) == inserted.end()) {
+            rejected.push_back(candidates.id[p]);
+            continue;
+        }
+        const double volume = physics::sphere_volume(candidates.diameter[p]);
+        booked_.volume += volume;
+        booked_.momentum += properties_.density * volume * flow[p].velocity;
+    }
+
+    map_present_rock();
+    Stencils* const stencils[] = {&present_};
+    const auto fractions =
+        redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, settings_.kernel.max_solid_fraction, communicator_);
+    require_room(largest_of(fractions[0], communicator_), settings_.kernel.max_solid_fraction);
+    fluid_.reset_void_fraction(void_fraction_of(fractions[0]));
+    return rejected;
+}
+
+void RockCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const {
+    const FluidFields fields = fluid_.fields();
+    const gsl::span<const double> volumes = mapping_.cells().volumes;
+    constexpr std::size_t n = 7;
+    std::vector<double> sums(n * stencils.size(), 0.0);
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero();
+        double void_fraction = 0.0;
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(stencils.cell[i]);
+            const double weight = stencils.sample[i] * volumes[c];
+            velocity += weight * fields.velocity[c];
+            acceleration += weight * fields.material_acceleration[c];
+            void_fraction += weight * fields.void_fraction[c];
+        }
+        std::copy_n(velocity.data(), 3, &sums[n * p]);
+        std::copy_n(acceleration.data(), 3, &sums[n * p + 3]);
+        sums[n * p + 6] = void_fraction;
+    }
+    communicator_.sum(sums);
+    flow.clear();
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        flow.push_back({Eigen::Map<const Vec3>(&sums[n * p]), Eigen::Map<const Vec3>(&sums[n * p + 3]), sums[n * p + 6]});
+}
+
+void RockCoupling::sample() {
+    sample_with(present_, flow_);
+}
+
+double RockCoupling::travel_limit() const {
+    const Rocks& rocks = dem_.rocks();
+    if (rocks.size() == 0) return std::numeric_limits<double>::infinity();
+    const RotorMotion rotor_motion = fluid_.rotor();
+    double limit = k_travel_share * interface_passage_time_;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        Vec3 cell_velocity = Vec3::Zero();
+        if (present_.in_rotor[p] != 0)
+            cell_velocity = rotor_motion.speed * rotor_motion.axis.direction.cross(rocks.position[p] - rotor_motion.axis.origin);
+        const double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
+        const double length = std::min(present_.width[p], present_.cell_size[p]);
+        if (speed > 0.0) limit = std::min(limit, k_travel_share * length / speed);
+    }
+    return limit;
+}
+
+const DemStep& RockCoupling::move() {
+    before_ = dem_.rocks();
+    std::vector<physics::RockInFluid> rock(before_.size());
+    std::vector<Vec3> acceleration_force(before_.size());
+    for (std::size_t p = 0; p < before_.size(); ++p) {
+        rock[p] = {before_.diameter[p], properties_.density, properties_.kinematic_viscosity, flow_[p].void_fraction};
+        acceleration_force[p] = physics::fluid_acceleration_force(physics::sphere_volume(before_.diameter[p]), properties_.density,
+                                                                  settings_.closures.added_mass, flow_[p].acceleration);
+    }
+    const HydrodynamicForce force = [&](std::size_t p, const Vec3& velocity) -> Vec3 {
+        const Vec3 slip = flow_[p].velocity - velocity;
+        return physics::drag_coefficient_per_slip(rock[p], slip.norm(), drag_, hindrance_, settings_.closures.drag_modifier) * slip +
+               acceleration_force[p];
+    };
+    step_ = dem_.advance(fluid_.time_step(), force);
+
+    index_before_.clear();
+    for (const int id : dem_.rocks().id)
+        index_before_.push_back(static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), id) - before_.id.begin()));
+    return step_;
+}
+
+void RockCoupling::map() {
+    const Rocks& rocks = dem_.rocks();
+    const gsl::span<const double> cell_volume = mapping_.cells().volumes;
+    const double dt = fluid_.time_step();
+    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+
+    // Both void fractions hold the same set of rock: those that are still here.
+    std::vector<Vec3> old_position, velocity_change;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        old_position.push_back(before_.position[index_before_[p]]);
+        velocity_change.push_back(rocks.velocity[p] - before_.velocity[index_before_[p]]);
+    }
+    Stencils old = mapping_.build(shapes(old_position));
+    present_ = mapping_.build(shapes(rocks.position));
+    const std::vector<double> volumes = volumes_of(rocks);
+    Stencils* const both[] = {&old, &present_};
+    const auto fractions = redistribute(both, volumes, cell_volume, settings_.kernel.max_solid_fraction, communicator_);
+    void_fraction_old_ = void_fraction_of(fractions[0]);
+    void_fraction_new_ = void_fraction_of(fractions[1]);
+
+    source_.resize(carry_.size());
+    std::transform(carry_.begin(), carry_.end(), source_.begin(), [dt](const Vec3& carry) -> Vec3 { return carry / dt; });
+    rock_momentum_.setZero();
+    gross_impulse_ = 0.0;
+    add_impulses(present_, step_.impulse, velocity_change, volumes);
+    if (!step_.left_domain.empty()) follow_departures();
+
+    std::vector<double> drag(rocks.size());
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const FlowAtRock& flow = flow_[index_before_[p]];
+        drag[p] = physics::drag_coefficient_per_slip(
+                      {rocks.diameter[p], properties_.density, properties_.kinematic_viscosity, flow.void_fraction},
+                      (flow.velocity - rocks.velocity[p]).norm(), drag_, hindrance_, settings_.closures.drag_modifier) /
+                  properties_.density;
+    }
+    drag_rate_.assign(carry_.size(), 0.0);
+    deposit(present_, drag, drag_rate_);
+    inertia_.resize(carry_.size());
+    const double factor = 1.0 + settings_.closures.added_mass;
+    std::transform(fractions[1].begin(), fractions[1].end(), inertia_.begin(), [factor](double f) { return factor * f; });
+
+    check_ranges();
+    balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
+    balance_.solid_fraction_max = std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_));
+    require_room(balance_.solid_fraction_max, settings_.kernel.max_solid_fraction);
+}
+
+void RockCoupling::check_ranges() {
+    const Rocks& rocks = dem_.rocks();
+    const physics::Closure& drag = physics::find_closure(physics::ClosureKind::drag, settings_.closures.drag);
+    const physics::Closure& hindrance = physics::find_closure(physics::ClosureKind::hindrance, settings_.closures.hindrance);
+    const auto warn = [&](const physics::Closure& closure, const physics::ClosureRange& range, std::size_t p, double value) {
+        warn_once(std::string(closure.name) + std::string(range.argument),
+                  fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
+                              range.argument, value, rocks.id[p], range.minimum, range.maximum, closure.citation));
+    };
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const FlowAtRock& flow = flow_[index_before_[p]];
+        const double reynolds = (flow.velocity - rocks.velocity[p]).norm() * rocks.diameter[p] / properties_.kinematic_viscosity;
+        const double particle_reynolds = flow.void_fraction * reynolds;
+        // Below its range a law of drag tends to Stokes' and hindrance to a constant: only the upper ends mislead.
+        if (const auto* range = drag.outside({reynolds}); range != nullptr && reynolds > range->maximum) warn(drag, *range, p, reynolds);
+        if (const auto* range = hindrance.outside({flow.void_fraction, particle_reynolds}); range != nullptr) {
+            const double value = range == &hindrance.ranges[0] ? flow.void_fraction : particle_reynolds;
+            if (range == &hindrance.ranges[0] || value > range->maximum) warn(hindrance, *range, p, value);
+        }
+    }
+    if (mapping_.hidden_rocks() > 0)
+        warn_once("hidden",
+                  "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ)");
+}
+
+void RockCoupling::warn_once(const std::string& subject, const std::string& text) {
+    if (warned_.insert(subject).second) warnings_.push_back(text);
+}
+
+/// Adds what the fluid is to receive of rocks that got `impulse` [N s] from it and changed their velocity [m/s].
+void RockCoupling::add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
+                                gsl::span<const double> volume) {
+    const double dt = fluid_.time_step();
+    std::vector<Vec3> amount;
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        const Vec3 received = impulse[p] - settings_.closures.added_mass * properties_.density * volume[p] * velocity_change[p];
+        rock_momentum_ += received;
+        gross_impulse_ += received.norm();
+        amount.push_back(-received / (properties_.density * dt));
+    }
+    deposit(stencils, amount, source_);
+}
+
+/// Rocks that left in the step: their impulse goes back where they were when it began, and fluid takes their place without a source.
+void RockCoupling::follow_departures() {
+    std::vector<int> id;
+    std::vector<Vec3> position, impulse, velocity_change;
+    std::vector<double> diameter, volume;
+    for (std::size_t k = 0; k < step_.left_domain.size(); ++k) {
+        const auto p =
+            static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), step_.left_domain[k]) - before_.id.begin());
+        id.push_back(before_.id[p]);
+        position.push_back(before_.position[p]);
+        diameter.push_back(before_.diameter[p]);
+        volume.push_back(physics::sphere_volume(before_.diameter[p]));
+        impulse.push_back(step_.left_impulse[k]);
+        velocity_change.push_back(step_.left_velocity[k] - before_.velocity[p]);
+        booked_.volume -= volume.back();
+        booked_.momentum -= properties_.density * volume.back() * flow_[p].velocity;
+    }
+    add_impulses(mapping_.build({id, position, diameter}), impulse, velocity_change, volume);
+}
+
+double RockCoupling::volume_error(const std::vector<double>& solid_fraction, const std::vector<double>& rock_volume) const {
+    double sum = 0.0, rock = 0.0;
+    for (std::size_t c = 0; c < solid_fraction.size(); ++c) sum += solid_fraction[c] * mapping_.cells().volumes[c];
+    communicator_.sum(gsl::span<double>(&sum, 1));
+    for (const double volume : rock_volume) rock += volume;
+    return rock > 0.0 ? std::abs(sum - rock) / rock : 0.0;
+}
+
+ExchangeBalance RockCoupling::book() {
+    const gsl::span<const Vec3> received = fluid_.received();
+    const gsl::span<const double> volumes = mapping_.cells().volumes;
+    const double dt = fluid_.time_step();
+    Eigen::Vector4d sums = Eigen::Vector4d::Zero();  // momentum of fluid and change of carry over rho_f; gross carry
+    for (std::size_t c = 0; c < carry_.size(); ++c) {
+        const Vec3 rest = (source_[c] - received[c]) * dt;
+        sums.head<3>() += (received[c] * dt + rest - carry_[c]) * volumes[c];
+        sums[3] += carry_[c].norm() * volumes[c];
+        carry_[c] = rest;
+    }
+    communicator_.sum(gsl::span<double>(sums.data(), 4));
+    sums *= properties_.density;
+    const double gross = gross_impulse_ + sums[3];
+    balance_.momentum_exchange_error = gross > 0.0 ? (rock_momentum_ + sums.head<3>()).norm() / gross : 0.0;
+    return balance_;
+}
+
+}  // namespace cutterflow::coupling

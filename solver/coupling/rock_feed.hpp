@@ -1,0 +1,26 @@
+#pragma once
+/// \file The rocks that enter a run, from constant/rockFeed.csv.
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::coupling {
+
+/// One rock to be placed.
+struct FeedRock {
+    int id = 0;                    ///< > 0, unique
+    double time = 0.0;             ///< [s]
+    Vec3 position = Vec3::Zero();  ///< [m]
+    double diameter = 0.0;         ///< [m]
+    double density = 0.0;          ///< [kg/m3]
+    std::optional<Vec3> velocity;  ///< [m/s]; absent: the local fluid velocity
+};
+
+/// Reads `id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3[,vx_m_s,vy_m_s,vz_m_s]`, sorted by time, then id.
+/// \throws UserError  with every mistake of the file: missing column, not a number, id repeated or not positive, diameter or density not
+/// positive
+std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file);
+
+}  // namespace cutterflow::coupling

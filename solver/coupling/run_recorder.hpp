@@ -1,0 +1,160 @@
+#pragma once
+/// \file What a run tells about itself, step by step. CsvRecorder writes the files of docs/design/001-contracts.md; tests keep the rows.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gsl/span>
+
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::coupling {
+
+/// Fate of a rock: the last state of its centre.
+enum class Fate { never_entered, in_cutter, spilled, sucked_up };
+inline constexpr std::array<Fate, 4> k_fates{Fate::never_entered, Fate::in_cutter, Fate::spilled, Fate::sucked_up};
+const char* fate_name(Fate fate);
+
+enum class EventSurface { feed, head, mouth, domain };
+enum class EventDirection { in, out };
+const char* surface_name(EventSurface surface);
+const char* direction_name(EventDirection direction);
+
+/// A rock crosses a surface.
+struct RockEvent {
+    double time = 0.0;  ///< [s]
+    int id = 0;
+    EventSurface surface = EventSurface::feed;
+    EventDirection direction = EventDirection::in;
+    Vec3 position = Vec3::Zero();  ///< [m]
+    Vec3 velocity = Vec3::Zero();  ///< [m/s]
+    double rotor_angle = 0.0;      ///< [rad]
+    double azimuth = 0.0;          ///< [rad], 0 = lowest
+    double axial = 0.0;            ///< [m]
+    double diameter = 0.0;         ///< [m]
+    double density = 0.0;          ///< [kg/m3]
+    std::string bin;               ///< of head events, else empty
+};
+
+/// A rock of the feed that could not be placed.
+struct RejectedRock {
+    int id = 0;
+    double time = 0.0;
+    std::string reason;
+};
+
+struct CountAndMass {
+    int count = 0;
+    double mass = 0.0;  ///< [kg]
+};
+
+/// Placed rock by fate at one time.
+struct FateTotals {
+    CountAndMass placed;
+    std::array<CountAndMass, 4> by_fate;  ///< indexed by Fate
+    const CountAndMass& of(Fate fate) const { return by_fate[static_cast<std::size_t>(fate)]; }
+    /// Share of the placed mass that is neither sucked up nor spilled; 1 when nothing was placed.
+    double undecided() const;
+};
+
+/// What became of one rock.
+struct RockOutcome {
+    int id = 0;
+    Fate fate = Fate::never_entered;
+    std::string last_exit_bin;                                  ///< empty: it never left the head
+    std::optional<double> first_exit_time, first_exit_azimuth;  ///< [s], [rad]
+    Vec3 position = Vec3::Zero();                               ///< last known [m]
+    double diameter = 0.0;
+    double density = 0.0;
+};
+
+struct LoadsRow {
+    double time = 0.0, rotor_angle = 0.0;
+    double torque_pressure = 0.0, torque_viscous = 0.0, torque_rock = 0.0;  ///< on the cutter about +z [N m]
+    double power = 0.0;                                                     ///< what the drive must give [W]
+};
+
+struct BalanceRow {
+    double time = 0.0;
+    double solid_volume_error = 0.0;       ///< |volume on the mesh - volume of rock| / volume of rock
+    double momentum_exchange_error = 0.0;  ///< |rock + fluid + carry| / sum |impulse|
+    double flow_balance_error = 0.0;       ///< |net boundary flow| / |outlet flow|
+    double interface_imbalance = 0.0;
+    double continuity_error = 0.0;
+    double outlet_flow = 0.0, outlet_pressure = 0.0;
+    double solid_fraction_max = 0.0;
+    double courant_max = 0.0;
+    double overlap_ratio_max = 0.0;
+    int dem_substeps = 0, rocks = 0, contacts = 0;
+    double exchanged_volume = 0.0;    ///< of fluid that made room for rock since the start, less what came back where rock left [m3]
+    double exchanged_momentum = 0.0;  ///< amount of that fluid's momentum [N s]
+};
+
+/// Wall seconds of one step, largest rank.
+struct CostRow {
+    double time = 0.0, step = 0.0, fluid = 0.0, mesh_motion = 0.0, mapping = 0.0, dem = 0.0, output = 0.0;
+};
+
+/// Rocks at a field write.
+struct RockPicture {
+    double time = 0.0;
+    gsl::span<const int> id;
+    gsl::span<const Vec3> position, velocity;
+    gsl::span<const double> diameter;
+    gsl::span<const Fate> fate;
+};
+
+/// A sub-model that was on, and why.
+struct ModelNote {
+    std::string name, why;
+};
+
+/// Sums over the run, for cost.json.
+struct RunCost {
+    int ranks = 1;
+    double cells = 0.0;
+    int steps = 0;
+    double wall = 0.0;  ///< [s]
+    CostRow totals;
+};
+
+class RunRecorder {
+public:
+    virtual ~RunRecorder() = default;
+    virtual void event(const RockEvent& event) = 0;
+    virtual void rejected(const RejectedRock& rock) = 0;
+    virtual void fates(double time, const FateTotals& totals) = 0;
+    /// \param radial_velocity  averaged over azimuth, one per axial bin [m/s]
+    virtual void outflow(double time, gsl::span<const double> radial_velocity) = 0;
+    virtual void loads(const LoadsRow& row) = 0;
+    virtual void balance(const BalanceRow& row) = 0;
+    virtual void cost(const CostRow& row) = 0;
+    virtual void picture(const RockPicture& picture) = 0;
+    /// Rewrites the table of outcomes.
+    virtual void outcomes(gsl::span<const RockOutcome> outcomes) = 0;
+    virtual void finished(const RunCost& cost) = 0;
+    /// Something that the reader of results should know; told once.
+    virtual void warning(double time, const std::string& text) = 0;
+    /// Brings every row to the disk.
+    virtual void flush() = 0;
+};
+
+/// Keeps nothing: the ranks that do not write.
+class SilentRecorder final : public RunRecorder {
+public:
+    void event(const RockEvent&) override {}
+    void rejected(const RejectedRock&) override {}
+    void fates(double, const FateTotals&) override {}
+    void outflow(double, gsl::span<const double>) override {}
+    void loads(const LoadsRow&) override {}
+    void balance(const BalanceRow&) override {}
+    void cost(const CostRow&) override {}
+    void picture(const RockPicture&) override {}
+    void outcomes(gsl::span<const RockOutcome>) override {}
+    void finished(const RunCost&) override {}
+    void warning(double, const std::string&) override {}
+    void flush() override {}
+};
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,98 @@
+#include "solver/coupling/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cutterflow::coupling {
+namespace {
+
+constexpr std::size_t k_neighbours = 24;
+// A rotor cell lies at the interface when a stator cell's centre is this many sizes away at most.
+constexpr double k_interface_reach = 1.5;
+
+/// The values of all ranks, rank by rank, on every rank.
+std::vector<double> gather(Communicator& communicator, const std::vector<double>& mine) {
+    std::vector<double> counts(static_cast<std::size_t>(communicator.size()), 0.0);
+    counts[static_cast<std::size_t>(communicator.rank())] = static_cast<double>(mine.size());
+    communicator.sum(counts);
+    double offset = 0.0, total = 0.0;
+    for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+        if (static_cast<int>(rank) < communicator.rank()) offset += counts[rank];
+        total += counts[rank];
+    }
+    std::vector<double> all(static_cast<std::size_t>(total), 0.0);
+    std::copy(mine.begin(), mine.end(), all.begin() + static_cast<std::ptrdiff_t>(offset));
+    communicator.sum(all);
+    return all;
+}
+
+}  // namespace
+
+SizeField::SizeField(const Cells& cells, Communicator& communicator) : trees_{PointTree({}), PointTree({})} {
+    smallest_ = std::numeric_limits<double>::infinity();
+    for (const Zone zone : k_zones) {
+        std::vector<double> mine;
+        for (std::size_t c = 0; c < cells.centres.size(); ++c) {
+            if ((cells.in_rotor[c] != 0) != (zone == rotor)) continue;
+            mine.insert(mine.end(), cells.centres[c].data(), cells.centres[c].data() + 3);
+            mine.push_back(cells.sizes[c]);
+        }
+        const std::vector<double> all = gather(communicator, mine);
+        for (std::size_t i = 0; i < all.size(); i += 4) {
+            centres_[zone].emplace_back(all[i], all[i + 1], all[i + 2]);
+            sizes_[zone].push_back(all[i + 3]);
+            smallest_ = std::min(smallest_, all[i + 3]);
+        }
+        trees_[zone] = PointTree(centres_[zone]);
+    }
+}
+
+double SizeField::at(const ZoneFrames& frames, const Vec3& point) const {
+    std::array<std::vector<Neighbour>, 2> found;
+    std::vector<std::pair<double, double>> nearest;  // squared distance, size
+    for (const Zone zone : k_zones) {
+        trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found[zone]);
+        for (const Neighbour& n : found[zone]) nearest.emplace_back(n.squared_distance, sizes_[zone][static_cast<std::size_t>(n.index)]);
+    }
+    const std::size_t count = std::min(k_neighbours, nearest.size());
+    std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count - 1), nearest.end());
+    const double reach2 = nearest[count - 1].first;
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double t = 1.0 - nearest[i].first / reach2;
+        sum += t * t * nearest[i].second;
+        weights += t * t;
+    }
+    return weights > 0.0 ? sum / weights : nearest[count - 1].second;
+}
+
+SizeField::Nearest SizeField::nearest(const ZoneFrames& frames, const Vec3& point) const {
+    double best = std::numeric_limits<double>::infinity();
+    Nearest nearest{stator, point};
+    std::vector<Neighbour> found;
+    for (const Zone zone : k_zones) {
+        trees_[zone].nearest(frames.from_absolute(zone, point), 1, found);
+        if (found.empty() || found[0].squared_distance >= best) continue;
+        best = found[0].squared_distance;
+        nearest = {zone, frames.to_absolute(zone, centres_[zone][static_cast<std::size_t>(found[0].index)])};
+    }
+    return nearest;
+}
+
+double SizeField::interface_passage_time(const RotorMotion& motion) const {
+    if (motion.speed == 0.0) return std::numeric_limits<double>::infinity();
+    double shortest = std::numeric_limits<double>::infinity();
+    std::vector<Neighbour> found;
+    for (std::size_t c = 0; c < centres_[rotor].size(); ++c) {
+        const Vec3& centre = centres_[rotor][c];
+        const double size = sizes_[rotor][c];
+        trees_[stator].nearest(centre, 1, found);
+        if (found.empty() || found[0].squared_distance > std::pow(k_interface_reach * size, 2)) continue;
+        const double speed = std::abs(motion.speed) * motion.axis.direction.cross(centre - motion.axis.origin).norm();
+        if (speed > 0.0) shortest = std::min(shortest, size / speed);
+    }
+    return shortest;
+}
+
+}  // namespace cutterflow::coupling

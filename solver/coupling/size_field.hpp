@@ -1,0 +1,44 @@
+#pragma once
+/// \file Cell size at any point of the moving mesh: smooth in space, across the rotor interface and the same on every rank.
+#include <array>
+
+#include "solver/coupling/communicator.hpp"
+#include "solver/coupling/fluid_engine.hpp"
+#include "solver/coupling/point_tree.hpp"
+#include "solver/coupling/zone_frames.hpp"
+
+namespace cutterflow::coupling {
+
+/// Every rank holds centres and sizes of all cells of the mesh (32 bytes a cell), so that no rank has to ask another.
+class SizeField {
+public:
+    SizeField(const Cells& cells, Communicator& communicator);
+
+    /// Cell size dx [m] at a point of the absolute frame: mean over the k = 24 nearest cells of both zones with weights
+    /// (1 - (r/r_k)^2)^2, which vanish where a cell enters or leaves the k nearest.
+    double at(const ZoneFrames& frames, const Vec3& point) const;
+
+    /// A cell of the whole mesh.
+    struct Nearest {
+        Zone zone;
+        Vec3 centre;  ///< [m], absolute
+    };
+    /// The cell whose centre is nearest to a point.
+    Nearest nearest(const ZoneFrames& frames, const Vec3& point) const;
+
+    double smallest() const { return smallest_; }
+
+    /// Smallest size over speed [s] of rotor cells along the rotor interface: the time in which the interface turns by one cell; infinity
+    /// when nothing turns.
+    double interface_passage_time(const RotorMotion& motion) const;
+
+    double cells() const { return static_cast<double>(sizes_[stator].size() + sizes_[rotor].size()); }
+
+private:
+    std::array<std::vector<Vec3>, 2> centres_;  // by zone
+    std::array<std::vector<double>, 2> sizes_;
+    std::array<PointTree, 2> trees_;
+    double smallest_ = 0.0;
+};
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,421 @@
+// The coupled run with stand-ins for fluid and DEM: stages, records, stop rule, checkpoint, pure flow.
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/error.hpp"
+#include "solver/coupling/coupled_run.hpp"
+#include "solver/coupling/csv_recorder.hpp"
+#include "solver/coupling/tests/fake_engines.hpp"
+#include "solver/coupling/tests/temporary_folder.hpp"
+#include "solver/coupling/tests/threaded_ranks.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+using testing::FakeDem;
+using testing::FakeFluid;
+using testing::SyntheticMesh;
+using testing::TemporaryFolder;
+
+const FluidProperties k_water{998.2, 1.0034e-6};
+
+/// Keeps what a run tells.
+class MemoryRecorder final : public RunRecorder {
+public:
+    void event(const RockEvent& e) override { events.push_back(e); }
+    void rejected(const RejectedRock& r) override { rejections.push_back(r); }
+    void fates(double time, const FateTotals& totals) override { fate_rows.emplace_back(time, totals); }
+    void outflow(double, gsl::span<const double> v) override { outflow_rows.emplace_back(v.begin(), v.end()); }
+    void loads(const LoadsRow& row) override { load_rows.push_back(row); }
+    void balance(const BalanceRow& row) override { balance_rows.push_back(row); }
+    void cost(const CostRow& row) override { cost_rows.push_back(row); }
+    void picture(const RockPicture& p) override { pictures.emplace_back(p.id.begin(), p.id.end()); }
+    void outcomes(gsl::span<const RockOutcome> o) override { last_outcomes.assign(o.begin(), o.end()); }
+    void finished(const RunCost& c) override { run_cost = c; }
+    void warning(double, const std::string& text) override { warnings.push_back(text); }
+    void flush() override { ++flushes; }
+
+    std::vector<RockEvent> events;
+    std::vector<RejectedRock> rejections;
+    std::vector<std::pair<double, FateTotals>> fate_rows;
+    std::vector<std::vector<double>> outflow_rows;
+    std::vector<LoadsRow> load_rows;
+    std::vector<BalanceRow> balance_rows;
+    std::vector<CostRow> cost_rows;
+    std::vector<std::vector<int>> pictures;
+    std::vector<RockOutcome> last_outcomes;
+    std::optional<RunCost> run_cost;
+    std::vector<std::string> warnings;
+    int flushes = 0;
+};
+
+SyntheticMesh head_mesh() {
+    SyntheticMesh mesh;
+    mesh.add_annulus(0.02, 0.24, 11, 40, -0.25, 0.0, 12, true);
+    mesh.add_annulus(0.24, 0.40, 8, 40, -0.25, 0.0, 12, false);
+    mesh.add_annulus(0.02, 0.40, 19, 40, -0.40, -0.25, 7, false);
+    mesh.add_annulus(0.02, 0.40, 19, 40, 0.0, 0.4, 18, false);
+    return mesh;
+}
+
+const RotorMotion k_still{};
+RotorMotion turning() {
+    RotorMotion motion;
+    motion.speed = 6.0;
+    return motion;
+}
+
+CouplingSettings case_settings(const TemporaryFolder& folder, const std::string& feed) {
+    CouplingSettings settings;
+    settings.has_rock = true;
+    settings.rock_feed = folder.write("feed.csv", "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n" + feed);
+    FateSettings fates;
+    fates.contour = folder.write("contour.csv", "z_m,r_m\n-0.2,0.1\n0,0.2\n");
+    fates.ring_radius = 0.2;
+    fates.z_backplate = 0.02;
+    fates.mouth = {Vec3(0.1, 0.0, 0.03), Vec3::UnitZ(), 0.05, 0.1};
+    fates.bin_width = 0.05;
+    settings.fates = fates;
+    return settings;
+}
+
+/// A run on one rank with a uniform flow.
+struct Rig {
+    Rig(const CouplingSettings& s, const std::filesystem::path& folder, RunRecorder& recorder, const Vec3& flow,
+        RotorMotion motion = turning())
+        : fluid(head_mesh(), motion, 4e-3), dem(motion, 0.5, k_water.density) {
+        fluid.flow = [flow](const Vec3&, double) { return flow; };
+        fluid.velocity.assign(fluid.mesh.size(), flow);
+        dem.leaves = [](const Vec3& x) { return x.head<2>().norm() > 0.35 || x[2] > 0.35; };
+        run.emplace(s, k_water, fluid, s.has_rock ? &dem : nullptr, serial, recorder, folder);
+    }
+    FakeFluid fluid;
+    FakeDem dem;
+    SerialCommunicator serial;
+    std::optional<CoupledRun> run;
+};
+
+TEST(CoupledRun, carries_rock_out_and_up_and_accounts_for_all_of_it) {
+    const TemporaryFolder folder;
+    // Up through the mouth, up beside it, one that never gets in, one that comes later.
+    const CouplingSettings settings = case_settings(folder,
+                                                    "1,0,0.1,0,-0.05,0.02,2650\n"
+                                                    "2,0,-0.1,0.02,-0.05,0.02,2650\n"
+                                                    "3,0,0.3,0,-0.05,0.02,2650\n"
+                                                    "4,0.05,0.1,0.01,-0.02,0.02,2650\n");
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3(0, 0, 1.0));
+    while (rig.fluid.time() < 0.3) rig.run->step();
+    rig.run->finish();
+
+    const FateTotals totals = recorder.fate_rows.back().second;
+    EXPECT_EQ(totals.placed.count, 4);
+    EXPECT_EQ(totals.of(Fate::sucked_up).count, 2);
+    EXPECT_EQ(totals.of(Fate::spilled).count, 1);
+    EXPECT_EQ(totals.of(Fate::never_entered).count, 1);
+    EXPECT_EQ(recorder.events[0].surface, EventSurface::feed);
+    const auto feeds =
+        std::count_if(recorder.events.begin(), recorder.events.end(), [](const RockEvent& e) { return e.surface == EventSurface::feed; });
+    EXPECT_EQ(feeds, 4);
+    ASSERT_EQ(recorder.last_outcomes.size(), 4u);
+    EXPECT_EQ(recorder.last_outcomes[1].last_exit_bin, "gap");
+    for (const BalanceRow& row : recorder.balance_rows) {
+        EXPECT_LE(row.solid_volume_error, 1e-12);
+        EXPECT_LE(row.momentum_exchange_error, 1e-10);
+    }
+    EXPECT_EQ(recorder.cost_rows.size(), recorder.balance_rows.size());
+    EXPECT_EQ(recorder.run_cost->steps, static_cast<int>(recorder.cost_rows.size()));
+    EXPECT_EQ(recorder.run_cost->cells, static_cast<double>(rig.fluid.mesh.size()));
+    EXPECT_GE(rig.fluid.time(), 0.3);
+}
+
+TEST(CoupledRun, follows_the_order_of_its_stages) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.run->step();
+    rig.run->step();
+    EXPECT_EQ(rig.fluid.log, "reset begin end begin end ");
+    EXPECT_LT(rig.fluid.travel_limits.back(), 1.0);
+}
+
+TEST(CoupledRun, without_rock_is_the_fluid_alone_with_its_outflow) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "");
+    settings.has_rock = false;
+    settings.outflow = OutflowSettings{0.015, 0.0};
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+    rig.fluid.flow = [](const Vec3& x, double) -> Vec3 { return 2.0 * Vec3(x[0], x[1], 0.0); };
+    rig.fluid.given_loads.torque_pressure = -3.0;
+    rig.fluid.given_loads.torque_viscous = -1.0;
+    rig.fluid.given_loads.outlet_flow = 0.1;
+    rig.fluid.given_loads.boundary_flow = 1e-9;
+    rig.run->step();
+    rig.run->finish();
+    EXPECT_EQ(rig.fluid.log, "begin end ");
+    EXPECT_EQ(rig.fluid.travel_limits.back(), std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(recorder.fate_rows.empty());
+    EXPECT_NEAR(recorder.load_rows[0].power, 4.0 * 6.0, 1e-12);
+    EXPECT_NEAR(recorder.balance_rows[0].flow_balance_error, 1e-8, 1e-15);
+    // Radial velocity 2 r at r = contour + offset: gap (0.215), four bands of the cone, below the hub.
+    ASSERT_EQ(recorder.outflow_rows[0].size(), 6u);
+    EXPECT_NEAR(recorder.outflow_rows[0][0], 2.0 * 0.215, 1e-12);
+    EXPECT_NEAR(recorder.outflow_rows[0][1], 2.0 * (0.1875 + 0.015 * 2.0 / std::sqrt(5.0)), 1e-9);
+    EXPECT_GT(recorder.outflow_rows[0][5], 0.0);
+}
+
+TEST(CoupledRun, stops_when_little_enough_is_undecided_and_every_feed_is_in) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,0.0,0.02,2650\n2,0.15,0.1,0,0.0,0.02,2650\n");
+    settings.stop = StopSettings{0.05};
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3(0, 0, 2.0));
+    int steps = 0;
+    bool first_decided_early = false;
+    while (!rig.run->finished() && ++steps < 1000) {
+        rig.run->step();
+        if (rig.fluid.time() < 0.14 && recorder.fate_rows.back().second.undecided() == 0.0) first_decided_early = true;
+    }
+    EXPECT_TRUE(first_decided_early);
+    EXPECT_EQ(recorder.fate_rows.back().second.of(Fate::sucked_up).count, 2);
+    EXPECT_LT(rig.fluid.time(), 0.4);
+}
+
+TEST(CoupledRun, records_rejected_rock_and_pictures_at_field_writes) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.dem.refuses = [](int id) { return id == 2; };
+    rig.fluid.writes_fields = true;
+    rig.run->step();
+    ASSERT_EQ(recorder.rejections.size(), 1u);
+    EXPECT_EQ(recorder.rejections[0].id, 2);
+    ASSERT_EQ(recorder.pictures.size(), 1u);
+    EXPECT_EQ(recorder.pictures[0], std::vector<int>{1});
+    EXPECT_EQ(recorder.fate_rows.back().second.placed.count, 1);
+}
+
+TEST(CoupledRun, warns_once_of_a_closure_outside_its_range) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,0.1,0,-0.1,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.run->step();
+    EXPECT_TRUE(recorder.warnings.empty());
+    // 12 m/s of slip over 20 mm: Re = 2.4e5.
+    rig.fluid.velocity.assign(rig.fluid.mesh.size(), Vec3(0, 0, 12.0));
+    rig.run->step();
+    rig.fluid.velocity.assign(rig.fluid.mesh.size(), Vec3(0, 0, 12.0));
+    rig.run->step();
+    ASSERT_EQ(recorder.warnings.size(), 2u);
+    EXPECT_NE(recorder.warnings[0].find("brown_lawler is used at Re = 2."), std::string::npos) << recorder.warnings[0];
+    EXPECT_NE(recorder.warnings[1].find("di_felice is used at Re_p"), std::string::npos) << recorder.warnings[1];
+}
+
+TEST(CoupledRun, refuses_engines_that_disagree_about_the_rotor) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.run->step();
+    rig.dem.angle_error = 1e-6;
+    EXPECT_THROW(rig.run->step(), CheckFailure);
+}
+
+TEST(CoupledRun, names_mistakes_of_settings_and_files_at_once) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,-0.02,2650\n0,0,0.1,0,-0.05,0.02,2650\n");
+    settings.kernel.gamma = -1.0;
+    MemoryRecorder recorder;
+    try {
+        Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 3u) << error.what();
+    }
+}
+
+/// State of a run, to the bit.
+std::vector<double> state_of(Rig& rig) {
+    std::vector<double> state;
+    for (const Vec3& x : rig.dem.rocks().position) state.insert(state.end(), x.data(), x.data() + 3);
+    for (const Vec3& v : rig.dem.rocks().velocity) state.insert(state.end(), v.data(), v.data() + 3);
+    for (const Vec3& u : rig.fluid.velocity) state.insert(state.end(), u.data(), u.data() + 3);
+    state.insert(state.end(), rig.fluid.void_fraction.begin(), rig.fluid.void_fraction.end());
+    return state;
+}
+
+TEST(Checkpoint, resumes_to_the_bit) {
+    const TemporaryFolder folder;
+    const std::string feed =
+        "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n3,0.03,0.12,0.03,-0.1,0.02,2650\n4,0.08,-0.05,0.1,-0.1,0.02,2650\n";
+    CouplingSettings settings = case_settings(folder, feed);
+    settings.checkpoint = CheckpointSettings{0.04, 2};
+    const auto two_way = [](Rig& rig) {
+        rig.fluid.flow = nullptr;
+        rig.dem.gravity = Vec3(2.0, 0.0, -9.0);
+    };
+    MemoryRecorder through;
+    Rig whole(settings, folder.path(), through, Vec3(0, 0, 1.0));
+    two_way(whole);
+    // What OpenFOAM would have written with the checkpoint.
+    std::vector<Vec3> velocity, acceleration;
+    std::vector<double> void_fraction;
+    double saved_time = 0.0;
+    std::filesystem::path checkpoint;
+    std::size_t events_at_checkpoint = 0;
+    while (whole.fluid.time() < 0.2) {
+        whole.run->step();
+        if (checkpoint.empty() && !newest_checkpoint(folder.path()).empty()) {
+            checkpoint = folder.path() / "kept";
+            std::filesystem::copy(newest_checkpoint(folder.path()), checkpoint, std::filesystem::copy_options::recursive);
+            velocity = whole.fluid.velocity;
+            acceleration = whole.fluid.acceleration;
+            void_fraction = whole.fluid.void_fraction;
+            saved_time = whole.fluid.time();
+            events_at_checkpoint = through.events.size();
+        }
+    }
+    ASSERT_FALSE(checkpoint.empty());
+    ASSERT_GT(saved_time, 0.03);
+
+    MemoryRecorder after;
+    Rig resumed(settings, folder.path(), after, Vec3(0, 0, 1.0));
+    two_way(resumed);
+    resumed.fluid.velocity = velocity;
+    resumed.fluid.acceleration = acceleration;
+    resumed.fluid.void_fraction = void_fraction;
+    resumed.fluid.restart_at(saved_time);
+    resumed.run->resume(checkpoint);
+    while (resumed.fluid.time() < 0.2) resumed.run->step();
+
+    const std::vector<double> expected = state_of(whole), found = state_of(resumed);
+    ASSERT_EQ(expected.size(), found.size());
+    EXPECT_EQ(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(double)), 0);
+    // No event is lost or told twice.
+    ASSERT_EQ(events_at_checkpoint + after.events.size(), through.events.size());
+    for (std::size_t i = 0; i < after.events.size(); ++i) {
+        EXPECT_EQ(after.events[i].time, through.events[events_at_checkpoint + i].time);
+        EXPECT_EQ(after.events[i].id, through.events[events_at_checkpoint + i].id);
+    }
+    EXPECT_EQ(after.balance_rows.back().exchanged_volume, through.balance_rows.back().exchanged_volume);
+    EXPECT_EQ(after.fate_rows.back().second.placed.count, 4);
+}
+
+TEST(Checkpoint, keeps_the_newest_and_leaves_no_part_behind) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    settings.checkpoint = CheckpointSettings{0.01, 2};
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3::Zero(), k_still);
+    while (rig.fluid.time() < 0.06) rig.run->step();
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "checkpoints")) names.push_back(entry.path().filename());
+    EXPECT_EQ(names.size(), 2u);
+    for (const std::string& name : names) EXPECT_EQ(name.find("part"), std::string::npos);
+    EXPECT_NEAR(std::stod(newest_checkpoint(folder.path()).filename()), rig.fluid.time(), 0.011);
+}
+
+TEST(Checkpoint, takes_precedence_over_later_times) {
+    const TemporaryFolder folder;
+    for (const char* name :
+         {"0", "0.25", "0.3", "1e-05", "constant", "checkpoints/0.25", "checkpoints/0.4.part", "processor0/0.25", "processor0/0.31"})
+        std::filesystem::create_directories(folder.path() / name);
+    EXPECT_EQ(drop_times_after_checkpoint(folder.path()).size(), 2u);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "0.3"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "processor0/0.31"));
+    for (const char* name : {"0", "0.25", "1e-05", "constant", "processor0/0.25"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+    std::filesystem::remove_all(folder.path() / "checkpoints");
+    EXPECT_TRUE(drop_times_after_checkpoint(folder.path()).empty());
+}
+
+TEST(Checkpoint, of_another_time_or_mesh_is_refused) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    settings.checkpoint = CheckpointSettings{0.01, 2};
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+    while (newest_checkpoint(folder.path()).empty()) rig.run->step();
+    const auto checkpoint = newest_checkpoint(folder.path());
+    Rig fresh(settings, folder.path(), recorder, Vec3::Zero());
+    EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
+    fresh.fluid.restart_at(rig.fluid.time());
+    std::filesystem::resize_file(checkpoint / "carry.0", 100);
+    EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
+}
+
+TEST(Checkpoint, is_written_and_read_by_every_rank) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    settings.checkpoint = CheckpointSettings{0.01, 1};
+    const SyntheticMesh whole = head_mesh();
+    testing::ThreadedRanks(2).run([&](Communicator& communicator) {
+        const auto mine = [&](std::size_t c) { return static_cast<int>(c % 2) == communicator.rank(); };
+        SilentRecorder recorder;
+        FakeFluid fluid(whole.part(mine), turning(), 4e-3), again(whole.part(mine), turning(), 4e-3);
+        FakeDem dem(turning(), 0.5, k_water.density), dem_again(turning(), 0.5, k_water.density);
+        CoupledRun run(settings, k_water, fluid, &dem, communicator, recorder, folder.path());
+        for (int n = 0; n < 4; ++n) run.step();
+        run.finish();
+        again.restart_at(fluid.time());
+        CoupledRun resumed(settings, k_water, again, &dem_again, communicator, recorder, folder.path());
+        resumed.resume(newest_checkpoint(folder.path()));
+        EXPECT_EQ(dem_again.rocks().id, dem.rocks().id);
+    });
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+TEST(CsvRecorder, writes_the_files_of_the_contract) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n");
+    settings.outflow = OutflowSettings{0.015, 0.0};
+    {
+        CsvRecorder recorder(folder.path(), settings, 0.0);
+        recorder.describe({{"brown_lawler", "rock"}}, {{"cutterflow", "0.1"}});
+        Rig rig(settings, folder.path(), recorder, Vec3(0, 0, 1.0));
+        rig.dem.refuses = [](int id) { return id == 2; };
+        rig.fluid.writes_fields = true;
+        for (int n = 0; n < 5; ++n) rig.run->step();
+        rig.run->finish();
+    }
+    const auto root = folder.path() / "postProcessing";
+    const auto lines = [&](const std::string& file) {
+        const std::string text = text_of(root / file);
+        return std::count(text.begin(), text.end(), '\n');
+    };
+    EXPECT_EQ(lines("rock/0/events.csv"), 2);
+    EXPECT_EQ(lines("rock/0/fates.csv"), 6);
+    EXPECT_EQ(lines("rock/0/rejected.csv"), 2);
+    EXPECT_EQ(lines("rock/0/final.csv"), 2);
+    EXPECT_EQ(lines("outflow/0/contour_velocity.csv"), 6);
+    EXPECT_EQ(lines("loads/0/loads.csv"), 6);
+    EXPECT_EQ(lines("balance/0/balance.csv"), 6);
+    EXPECT_EQ(lines("cost/0/cost.csv"), 6);
+    EXPECT_EQ(text_of(root / "outflow/0/contour_velocity.csv").rfind("time_s,gap,0-50mm,50-100mm,100-150mm,150-200mm,below_hub\n", 0), 0u);
+    const std::string event = text_of(root / "rock/0/events.csv");
+    EXPECT_NE(event.find("\n0,1,feed,in,0.1,0,-0.05,0,0,1,0,0,-0.05,0.02,2650,\n"), std::string::npos) << event;
+    const auto cost = nlohmann::json::parse(text_of(root / "cost/0/cost.json"));
+    EXPECT_EQ(cost["steps"], 5);
+    EXPECT_EQ(cost["models"][0]["name"], "brown_lawler");
+    double shares = 0.0;
+    for (const auto& share : cost["share"]) shares += share.get<double>();
+    EXPECT_NEAR(shares, 1.0, 1e-12);
+    EXPECT_NE(text_of(root / "rock/rocks.pvd").find("file=\"vtk/rocks_"), std::string::npos);
+    const std::string every_line = text_of(root / "balance/0/balance.csv");
+    const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+    std::istringstream rows(every_line);
+    std::string header, row;
+    std::getline(rows, header);
+    while (std::getline(rows, row)) EXPECT_EQ(commas(row), commas(header));
+}
+
+}  // namespace
+}  // namespace cutterflow::coupling

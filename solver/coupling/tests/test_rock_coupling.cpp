@@ -1,0 +1,282 @@
+// Exchange between rock and fluid over a step: balances, insertion, departure, settling, travel limit.
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/coupling/rock_coupling.hpp"
+#include "solver/coupling/tests/fake_engines.hpp"
+#include "solver/coupling/tests/threaded_ranks.hpp"
+#include "solver/physics/settling.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+using testing::FakeDem;
+using testing::FakeFluid;
+using testing::SyntheticMesh;
+
+const FluidProperties k_water{998.2, 1.0034e-6};
+
+CouplingSettings settings_with_rock() {
+    CouplingSettings settings;
+    settings.has_rock = true;
+    return settings;
+}
+
+SyntheticMesh box(double half, double dx) {
+    SyntheticMesh mesh;
+    mesh.add_box(Vec3::Constant(-half), Vec3::Constant(half), dx, false);
+    return mesh;
+}
+
+FeedRock rock(int id, const Vec3& x, double d, std::optional<Vec3> v = std::nullopt) {
+    return {id, 0.0, x, d, 2650.0, v};
+}
+
+/// Engines and coupling on one rank.
+struct Rig {
+    Rig(SyntheticMesh mesh, RotorMotion motion, double step)
+        : fluid(std::move(mesh), motion, step),
+          dem(motion, 0.5, k_water.density),
+          coupling(settings_with_rock(), k_water, fluid, dem, serial) {}
+    FakeFluid fluid;
+    FakeDem dem;
+    SerialCommunicator serial;
+    RockCoupling coupling;
+
+    ExchangeBalance step() {
+        coupling.sample();
+        fluid.begin_step(coupling.travel_limit());
+        coupling.move();
+        coupling.map();
+        fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
+        return coupling.book();
+    }
+};
+
+TEST(Exchange, balances_rock_fluid_and_carry_in_every_step) {
+    Rig rig(box(0.15, 0.01), {}, 2e-3);
+    rig.dem.gravity = Vec3(3.0, -1.0, -9.0);
+    std::vector<FeedRock> due;
+    for (int i = 0; i < 20; ++i)
+        due.push_back(
+            rock(i + 1, Vec3(0.022 * (i % 5) - 0.04, 0.03 * (i / 5) - 0.04, 0.01 * i - 0.1), 0.02, Vec3(0.3 * (i % 3), 0.1, -0.2)));
+    rig.coupling.insert(due);
+    double received_share = 1.0;
+    for (int n = 0; n < 40; ++n) {
+        const ExchangeBalance balance = rig.step();
+        ASSERT_LE(balance.momentum_exchange_error, 1e-10) << n;
+        ASSERT_LE(balance.solid_volume_error, 1e-12) << n;
+        double received = 0.0, target = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+            received += rig.fluid.received()[c].norm();
+            target += rig.coupling.exchange().explicit_source[c].norm();
+        }
+        received_share = std::min(received_share, received / target);
+    }
+    // The fluid really received only a part at once; the rest was carried.
+    EXPECT_LT(received_share, 0.99);
+}
+
+TEST(Exchange, hands_what_rock_loses_to_the_fluid) {
+    // A rock shot into still water without weight: density times volume times loss of speed is what the cells got or have yet to get.
+    Rig rig(box(0.15, 0.01), {}, 1e-3);
+    rig.coupling.insert({rock(1, Vec3::Zero(), 0.02, Vec3(1.0, 0.0, 0.0))});
+    double gained = 0.0, carried = 0.0;
+    for (int n = 0; n < 60; ++n) {
+        rig.step();
+        carried = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+            const double mass = k_water.density * rig.fluid.mesh.volumes[c];
+            gained += mass * rig.fluid.received()[c][0] * rig.fluid.time_step();
+            carried += mass * rig.coupling.carry()[c][0];
+        }
+    }
+    const double lost = 2650.0 * physics::sphere_volume(0.02) * (1.0 - rig.dem.rocks().velocity[0][0]);
+    EXPECT_GT(lost, 1e-3);
+    EXPECT_NEAR(gained + carried, lost, 1e-10 * lost);
+    EXPECT_LE(std::abs(carried), 0.1 * lost);
+}
+
+TEST(Insertion, makes_no_source) {
+    Rig rig(box(0.15, 0.01), {}, 1e-3);
+    rig.step();
+    EXPECT_TRUE(rig.coupling.insert({rock(1, Vec3(0.01, 0.02, 0.003), 0.02), rock(2, Vec3(-0.05, 0, 0), 0.02)}).empty());
+    const std::vector<double> at_insertion = rig.fluid.void_fraction;
+    rig.step();
+    // Rock at rest in still water: old and new void fraction are the same and what was set at insertion.
+    for (std::size_t c = 0; c < at_insertion.size(); ++c) {
+        ASSERT_NEAR(rig.fluid.void_fraction_old[c], at_insertion[c], 1e-14);
+        ASSERT_NEAR(rig.fluid.void_fraction[c], at_insertion[c], 1e-14);
+    }
+    EXPECT_NEAR(rig.coupling.booked().volume, 2.0 * physics::sphere_volume(0.02), 1e-18);
+}
+
+TEST(Insertion, gives_rock_the_velocity_of_the_fluid_around_it) {
+    Rig rig(box(0.15, 0.01), {}, 1e-3);
+    rig.fluid.velocity.assign(rig.fluid.mesh.size(), Vec3(0.5, -0.2, 0.1));
+    rig.coupling.insert({rock(4, Vec3(0.01, 0, 0), 0.02), rock(2, Vec3(0.05, 0, 0), 0.02, Vec3(0, 0, 1))});
+    ASSERT_EQ(rig.dem.rocks().id, (std::vector<int>{2, 4}));
+    EXPECT_LE((rig.dem.rocks().velocity[0] - Vec3(0, 0, 1)).norm(), 1e-15);
+    EXPECT_LE((rig.dem.rocks().velocity[1] - Vec3(0.5, -0.2, 0.1)).norm(), 1e-12);
+    const double fluid_momentum = 998.2 * physics::sphere_volume(0.02) * 2.0;
+    EXPECT_LE((rig.coupling.booked().momentum - fluid_momentum * Vec3(0.5, -0.2, 0.1)).norm(), 1e-12);
+}
+
+TEST(Insertion, names_rock_that_finds_no_place) {
+    Rig rig(box(0.15, 0.01), {}, 1e-3);
+    rig.dem.refuses = [](int id) { return id == 3; };
+    EXPECT_EQ(rig.coupling.insert({rock(3, Vec3(0.01, 0, 0), 0.02), rock(2, Vec3(0.05, 0, 0), 0.02)}), std::vector<int>{3});
+    EXPECT_NEAR(rig.coupling.booked().volume, physics::sphere_volume(0.02), 1e-18);
+}
+
+TEST(Insertion, of_more_rock_than_there_is_room_for_is_refused) {
+    Rig rig(box(0.03, 0.01), {}, 1e-3);
+    std::vector<FeedRock> due;
+    for (int i = 0; i < 80; ++i) due.push_back(rock(i + 1, Vec3(0.001 * (i % 7), 0.001 * (i % 5), 0.0), 0.018));
+    EXPECT_THROW(rig.coupling.insert(due), CheckFailure);
+}
+
+TEST(Departure, returns_impulse_and_makes_no_source) {
+    Rig rig(box(0.15, 0.01), {}, 2e-3);
+    rig.dem.gravity = Vec3(0, 0, -9.81);
+    rig.dem.leaves = [](const Vec3& x) { return x[0] > 0.1; };
+    rig.coupling.insert({rock(1, Vec3(0.09, 0, 0), 0.02, Vec3(1.5, 0, 0)), rock(2, Vec3(-0.05, 0, 0), 0.02)});
+    bool left = false;
+    for (int n = 0; n < 12; ++n) {
+        const std::size_t before = rig.dem.rocks().size();
+        const ExchangeBalance balance = rig.step();
+        ASSERT_LE(balance.momentum_exchange_error, 1e-10);
+        ASSERT_LE(balance.solid_volume_error, 1e-12);
+        if (rig.dem.rocks().size() == before) continue;
+        left = true;
+        // Old and new void fraction hold the rock that is still here, and no other.
+        double old_volume = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
+            old_volume += (1.0 - rig.fluid.void_fraction_old[c]) * rig.fluid.mesh.volumes[c];
+        EXPECT_NEAR(old_volume, physics::sphere_volume(0.02), 1e-15);
+    }
+    EXPECT_TRUE(left);
+    EXPECT_NEAR(rig.coupling.booked().volume, physics::sphere_volume(0.02), 1e-18);
+}
+
+TEST(Settling, of_one_rock_in_a_fluid_that_stays_still_follows_the_equation_of_motion) {
+    Rig rig(box(0.12, 0.02), {}, 1e-3);
+    rig.fluid.flow = [](const Vec3&, double) -> Vec3 { return Vec3::Zero(); };
+    rig.dem.gravity = Vec3(0, 0, -9.81);
+    rig.coupling.insert({rock(1, Vec3(0, 0, 0.11), 0.01)});
+    physics::SettlingRock reference{{0.01, k_water.density, k_water.kinematic_viscosity, 1.0}, 2650.0, 9.81};
+    for (int n = 0; n < 200; ++n) rig.step();
+    const double time = rig.fluid.time();
+    // The rock's own solid thins the fluid around it a little, which the void fraction at the rock shows.
+    reference.rock.void_fraction = rig.coupling.flow()[0].void_fraction;
+    const auto states = physics::fall_from_rest(reference, 0.5, time, time / 1000.0);
+    EXPECT_NEAR(-rig.dem.rocks().velocity[0][2], states[1000].speed, 2e-3 * states[1000].speed);
+    EXPECT_GT(reference.rock.void_fraction, 0.99);
+}
+
+TEST(Settling, of_dense_rock_is_hindered_as_the_closures_say) {
+    // Rock at rest on a lattice in a uniform upflow of its hindered terminal slip: drag carries its weight.
+    const double d = 0.02, spacing = 0.03, solid = k_pi / 6.0 * std::pow(d / spacing, 3);
+    physics::SettlingRock reference{{d, k_water.density, k_water.kinematic_viscosity, 1.0 - solid}, 2650.0, 9.81};
+    const double slip = physics::terminal_slip_speed(reference);
+    EXPECT_NEAR(slip, 0.8015, 2e-4);
+    Rig rig(box(0.15, 0.015), {}, 1e-3);
+    rig.fluid.flow = [slip](const Vec3&, double) -> Vec3 { return Vec3(0, 0, slip); };
+    rig.fluid.velocity.assign(rig.fluid.mesh.size(), Vec3(0, 0, slip));
+    rig.dem.gravity = Vec3(0, 0, -9.81);
+    std::vector<FeedRock> due;
+    int id = 0;
+    for (int i = 0; i < 10; ++i)
+        for (int j = 0; j < 10; ++j)
+            for (int k = 0; k < 10; ++k) due.push_back(rock(++id, spacing * Vec3(i, j, k) + Vec3::Constant(-0.135), d, Vec3(0, 0, 0)));
+    rig.coupling.insert(due);
+    for (int n = 0; n < 20; ++n) rig.step();
+    const Rocks& rocks = rig.dem.rocks();
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        if (rocks.position[p].cwiseAbs().maxCoeff() > 0.05) continue;  // the middle, away from walls
+        EXPECT_NEAR(rig.coupling.flow()[p].void_fraction, 1.0 - solid, 3e-3);
+        EXPECT_NEAR(rocks.velocity[p][2], 0.0, 5e-3 * slip);
+    }
+}
+
+TEST(TravelLimit, is_a_quarter_of_kernel_or_cell_over_speed) {
+    Rig rig(box(0.15, 0.01), {}, 1e-3);
+    EXPECT_EQ(rig.coupling.travel_limit(), std::numeric_limits<double>::infinity());
+    rig.coupling.insert({rock(1, Vec3(0.01, 0, 0), 0.02, Vec3(0.3, 0.4, 0.0)), rock(2, Vec3(-0.05, 0, 0), 0.02, Vec3(0.1, 0, 0))});
+    EXPECT_NEAR(rig.coupling.travel_limit(), 0.25 * 0.01 / 0.5, 1e-9);
+}
+
+TEST(TravelLimit, sees_the_turning_interface_and_the_turning_cells) {
+    SyntheticMesh mesh;
+    mesh.add_annulus(0.05, 0.2, 15, 90, -0.1, 0.1, 20, true);
+    mesh.add_annulus(0.2, 0.35, 15, 90, -0.1, 0.1, 20, false);
+    const RotorMotion motion{{}, 6.0};
+    Rig rig(std::move(mesh), motion, 1e-3);
+    // Rock at rest in the stator: the interface counts, about 12 mm of cell at 0.195 m.
+    rig.coupling.insert({rock(1, Vec3(0.3, 0, 0), 0.02, Vec3::Zero())});
+    const double interface_limit = rig.coupling.travel_limit();
+    EXPECT_NEAR(interface_limit, 0.25 * std::cbrt(0.01 * 0.01 * 0.195 * 2.0 * k_pi / 90.0) / (6.0 * 0.195), 2e-4);
+    // Rock that moves against the rotor passes its cells faster.
+    rig.coupling.insert({rock(2, Vec3(0.15, 0, 0), 0.02, Vec3(0, -6.0 * 0.15, 0))});
+    EXPECT_NEAR(rig.coupling.travel_limit(), 0.25 * 0.0105 / (2.0 * 6.0 * 0.15), 3e-4);
+}
+
+TEST(Rotor, leaves_rock_at_rest_alone) {
+    // Rock rests in the turning zone: on the moved mesh old and new void fraction are the same, so nothing is displaced.
+    SyntheticMesh mesh;
+    mesh.add_annulus(0.05, 0.2, 15, 90, -0.1, 0.1, 20, true);
+    mesh.add_annulus(0.2, 0.35, 15, 90, -0.1, 0.1, 20, false);
+    Rig rig(std::move(mesh), {{}, 6.0}, 1e-3);
+    rig.coupling.insert({rock(1, Vec3(0.19, 0.01, 0), 0.02, Vec3::Zero())});
+    for (int n = 0; n < 5; ++n) {
+        rig.step();
+        double change = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
+            change = std::max(change, std::abs(rig.fluid.void_fraction[c] - rig.fluid.void_fraction_old[c]));
+        EXPECT_LE(change, 1e-14);
+    }
+}
+
+TEST(Ranks, exchange_the_same_as_one) {
+    const auto due = [] {
+        std::vector<FeedRock> rocks;
+        for (int i = 0; i < 8; ++i) rocks.push_back(rock(i + 1, Vec3(0.02 * i - 0.07, 0.004 * i - 0.01, 0.0), 0.02, Vec3(0.2, 0.1 * i, 0)));
+        return rocks;
+    }();
+    const SyntheticMesh whole = box(0.12, 0.01);
+    const auto run = [&](FakeFluid& fluid, FakeDem& dem, Communicator& communicator) {
+        RockCoupling coupling(settings_with_rock(), k_water, fluid, dem, communicator);
+        dem.gravity = Vec3(0, 0, -9.81);
+        coupling.insert(due);
+        double worst = 0.0;
+        for (int n = 0; n < 10; ++n) {
+            coupling.sample();
+            fluid.begin_step(coupling.travel_limit());
+            coupling.move();
+            coupling.map();
+            fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
+            const ExchangeBalance balance = coupling.book();
+            worst = std::max({worst, balance.momentum_exchange_error, balance.solid_volume_error * 100.0});
+        }
+        EXPECT_LE(worst, 1e-10);
+    };
+    SerialCommunicator serial;
+    FakeFluid fluid(whole, {}, 1e-3);
+    FakeDem dem({}, 0.5, k_water.density);
+    run(fluid, dem, serial);
+    std::vector<Vec3> velocity(whole.size());
+    testing::ThreadedRanks(3).run([&](Communicator& communicator) {
+        const auto mine = [&](std::size_t c) { return static_cast<int>(c % 3) == communicator.rank(); };
+        FakeFluid part(whole.part(mine), {}, 1e-3);
+        FakeDem my_dem({}, 0.5, k_water.density);
+        run(part, my_dem, communicator);
+        std::size_t next = 0;
+        for (std::size_t c = 0; c < whole.size(); ++c)
+            if (mine(c)) velocity[c] = part.velocity[next++];
+        for (std::size_t p = 0; p < due.size(); ++p) EXPECT_LE((my_dem.rocks().velocity[p] - dem.rocks().velocity[p]).norm(), 1e-12);
+    });
+    for (std::size_t c = 0; c < whole.size(); ++c) ASSERT_LE((velocity[c] - fluid.velocity[c]).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace cutterflow::coupling

@@ -1,0 +1,74 @@
+// The rock feed: what a good file gives, and that a bad one names all its mistakes.
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/coupling/rock_feed.hpp"
+#include "solver/coupling/tests/temporary_folder.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+TEST(RockFeed, is_sorted_by_time_and_id) {
+    const testing::TemporaryFolder folder;
+    const auto rocks = read_rock_feed(folder.write("feed.csv",
+                                                   "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n"
+                                                   "7,1.5,0.1,0.2,-0.3,0.02,2650\n"
+                                                   "9,0.5,0,0,0,0.01,2600\n"
+                                                   "3,1.5,1,2,3,0.02,2650\n"));
+    ASSERT_EQ(rocks.size(), 3u);
+    EXPECT_EQ(rocks[0].id, 9);
+    EXPECT_EQ(rocks[1].id, 3);
+    EXPECT_EQ(rocks[2].id, 7);
+    EXPECT_EQ(rocks[2].position, Vec3(0.1, 0.2, -0.3));
+    EXPECT_EQ(rocks[2].diameter, 0.02);
+    EXPECT_FALSE(rocks[2].velocity.has_value());
+}
+
+TEST(RockFeed, takes_velocities_when_all_three_are_there) {
+    const testing::TemporaryFolder folder;
+    const std::string columns = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,";
+    const auto rocks = read_rock_feed(folder.write("feed.csv", columns + "vx_m_s,vy_m_s,vz_m_s\r\n1,0,0,0,0,0.02,2650,1,-2,3\r\n"));
+    ASSERT_TRUE(rocks.at(0).velocity.has_value());
+    EXPECT_EQ(*rocks[0].velocity, Vec3(1, -2, 3));
+    EXPECT_THROW(read_rock_feed(folder.write("two.csv", columns + "vx_m_s,vy_m_s\n1,0,0,0,0,0.02,2650,1,-2\n")), UserError);
+}
+
+TEST(RockFeed, names_every_mistake_with_its_line) {
+    const testing::TemporaryFolder folder;
+    const auto file = folder.write("feed.csv",
+                                   "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n"
+                                   "1,0,0,0,0,0.02,2650\n"
+                                   "1,0,0,0,0,-0.02,2650\n"
+                                   "2.5,0,0,0,0,0.02,0\n"
+                                   "4,-1,0,0,0,0.02,2650\n");
+    try {
+        read_rock_feed(file);
+        FAIL();
+    } catch (const UserError& error) {
+        ASSERT_EQ(error.mistakes().size(), 5u) << error.what();
+        EXPECT_EQ(error.mistakes()[0].where, file.string() + ":3");
+        EXPECT_NE(error.mistakes()[0].what.find("id = 1 stands in"), std::string::npos);
+        EXPECT_NE(error.mistakes()[1].what.find("diameter_m = -0.02"), std::string::npos);
+        EXPECT_NE(error.mistakes()[2].what.find("id = 2.5"), std::string::npos);
+        EXPECT_EQ(error.mistakes()[3].where, file.string() + ":4");
+        EXPECT_EQ(error.mistakes()[4].where, file.string() + ":5");
+    }
+}
+
+TEST(RockFeed, names_missing_and_unknown_columns_and_bad_fields) {
+    const testing::TemporaryFolder folder;
+    try {
+        read_rock_feed(folder.write("feed.csv", "id,time_s,x_m,y_m,z_m,diameter_mm,density_kg_m3\n1,0,abc,0,0,20,2650\n2,0,0\n"));
+        FAIL();
+    } catch (const UserError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("column 'diameter_m' is missing"), std::string::npos) << text;
+        EXPECT_NE(text.find("column 'diameter_mm' is not known"), std::string::npos) << text;
+        EXPECT_NE(text.find("x_m = 'abc' is not a number"), std::string::npos) << text;
+        EXPECT_NE(text.find("3 fields instead of 7"), std::string::npos) << text;
+    }
+    EXPECT_THROW(read_rock_feed(folder.path() / "absent.csv"), UserError);
+}
+
+}  // namespace
+}  // namespace cutterflow::coupling

@@ -1,0 +1,89 @@
+// The bounding volume hierarchy against tests of every triangle.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "solver/coupling/steel_tree.hpp"
+#include "solver/coupling/tests/synthetic_mesh.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+std::vector<SteelTriangle> random_triangles(int count, std::mt19937& random) {
+    std::uniform_real_distribution<double> place(-1.0, 1.0), size(-0.1, 0.1);
+    const auto point = [&](auto& distribution) { return Vec3(distribution(random), distribution(random), distribution(random)); };
+    std::vector<SteelTriangle> triangles;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = point(place);
+        triangles.push_back({a, a + point(size), a + point(size)});
+    }
+    return triangles;
+}
+
+/// Signed volumes: the segment passes through the triangle when its ends lie on both sides of the plane and the edges turn alike around it.
+bool passes_through(const SteelTriangle& t, const Vec3& a, const Vec3& b) {
+    const auto volume = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) { return (q - p).cross(r - p).dot(s - p); };
+    if ((volume(a, t.a, t.b, t.c) > 0) == (volume(b, t.a, t.b, t.c) > 0)) return false;
+    const bool ab = volume(a, b, t.a, t.b) > 0, bc = volume(a, b, t.b, t.c) > 0, ca = volume(a, b, t.c, t.a) > 0;
+    return ab == bc && bc == ca;
+}
+
+TEST(SteelTree, finds_what_a_test_of_every_triangle_finds) {
+    std::mt19937 random(3);
+    const auto triangles = random_triangles(2000, random);
+    const SteelTree tree(triangles);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    int blocked = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 a(place(random), place(random), place(random)), b(place(random), place(random), place(random));
+        const bool expected =
+            std::any_of(triangles.begin(), triangles.end(), [&](const SteelTriangle& t) { return passes_through(t, a, b); });
+        ASSERT_EQ(tree.blocks(a, b), expected) << i;
+        blocked += expected ? 1 : 0;
+    }
+    EXPECT_GT(blocked, 300);
+    EXPECT_LT(blocked, 2900);
+}
+
+TEST(SteelTree, measures_the_distance_that_sampling_finds) {
+    std::mt19937 random(5);
+    const auto triangles = random_triangles(200, random);
+    const SteelTree tree(triangles);
+    std::uniform_real_distribution<double> place(-1.2, 1.2);
+    for (int i = 0; i < 50; ++i) {
+        const Vec3 p(place(random), place(random), place(random));
+        double nearest = 10.0;
+        constexpr int n = 60;
+        for (const SteelTriangle& t : triangles)
+            for (int u = 0; u <= n; ++u)
+                for (int v = 0; u + v <= n; ++v) nearest = std::min(nearest, (t.a + (t.b - t.a) * u / n + (t.c - t.a) * v / n - p).norm());
+        const double found = tree.distance(p, 10.0);
+        EXPECT_LE(found, nearest + 1e-12);
+        EXPECT_GT(found, nearest - 0.2 / n);
+        EXPECT_EQ(tree.distance(p, 0.5 * found), 0.5 * found);
+    }
+}
+
+TEST(SteelTree, lets_nothing_slip_through_shared_edges_and_corners) {
+    testing::SyntheticMesh mesh;
+    mesh.add_sheet(Vec3(0, -1, -1), Vec3(0, 2, 0), Vec3(0, 0, 2), 20, 20, true);
+    const SteelTree tree(mesh.rotor_steel);
+    for (int i = -9; i <= 9; ++i)
+        for (int j = -9; j <= 9; ++j) {
+            const Vec3 corner(0, 0.1 * i, 0.1 * j);
+            for (const Vec3& direction : {Vec3(1, 0, 0), Vec3(1, 0.3, 0.3), Vec3(0.2, 0.7, -0.1)}) {
+                EXPECT_TRUE(tree.blocks(corner - 0.1 * direction, corner + 0.1 * direction));
+                const Vec3 on_edge = corner + Vec3(0, 0.05, 0.05);
+                EXPECT_TRUE(tree.blocks(on_edge - 0.04 * direction, on_edge + 0.04 * direction));
+            }
+        }
+}
+
+TEST(SteelTree, sees_no_steel_where_there_is_none) {
+    const SteelTree tree({});
+    EXPECT_FALSE(tree.blocks(Vec3(0, 0, 0), Vec3(1, 1, 1)));
+    EXPECT_EQ(tree.distance(Vec3(0, 0, 0), 0.3), 0.3);
+}
+
+}  // namespace
+}  // namespace cutterflow::coupling

@@ -1,0 +1,58 @@
+#pragma once
+/// \file Reads one section of an OpenFOAM dictionary and collects what is wrong with it. Only for .cpp files of this folder.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/vec3.hpp"
+
+#include "dictionary.H"
+
+namespace cutterflow::foam {
+
+/// Every read marks its key as known; finish() reports the keys that nobody read. A read of an absent or wrong entry leaves the target.
+class DictionarySection {
+public:
+    enum class Presence { optional, required };
+
+    /// \param name  of the section in messages, empty for the file itself
+    /// \param file  of the dictionary in messages
+    DictionarySection(const Foam::dictionary& dict, std::string name, std::string file, std::vector<Mistake>& mistakes);
+
+    void read(const std::string& key, double& target, Presence presence);
+    void read(const std::string& key, int& target, Presence presence);
+    void read(const std::string& key, bool& target, Presence presence);
+    void read(const std::string& key, std::string& target, Presence presence);
+    void read(const std::string& key, Vec3& target, Presence presence);
+    /// A number that may have its name and dimensions before it, as OpenFOAM's transport properties do.
+    void read_dimensioned(const std::string& key, double& target, Presence presence);
+    /// A path is taken relative to `folder`.
+    void read(const std::string& key, std::filesystem::path& target, const std::filesystem::path& folder, Presence presence);
+
+    /// The section of that key, or null.
+    const Foam::dictionary* section(const std::string& key, Presence presence);
+    /// The list of sections of that key.
+    std::vector<Foam::dictionary> sections(const std::string& key, Presence presence);
+
+    /// A section below this one, for messages.
+    DictionarySection below(const Foam::dictionary& dict, const std::string& key);
+
+    void finish();
+
+private:
+    /// Tokens of a plain entry; null, with a mistake if it was required, when there is none.
+    const Foam::tokenList* tokens(const std::string& key, Presence presence);
+    void report_missing(const std::string& key, Presence presence);
+    void report_type(const std::string& key, const std::string& expected);
+    std::string full_name(const std::string& key) const;
+    std::string where(const std::string& key) const;
+
+    const Foam::dictionary& dict_;
+    std::string name_;
+    std::string file_;
+    std::vector<Mistake>& mistakes_;
+    std::vector<std::string> known_;
+};
+
+}  // namespace cutterflow::foam

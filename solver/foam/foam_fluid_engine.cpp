@@ -1,0 +1,127 @@
+#include "solver/foam/foam_fluid_engine.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_names.hpp"
+#include "solver/foam/cutter_fluid.hpp"
+#include "solver/foam/flow_loads.hpp"
+#include "solver/foam/foam_conversions.hpp"
+#include "solver/foam/foam_session.hpp"
+#include "solver/foam/pstream_communicator.hpp"
+#include "solver/foam/rotor_motion.hpp"
+#include "solver/foam/steel_faces.hpp"
+#include "solver/foam/velocity_sampler.hpp"
+
+#include "fvcAverage.H"
+#include "surfaceInterpolate.H"
+#include "zeroGradientFvPatchFields.H"
+
+namespace cutterflow::foam {
+namespace {
+
+std::vector<std::uint8_t> mark_rotor_cells(const Foam::fvMesh& mesh) {
+    std::vector<std::uint8_t> in_rotor(static_cast<std::size_t>(mesh.nCells()), 0);
+    const Foam::label zone = mesh.cellZones().findZoneID(names::rotor_zone);
+    if (zone < 0) return in_rotor;
+    for (const Foam::label cell : mesh.cellZones()[zone]) in_rotor[cell] = 1;
+    return in_rotor;
+}
+
+std::vector<Vec3> centres_in_zone_frame(const Foam::fvMesh& mesh, const std::vector<std::uint8_t>& in_rotor, const RotationAxis& axis,
+                                        double rotor_angle) {
+    std::vector<Vec3> centres(in_rotor.size());
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+        const Vec3 centre = to_vec3(mesh.C()[static_cast<Foam::label>(i)]);
+        centres[i] = in_rotor[i] ? rotate_about(axis, -rotor_angle, centre) : centre;
+    }
+    return centres;
+}
+
+/// Cube root of the cells' volume, averaged with the neighbours' a few times: a jump of cell size becomes a ramp of a few cells.
+std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
+    constexpr int passes = 4;
+    Foam::volScalarField size(Foam::IOobject("cellSize", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE,
+                                             false),
+                              mesh, Foam::dimensionedScalar(Foam::dimLength, Foam::Zero),
+                              Foam::zeroGradientFvPatchScalarField::typeName);
+    size.primitiveFieldRef() = Foam::cbrt(mesh.V().field());
+    for (int pass = 0; pass < passes; ++pass) {
+        size.correctBoundaryConditions();
+        const Foam::surfaceScalarField of_faces(Foam::linearInterpolate(size));
+        size.primitiveFieldRef() = Foam::fvc::average(of_faces)().primitiveField();
+    }
+    return std::vector<double>(size.begin(), size.end());
+}
+
+}  // namespace
+
+struct FoamFluidEngine::Parts {
+    Parts(FoamSession& session, bool with_rock)
+        : time(session.time()),
+          motion(read_rotor_motion(session.mesh())),
+          fluid(session.mesh(), with_rock ? Rock::present : Rock::absent),
+          in_rotor(mark_rotor_cells(session.mesh())),
+          centres(centres_in_zone_frame(session.mesh(), in_rotor, motion.axis, motion.angle(session.time().value()))),
+          volumes(session.mesh().V().begin(), session.mesh().V().end()),
+          sizes(smooth_cell_sizes(session.mesh())) {}
+
+    coupling::Cells cells() const { return {centres, volumes, sizes, in_rotor}; }
+
+    const Foam::Time& time;
+    coupling::RotorMotion motion;
+    CutterFluid fluid;
+    std::vector<std::uint8_t> in_rotor;
+    std::vector<Vec3> centres;
+    std::vector<double> volumes;
+    std::vector<double> sizes;
+    PstreamCommunicator communicator;
+    SteelFaces steel;
+    std::unique_ptr<VelocitySampler> sampler;
+};
+
+FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock) : parts_(std::make_unique<Parts>(session, with_rock)) {
+    Parts& p = *parts_;
+    if (with_rock) p.steel = gather_steel_faces(p.fluid.mesh(), p.in_rotor, p.motion.axis, p.motion.angle(time()));
+    p.sampler = std::make_unique<VelocitySampler>(p.fluid.mesh(), p.cells(), p.motion);
+}
+
+FoamFluidEngine::~FoamFluidEngine() = default;
+
+coupling::Cells FoamFluidEngine::cells() const { return parts_->cells(); }
+coupling::Steel FoamFluidEngine::steel() const { return {parts_->steel.rotor, parts_->steel.stator}; }
+coupling::RotorMotion FoamFluidEngine::rotor() const { return parts_->motion; }
+
+coupling::FluidFields FoamFluidEngine::fields() const {
+    const CutterFluid& fluid = parts_->fluid;
+    return {view(fluid.velocity()), view(fluid.material_acceleration()), view(fluid.void_fraction())};
+}
+
+double FoamFluidEngine::time() const { return parts_->time.value(); }
+std::string FoamFluidEngine::time_name() const { return parts_->time.timeName(); }
+double FoamFluidEngine::time_step() const { return parts_->time.deltaTValue(); }
+bool FoamFluidEngine::running() { return parts_->fluid.running(); }
+void FoamFluidEngine::begin_step(double travel_limit) { parts_->fluid.begin_step(travel_limit); }
+
+void FoamFluidEngine::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
+                               const coupling::MomentumExchange& exchange) {
+    parts_->fluid.end_step(void_fraction_old, void_fraction_new, exchange);
+}
+
+void FoamFluidEngine::reset_void_fraction(gsl::span<const double> void_fraction) { parts_->fluid.reset_void_fraction(void_fraction); }
+gsl::span<const Vec3> FoamFluidEngine::received() const { return view(parts_->fluid.received()); }
+
+void FoamFluidEngine::sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> velocity) {
+    parts_->sampler->sample(parts_->fluid.velocity(), time(), parts_->communicator, points, velocity);
+}
+
+coupling::FluidLoads FoamFluidEngine::loads() { return compute_loads(parts_->fluid, parts_->in_rotor, parts_->motion); }
+bool FoamFluidEngine::write_if_due() { return parts_->fluid.write_if_due(); }
+void FoamFluidEngine::write_now() { parts_->fluid.write_now(); }
+
+std::string FoamFluidEngine::turbulence_model() const { return parts_->fluid.turbulence_model(); }
+coupling::FluidProperties FoamFluidEngine::fluid_properties() const { return {parts_->fluid.density(), parts_->fluid.viscosity()}; }
+
+}  // namespace cutterflow::foam

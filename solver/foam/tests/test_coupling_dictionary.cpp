@@ -1,0 +1,121 @@
+#include "solver/foam/coupling_dictionary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "solver/foam/foam_session.hpp"
+#include "solver/foam/tests/tiny_case.hpp"
+
+namespace cutterflow::foam {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+CouplingDictionary read(const std::string& name, const std::string& text) {
+    testing::Box box;
+    for (int& cells : box.cells) cells = 2;
+    testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(box), 1e-3, 1e-3);
+    if (!text.empty()) tiny.files["constant/couplingProperties"] = text;
+    tiny.files["constant/g"] = "dimensions [0 1 -2 0 0 0 0]; value (6.9 0 -6.9);";
+    FoamSession session(testing::build_case(tiny));
+    return read_coupling_dictionary(session);
+}
+
+const char* const k_complete = R"(
+rock
+{
+    feed "constant/rockFeed.csv";
+    contact { youngsModulus 1.1e8; poissonRock 0.25; poissonSteel 0.3; friction 0.2; restitution 0.9; wetRestitution false;
+              timeStepFraction 0.05; maxSpeed 4; }
+    walls
+    (
+        { name cutter; file "constant/triSurface/cutter_dem.stl"; rotating true; }
+        { name backplate; file "constant/triSurface/backplate_dem.stl"; rotating no; }
+    );
+    domain { radius 2.5; zMin -0.875; zMinWall true; zMax 0.435; }
+}
+kernel { gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
+closures { drag brown_lawler; hindrance di_felice; addedMass 0.4; dragModifier 1.1; }
+fates
+{
+    contour "constant/contour.csv"; ringRadius 0.4; zBackplate 0.03; hysteresis 0.2;
+    mouth { centre (0.22 0 0.05); direction (0 0 1); radius 0.1; depth 0.2; }
+    binWidth 0.03;
+}
+outflow { offset 0.015; startTime 1; }
+stop { undecided 0.05; }
+checkpoint { interval 0.25; keep 3; }
+)";
+
+TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
+    const CouplingDictionary read_back = read("dictionary_complete", k_complete);
+    const coupling::CouplingSettings& c = read_back.coupling;
+    EXPECT_TRUE(c.has_rock);
+    EXPECT_TRUE(c.rock_feed.is_absolute());
+    EXPECT_THAT(c.rock_feed.string(), HasSubstr("dictionary_complete"));
+    EXPECT_EQ(c.rock_feed.string().find("processor"), std::string::npos);
+    EXPECT_DOUBLE_EQ(c.kernel.gamma, 1.25);
+    EXPECT_DOUBLE_EQ(c.kernel.min_width_in_cells, 2.0);
+    EXPECT_DOUBLE_EQ(c.kernel.max_solid_fraction, 0.6);
+    EXPECT_EQ(c.closures.drag, "brown_lawler");
+    EXPECT_EQ(c.closures.hindrance, "di_felice");
+    EXPECT_DOUBLE_EQ(c.closures.added_mass, 0.4);
+    EXPECT_DOUBLE_EQ(c.closures.drag_modifier, 1.1);
+    ASSERT_TRUE(c.fates && c.outflow && c.stop && c.checkpoint);
+    EXPECT_EQ(c.fates->contour.filename(), "contour.csv");
+    EXPECT_DOUBLE_EQ(c.fates->hysteresis, 0.2);
+    EXPECT_EQ(c.fates->mouth.centre, Vec3(0.22, 0.0, 0.05));
+    EXPECT_DOUBLE_EQ(c.fates->mouth.depth, 0.2);
+    EXPECT_DOUBLE_EQ(c.outflow->start_time, 1.0);
+    EXPECT_DOUBLE_EQ(c.stop->undecided, 0.05);
+    EXPECT_EQ(c.checkpoint->keep, 3);
+
+    ASSERT_TRUE(read_back.dem);
+    EXPECT_DOUBLE_EQ(read_back.dem->contact.youngs_modulus, 1.1e8);
+    EXPECT_DOUBLE_EQ(read_back.dem->contact.poisson_steel, 0.3);
+    EXPECT_FALSE(read_back.dem->contact.wet_restitution);
+    ASSERT_EQ(read_back.dem->walls.size(), 2u);
+    EXPECT_EQ(read_back.dem->walls[0].name, "cutter");
+    EXPECT_TRUE(read_back.dem->walls[0].rotating);
+    EXPECT_FALSE(read_back.dem->walls[1].rotating);
+    EXPECT_DOUBLE_EQ(read_back.dem->domain.z_min, -0.875);
+    EXPECT_TRUE(read_back.dem->domain.z_min_is_wall);
+    EXPECT_FALSE(read_back.dem->domain.z_max_is_wall);
+    EXPECT_EQ(read_back.dem->gravity, Vec3(6.9, 0.0, -6.9));
+    EXPECT_DOUBLE_EQ(read_back.dem->added_mass, 0.4);
+    EXPECT_DOUBLE_EQ(read_back.dem->fluid.density, 1000.0);
+    EXPECT_DOUBLE_EQ(read_back.dem->fluid.kinematic_viscosity, 1e-6);
+}
+
+TEST(CouplingDictionary, IsAPureFlowWithoutTheFile) {
+    const CouplingDictionary read_back = read("dictionary_absent", "");
+    EXPECT_FALSE(read_back.coupling.has_rock);
+    EXPECT_FALSE(read_back.dem);
+    EXPECT_FALSE(read_back.coupling.checkpoint);
+}
+
+TEST(CouplingDictionary, NamesEveryMistakeWithItsLine) {
+    try {
+        read("dictionary_wrong", R"(
+kernel { gama 1.0; }
+closures { addedMass half; }
+outflow { offset 0.015; }
+checkpoint { interval 0.25; keep 2.5; }
+colour red;
+)");
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        std::vector<std::string> texts;
+        for (const Mistake& mistake : error.mistakes()) texts.push_back(mistake.text());
+        EXPECT_THAT(texts,
+                    ElementsAre(::testing::AllOf(HasSubstr("couplingProperties:3"), HasSubstr("kernel.gama is unknown"), HasSubstr("Did you mean gamma?")),
+                                ::testing::AllOf(HasSubstr(":4"), HasSubstr("closures.addedMass = half"), HasSubstr("a number")),
+                                ::testing::AllOf(HasSubstr(":5"), HasSubstr("outflow.startTime is missing")),
+                                ::testing::AllOf(HasSubstr(":6"), HasSubstr("checkpoint.keep = 2.5"), HasSubstr("whole number")),
+                                ::testing::AllOf(HasSubstr(":7"), HasSubstr("colour is unknown"))));
+    }
+}
+
+}  // namespace
+}  // namespace cutterflow::foam

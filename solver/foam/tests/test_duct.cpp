@@ -1,0 +1,78 @@
+// Flow through an open domain whose discharge is set at the outlet and whose pressure is set at the inlet.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/foam/tests/fluid_run.hpp"
+
+namespace cutterflow::foam {
+namespace {
+
+using testing::FluidRun;
+
+constexpr double k_discharge = 0.01;  // [m3/s]
+constexpr double k_area = 0.01;
+constexpr double k_length = 0.5;
+
+testing::TinyCase duct(const std::string& name, double end_time) {
+    testing::Box box;
+    box.upper[0] = k_length;
+    box.upper[1] = box.upper[2] = 0.1;
+    box.cells[0] = 25;
+    box.cells[1] = box.cells[2] = 5;
+    box.duct = true;
+    testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(box), 2e-3, end_time);
+    tiny.files["0/U"] = testing::volume_field(
+        "[0 1 -1 0 0 0 0]", "(1 0 0)",
+        "\".*\" { type slip; } inlet { type pressureInletOutletVelocity; value $internalField; }\n"
+        "outlet { type flowRateOutletVelocity; volumetricFlowRate " + std::to_string(k_discharge) + "; value $internalField; }");
+    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0",
+                                              "\".*\" { type fixedFluxPressure; value $internalField; } inlet { type fixedValue; value uniform 0; }");
+    // Central differences let rounding errors grow at an outlet that sets the velocity.
+    tiny.files["system/fvSchemes"] += "divSchemes { div(phi,U) Gauss upwind; }\n";
+    return tiny;
+}
+
+// A cloud that moves with half the flow's speed and leaves through the outlet.
+TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
+    FluidRun run(testing::build_case(duct("duct_cloud", 0.6)), true);
+    const auto solid = [](double time) {
+        return [time](const Vec3& x) { return 1.0 - 0.3 * std::exp(-0.5 * std::pow((x.x() - 0.3 - 0.5 * time) / 0.05, 2)); };
+    };
+    while (run.engine().running()) {
+        const double before = run.engine().time();
+        run.begin();
+        const auto old_fraction = run.evaluate(solid(before));
+        const auto new_fraction = run.evaluate(solid(run.engine().time()));
+        run.end(old_fraction, new_fraction);
+        double displaced = 0.0;
+        for (std::size_t i = 0; i < run.cells(); ++i) {
+            displaced += (new_fraction[i] - old_fraction[i]) * run.engine().cells().volumes[i] / run.engine().time_step();
+        }
+        const coupling::FluidLoads loads = run.engine().loads();
+        EXPECT_NEAR(loads.outlet_flow, k_discharge, 1e-12);
+        EXPECT_NEAR(loads.boundary_flow + run.total(displaced), 0.0, 1e-9 * k_discharge);
+        EXPECT_LE(loads.continuity_error, 1e-8);
+        EXPECT_LE(run.deviation(Vec3(1.0, 0.0, 0.0)), 0.35);
+    }
+}
+
+// Rock held in the flow takes momentum out of it: the pressure falls along the duct by its drag over the section.
+TEST(Duct, DragOfHeldRockIsThePressureDrop) {
+    FluidRun run(testing::build_case(duct("duct_drag", 0.6)), true);
+    const double rate = 4.0;
+    const std::vector<double> fraction(run.cells(), 0.9);
+    while (run.engine().running()) {
+        run.begin();
+        for (std::size_t i = 0; i < run.cells(); ++i) {
+            run.source[i] = -rate * run.engine().fields().velocity[i];
+            run.drag_rate[i] = rate;
+        }
+        run.end(fraction, fraction);
+    }
+    EXPECT_LE(run.deviation(Vec3(1.0, 0.0, 0.0)), 1e-9);
+    EXPECT_NEAR(run.engine().loads().outlet_pressure, -rate * k_length, 1e-8);
+}
+
+}  // namespace
+}  // namespace cutterflow::foam

@@ -1,0 +1,1 @@
+#include "solver/liggghts/contact_models/rock_pair_model.hpp"

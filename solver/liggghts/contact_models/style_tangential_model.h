@@ -1,0 +1,1 @@
+// none in use: the normal model brings the tangential force

@@ -1,0 +1,39 @@
+#pragma once
+/// \file LIGGGHTS' input commands as text, from typed values. Lengths in m, times in s.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geometry/base/axis_frame.hpp"
+
+namespace cutterflow::liggghts::commands {
+
+/// Box of the simulation [m].
+struct Box {
+    Vec3 low, high;
+};
+
+/// Units, particle kind and communication; before the box exists.
+std::vector<std::string> basics();
+/// Material types: 1 rock, 2 steel.
+std::vector<std::string> create_box(const Box& box);
+std::string read_restart(const std::filesystem::path& file);
+std::string write_restart(const std::filesystem::path& file);
+/// Of rock pairs. LIGGGHTS does not look for lost rock: the engine does, and says what happened.
+std::vector<std::string> contact_model();
+std::string timestep(double seconds);
+std::string run(int steps, bool set_up);
+/// Neighbour lists that hold until rock or wall moved half of `skin`; bins of `bin_size`.
+std::vector<std::string> neighbours(double skin, double bin_size);
+
+/// One property per rock with `columns` >= 2 values, 0 at the start, kept in restart files.
+std::string rock_property(const std::string& name, int columns);
+std::string mesh(const std::string& id, const std::filesystem::path& stl);
+/// Right-handed rotation; a negative speed turns about the reversed axis.
+std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const RotationAxis& axis, double speed);
+std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids);
+std::string plane_wall(const std::string& id, double z);
+/// A fix without effect that keeps a place in the list of fixes.
+std::string placeholder(const std::string& id);
+
+}  // namespace cutterflow::liggghts::commands

@@ -1,0 +1,620 @@
+#include "solver/liggghts/liggghts_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "domain.h"
+#include "fix_contact_history.h"
+#include "fix_mesh_surface.h"
+#include "fix_property_atom.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+#include "tri_mesh.h"
+#include "update.h"
+
+#include "geometry/base/error.hpp"
+#include "solver/liggghts/contact_registration.hpp"
+#include "solver/liggghts/liggghts_commands.hpp"
+#include "solver/liggghts/rock_motion.hpp"
+#include "solver/liggghts/settings_check.hpp"
+#include "solver/liggghts/wall_contacts.hpp"
+#include "solver/liggghts/wall_surface.hpp"
+#include "solver/physics/contact.hpp"
+
+namespace cutterflow::liggghts {
+
+namespace {
+
+using coupling::Rocks;
+
+constexpr double k_skin_in_radii = 0.4;       // of the largest rock: neighbour lists hold until something moved half of it
+constexpr double k_skin_without_rock = 1e-3;  // [m]
+constexpr double k_margin_in_radii = 0.25;    // of the domain: room that a rock may use between leaving it and being removed
+constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at each rebuild
+constexpr const char* k_restart_file = "dem.restart";
+constexpr const char* k_state_file = "dem.json";
+constexpr const char* k_motion = "rock_motion";
+constexpr const char* k_wall_contacts = "wall_contacts";
+constexpr const char* k_contact_forces = "contact_forces";
+
+double rock_mass(double diameter, double density) {
+    return density * k_pi / 6.0 * diameter * diameter * diameter;
+}
+
+/// A wall and what LIGGGHTS calls it.
+struct Wall {
+    std::string id;
+    std::filesystem::path file;
+    bool of_rotor = false;
+    WallSurface surface;  ///< at rotor angle 0
+};
+
+/// One corner of the rotating steel by which its angle is measured: the one farthest from the axis.
+struct Marker {
+    std::string mesh;
+    int triangle = 0;
+    int corner = 0;
+    Vec3 start = Vec3::Zero();
+};
+
+/// Keeps standard output and error off the screen for its lifetime: LIGGGHTS prints in places that no switch reaches.
+class QuietOutput {
+public:
+    QuietOutput() : saved_{dup(STDOUT_FILENO), dup(STDERR_FILENO)} {
+        std::fflush(nullptr);
+        const int nowhere = open("/dev/null", O_WRONLY);
+        dup2(nowhere, STDOUT_FILENO);
+        dup2(nowhere, STDERR_FILENO);
+        close(nowhere);
+    }
+    ~QuietOutput() {
+        std::fflush(nullptr);
+        dup2(saved_[0], STDOUT_FILENO);
+        dup2(saved_[1], STDERR_FILENO);
+        for (const int descriptor : saved_) close(descriptor);
+    }
+    QuietOutput(const QuietOutput&) = delete;
+    QuietOutput& operator=(const QuietOutput&) = delete;
+
+private:
+    int saved_[2];
+};
+
+void append(Rocks& to, const Rocks& from, std::size_t k) {
+    to.id.push_back(from.id[k]);
+    to.position.push_back(from.position[k]);
+    to.velocity.push_back(from.velocity[k]);
+    to.angular_velocity.push_back(from.angular_velocity[k]);
+    to.diameter.push_back(from.diameter[k]);
+    to.density.push_back(from.density[k]);
+}
+
+}  // namespace
+
+class LiggghtsEngine::Implementation {
+public:
+    Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator);
+    ~Implementation();
+
+    const Rocks& rocks() const { return rocks_; }
+    double largest_time_step() const;
+    std::vector<int> insert(const Rocks& candidates);
+    void remove(gsl::span<const int> ids);
+    coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force);
+    double rotor_angle() const;
+    void write_checkpoint(const std::filesystem::path& folder);
+    void read_checkpoint(const std::filesystem::path& folder);
+
+private:
+    void read_walls();
+    bool turns() const { return rotor_.speed != 0.0; }
+    void start_liggghts();
+    void declare(const std::optional<std::filesystem::path>& restart);
+    void declare_walls();
+    void declare_motion();
+    void command(const std::string& text) { lammps_->input->one(text.c_str()); }
+    void commands(const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) command(text);
+    }
+    commands::Box box() const;
+    void set_neighbours();
+    void set_up();
+    void gather();
+    void require_all_rocks(const std::vector<int>& before) const;
+    bool in_domain(const Vec3& position) const;
+    bool overlaps_wall(const Vec3& centre, double radius, double angle) const;
+    bool overlaps_rock(const Rocks& others, const Vec3& centre, double radius) const;
+    void create_rock(const Rocks& rocks, std::size_t k);
+    void delete_rocks(const std::vector<int>& sorted_ids);
+    void after_change_of_rocks();
+    void store_contact_forces();
+    void restore_contact_forces();
+    double sum(double value) const;
+    bool is_first_rank() const;
+
+    coupling::DemSettings settings_;
+    coupling::RotorMotion rotor_;
+    MPI_Comm communicator_ = MPI_COMM_NULL;
+    ContactContext context_;
+    std::optional<WallContacts> wall_contacts_;
+    std::vector<Wall> walls_;
+    std::optional<Marker> marker_;
+    std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
+    RockMotion* motion_ = nullptr;  // LIGGGHTS owns it
+    LAMMPS_NS::FixPropertyAtom* contact_forces_ = nullptr;
+    Rocks rocks_;
+    double time_ = 0.0;
+    double contact_torque_ = 0.0;  // on rotating steel, of the contact forces that are stored; this rank's share [N m]
+    double largest_radius_ = 0.0;
+    bool set_up_needed_ = true;
+};
+
+LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor,
+                                               MPI_Comm communicator)
+    : settings_(settings), rotor_(rotor), context_(settings, rotor.axis) {
+    std::vector<Mistake> mistakes = check_settings(settings, rotor);
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    read_walls();
+    MPI_Comm_dup(communicator, &communicator_);
+    register_contact_models();
+    start_liggghts();
+    declare(std::nullopt);
+}
+
+LiggghtsEngine::Implementation::~Implementation() {
+    ContactContext::clear(lammps_.get());
+    lammps_.reset();
+    MPI_Comm_free(&communicator_);
+}
+
+void LiggghtsEngine::Implementation::read_walls() {
+    double farthest = 0.0;
+    for (std::size_t w = 0; w < settings_.walls.size(); ++w) {
+        const coupling::WallSettings& given = settings_.walls[w];
+        Wall wall{fmt::format("wall_{}", w), std::filesystem::absolute(given.file), given.rotating, WallSurface(read_stl(given.file))};
+        for (std::size_t t = 0; wall.of_rotor && turns() && t < wall.surface.triangles().size(); ++t) {
+            for (int corner = 0; corner < 3; ++corner) {
+                const Vec3& point = wall.surface.triangles()[t][corner];
+                const double radius = rotor_.axis.direction.cross(point - rotor_.axis.origin).norm();
+                if (radius <= farthest) continue;
+                farthest = radius;
+                marker_ = Marker{wall.id, static_cast<int>(t), corner, point};
+            }
+        }
+        walls_.push_back(std::move(wall));
+    }
+}
+
+/// Encloses the domain with room for rock that is leaving, and all steel in every position, because LIGGGHTS drops triangles outside.
+commands::Box LiggghtsEngine::Implementation::box() const {
+    const coupling::DomainSettings& domain = settings_.domain;
+    const double margin = k_margin_in_radii * domain.radius;
+    const Vec3 origin = rotor_.axis.origin;
+    commands::Box box{{origin.x() - domain.radius, origin.y() - domain.radius, domain.z_min},
+                      {origin.x() + domain.radius, origin.y() + domain.radius, domain.z_max}};
+    for (const Wall& wall : walls_) {
+        for (const Triangle& triangle : wall.surface.triangles()) {
+            for (const Vec3& corner : triangle) {
+                Vec3 low = corner, high = corner;
+                if (wall.of_rotor) {
+                    const double radius = (corner - origin).head<2>().norm();
+                    low.head<2>() = origin.head<2>().array() - radius;
+                    high.head<2>() = origin.head<2>().array() + radius;
+                }
+                box.low = box.low.cwiseMin(low);
+                box.high = box.high.cwiseMax(high);
+            }
+        }
+    }
+    box.low.array() -= margin;
+    box.high.array() += margin;
+    return box;
+}
+
+void LiggghtsEngine::Implementation::start_liggghts() {
+    // All goes to the "screen", because some errors do not reach LIGGGHTS' log, and parts of it write there without asking whether it
+    // exists.
+    const std::string log = settings_.log.empty() ? "/dev/null" : settings_.log.string();
+    std::vector<std::string> arguments{"liggghts", "-screen", log, "-log", "none", "-nocite"};
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    const QuietOutput quiet;  // a second instance in the process warns of every contact model that it finds registered
+    lammps_ = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(pointers.size()), pointers.data(), communicator_);
+    if (lammps_->screen) std::setvbuf(lammps_->screen, nullptr, _IOLBF, BUFSIZ);  // the last words before an abort count
+    ContactContext::set(lammps_.get(), &context_);
+}
+
+void LiggghtsEngine::Implementation::declare(const std::optional<std::filesystem::path>& restart) {
+    commands(commands::basics());
+    if (restart) {
+        const QuietOutput quiet;
+        command(commands::read_restart(*restart));
+    } else {
+        commands(commands::create_box(box()));
+    }
+    set_neighbours();
+    commands(commands::contact_model());
+    declare_walls();
+    declare_motion();
+    set_up();
+}
+
+void LiggghtsEngine::Implementation::declare_walls() {
+    std::vector<std::string> mesh_ids;
+    context_.bodies.clear();
+    const auto add_body = [&](const std::string& id, bool rotating) {
+        context_.bodies[id] = WallBody{static_cast<int>(context_.bodies.size()), rotating};
+    };
+    for (const Wall& wall : walls_) {
+        add_body(wall.id, wall.of_rotor);
+        mesh_ids.push_back(wall.id);
+    }
+    std::vector<std::string> planes;
+    const auto add_plane = [&](const std::string& id, double z) {
+        add_body(id, false);
+        planes.push_back(commands::plane_wall(id, z));
+    };
+    if (settings_.domain.z_min_is_wall) add_plane("plane_low", settings_.domain.z_min);
+    if (settings_.domain.z_max_is_wall) add_plane("plane_high", settings_.domain.z_max);
+
+    const auto property = [&](const char* name, int columns) {
+        command(commands::rock_property(name, columns));
+        return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps_->modify->find_fix_id(name));
+    };
+    wall_contacts_.emplace(lammps_.get(), context_, property(k_wall_contacts, WallContacts::columns));
+    context_.wall_contacts = &*wall_contacts_;
+    contact_forces_ = property(k_contact_forces, 6);
+    for (const Wall& wall : walls_) {
+        command(commands::mesh(wall.id, wall.file));
+        if (wall.of_rotor && turns()) command(commands::rotate_mesh("move_" + wall.id, wall.id, rotor_.axis, rotor_.speed));
+    }
+    if (!mesh_ids.empty()) command(commands::mesh_walls("steel", mesh_ids));
+    commands(planes);
+}
+
+/// LIGGGHTS makes fixes from names it was built with; ours takes the place of one without effect.
+void LiggghtsEngine::Implementation::declare_motion() {
+    command(commands::placeholder(k_motion));
+    LAMMPS_NS::Modify& modify = *lammps_->modify;
+    const int place = modify.find_fix(k_motion);
+    delete modify.fix[place];
+    modify.fix[place] = nullptr;
+    std::string id = k_motion, group = "all", style = "cutterflow/motion";
+    char* arguments[] = {id.data(), group.data(), style.data()};
+    motion_ = new RockMotion(lammps_.get(), 3, arguments, context_, settings_.gravity);
+    modify.fix[place] = motion_;
+    modify.fmask[place] = motion_->setmask();
+}
+
+void LiggghtsEngine::Implementation::set_neighbours() {
+    const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock;
+    const commands::Box extent = box();
+    const double coarsest = std::cbrt((extent.high - extent.low).prod() / k_most_bins);
+    commands(commands::neighbours(skin, std::max(largest_radius_ + 0.5 * skin, coarsest)));
+}
+
+/// Brings LIGGGHTS' lists up to date after rocks came or went; the forces of existing contacts stay as they were.
+void LiggghtsEngine::Implementation::set_up() {
+    store_contact_forces();
+    command(commands::run(0, true));
+    restore_contact_forces();
+    set_up_needed_ = false;
+}
+
+void LiggghtsEngine::Implementation::store_contact_forces() {
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    if (set_up_needed_) return;
+    contact_torque_ = context_.tally.torque;
+    for (int i = 0; i < atom.nlocal; ++i) {
+        std::copy_n(atom.f[i], 3, contact_forces_->array_atom[i]);
+        std::copy_n(atom.torque[i], 3, contact_forces_->array_atom[i] + 3);
+    }
+}
+
+void LiggghtsEngine::Implementation::restore_contact_forces() {
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    for (int i = 0; i < atom.nlocal; ++i) {
+        std::copy_n(contact_forces_->array_atom[i], 3, atom.f[i]);
+        std::copy_n(contact_forces_->array_atom[i] + 3, 3, atom.torque[i]);
+    }
+    context_.tally.torque = contact_torque_;
+}
+
+double LiggghtsEngine::Implementation::sum(double value) const {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, communicator_);
+    return value;
+}
+
+bool LiggghtsEngine::Implementation::is_first_rank() const {
+    int rank = 0;
+    MPI_Comm_rank(communicator_, &rank);
+    return rank == 0;
+}
+
+void LiggghtsEngine::Implementation::gather() {
+    constexpr int columns = 12;
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    std::vector<double> mine;
+    for (int i = 0; i < atom.nlocal; ++i) {
+        mine.push_back(atom.tag[i]);
+        mine.insert(mine.end(), atom.x[i], atom.x[i] + 3);
+        mine.insert(mine.end(), atom.v[i], atom.v[i] + 3);
+        mine.insert(mine.end(), atom.omega[i], atom.omega[i] + 3);
+        mine.push_back(2.0 * atom.radius[i]);
+        mine.push_back(atom.density[i]);
+    }
+    int ranks = 1;
+    MPI_Comm_size(communicator_, &ranks);
+    std::vector<int> counts(ranks), starts(ranks);
+    const int count = static_cast<int>(mine.size());
+    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator_);
+    std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+    std::vector<double> all(starts.back() + counts.back());
+    MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator_);
+
+    std::vector<const double*> rows;
+    for (std::size_t k = 0; k < all.size(); k += columns) rows.push_back(all.data() + k);
+    std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[0] < b[0]; });
+    rocks_ = Rocks{};
+    for (const double* row : rows) {
+        rocks_.id.push_back(static_cast<int>(row[0]));
+        rocks_.position.emplace_back(row + 1);
+        rocks_.velocity.emplace_back(row + 4);
+        rocks_.angular_velocity.emplace_back(row + 7);
+        rocks_.diameter.push_back(row[10]);
+        rocks_.density.push_back(row[11]);
+    }
+}
+
+double LiggghtsEngine::Implementation::largest_time_step() const {
+    const coupling::ContactSettings& contact = settings_.contact;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < rocks_.size(); ++k) {
+        const double radius = 0.5 * rocks_.diameter[k];
+        const double mass = rock_mass(rocks_.diameter[k], rocks_.density[k]);
+        const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.youngs, contact.max_speed};
+        const physics::Impact on_steel{mass, radius, context_.rock_steel.youngs, contact.max_speed};
+        shortest = std::min({shortest, physics::hertz_time(on_rock), physics::hertz_time(on_steel),
+                             physics::rayleigh_time(radius, rocks_.density[k], contact.youngs_modulus, contact.poisson_rock)});
+    }
+    return contact.time_step_fraction * shortest;
+}
+
+bool LiggghtsEngine::Implementation::in_domain(const Vec3& position) const {
+    const coupling::DomainSettings& domain = settings_.domain;
+    return (position - rotor_.axis.origin).head<2>().norm() <= domain.radius && position.z() >= domain.z_min &&
+           position.z() <= domain.z_max;
+}
+
+bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double radius, double angle) const {
+    const coupling::DomainSettings& domain = settings_.domain;
+    if (domain.z_min_is_wall && centre.z() - radius < domain.z_min) return true;
+    if (domain.z_max_is_wall && centre.z() + radius > domain.z_max) return true;
+    const Vec3 in_rotor = rotate_about(rotor_.axis, -angle, centre);
+    double turns_of_rotor = 0.0, turns_of_stator = 0.0;
+    for (const Wall& wall : walls_) {
+        const Vec3& point = wall.of_rotor ? in_rotor : centre;
+        if (wall.surface.is_within(point, radius)) return true;
+        (wall.of_rotor ? turns_of_rotor : turns_of_stator) += wall.surface.winding_number(point);
+    }
+    return is_inside(turns_of_rotor) || is_inside(turns_of_stator);
+}
+
+bool LiggghtsEngine::Implementation::overlaps_rock(const Rocks& others, const Vec3& centre, double radius) const {
+    for (std::size_t k = 0; k < others.size(); ++k)
+        if ((others.position[k] - centre).norm() < radius + 0.5 * others.diameter[k]) return true;
+    return false;
+}
+
+std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates) {
+    const double angle = rotor_angle();
+    Rocks accepted;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const double radius = 0.5 * candidates.diameter[k];
+        const Vec3& centre = candidates.position[k];
+        if (std::binary_search(rocks_.id.begin(), rocks_.id.end(), candidates.id[k]) ||
+            std::find(accepted.id.begin(), accepted.id.end(), candidates.id[k]) != accepted.id.end())
+            throw std::invalid_argument(fmt::format("rock id {} is in the run already", candidates.id[k]));
+        if (!in_domain(centre) || overlaps_rock(rocks_, centre, radius) || overlaps_rock(accepted, centre, radius) ||
+            overlaps_wall(centre, radius, angle))
+            continue;
+        append(accepted, candidates, k);
+    }
+    if (accepted.size() == 0) return {};
+    store_contact_forces();
+    for (std::size_t k = 0; k < accepted.size(); ++k) {
+        create_rock(accepted, k);
+        largest_radius_ = std::max(largest_radius_, 0.5 * accepted.diameter[k]);
+    }
+    after_change_of_rocks();
+    return accepted.id;
+}
+
+/// On the rank whose part of the box holds the centre.
+void LiggghtsEngine::Implementation::create_rock(const Rocks& rocks, std::size_t k) {
+    LAMMPS_NS::Atom& atom = *lammps_->atom;
+    const LAMMPS_NS::Domain& domain = *lammps_->domain;
+    Vec3 position = rocks.position[k];
+    for (int axis = 0; axis < 3; ++axis)
+        if (position[axis] < domain.sublo[axis] || position[axis] >= domain.subhi[axis]) return;
+    atom.avec->create_atom(1, position.data());
+    const int i = atom.nlocal - 1;
+    atom.tag[i] = rocks.id[k];
+    std::copy_n(rocks.velocity[k].data(), 3, atom.v[i]);
+    std::copy_n(rocks.angular_velocity[k].data(), 3, atom.omega[i]);
+    atom.radius[i] = 0.5 * rocks.diameter[k];
+    atom.density[i] = rocks.density[k];
+    atom.rmass[i] = rock_mass(rocks.diameter[k], rocks.density[k]);
+    for (int f = 0; f < lammps_->modify->nfix; ++f)
+        if (lammps_->modify->fix[f]->create_attribute) lammps_->modify->fix[f]->set_arrays(i);
+}
+
+void LiggghtsEngine::Implementation::remove(gsl::span<const int> ids) {
+    std::vector<int> sorted(ids.begin(), ids.end());
+    std::sort(sorted.begin(), sorted.end());
+    delete_rocks(sorted);
+}
+
+void LiggghtsEngine::Implementation::delete_rocks(const std::vector<int>& sorted_ids) {
+    if (sorted_ids.empty()) return;
+    LAMMPS_NS::Atom& atom = *lammps_->atom;
+    store_contact_forces();
+    // Contacts are kept in the neighbour list, by local numbers that are about to change; this does nothing when that was done already.
+    lammps_->modify->find_fix_style_strict("contacthistory", 0)->setup_pre_exchange();
+    for (int i = 0; i < atom.nlocal;) {
+        if (std::binary_search(sorted_ids.begin(), sorted_ids.end(), atom.tag[i])) {
+            atom.avec->copy(atom.nlocal - 1, i, 1);
+            --atom.nlocal;
+        } else {
+            ++i;
+        }
+    }
+    after_change_of_rocks();
+}
+
+void LiggghtsEngine::Implementation::after_change_of_rocks() {
+    LAMMPS_NS::Atom& atom = *lammps_->atom;
+    atom.natoms = static_cast<LAMMPS_NS::bigint>(sum(atom.nlocal));
+    atom.nghost = 0;
+    atom.map_init();
+    atom.map_set();
+    set_neighbours();
+    set_up_needed_ = true;
+    gather();
+}
+
+coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const coupling::HydrodynamicForce& force) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(duration / largest_time_step() * (1.0 - 1e-12))));
+    if (set_up_needed_) set_up();
+    command(commands::timestep(duration / steps));
+    motion_->begin(rocks_, force);
+    command(commands::run(steps, false));
+    time_ += duration;
+
+    const std::vector<int> before = rocks_.id;
+    gather();
+    require_all_rocks(before);
+    std::vector<Vec3> impulse = motion_->impulse();
+    MPI_Allreduce(MPI_IN_PLACE, impulse.data(), static_cast<int>(3 * impulse.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+
+    coupling::DemStep done;
+    done.substeps = steps;
+    done.cutter_torque = sum(motion_->angular_impulse()) / duration;
+    done.contacts = static_cast<int>(std::lround(sum(context_.tally.contacts)));
+    done.max_overlap_ratio = context_.tally.overlap_ratio;
+    MPI_Allreduce(MPI_IN_PLACE, &done.max_overlap_ratio, 1, MPI_DOUBLE, MPI_MAX, communicator_);
+    for (std::size_t k = 0; k < rocks_.size(); ++k) {
+        if (in_domain(rocks_.position[k])) {
+            done.impulse.push_back(impulse[k]);
+        } else {
+            done.left_domain.push_back(rocks_.id[k]);
+            done.left_position.push_back(rocks_.position[k]);
+            done.left_velocity.push_back(rocks_.velocity[k]);
+            done.left_impulse.push_back(impulse[k]);
+        }
+    }
+    delete_rocks(done.left_domain);
+    return done;
+}
+
+/// LIGGGHTS drops a rock outside its box, or at no position, without a word.
+void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& before) const {
+    if (rocks_.id != before)
+        throw std::logic_error(fmt::format("{} of {} rocks vanished from the DEM", before.size() - rocks_.size(), before.size()));
+    for (std::size_t k = 0; k < rocks_.size(); ++k)
+        if (!rocks_.position[k].allFinite())
+            throw std::logic_error(fmt::format("the position of rock {} is not a number; so was a force on it", rocks_.id[k]));
+}
+
+double LiggghtsEngine::Implementation::rotor_angle() const {
+    if (!marker_) return rotor_.angle(time_);
+    auto* fix = static_cast<LAMMPS_NS::FixMeshSurface*>(lammps_->modify->find_fix_id(marker_->mesh.c_str()));
+    LAMMPS_NS::TriMesh* mesh = fix->triMesh();
+    double found[4] = {0.0, 0.0, 0.0, 0.0};
+    for (int t = 0; t < mesh->sizeLocal(); ++t) {
+        if (mesh->id(t) != marker_->triangle) continue;
+        mesh->node_slow(t, marker_->corner, found);
+        found[3] = 1.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, found, 4, MPI_DOUBLE, MPI_SUM, communicator_);
+    if (found[3] != 1.0) throw std::logic_error("the triangle that marks the rotor's angle is not on exactly one rank");
+    const Vec3 start = marker_->start - rotor_.axis.origin;
+    const Vec3 now = Vec3(found) - rotor_.axis.origin;
+    const Vec3& axis = rotor_.axis.direction;
+    const double within_turn = std::atan2(axis.dot(start.cross(now)), (start - axis * axis.dot(start)).dot(now));
+    const double turns = std::round((rotor_.angle(time_) - within_turn) / (2.0 * k_pi));
+    return within_turn + 2.0 * k_pi * turns;
+}
+
+void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::path& folder) {
+    store_contact_forces();
+    command(commands::write_restart(folder / k_restart_file));
+    set_up_needed_ = true;  // rocks have changed ranks
+    const double torque = sum(contact_torque_);
+    if (is_first_rank()) {
+        std::ofstream stream(folder / k_state_file);
+        stream << nlohmann::json{{"time_s", time_}, {"torque_n_m", torque}}.dump(2) << '\n';
+        if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / k_state_file).string()));
+    }
+    MPI_Barrier(communicator_);
+}
+
+void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path& folder) {
+    std::ifstream stream(folder / k_state_file);
+    if (!stream || !std::filesystem::exists(folder / k_restart_file))
+        throw std::runtime_error(fmt::format("{} and {} cannot be read in {}", k_state_file, k_restart_file, folder.string()));
+    const nlohmann::json state = nlohmann::json::parse(stream);
+    time_ = state.at("time_s").get<double>();
+    contact_torque_ = is_first_rank() ? state.at("torque_n_m").get<double>() : 0.0;
+    set_up_needed_ = true;
+    command("clear");
+    declare(folder / k_restart_file);
+    gather();
+    for (const double diameter : rocks_.diameter) largest_radius_ = std::max(largest_radius_, 0.5 * diameter);
+    set_neighbours();
+    set_up_needed_ = true;
+}
+
+LiggghtsEngine::LiggghtsEngine(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator)
+    : implementation_(std::make_unique<Implementation>(settings, rotor, communicator)) {}
+LiggghtsEngine::~LiggghtsEngine() = default;
+const Rocks& LiggghtsEngine::rocks() const {
+    return implementation_->rocks();
+}
+double LiggghtsEngine::largest_time_step() const {
+    return implementation_->largest_time_step();
+}
+std::vector<int> LiggghtsEngine::insert(const Rocks& rocks) {
+    return implementation_->insert(rocks);
+}
+void LiggghtsEngine::remove(gsl::span<const int> ids) {
+    implementation_->remove(ids);
+}
+coupling::DemStep LiggghtsEngine::advance(double duration, const coupling::HydrodynamicForce& force) {
+    return implementation_->advance(duration, force);
+}
+double LiggghtsEngine::rotor_angle() const {
+    return implementation_->rotor_angle();
+}
+void LiggghtsEngine::write_checkpoint(const std::filesystem::path& folder) {
+    implementation_->write_checkpoint(folder);
+}
+void LiggghtsEngine::read_checkpoint(const std::filesystem::path& folder) {
+    implementation_->read_checkpoint(folder);
+}
+
+}  // namespace cutterflow::liggghts

@@ -1,0 +1,37 @@
+#pragma once
+/// \file The DEM port on LIGGGHTS, in the same process.
+#include <memory>
+
+#include <mpi.h>
+
+#include "solver/coupling/dem_engine.hpp"
+#include "solver/coupling/dem_settings.hpp"
+#include "solver/coupling/fluid_engine.hpp"
+
+namespace cutterflow::liggghts {
+
+/// Rocks with contacts, walls and added mass (see rock_motion.hpp for the equation of motion, contact_models/ for the contact law).
+/// MPI must have been initialised. LIGGGHTS ends the process itself when one of its own checks fails; everything that comes from the user
+/// is therefore checked before.
+class LiggghtsEngine final : public coupling::DemEngine {
+public:
+    /// \throws UserError  with every mistake of the settings: bounds, walls that cannot be read, an axis that is not along z
+    LiggghtsEngine(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator);
+    ~LiggghtsEngine() override;
+
+    const coupling::Rocks& rocks() const override;
+    double largest_time_step() const override;
+    std::vector<int> insert(const coupling::Rocks& rocks) override;
+    void remove(gsl::span<const int> ids) override;
+    coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override;
+    /// Measured on the corner of the rotating steel farthest from the axis; speed times time when no steel turns.
+    double rotor_angle() const override;
+    void write_checkpoint(const std::filesystem::path& folder) override;
+    void read_checkpoint(const std::filesystem::path& folder) override;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace cutterflow::liggghts

@@ -1,0 +1,121 @@
+#include "solver/liggghts/rock_motion.hpp"
+
+#include <algorithm>
+
+#include "atom.h"
+#include "update.h"
+
+#include "solver/liggghts/wall_contacts.hpp"
+
+namespace cutterflow::liggghts {
+
+namespace {
+
+double sphere_volume(double radius) {
+    return 4.0 / 3.0 * k_pi * radius * radius * radius;
+}
+
+}  // namespace
+
+RockMotion::RockMotion(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, ContactContext& context, const Vec3& gravity)
+    : Fix(lammps, narg, arg), context_(context), gravity_(gravity) {
+    time_integrate = 1;
+    create_attribute = 1;
+    grow_arrays(atom->nmax);
+    atom->add_callback(0);
+}
+
+RockMotion::~RockMotion() {
+    atom->delete_callback(id, 0);
+}
+
+int RockMotion::setmask() {
+    namespace when = LAMMPS_NS::FixConst;
+    return when::INITIAL_INTEGRATE | when::PRE_FORCE | when::POST_FORCE | when::FINAL_INTEGRATE;
+}
+
+void RockMotion::begin(const coupling::Rocks& rocks, const coupling::HydrodynamicForce& law) {
+    rocks_ = &rocks;
+    force_ = &law;
+    impulse_.assign(rocks.size(), Vec3::Zero());
+    angular_impulse_ = 0.0;
+    for (int i = 0; i < atom->nlocal; ++i) states_[i].hydrodynamic = law(index_of(i), Vec3(atom->v[i]));
+}
+
+/// From contact (LIGGGHTS' force), hydrodynamic force and submerged weight.
+Vec3 RockMotion::acceleration(int rock) const {
+    const double mass = atom->rmass[rock];
+    const double radius = atom->radius[rock];
+    const Vec3 weight = (mass - context_.fluid.density * sphere_volume(radius)) * gravity_;
+    return (Vec3(atom->f[rock]) + states_[rock].hydrodynamic + weight) / context_.mass_with_added_mass(mass, radius);
+}
+
+Vec3 RockMotion::spin_acceleration(int rock) const {
+    const double radius = atom->radius[rock];
+    return Vec3(atom->torque[rock]) / (0.4 * atom->rmass[rock] * radius * radius);
+}
+
+std::size_t RockMotion::index_of(int rock) const {
+    const auto& ids = rocks_->id;
+    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), atom->tag[rock]) - ids.begin());
+}
+
+/// Comes after the walls', which were declared before.
+void RockMotion::post_force(int) {
+    context_.wall_contacts->resolve();
+}
+
+void RockMotion::initial_integrate(int) {
+    const double step = update->dt;
+    for (int i = 0; i < atom->nlocal; ++i) {
+        State& state = states_[i];
+        Eigen::Map<Vec3> position(atom->x[i]), velocity(atom->v[i]), spin(atom->omega[i]);
+        state.acceleration = acceleration(i);
+        state.spin_acceleration = spin_acceleration(i);
+        impulse_[index_of(i)] += 0.5 * step * state.hydrodynamic;
+        position += step * (velocity + 0.5 * step * state.acceleration);
+        velocity += step * state.acceleration;
+        spin += step * state.spin_acceleration;
+    }
+    angular_impulse_ += 0.5 * step * context_.tally.torque;
+}
+
+void RockMotion::final_integrate() {
+    const double step = update->dt;
+    for (int i = 0; i < atom->nlocal; ++i) {
+        State& state = states_[i];
+        Eigen::Map<Vec3> velocity(atom->v[i]), spin(atom->omega[i]);
+        const std::size_t index = index_of(i);
+        state.hydrodynamic = (*force_)(index, velocity);
+        impulse_[index] += 0.5 * step * state.hydrodynamic;
+        velocity += 0.5 * step * (acceleration(i) - state.acceleration);
+        spin += 0.5 * step * (spin_acceleration(i) - state.spin_acceleration);
+    }
+    angular_impulse_ += 0.5 * step * context_.tally.torque;
+}
+
+void RockMotion::grow_arrays(int capacity) {
+    states_.resize(static_cast<std::size_t>(capacity));
+}
+void RockMotion::copy_arrays(int from, int to, int) {
+    states_[to] = states_[from];
+}
+void RockMotion::set_arrays(int rock) {
+    states_[rock] = State{};
+}
+
+int RockMotion::pack_exchange(int rock, double* buffer) {
+    std::copy_n(states_[rock].hydrodynamic.data(), 3, buffer);
+    std::copy_n(states_[rock].acceleration.data(), 3, buffer + 3);
+    std::copy_n(states_[rock].spin_acceleration.data(), 3, buffer + 6);
+    return 9;
+}
+
+int RockMotion::unpack_exchange(int rock, double* buffer) {
+    std::copy_n(buffer, 3, states_[rock].hydrodynamic.data());
+    std::copy_n(buffer + 3, 3, states_[rock].acceleration.data());
+    std::copy_n(buffer + 6, 3, states_[rock].spin_acceleration.data());
+    return 9;
+}
+
+}  // namespace cutterflow::liggghts

@@ -1,0 +1,68 @@
+#pragma once
+/// \file Motion of the rocks: a LIGGGHTS fix of our own that integrates them under contact, hydrodynamic force and weight.
+#include <vector>
+
+#include "fix.h"
+
+#include "solver/coupling/dem_engine.hpp"
+#include "solver/liggghts/contact_context.hpp"
+
+namespace cutterflow::liggghts {
+
+/// Velocity Verlet for spheres with added mass:
+///
+///   (m + C_AM rho_c V) dv/dt = F_contact + F_hydro(v) + (m - rho_c V) g,   2/5 m R^2 d(omega)/dt = T_contact
+///
+/// Forces that depend on velocity (drag, damping) are evaluated once per step for the velocity at its end as the step's first acceleration
+/// predicts it, which keeps the order of two: during the evaluation LIGGGHTS' velocities are the predicted ones, on ghosts too. At the
+/// start of a call of advance the hydrodynamic force is evaluated anew, so that no half kick uses an old law. LIGGGHTS' own fix nve/sphere
+/// has one added-mass ratio for all rocks, lags half a step in the velocity and writes to a screen that other ranks than 0 do not have.
+class RockMotion final : public LAMMPS_NS::Fix {
+public:
+    RockMotion(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg, ContactContext& context, const Vec3& gravity);
+    ~RockMotion() override;
+
+    /// Starts a call of advance: the rocks present (sorted by id) and their force law.
+    void begin(const coupling::Rocks& rocks, const coupling::HydrodynamicForce& law);
+
+    /// This rank's share of the impulse [N s] on each rock since begin().
+    const std::vector<Vec3>& impulse() const { return impulse_; }
+    /// This rank's share of the time integral [N m s] of the torque on rotating steel since begin().
+    double angular_impulse() const { return angular_impulse_; }
+
+    int setmask() override;
+    void setup(int) override { post_force(0); }
+    void setup_pre_force(int) override { pre_force(0); }
+    void pre_force(int) override { context_.tally = ContactTally{}; }
+    void post_force(int) override;
+    void initial_integrate(int) override;
+    void final_integrate() override;
+
+    void grow_arrays(int capacity) override;
+    void copy_arrays(int from, int to, int) override;
+    void set_arrays(int rock) override;
+    int pack_exchange(int rock, double* buffer) override;
+    int unpack_exchange(int rock, double* buffer) override;
+
+private:
+    /// Of one rock of this rank; follows it to other ranks.
+    struct State {
+        Vec3 hydrodynamic = Vec3::Zero();       ///< force [N]
+        Vec3 acceleration = Vec3::Zero();       ///< at the step's start [m/s2]
+        Vec3 spin_acceleration = Vec3::Zero();  ///< [rad/s2]
+    };
+
+    Vec3 acceleration(int rock) const;
+    Vec3 spin_acceleration(int rock) const;
+    std::size_t index_of(int rock) const;
+
+    ContactContext& context_;
+    Vec3 gravity_;
+    const coupling::Rocks* rocks_ = nullptr;
+    const coupling::HydrodynamicForce* force_ = nullptr;
+    std::vector<State> states_;  // in LIGGGHTS' order
+    std::vector<Vec3> impulse_;  // per rock of rocks_
+    double angular_impulse_ = 0.0;
+};
+
+}  // namespace cutterflow::liggghts

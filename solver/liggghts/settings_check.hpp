@@ -1,0 +1,14 @@
+#pragma once
+/// \file The DEM's settings against their rules, before LIGGGHTS sees them: LIGGGHTS ends the process at a mistake.
+#include <vector>
+
+#include "geometry/base/error.hpp"
+#include "solver/coupling/dem_settings.hpp"
+#include "solver/coupling/fluid_engine.hpp"
+
+namespace cutterflow::liggghts {
+
+/// Every mistake of the settings, the walls' files not opened.
+std::vector<Mistake> check_settings(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor);
+
+}  // namespace cutterflow::liggghts

@@ -1,0 +1,235 @@
+#include <algorithm>
+
+#include "geometry/base/error.hpp"
+#include "solver/liggghts/tests/engine_fixture.hpp"
+
+namespace cutterflow::liggghts::tests {
+
+namespace {
+
+/// A paddle from the axis outwards, turning about z at `speed` in still water without gravity.
+struct Paddle {
+    coupling::DemSettings settings = still_water();
+    coupling::RotorMotion rotor;
+
+    explicit Paddle(double speed) {
+        settings.gravity.setZero();
+        settings.walls = {
+            {"paddle", write_stl(scratch_folder() / "paddle.stl", block(Vec3(0.05, -0.01, -0.05), Vec3(0.3, 0.01, 0.05), 3)), true}};
+        rotor.speed = speed;
+    }
+};
+
+/// Durations of calls that differ from one to the next, as the coupled run's do.
+double uneven_duration(int call) {
+    return 1e-3 * (1.0 + 0.6 * std::sin(1.7 * call));
+}
+
+}  // namespace
+
+class RotorAngle : public ::testing::TestWithParam<double> {};
+
+TEST_P(RotorAngle, is_speed_times_time_when_the_steps_differ) {
+    Paddle paddle(GetParam());
+    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    EXPECT_NEAR(engine.rotor_angle(), 0.0, 1e-15);
+    engine.insert(one_rock(Vec3(-0.4, 0, 0.3)));  // gives the DEM its own step: 25 to 60 per call
+    double time = 0.0;
+    for (int call = 0; call < 150; ++call) {
+        engine.advance(uneven_duration(call), no_force);
+        time += uneven_duration(call);
+        ASSERT_NEAR(engine.rotor_angle(), paddle.rotor.angle(time), 1e-9) << "call " << call;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, RotorAngle, ::testing::Values(60.0, -60.0),
+                         [](const auto& info) { return info.param > 0.0 ? "right_handed" : "left_handed"; });
+
+TEST(Walls, a_rotating_wall_stands_when_the_rotor_does) {
+    Paddle paddle(0.0);
+    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    engine.insert(one_rock(Vec3(0.2, 0.03, 0)));
+    engine.advance(0.01, no_force);
+    EXPECT_EQ(engine.rotor_angle(), 0.0);
+    EXPECT_EQ(engine.rocks().velocity[0], Vec3(0, 0, 0));
+}
+
+// The angular momentum about the axis that the rock gains (added mass included) is what the steel loses.
+TEST(Walls, the_torque_on_a_paddle_balances_what_it_gives_to_the_rocks) {
+    Paddle paddle(2.0 * k_pi);
+    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(0.15, 0.06, 0.0));
+    add_rock(rocks, 2, Vec3(0.2, 0.08, 0.02));
+    add_rock(rocks, 3, Vec3(0.28, 0.05, -0.03));
+    ASSERT_EQ(engine.insert(rocks).size(), 3u);
+    const double mass = (k_rock_density + 0.5 * k_water_density) * volume(0.02);
+    const double inertia = 0.4 * k_rock_density * volume(0.02) * 1e-4;
+    const auto angular_momentum = [&] {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < engine.rocks().size(); ++k)
+            sum += (engine.rocks().position[k].cross(mass * engine.rocks().velocity[k]) + inertia * engine.rocks().angular_velocity[k]).z();
+        return sum;
+    };
+    double given = 0.0;
+    for (int call = 0; call < 80; ++call) given += engine.advance(1e-3, no_force).cutter_torque * 1e-3;
+    EXPECT_GT(angular_momentum(), 0.0) << "the paddle turns right-handed and must drag the rocks along";
+    EXPECT_LT(given, 0.0) << "the rocks resist the paddle";
+    // Positions move within a step while force and torque are taken at its ends: second order in the step.
+    EXPECT_NEAR(given, -angular_momentum(), 2e-3 * angular_momentum());
+    for (const Vec3& velocity : engine.rocks().velocity) EXPECT_GT(velocity.norm(), 0.5);
+}
+
+TEST(Walls, contacts_and_overlap_are_reported) {
+    coupling::DemSettings settings = still_water();
+    settings.domain.z_min = 0.0;
+    settings.domain.z_min_is_wall = true;
+    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(0, 0, 0.0101));
+    add_rock(rocks, 2, Vec3(0.001, 0, 0.0303));
+    engine.insert(rocks);
+    const auto drag = [](std::size_t, const Vec3& velocity) { return Vec3(-2.0 * velocity); };
+    coupling::DemStep step;
+    for (int call = 0; call < 50; ++call) step = engine.advance(2e-3, drag);
+    EXPECT_EQ(step.contacts, 2);
+    EXPECT_GT(step.max_overlap_ratio, 0.0);
+    EXPECT_LT(step.max_overlap_ratio, 0.005);
+}
+
+TEST(Insertion, keeps_what_it_is_given_to_the_bit) {
+    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    coupling::Rocks rocks;
+    add_rock(rocks, 12, Vec3(0.1 / 3.0, -0.2 / 7.0, 0.3 / 11.0), Vec3(1.0 / 3.0, 2.0 / 7.0, -0.1), 0.017, 2345.6);
+    add_rock(rocks, 40, Vec3(-0.1, 0.2, 0.3), Vec3::Zero(), 0.023, 2700.1);
+    rocks.angular_velocity[1] = Vec3(1.0 / 3.0, -2.0, 0.7);
+    EXPECT_EQ(engine.insert(rocks), (std::vector<int>{12, 40}));
+    EXPECT_EQ(engine.rocks().id, rocks.id);
+    EXPECT_EQ(engine.rocks().position, rocks.position);
+    EXPECT_EQ(engine.rocks().velocity, rocks.velocity);
+    EXPECT_EQ(engine.rocks().angular_velocity, rocks.angular_velocity);
+    EXPECT_EQ(engine.rocks().diameter, rocks.diameter);
+    EXPECT_EQ(engine.rocks().density, rocks.density);
+    EXPECT_THROW(engine.insert(rocks), std::invalid_argument);
+}
+
+TEST(Insertion, refuses_overlaps_with_rocks_planes_and_the_outside) {
+    coupling::DemSettings settings = still_water();
+    settings.domain.z_min_is_wall = true;
+    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(0, 0, 0));
+    add_rock(rocks, 2, Vec3(0.0199, 0, 0));     // overlaps 1
+    add_rock(rocks, 3, Vec3(0, 0.0201, 0));     // clear of 1
+    add_rock(rocks, 4, Vec3(0.1, 0, -0.4901));  // overlaps the plane
+    add_rock(rocks, 5, Vec3(0.1, 0, -0.4899));  // clear of it
+    add_rock(rocks, 6, Vec3(0.51, 0, 0));       // outside
+    add_rock(rocks, 7, Vec3(0.2, 0, 0.495));    // at the open end: inside
+    EXPECT_EQ(engine.insert(rocks), (std::vector<int>{1, 3, 5, 7}));
+    coupling::Rocks more;
+    add_rock(more, 8, Vec3(0, 0, 0.0199));  // overlaps 1 of before
+    EXPECT_TRUE(engine.insert(more).empty());
+}
+
+TEST(Insertion, refuses_steel_where_it_stands_now_and_inside_it) {
+    Paddle paddle(k_pi / 2.0 / 0.01);  // a quarter turn in 10 ms
+    paddle.settings.walls.push_back(
+        {"column", write_stl(scratch_folder() / "column.stl", block(Vec3(-0.4, -0.05, -0.3), Vec3(-0.3, 0.05, 0.3), 2)), false});
+    paddle.settings.walls[0].file =
+        write_stl(paddle.settings.walls[1].file.parent_path() / "paddle.stl", block(Vec3(0.05, -0.01, -0.05), Vec3(0.3, 0.01, 0.05), 3));
+    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    engine.advance(0.01, no_force);
+    EXPECT_NEAR(engine.rotor_angle(), k_pi / 2.0, 1e-12);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(0.2, 0, 0));         // where the paddle stood
+    add_rock(rocks, 2, Vec3(0.0199, 0.2, 0));    // touches it where it stands now
+    add_rock(rocks, 3, Vec3(-0.0201, 0.2, 0));   // beside it
+    add_rock(rocks, 4, Vec3(-0.35, 0, 0.1));     // deep inside the column: no face within reach
+    add_rock(rocks, 5, Vec3(-0.2899, 0.03, 0));  // beside the column
+    add_rock(rocks, 6, Vec3(0, 0.3101, 0));      // beyond its tip
+    EXPECT_EQ(engine.insert(rocks), (std::vector<int>{1, 3, 5, 6}));
+}
+
+// Rock that comes between rocks in contact must not change their forces: the heap's energy goes on falling.
+TEST(Insertion, leaves_the_contacts_of_others_alone) {
+    coupling::DemSettings settings = still_water();
+    settings.domain.z_min = 0.0;
+    settings.domain.z_min_is_wall = true;
+    const auto run = [&](bool with_insertions) {
+        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        coupling::Rocks rocks;
+        for (int k = 0; k < 8; ++k) add_rock(rocks, k + 1, Vec3(0.003 * (k % 2), 0.002 * (k % 3), 0.0105 + 0.0205 * k));
+        EXPECT_EQ(engine.insert(rocks).size(), 8u);
+        for (int call = 0; call < 60; ++call) {
+            if (with_insertions && call % 7 == 3) {
+                coupling::Rocks extra;
+                add_rock(extra, 100 + call, Vec3(-0.4 + 0.012 * call, -0.25, 0.3));
+                EXPECT_EQ(engine.insert(extra).size(), 1u);
+            }
+            engine.advance(1e-3, no_force);
+        }
+        return engine.rocks();
+    };
+    const coupling::Rocks undisturbed = run(false);
+    const coupling::Rocks disturbed = run(true);
+    for (std::size_t k = 0; k < 8; ++k) {
+        ASSERT_EQ(undisturbed.id[k], disturbed.id[k]);
+        EXPECT_NEAR((undisturbed.position[k] - disturbed.position[k]).norm(), 0.0, 1e-12);
+    }
+}
+
+TEST(Removal, takes_rocks_out_and_keeps_the_contacts_of_the_rest) {
+    coupling::DemSettings settings = still_water();
+    settings.domain.z_min = 0.0;
+    settings.domain.z_min_is_wall = true;
+    const auto run = [&](bool with_removal) {
+        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        coupling::Rocks rocks;
+        for (int k = 0; k < 6; ++k) add_rock(rocks, k + 10, Vec3(0.003 * (k % 2), 0.002 * (k % 3), 0.0105 + 0.0205 * k));
+        add_rock(rocks, 1, Vec3(0.3, 0.2, 0.3));
+        add_rock(rocks, 20, Vec3(-0.3, 0.2, 0.3));
+        engine.insert(rocks);
+        for (int call = 0; call < 60; ++call) {
+            if (with_removal && call == 20) {
+                engine.remove(std::vector<int>{20});
+                coupling::Rocks passing;
+                add_rock(passing, 33, Vec3(0.3, -0.3, 0.3));
+                engine.insert(passing);
+                engine.remove(std::vector<int>{1, 33});
+            }
+            engine.advance(1e-3, no_force);
+        }
+        return engine.rocks();
+    };
+    const coupling::Rocks all = run(false);
+    const coupling::Rocks rest = run(true);
+    ASSERT_EQ(rest.id, (std::vector<int>{10, 11, 12, 13, 14, 15}));
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+        const auto same = std::find(all.id.begin(), all.id.end(), rest.id[k]) - all.id.begin();
+        EXPECT_NEAR((rest.position[k] - all.position[same]).norm(), 0.0, 1e-12);
+    }
+}
+
+TEST(Settings, every_mistake_is_named) {
+    coupling::DemSettings settings = still_water();
+    settings.contact.youngs_modulus = 0.0;
+    settings.contact.restitution = 1.2;
+    settings.domain.radius = -1.0;
+    coupling::RotorMotion rotor;
+    rotor.axis.direction = Vec3::UnitX();
+    try {
+        LiggghtsEngine engine(settings, rotor, MPI_COMM_WORLD);
+        FAIL() << "wrong settings were taken";
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 4u);
+        EXPECT_NE(std::string(error.what()).find("youngsModulus = 0"), std::string::npos);
+    }
+}
+
+TEST(Settings, a_wall_without_its_file_is_refused) {
+    coupling::DemSettings settings = still_water();
+    settings.walls = {{"cutter", "no/such/file.stl", true}};
+    EXPECT_THROW(LiggghtsEngine(settings, still_rotor(), MPI_COMM_WORLD), UserError);
+}
+
+}  // namespace cutterflow::liggghts::tests

@@ -1,0 +1,41 @@
+#include "solver/physics/contact.hpp"
+
+#include <cmath>
+
+#include "geometry/base/axis_frame.hpp"
+
+namespace cutterflow::physics {
+
+double impact_stokes(double density_ratio, double added_mass_coefficient, double impact_speed, double diameter,
+                     double kinematic_viscosity) {
+    return (density_ratio + added_mass_coefficient) * impact_speed * diameter / (9.0 * kinematic_viscosity);
+}
+
+double wet_restitution(double dry_restitution, double stokes) {
+    return stokes > 0.0 ? dry_restitution * std::exp(-35.0 / stokes) : 0.0;
+}
+
+double hertz_damping_factor(double restitution) {
+    const double log_e = std::log(restitution);
+    return -std::sqrt(5.0) * log_e / std::sqrt(log_e * log_e + k_pi * k_pi);
+}
+
+double hertz_largest_overlap(const Impact& impact) {
+    return std::pow(15.0 * impact.mass * impact.speed * impact.speed / (16.0 * impact.modulus * std::sqrt(impact.radius)), 0.4);
+}
+
+double hertz_time(const Impact& impact) {
+    constexpr double compression_and_restitution = 2.9432750914577;  // 2 times the integral of dx / sqrt(1 - x^(5/2)) over (0, 1)
+    return compression_and_restitution * hertz_largest_overlap(impact) / impact.speed;
+}
+
+double rayleigh_time(double radius, double density, double youngs_modulus, double poisson_ratio) {
+    const double shear_modulus = youngs_modulus / (2.0 * (1.0 + poisson_ratio));
+    return k_pi * radius * std::sqrt(density / shear_modulus) / (0.1631 * poisson_ratio + 0.8766);
+}
+
+double youngs_modulus_for_overlap(double inertia_density, double speed, double overlap_ratio, double compliance) {
+    return 1.25 * k_pi * inertia_density * speed * speed * compliance / std::pow(overlap_ratio, 2.5);
+}
+
+}  // namespace cutterflow::physics

@@ -1,0 +1,43 @@
+#pragma once
+/// \file Closed forms of contacts: wet restitution, Hertz and Rayleigh times, the stiffness that an impact speed asks for.
+
+namespace cutterflow::physics {
+
+/// Impact Stokes number [-] with added mass:  St = (rho_s/rho_f + C_AM) u d / (9 nu). [Legendre2006]
+/// \param impact_speed  normal speed at first contact [m/s], >= 0
+double impact_stokes(double density_ratio, double added_mass_coefficient, double impact_speed, double diameter, double kinematic_viscosity);
+
+/// Restitution in the fluid [-]:  e_wet = e_dry exp(-35/St); 0 for St = 0. [Legendre2006]
+double wet_restitution(double dry_restitution, double stokes);
+
+/// Damping factor of the Hertz contact [-]:  alpha = -sqrt(5) ln e / sqrt(ln^2 e + pi^2), so that the normal damping force is
+/// alpha sqrt(m* k_n) overlap^(1/4) times the normal speed, k_n = 4/3 E* sqrt(R*). \param restitution in (0, 1]. [AntypovElliott2011]
+double hertz_damping_factor(double restitution);
+
+/// A normal impact of two bodies, as the effective values of Hertz' law.
+struct Impact {
+    double mass = 0.0;     ///< 1/m* = sum 1/m [kg]
+    double radius = 0.0;   ///< 1/R* = sum 1/R [m]
+    double modulus = 0.0;  ///< 1/E* = sum (1 - nu^2)/E [Pa]
+    double speed = 0.0;    ///< normal, at first contact [m/s]
+};
+
+/// Largest overlap [m] without damping:  (15 m* u^2 / (16 E* sqrt(R*)))^(2/5). [AntypovElliott2011]
+double hertz_largest_overlap(const Impact& impact);
+
+/// Duration of the contact [s] without damping:  2.9432751 overlap / u = 2.868 (m*^2 / (R* E*^2 u))^(1/5). [AntypovElliott2011]
+double hertz_time(const Impact& impact);
+
+/// Rayleigh time [s] of a sphere:  pi R sqrt(rho/G) / (0.1631 nu + 0.8766), G = E / (2 (1 + nu)).
+double rayleigh_time(double radius, double density, double youngs_modulus, double poisson_ratio);
+
+/// Young's modulus [Pa] with which a sphere that hits a flat wall at `speed` [m/s] overlaps it by `overlap_ratio` of its radius. From
+/// Hertz' largest overlap with m* = 4/3 pi rho R^3, R* = R:  E = (5 pi/4) rho u^2 compliance / overlap_ratio^(5/2). It does not depend on
+/// the size. \param inertia_density  rho_s + C_AM rho_f [kg/m3]: the mass that the contact has to stop, added mass included \param
+/// compliance  E/E* [-]: 1 - nu^2 for a rigid wall, the sum over both bodies when wall and sphere share E
+double youngs_modulus_for_overlap(double inertia_density, double speed, double overlap_ratio, double compliance);
+
+/// Largest overlap [-] over the radius that the project accepts at the rotor's tip speed.
+inline constexpr double k_largest_overlap_ratio = 0.05;
+
+}  // namespace cutterflow::physics

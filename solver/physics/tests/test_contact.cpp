@@ -1,0 +1,64 @@
+// Hertz, Rayleigh and wet restitution against published and independently computed values.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "solver/physics/contact.hpp"
+
+namespace cutterflow::physics {
+namespace {
+
+double sphere_mass(double radius, double density) {
+    return 4.0 / 3.0 * k_pi * radius * radius * radius * density;
+}
+
+TEST(WetRestitution, follows_the_curve_of_legendre) {
+    const double reference[][2] = {{10, 0.030}, {35, 0.368}, {100, 0.705}, {500, 0.932}, {2000, 0.983}};
+    for (const auto& [stokes, ratio] : reference) EXPECT_NEAR(wet_restitution(1.0, stokes), ratio, 5e-4);
+    EXPECT_EQ(wet_restitution(0.97, 0.0), 0.0);
+}
+
+TEST(WetRestitution, of_a_20_mm_rock_in_water) {
+    const double reference[][2] = {{0.05, 0.878}, {0.1, 0.923}, {0.25, 0.951}, {1.0, 0.965}, {2.0, 0.968}};
+    for (const auto& [speed, e] : reference)
+        EXPECT_NEAR(wet_restitution(0.97, impact_stokes(2650.0 / 998.2, 0.5, speed, 0.02, 1.0034e-6)), e, 6e-4);
+}
+
+TEST(HertzDamping, has_the_values_of_antypov_and_elliott) {
+    const double reference[][2] = {{0.97, 0.02168}, {0.9, 0.07495}, {0.7, 0.25225}, {0.5, 0.48177}, {0.1, 1.32186}};
+    for (const auto& [e, damping] : reference) EXPECT_NEAR(hertz_damping_factor(e), damping, 5e-6);
+    EXPECT_EQ(hertz_damping_factor(1.0), 0.0);
+}
+
+// Chung and Ooi's first benchmark: two equal limestone spheres, 10 mm, 20 m/s apart in all.
+TEST(Hertz, meets_the_limestone_benchmark) {
+    const double modulus = 20e9 / (2.0 * (1.0 - 0.25 * 0.25));
+    const Impact impact{0.5 * sphere_mass(0.01, 2500.0), 0.005, modulus, 20.0};
+    EXPECT_NEAR(hertz_largest_overlap(impact), 368.3e-6, 0.05e-6);
+    EXPECT_NEAR(hertz_time(impact), 54.20e-6, 0.005e-6);
+    const double force = 4.0 / 3.0 * modulus * std::sqrt(0.005) * std::pow(hertz_largest_overlap(impact), 1.5);
+    EXPECT_NEAR(force, 7108.2, 0.1);
+}
+
+TEST(Rayleigh, of_soft_and_stiff_rock) {
+    EXPECT_NEAR(rayleigh_time(0.01, 2650.0, 10e6, 0.24), 0.88e-3, 5e-6);
+    EXPECT_NEAR(rayleigh_time(0.01, 2650.0, 60e9, 0.24), 11.4e-6, 5e-8);
+}
+
+TEST(YoungsModulus, for_five_percent_at_the_tip_of_the_model_cutter) {
+    // 60 rpm at 0.4 m, dry rock on rigid steel: 0.11 GPa.
+    EXPECT_NEAR(youngs_modulus_for_overlap(2650.0, 2.0 * k_pi * 0.4, 0.05, 1.0 - 0.24 * 0.24), 0.1108e9, 5e4);
+}
+
+TEST(YoungsModulus, inverts_the_largest_overlap_for_any_size) {
+    for (const double radius : {0.001, 0.01, 0.5}) {
+        const double compliance = (1.0 - 0.24 * 0.24) + (1.0 - 0.27 * 0.27);
+        const double modulus = youngs_modulus_for_overlap(3149.1, 3.77, 0.05, compliance);
+        const Impact impact{sphere_mass(radius, 3149.1), radius, modulus / compliance, 3.77};
+        EXPECT_NEAR(hertz_largest_overlap(impact) / radius, 0.05, 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace cutterflow::physics
