@@ -1,0 +1,18 @@
+#pragma once
+/// \file Pieces of HTML. Text goes in through escape(); markup comes from the report alone.
+#include <string>
+#include <vector>
+
+namespace cutterflow::postproc::html {
+
+/// Text with the characters that HTML reads as markup replaced.
+std::string escape(const std::string& text);
+
+/// A table; cells are markup (escape text first). The first column of every row is its heading; `numeric` aligns the others right.
+std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows, bool numeric);
+
+std::string figure(const std::string& content, const std::string& caption, const std::string& css_class = "");
+
+std::string section(const std::string& title, const std::string& content);
+
+}  // namespace cutterflow::postproc::html

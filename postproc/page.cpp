@@ -1,0 +1,570 @@
+#include "postproc/page.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "postproc/figures.hpp"
+#include "postproc/html.hpp"
+#include "postproc/not_modelled.hpp"
+#include "postproc/palette.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using html::escape;
+using nlohmann::json;
+
+constexpr const char* k_dash = "–";
+
+constexpr const char* k_style_sheet = R"css(
+:root { --ink: #26303a; --soft: #5a6672; --line: #dfe4e9; --tint: #f5f7f9; }
+* { box-sizing: border-box; }
+html { font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Liberation Sans", Arial, sans-serif; font-size: 16px;
+  color: var(--ink); background: #fff; line-height: 1.5; }
+body { max-width: 1180px; margin: 0 auto; padding: 36px 32px 64px; }
+header { border-bottom: 2px solid var(--ink); padding-bottom: 14px; margin-bottom: 20px; }
+h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 4px; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }
+h2 { font-size: 1.18rem; margin: 44px 0 12px; font-weight: 650; border-bottom: 1px solid var(--line); padding-bottom: 6px; }
+p { margin: 0 0 10px; max-width: 78ch; }
+.operating { color: var(--soft); margin: 0; max-width: none; }
+.scope { border-left: 4px solid #f0c14b; background: #fdf8ea; padding: 10px 14px; margin: 18px 0; max-width: none; }
+.notice { border-left: 4px solid #d55e00; background: #fdf1ea; padding: 10px 14px; margin: 0 0 20px; max-width: none; }
+.answers { display: grid; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); gap: 14px; margin: 0 0 14px; }
+.answer { border: 1px solid var(--line); border-top: 4px solid var(--colour, var(--ink)); border-radius: 3px; padding: 12px 16px 14px; }
+.answer .label { font-size: 0.86rem; color: var(--soft); line-height: 1.35; min-height: 2.7em; }
+.answer .value { font-size: 2.1rem; line-height: 1.2; font-weight: 650; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
+.answer .detail { font-size: 0.86rem; color: var(--soft); }
+.trust { font-size: 0.92rem; margin: 16px 0 0; padding: 0; list-style: none; }
+.trust li { padding: 7px 0; border-top: 1px solid var(--line); display: grid; grid-template-columns: 11em 1fr; gap: 14px; }
+.trust b { font-weight: 600; }
+.figures { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 26px 30px; align-items: start; }
+figure { margin: 0; break-inside: avoid; min-width: 0; }
+figure.wide { grid-column: 1 / -1; }
+figure.head { display: grid; grid-template-columns: 13fr 10fr; gap: 10px; align-items: center; }
+figure.head figcaption { grid-column: 1 / -1; }
+figure.rose svg { max-width: 430px; margin: 0 auto; }
+figure svg { display: block; width: 100%; height: auto; }
+svg text { font-family: inherit; }
+figure + table { margin-top: 18px; }
+figcaption { font-size: 0.86rem; color: var(--soft); margin-top: 6px; }
+.legend { list-style: none; margin: 4px 0 0; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 0.9rem; }
+.legend i { display: inline-block; width: 0.8em; height: 0.8em; border-radius: 50%; margin-right: 0.45em; vertical-align: -0.05em; }
+.tables > div { min-width: 0; overflow-x: auto; }
+.tables { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 18px 34px; align-items: start; }
+table { border-collapse: collapse; width: 100%; font-size: 0.9rem; break-inside: auto; }
+th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
+tr { break-inside: avoid; }
+thead th { color: var(--soft); font-weight: 600; border-bottom: 1.5px solid #b8c1ca; }
+tbody th { font-weight: 500; }
+table + table, table + p { margin-top: 14px; }
+sup { font-size: 0.72em; line-height: 0; }
+sub { font-size: 0.72em; line-height: 0; }
+table.numbers td, table.numbers thead th:not(:first-child) { text-align: right; font-variant-numeric: tabular-nums; }
+table.numbers th, table.numbers td { overflow-wrap: normal; }
+table.numbers td, table.numbers tbody th { white-space: nowrap; }
+table.numbers td:last-child, table.numbers thead th:last-child { padding-right: 2px; }
+h3 { font-size: 0.95rem; margin: 14px 0 6px; font-weight: 600; }
+.passed { color: #00795c; } .failed { color: #b3361b; font-weight: 650; }
+footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px; font-size: 0.82rem; color: var(--soft); }
+@media (max-width: 900px) {
+  body { padding: 22px 20px 48px; }
+  .answers { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  .figures, .tables { grid-template-columns: minmax(0, 1fr); }
+  .figures figure:not(.wide) { max-width: 640px; }
+  .trust li { grid-template-columns: 8.5em 1fr; }
+}
+@media print {
+  @page { size: A4; margin: 14mm; }
+  html { font-size: 12px; }
+  body { max-width: none; padding: 0; }
+  table { font-size: 0.78rem; }
+  th, td { padding-right: 7px; }
+  .tables { gap: 12px 22px; }
+  .tables > div { overflow: visible; }
+  .answers { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .figures, .tables { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  h2 { break-after: avoid; }
+  * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+}
+)css";
+
+std::string percent(double share) {
+    return fmt::format("{:.1f} %", 100.0 * share);
+}
+
+std::string percent(const std::optional<double>& share) {
+    return share ? percent(*share) : std::string("undefined");
+}
+
+/// Number with `digits` significant digits: plain where people read it so, else with a power of ten.
+std::string digits_of(double value, int digits) {
+    if (std::abs(value) < 1e-300) return "0";  // also limits that say "above zero"
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+    if (exponent < -4 || exponent > 6) {
+        const std::string power = exponent < 0 ? fmt::format("−{}", -exponent) : fmt::format("{}", exponent);
+        return fmt::format("{:.{}g}·10<sup>{}</sup>", value / std::pow(10.0, exponent), digits, power);
+    }
+    const double unit = std::pow(10.0, exponent - digits + 1);
+    std::string text = fmt::format("{:.{}f}", std::round(value / unit) * unit, std::max(0, digits - 1 - exponent));
+    if (text.find('.') == std::string::npos) return text;
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+std::string number(const std::optional<double>& value, const char* unit = "", int digits = 3) {
+    if (!value) return k_dash;
+    return digits_of(*value, digits) + (*unit ? fmt::format(" {}", unit) : "");
+}
+
+/// Mean and standard error to the same decimal.
+std::string number(const std::optional<TimeAverage>& average, const char* unit) {
+    if (!average) return k_dash;
+    const std::string tail = *unit ? fmt::format(" {}", unit) : "";
+    if (!average->standard_error || *average->standard_error == 0.0) return digits_of(average->mean, 3) + tail;
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(*average->standard_error))), 0, 6);
+    return fmt::format("{:.{}f} ± {:.{}f}{}", average->mean, decimals, *average->standard_error, decimals, tail);
+}
+
+std::string duration(double seconds) {
+    if (seconds < 120.0) return fmt::format("{:.3g} s", seconds);
+    if (seconds < 7200.0) return fmt::format("{:.1f} min", seconds / 60.0);
+    return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// Value of a JSON file as markup.
+std::string json_text(const json& value) {
+    if (value.is_string()) return escape(value.get<std::string>());
+    if (value.is_number_float()) return digits_of(value.get<double>(), 5);
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return escape(value.dump());
+}
+
+/// A word of the study as people write it: "over_cut" as "over-cut".
+std::string spaced(std::string word) {
+    std::replace(word.begin(), word.end(), '_', '-');
+    return escape(word);
+}
+
+/// "cell_size_min_m" as "cell size min [m]": units stand at the end of a key.
+std::string key_text(const std::string& key) {
+    static const std::vector<std::pair<std::string, std::string>> units{
+        {"_kg_m3", "kg/m³"}, {"_m3_s", "m³/s"}, {"_m_s", "m/s"}, {"_deg", "°"}, {"_rad", "rad"}, {"_rpm", "rpm"},
+        {"_m3", "m³"},       {"_m2", "m²"},     {"_mm", "mm"},   {"_kg", "kg"}, {"_m", "m"},     {"_s", "s"}};
+    std::string words = key, unit;
+    for (const auto& [suffix, text] : units) {
+        if (words.size() <= suffix.size() || words.compare(words.size() - suffix.size(), suffix.size(), suffix) != 0) continue;
+        words.resize(words.size() - suffix.size());
+        unit = " [" + text + "]";
+        break;
+    }
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return escape(words) + unit;
+}
+
+/// "0-30mm" as "0–30 mm".
+std::string bin_text(const std::string& name) {
+    const std::size_t dash = name.find('-');
+    if (dash == std::string::npos || name.size() < 2 || name.substr(name.size() - 2) != "mm")
+        return name == "below_hub" ? "below hub" : escape(name);
+    return escape(name.substr(0, dash) + "–" + name.substr(dash + 1, name.size() - dash - 3) + " mm");
+}
+
+/// The single values of a JSON file as rows.
+std::vector<std::vector<std::string>> value_rows(const json& object) {
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [key, value] : object.items()) {
+        if (!value.is_structured() && !value.is_null()) rows.push_back({key_text(key), json_text(value)});
+    }
+    return rows;
+}
+
+std::string fate_detail(const RockAmount& amount) {
+    return fmt::format("{} rocks, {:.4g} kg", amount.count, amount.mass);
+}
+
+std::optional<double> mean_of(const std::optional<TimeAverage>& average) {
+    return average ? std::optional<double>(average->mean) : std::nullopt;
+}
+
+std::string over_revolutions(const RotorLoads& rotor) {
+    if (rotor.averaged_revolutions == 0) return "less than one revolution after the start of the averaging window";
+    return fmt::format("mean over {} whole revolution{}", rotor.averaged_revolutions, rotor.averaged_revolutions == 1 ? "" : "s");
+}
+
+std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail) {
+    return fmt::format(
+        "<div class=\"answer\" style=\"--colour: {}\"><div class=\"label\">{}</div><div class=\"value\">{}</div>"
+        "<div class=\"detail\">{}</div></div>\n",
+        colour, label, value, detail);
+}
+
+std::string plot(const PageFigures& figures, const std::string& name, const std::string& caption, const std::string& css_class = "") {
+    const auto found = figures.plots.find(name);
+    return found == figures.plots.end() ? "" : html::figure(found->second, caption, css_class);
+}
+
+const char* kind_of_run(const Results& results, const RunData& run) {
+    if (results.spillage) return "Flow-induced spillage";
+    return run.feed ? "Flow in the turning head (rock has not come in yet)" : "Flow in the turning head (no rock)";
+}
+
+std::string header(const Results& results, const RunData& run) {
+    const OperatingPoint& point = run.operating_point;
+    const std::string name = point.study_name.empty() ? std::string("Cutter head") : escape(point.study_name);
+    const std::string swing = point.swing_direction.empty() ? "" : ", " + spaced(point.swing_direction);
+    return fmt::format(
+        "<header><h1>{}</h1><p class=\"operating\">{}: {:g} rpm{}, discharge {:g} m³/s, axis {:g}° below horizontal, "
+        "ring radius {:.3g} m{}</p></header>\n",
+        name, kind_of_run(results, run), point.speed_rpm, swing, point.discharge, point.inclination_deg, run.contour.ring_radius(),
+        point.mesh_preset.empty() ? "" : fmt::format(", mesh “{}”", escape(point.mesh_preset)));
+}
+
+std::string unfinished_notice(const Results& results) {
+    if (results.finished) return "";
+    return fmt::format(
+        "<p class=\"notice\"><b>The run is not finished.</b> These are the numbers up to t = {:.4g} s ({:.2f} revolutions). "
+        "Continue it with <code>cutterflow run --resume</code>.</p>\n",
+        results.end_time, results.rotor.revolutions);
+}
+
+std::string rock_answers(const Results& results, double revolution) {
+    const Spillage& spillage = *results.spillage;
+    const SpillageRatios& ratios = spillage.ratios;
+    const double placed = spillage.fates.placed.mass;
+    const double since_feed = (spillage.fates.time - spillage.feed_start) / revolution;
+    std::string bounds = ratios.ratio_min ? fmt::format("between {} and {} whatever the undecided rock does", percent(*ratios.ratio_min),
+                                                        percent(*ratios.ratio_max))
+                                          : ratios.reason;
+    if (!ratios.ratio && ratios.ratio_min) bounds = ratios.reason + "; " + bounds;
+    std::string blocks = answer(palette::spilled, "Spillage: spilled / (spilled + sucked up), by mass", percent(ratios.ratio), bounds);
+    blocks += answer(palette::sucked_up, "Production: sucked up / placed, by mass",
+                     placed > 0.0 ? percent(spillage.fates.sucked_up.mass / placed) : "undefined", fate_detail(spillage.fates.sucked_up));
+    blocks += answer(palette::in_cutter, "Undecided: still in the cutter or never entered", percent(ratios.undecided),
+                     fmt::format("{} in the cutter, {} never entered", spillage.fates.in_cutter.count, spillage.fates.never_entered.count));
+    blocks += answer(palette::ink, "Evaluated after", fmt::format("{:.2f} rev", since_feed),
+                     fmt::format("since the first rock ({:.3g} s); {} of {} rocks placed, {:.4g} kg",
+                                 spillage.fates.time - spillage.feed_start, spillage.fates.placed.count, results.rock_requested, placed));
+    return blocks;
+}
+
+/// The mean of an average and, in small print, its error.
+std::string error_detail(const TimeAverage& average, const char* unit) {
+    return average.standard_error ? fmt::format("± {} standard error; ", number(average.standard_error, unit, 2)) : "";
+}
+
+std::string flow_answers(const Results& results) {
+    const BinOutflow* strongest = nullptr;
+    for (const BinOutflow& bin : results.outflow) {
+        if (bin.radial_velocity && (!strongest || bin.radial_velocity->mean > strongest->radial_velocity->mean)) strongest = &bin;
+    }
+    std::string blocks;
+    if (strongest) {
+        blocks +=
+            answer(palette::outflow, "Strongest mean radial velocity outside the contour", number(strongest->radial_velocity->mean, "m/s"),
+                   error_detail(*strongest->radial_velocity, "m/s") + "bin: " + bin_text(strongest->bin.name));
+    }
+    const RotorLoads& rotor = results.rotor;
+    blocks += answer(palette::flow_load, "Mean torque of the flow on the cutter", number(mean_of(rotor.torque_flow), "N m"),
+                     rotor.torque_flow ? error_detail(*rotor.torque_flow, "N m") + over_revolutions(rotor) : over_revolutions(rotor));
+    blocks += answer(palette::ink, "Revolutions computed", fmt::format("{:.2f}", rotor.revolutions),
+                     fmt::format("up to t = {:.4g} s", results.end_time));
+    return blocks;
+}
+
+std::string conservation_text(const Conservation& conservation) {
+    std::string text;
+    if (conservation.solid_volume) text += fmt::format("rock volume on the mesh {}, ", number(conservation.solid_volume, "", 2));
+    if (conservation.momentum_exchange)
+        text += fmt::format("momentum exchanged between rock and water {}, ", number(conservation.momentum_exchange, "", 2));
+    return text +
+           fmt::format("water balance {} of the discharge, rotor interface {} of the flow through it: largest relative error of all steps",
+                       number(conservation.flow_balance, "", 2), number(conservation.interface_imbalance, "", 2));
+}
+
+std::string cost_text(const Cost& cost) {
+    std::string text = fmt::format("{} wall time", duration(cost.wall_s));
+    if (cost.ranks) text += fmt::format(" on {} rank{}", *cost.ranks, *cost.ranks == 1 ? "" : "s");
+    if (cost.core_s) text += fmt::format(", {} of core time", duration(*cost.core_s));
+    if (cost.core_s_per_revolution) text += fmt::format(" ({} per revolution)", duration(*cost.core_s_per_revolution));
+    text += fmt::format("; {} time steps", cost.steps);
+    if (cost.cells) text += fmt::format(" on {} cells", *cost.cells);
+    return text;
+}
+
+std::string trust_list(const Results& results) {
+    std::string items;
+    const auto item = [&](const char* label, const std::string& text) {
+        items += fmt::format("<li><b>{}</b><span>{}</span></li>", label, text);
+    };
+    if (results.spillage) {
+        item("Statistical error",
+             "no replicate: one batch, one placement. An interval needs three or more repeats that vary placement and "
+             "release angle; the bounds above are not one, they only say what the undecided rock could still do.");
+    }
+    item("Mesh error", "not in this report: compare with the same study on a finer mesh preset before using a number as an absolute one.");
+    item("Balances", conservation_text(results.conservation));
+    item("Cost", cost_text(results.cost));
+    return fmt::format("<ul class=\"trust\">{}</ul>\n", items);
+}
+
+std::string fate_legend(const Fates& fates) {
+    const auto entry = [](const char* colour, const char* name, const RockAmount& amount) {
+        return fmt::format("<li><i style=\"background: {}\"></i>{} ({})</li>", colour, name, amount.count);
+    };
+    return "<ul class=\"legend\">" + entry(palette::spilled, "spilled", fates.spilled) +
+           entry(palette::in_cutter, "in cutter", fates.in_cutter) + entry(palette::never_entered, "never entered", fates.never_entered) +
+           entry(palette::sucked_up, "sucked up", fates.sucked_up) + "</ul>";
+}
+
+std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
+    std::string content = fmt::format("<div class=\"answers\">\n{}</div>\n",
+                                      results.spillage ? rock_answers(results, run.operating_point.revolution_s()) : flow_answers(results));
+    if (results.spillage) {
+        content +=
+            plot(figures, "outcome",
+                 fate_legend(results.spillage->fates) +
+                     "Share of the placed mass. Bar below: the spillage ratio (dot) between its bounds; undecided rock separates them.");
+    }
+    return content + fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(results.spillage.has_value()))) + trust_list(results);
+}
+
+std::string head_figure(const Results& results, const PageFigures& figures) {
+    if (figures.head.side_view.empty()) return "";
+    std::string caption =
+        "Left: from the side, gravity downwards; backplate and suction pipe transparent. Right: from the hub along the axis, "
+        "lowest side down. The arrow shows the sense of rotation.";
+    if (results.spillage && figures.head.rocks_shown > 0) {
+        caption += fmt::format(" Rocks in true size at the last checkpoint or the end; {} of {} lie outside the left picture.",
+                               figures.head.rocks_outside_view, figures.head.rocks_shown);
+        caption = fate_legend(results.spillage->fates) + caption;
+    }
+    return html::figure(figures.head.side_view + figures.head.axial_view, caption, "head wide");
+}
+
+std::string figure_section(const Results& results, const PageFigures& figures) {
+    std::string content = head_figure(results, figures);
+    content +=
+        plot(figures, "bins",
+             results.spillage
+                 ? "Where rock left the head for the last time, and the radial velocity there: sampled just outside the contour of "
+                   "revolution, averaged over azimuth and time (whiskers: standard error by batch means). “gap” lies between ring and "
+                   "backplate."
+                 : "Radial velocity just outside the contour of revolution, averaged over azimuth and time (whiskers: standard error by "
+                   "batch means). “gap” lies between ring and backplate.");
+    content += plot(figures, "first_exit",
+                    "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock "
+                    "left out). Seen from the hub, the lowest side down.",
+                    "rose");
+    content += plot(figures, "fates",
+                    "Mass of the placed rock by fate. A fate is the last state of the rock’s centre, with a hysteresis of a "
+                    "quarter of its diameter; sucked up is final.");
+    content +=
+        plot(figures, "ratio", "Spillage ratio over time with its bounds: lower, all undecided rock is sucked up; upper, all is spilled.");
+    content += plot(figures, "torque",
+                    "Torque that flow and rock put on the cutter about the axis (right-handed, hub to ring), mean over 1/100 "
+                    "revolution; dashed: mean over whole revolutions.");
+    content += plot(figures, "balance", "Errors of the balances at every step, relative.");
+    return content.empty() ? ""
+                           : html::section(results.spillage ? "Where the rock goes, and why" : "The flow through the head",
+                                           "<div class=\"figures\">" + content + "</div>");
+}
+
+std::string series_table(const Spillage& spillage) {
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const std::vector<RatiosAt>& series, const char* unit) {
+        for (const RatiosAt& at : series) {
+            rows.push_back({fmt::format("{:g} {}", at.since_feed, unit), percent(at.ratios.ratio), percent(at.ratios.ratio_min),
+                            percent(at.ratios.ratio_max), percent(at.ratios.undecided)});
+        }
+    };
+    add(spillage.at_revolutions, "rev");
+    add(spillage.at_seconds, "s");
+    if (rows.empty()) return "<p>Less than one revolution and one second since the first rock.</p>";
+    return html::table({"since the first rock", "ratio", "lower", "upper", "undecided"}, rows, true);
+}
+
+std::string bins_table(const Results& results) {
+    std::vector<std::vector<std::string>> rows;
+    const std::size_t count = results.spillage ? results.spillage->bins.size() : results.outflow.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const AxialBin& bin = results.spillage ? results.spillage->bins[i].bin : results.outflow[i].bin;
+        const std::string range =
+            std::isfinite(bin.z_min) ? fmt::format("{:.3f} to {:.3f}", bin.z_min, bin.z_max) : fmt::format("below {:.3f}", bin.z_max);
+        std::vector<std::string> row{bin_text(bin.name), range};
+        if (results.spillage) {
+            row.push_back(fmt::format("{}", results.spillage->bins[i].spilled.count));
+            row.push_back(fmt::format("{:.4g}", results.spillage->bins[i].spilled.mass));
+        }
+        row.push_back(results.outflow.empty() ? k_dash : number(results.outflow[i].radial_velocity, ""));
+        rows.push_back(row);
+    }
+    std::vector<std::string> header{"bin", "z, m"};
+    if (results.spillage) header.insert(header.end(), {"spilled rocks", "spilled, kg"});
+    header.emplace_back("radial velocity, m/s");
+    return html::table(header, rows, true);
+}
+
+std::string rock_section(const Results& results, const RunData& run) {
+    std::string content = fmt::format("<div class=\"tables\"><div><h3>By axial bin{}</h3>{}</div><div>",
+                                      results.spillage ? " (of the last exit)" : "", bins_table(results));
+    if (results.spillage) {
+        content += "<h3>At equal revolutions and at equal time</h3>" + series_table(*results.spillage);
+        content += "<h3>Feed</h3>" + html::table({},
+                                                 {{"requested", fmt::format("{} rocks", results.rock_requested)},
+                                                  {"placed", fmt::format("{} rocks", results.spillage->fates.placed.count)},
+                                                  {"rejected", fmt::format("{} rocks", results.rock_rejected)}},
+                                                 true);
+        if (run.feed) {
+            for (const std::string& reason : run.feed->reasons) content += fmt::format("<p>{}</p>", escape(reason));
+            for (const RockClass& rock : run.feed->classes) {
+                content += fmt::format("<p>{:g} rocks of {:.3g} mm, {:.0f} kg/m³, settling at {} in still water.</p>", rock.count,
+                                       1e3 * rock.diameter, rock.density, number(rock.settling_velocity, "m/s"));
+            }
+        }
+    }
+    return html::section("The numbers behind the figures", content + "</div></div>");
+}
+
+/// A row of the operating table: model value and, by Froude's law, that of the prototype: value times ratio^power.
+std::vector<std::string> scaled_row(const std::string& name, const std::string& unit, const std::optional<double>& value, double ratio,
+                                    double power) {
+    std::vector<std::string> row{fmt::format("{} [{}]", name, unit), number(value, "", 4)};
+    if (ratio != 1.0) row.push_back(value ? number(*value * std::pow(ratio, power), "", 4) : std::string(k_dash));
+    return row;
+}
+
+std::string operation_section(const Results& results, const RunData& run) {
+    const OperatingPoint& point = run.operating_point;
+    const double ratio = point.length_ratio;
+    std::vector<std::vector<std::string>> rows{
+        scaled_row("rotor speed", "rpm", point.speed_rpm, ratio, -0.5),
+        scaled_row("ring radius", "m", run.contour.ring_radius(), ratio, 1.0),
+        scaled_row("tip speed", "m/s", point.angular_speed() * run.contour.ring_radius(), ratio, 0.5),
+        scaled_row("discharge Q of the mixture", "m³/s", point.discharge, ratio, 2.5),
+        scaled_row("velocity in the suction pipe", "m/s", results.delivery.pipe_velocity, ratio, 0.5),
+        scaled_row("mean torque of the flow", "N m", mean_of(results.rotor.torque_flow), ratio, 4.0)};
+    if (results.spillage) rows.push_back(scaled_row("mean torque of the rock", "N m", mean_of(results.rotor.torque_rock), ratio, 4.0));
+    rows.push_back(scaled_row("mean power of the drive", "W", mean_of(results.rotor.power), ratio, 3.5));
+    if (results.spillage) {
+        rows.push_back(scaled_row("delivered concentration by volume", "-", results.delivery.concentration, ratio, 0.0));
+        rows.push_back(scaled_row("mixture density", "kg/m³", results.delivery.mixture_density, ratio, 0.0));
+        rows.push_back(scaled_row("placed rock", "kg", results.spillage->fates.placed.mass, ratio, 3.0));
+    }
+    const std::string cutter = std::filesystem::path(run.geometry.value("file", std::string())).filename().string();
+    const std::vector<std::vector<std::string>> layout{
+        {"cutter", cutter.empty() ? k_dash : escape(cutter)},
+        {"rotor direction about hub to ring", spaced(point.rotor_direction)},
+        {"swing direction", point.swing_direction.empty() ? k_dash : spaced(point.swing_direction)},
+        {"axis below horizontal", number(point.inclination_deg, "°", 4)},
+        {"suction mouth: radius", number(point.mouth_radius, "m")},
+        {"suction mouth: distance from the axis", number(point.mouth_offset, "m")},
+        {"suction mouth: azimuth (0 lowest)", number(point.mouth_azimuth_deg, "°", 4)},
+        {"gap between ring and backplate", number(run.contour.z_backplate(), "m")}};
+    std::vector<std::string> header{"quantity", "as computed"};
+    if (ratio != 1.0) header.push_back(fmt::format("Froude-scaled {:g}:1", ratio));
+    const std::vector<std::vector<std::string>> numbers{{"flow number Q / (ω R³)", number(results.scale.flow_number)},
+                                                        {"Froude number ω² R / g", number(results.scale.froude)},
+                                                        {"settling ratio u<sub>t</sub> / (ω R)", number(results.scale.settling_ratio)},
+                                                        {"size ratio d / R", number(results.scale.size_ratio)}};
+    std::string content = "<div class=\"tables\"><div><h3>Quantities</h3>" + html::table(header, rows, true) +
+                          "</div><div><h3>Scale numbers</h3>" + html::table({}, numbers, true);
+    content += "<h3>Layout</h3>" + html::table({}, layout, true);
+    content += "<p>R ring radius, ω rotor speed, u<sub>t</sub> settling velocity and d diameter of the rock (mean by mass). ";
+    if (results.spillage) content += "Delivered concentration: volume of sucked up rock over the mixture discharged since the first rock. ";
+    content += fmt::format("Torques and power: {}.</p>", over_revolutions(results.rotor));
+    return html::section("Operating point and scale", content + "</div></div>");
+}
+
+std::string mesh_section(const RunData& run) {
+    std::string content;
+    if (!run.mesh.empty()) content += "<div>" + html::table({"mesh", ""}, value_rows(run.mesh), true) + "</div>";
+    std::vector<std::vector<std::string>> gates;
+    for (const json& gate : run.mesh.value("gates", json::array())) {
+        const bool passed = gate.value("passed", false);
+        gates.push_back({escape(gate.value("name", "")), json_text(gate.value("value", json())), json_text(gate.value("limit", json())),
+                         passed ? "<span class=\"passed\">passed</span>" : "<span class=\"failed\">failed</span>"});
+    }
+    std::string right;
+    if (!gates.empty()) right += html::table({"gate", "value", "limit", ""}, gates, true);
+    for (const char* part : {"head", "surface"}) {
+        const json values = run.geometry.value(part, json::object());
+        if (!values.empty()) right += html::table({fmt::format("cutter: {}", part), ""}, value_rows(values), true);
+    }
+    return html::section("Mesh quality and geometry", "<div class=\"tables\">" + content + "<div>" + right + "</div></div>");
+}
+
+std::string model_section(const RunData& run) {
+    std::vector<std::vector<std::string>> on, off;
+    for (const json& model : run.cost_summary.value("models", json::array())) {
+        on.push_back({escape(model.value("name", "")), escape(model.value("why", ""))});
+    }
+    for (const NotModelled& item : not_modelled()) off.push_back({escape(item.name), escape(item.consequence)});
+    std::string content =
+        on.empty() ? "<p>The run has not yet written which models were on.</p>" : html::table({"model that was on", "why"}, on, false);
+    content += "<h3>What is not modelled</h3>" + html::table({"", "what that means for the result"}, off, false);
+    return html::section("Models", content);
+}
+
+std::string cost_section(const Results& results, const RunData& run, const PageFigures& figures) {
+    std::string legend;
+    double rest = 1.0;
+    for (const CostPart& part : cost_parts()) {
+        const double share = results.cost.share.at(part.key);
+        rest -= share;
+        legend += fmt::format("<li><i style=\"background: {}\"></i>{} ({})</li>", part.colour, part.title, percent(share));
+    }
+    legend = fmt::format("<ul class=\"legend\">{}<li>not assigned ({})</li></ul>", legend, percent(std::max(0.0, rest)));
+    std::string content = plot(figures, "cost", legend + "Share of the time steps’ wall time by part of the solver (slowest rank).");
+    if (content.empty()) content = legend;
+    std::vector<std::vector<std::string>> stages;
+    const json recorded = run.manifest.value("stages", json::object());
+    for (const char* name : {"geometry", "mesh", "case", "start", "run", "report"}) {
+        const json stage = recorded.value(name, json());
+        if (!stage.is_object()) continue;
+        const auto seconds = [&stage](const char* key) {
+            const auto found = stage.find(key);
+            return found != stage.end() && found->is_number() ? duration(found->get<double>()) : std::string(k_dash);
+        };
+        stages.push_back({name, json_text(stage.value("state", json(""))), seconds("wall_s"), seconds("core_s")});
+    }
+    if (!stages.empty()) content += html::table({"stage", "state", "wall time", "core time"}, stages, true);
+    return html::section("Cost by part", content);
+}
+
+std::string version_section(const json& versions) {
+    if (versions.empty()) return "";
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [name, version] : versions.items()) rows.push_back({escape(name), json_text(version)});
+    return html::section("Versions", html::table({}, rows, false));
+}
+
+}  // namespace
+
+std::string report_page(const Results& results, const RunData& run, const PageFigures& figures) {
+    const std::string title = run.operating_point.study_name.empty() ? std::string("Cutter head") : escape(run.operating_point.study_name);
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::string page = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+        "<title>{} – Cutterflow</title><style>{}</style></head><body>\n",
+        title, k_style_sheet);
+    page += header(results, run);
+    page += unfinished_notice(results);
+    page += answer_section(results, run, figures);
+    if (!figures.note.empty()) page += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
+    page += figure_section(results, figures) + rock_section(results, run) + operation_section(results, run);
+    page += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
+    page += version_section(results_json(results, run).at("versions"));
+    page +=
+        fmt::format("<footer>Written by Cutterflow on {:%Y-%m-%d %H:%M} UTC. The same numbers for programs: results.json ({}).</footer>\n",
+                    fmt::gmtime(now), k_results_schema);
+    return page + "</body></html>\n";
+}
+
+}  // namespace cutterflow::postproc

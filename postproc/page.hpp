@@ -1,0 +1,20 @@
+#pragma once
+/// \file The report's page: one HTML file that needs no network and no scripts.
+#include <map>
+#include <string>
+
+#include "postproc/head_picture.hpp"
+#include "postproc/results.hpp"
+
+namespace cutterflow::postproc {
+
+/// What the page shows besides numbers. A plot that is absent is left out.
+struct PageFigures {
+    std::map<std::string, std::string> plots;  ///< <svg> elements by the plot's name
+    HeadPicture head;
+    std::string note;  ///< why plots are missing; empty when none are
+};
+
+std::string report_page(const Results& results, const RunData& run, const PageFigures& figures);
+
+}  // namespace cutterflow::postproc

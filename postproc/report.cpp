@@ -1,0 +1,75 @@
+#include "postproc/report.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_names.hpp"
+#include "postproc/figures.hpp"
+#include "postproc/page.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_atomically(const fs::path& file, const std::string& text) {
+    const fs::path part = file.string() + ".part";
+    {
+        std::ofstream stream(part, std::ios::binary);
+        stream << text;
+        stream.flush();
+        if (!stream) {
+            throw UserError(fmt::format("{} cannot be written", part.string()), "",
+                            "Check the folder's permissions and the space on the disk");
+        }
+    }
+    fs::rename(part, file);
+}
+
+std::vector<PlotScript> plots_of(const Results& results, const RunData& run) {
+    const double revolution = run.operating_point.revolution_s();
+    const bool with_rock = results.spillage.has_value();
+    std::vector<PlotScript> plots;
+    if (with_rock) {
+        plots.push_back(outcome_plot(*results.spillage));
+        plots.push_back(fates_plot(run.rock->fates, *results.spillage, revolution));
+        plots.push_back(ratio_plot(run.rock->fates, *results.spillage, revolution));
+        if (!results.spillage->first_exit_azimuths.empty()) plots.push_back(first_exit_plot(results.spillage->first_exit_azimuths));
+    }
+    if (with_rock || !results.outflow.empty()) plots.push_back(bins_plot(results));
+    plots.push_back(torque_plot(run.loads, results.rotor, revolution, with_rock));
+    plots.push_back(balance_plot(run.balance, revolution, with_rock));
+    plots.push_back(cost_plot(results.cost));
+    return plots;
+}
+
+PageFigures draw_figures(const Results& results, const RunData& run, const fs::path& scratch) {
+    PageFigures figures;
+    figures.head = draw_head(run);
+    if (!gnuplot_is_installed()) {
+        figures.note =
+            "Plots are missing: the program gnuplot was not found. Install it (Debian: apt-get install gnuplot-nox) and make the "
+            "report again; the tables below hold the same numbers.";
+        return figures;
+    }
+    for (const PlotScript& script : plots_of(results, run)) figures.plots[script.name] = draw_svg(script, scratch);
+    fs::remove_all(scratch);
+    return figures;
+}
+
+}  // namespace
+
+ReportSummary write_report(const fs::path& run_directory) {
+    const RunData run = read_run(run_directory);
+    ReportSummary summary{run_directory / names::results_json, run_directory / names::report_page, compute_results(run), ""};
+    fs::create_directories(summary.results_file.parent_path());
+    write_atomically(summary.results_file, results_json(summary.results, run).dump(2) + "\n");
+    const PageFigures figures = draw_figures(summary.results, run, summary.page_file.parent_path() / "plots.part");
+    summary.note = figures.note;
+    write_atomically(summary.page_file, report_page(summary.results, run, figures));
+    return summary;
+}
+
+}  // namespace cutterflow::postproc

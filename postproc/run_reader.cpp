@@ -1,0 +1,236 @@
+#include "postproc/run_reader.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_names.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* k_rerun = "Make the run anew with this version of Cutterflow";
+
+/// Object of a JSON file; empty object when the file is absent.
+json read_json(const fs::path& file) {
+    if (!fs::exists(file)) return json::object();
+    std::ifstream stream(file);
+    json value = json::parse(stream, nullptr, false);
+    if (!value.is_object()) throw UserError(fmt::format("{} is not a JSON object", file.string()), "", k_rerun);
+    return value;
+}
+
+/// Collects what is wrong with the values of a file, so that all of it is said at once.
+class StudyReader {
+public:
+    explicit StudyReader(fs::path file) : file_(std::move(file)) {
+        try {
+            root_ = toml::parse_file(file_.string());
+        } catch (const toml::parse_error& error) {
+            throw UserError(fmt::format("{} cannot be read as TOML: {}", file_.string(), error.description()), "",
+                            "Give the directory of a run that `cutterflow run` made");
+        }
+    }
+    double number(const std::string& key) {
+        const std::optional<double> value = root_.at_path(key).value<double>();
+        if (!value) miss(key, "is missing or not a number");
+        return value.value_or(1.0);
+    }
+    double positive(const std::string& key) {
+        const double value = number(key);
+        if (!(value > 0.0)) miss(key, fmt::format("= {} is not positive", value));
+        return value;
+    }
+    std::string text(const std::string& key, bool required) {
+        const std::optional<std::string> value = root_.at_path(key).value<std::string>();
+        if (!value && required) miss(key, "is missing or not a text");
+        return value.value_or("");
+    }
+    void require_all() {
+        if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
+    }
+
+private:
+    void miss(const std::string& key, const std::string& what) {
+        mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report computes with it", k_rerun});
+    }
+    fs::path file_;
+    toml::table root_;
+    std::vector<Mistake> mistakes_;
+};
+
+OperatingPoint read_operating_point(StudyReader& study) {
+    OperatingPoint point;
+    point.study_name = study.text("name", false);
+    point.speed_rpm = study.positive("rotor.speed_rpm");
+    point.rotor_direction = study.text("rotor.direction", true);
+    point.discharge = study.positive("suction.discharge_m3_s");
+    point.mouth_radius = study.positive("suction.mouth_radius_m");
+    point.mouth_offset = study.number("suction.mouth_offset_m");
+    point.mouth_azimuth_deg = study.number("suction.mouth_azimuth_deg");
+    point.inclination_deg = study.number("ladder.inclination_deg");
+    point.fluid_density = study.positive("fluid.density_kg_m3");
+    point.outflow_start = study.number("report.outflow_start_s");
+    point.length_ratio = study.positive("scale.length_ratio");
+    point.swing_direction = study.text("swing.direction", false);
+    point.mesh_preset = study.text("mesh.preset", false);
+    return point;
+}
+
+double required_number(const json& object, const char* key, const fs::path& file) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) {
+        throw UserError({{file.string(), fmt::format("{} is missing or not a number", key), "The report computes with it", k_rerun}});
+    }
+    return found->get<double>();
+}
+
+Contour read_contour(const fs::path& directory, const json& geometry, double gap) {
+    const double ring_radius = required_number(geometry.value("head", json::object()), "ring_radius_m", directory / names::geometry_report);
+    const fs::path file = directory / names::contour_table;
+    const Table table = read_table(file, {{"z_m", "r_m"}, {}, {}, k_rerun});
+    try {
+        return Contour(table.number("z_m"), table.number("r_m"), ring_radius, gap);
+    } catch (const std::exception& error) {
+        throw UserError(fmt::format("{} is not a contour: {}", file.string(), error.what()), "", k_rerun);
+    }
+}
+
+int read_blades(const json& geometry) {
+    const json blades = geometry.value("head", json::object()).value("blades", json(1));
+    return blades.is_number_integer() ? std::max(1, blades.get<int>()) : 1;
+}
+
+std::optional<FeedSummary> read_feed(const fs::path& file) {
+    if (!fs::exists(file)) return std::nullopt;
+    const json report = read_json(file);
+    FeedSummary summary;
+    for (const json& feed : report.value("feeds", json::array())) {
+        summary.requested += static_cast<int>(required_number(feed, "requested", file));
+        summary.rejected += static_cast<int>(required_number(feed, "rejected", file));
+        for (const json& reason : feed.value("reasons", json::array())) summary.reasons.push_back(reason.get<std::string>());
+        for (const json& item : feed.value("classes", json::array())) {
+            RockClass rock_class{required_number(item, "diameter_m", file), required_number(item, "density_kg_m3", file),
+                                 required_number(item, "count", file), std::nullopt};
+            if (const auto speed = item.find("settling_velocity_m_s"); speed != item.end() && speed->is_number()) {
+                rock_class.settling_velocity = speed->get<double>();
+            }
+            summary.classes.push_back(rock_class);
+        }
+    }
+    return summary;
+}
+
+TableRules event_rules() {
+    return {{"time_s", "id", "x_m", "y_m", "z_m", "rotor_angle_rad", "azimuth_rad", "axial_m", "diameter_m", "density_kg_m3"},
+            {"surface", "direction", "bin"},
+            {},
+            k_rerun};
+}
+
+TableRules fate_rules() {
+    return {{"time_s", "placed_count", "placed_kg", "sucked_up_count", "sucked_up_kg", "spilled_count", "spilled_kg", "in_cutter_count",
+             "in_cutter_kg", "never_entered_count", "never_entered_kg"},
+            {},
+            {},
+            k_rerun};
+}
+
+TableRules final_rules() {
+    return {{"id", "first_exit_time_s", "first_exit_azimuth_rad", "x_m", "y_m", "z_m", "diameter_m", "density_kg_m3"},
+            {"fate", "last_exit_bin"},
+            {"first_exit_time_s", "first_exit_azimuth_rad"},
+            k_rerun};
+}
+
+TableRules balance_rules() {
+    const std::vector<std::string> rock{
+        "solid_volume_error", "momentum_exchange_error", "solid_fraction_max", "overlap_ratio_max", "dem_substeps", "rocks", "contacts"};
+    TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "continuity_error", "outlet_flow_m3_s",
+                      "outlet_pressure_m2_s2", "courant_max"},
+                     {},
+                     rock,
+                     k_rerun};
+    rules.numbers.insert(rules.numbers.end(), rock.begin(), rock.end());
+    return rules;
+}
+
+/// The last folder's table that exists, for tables that are rewritten as a whole.
+Table read_newest_table(const fs::path& directory, const std::string& what, const std::string& file, const TableRules& rules) {
+    Table newest;
+    for (const auto& [start, folder] : start_folders(directory, what)) {
+        if (!fs::exists(folder / file)) continue;
+        Table table = read_table(folder / file, rules);
+        if (!table.columns().empty()) newest = std::move(table);
+    }
+    return newest;
+}
+
+std::optional<RockTables> read_rock(const fs::path& directory) {
+    RockTables rock;
+    rock.fates = read_joined_table(directory, "rock", "fates.csv", fate_rules());
+    if (rock.fates.empty()) return std::nullopt;
+    rock.events = read_joined_table(directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
+    rock.final_state = read_newest_table(directory, "rock", "final.csv", final_rules());
+    rock.rejected_in_run = read_joined_table(directory, "rock", "rejected.csv", {{"time_s", "id"}, {"reason"}, {}, k_rerun}, {"id"}).rows();
+    return rock;
+}
+
+void require_computed(const RunData& run) {
+    if (!run.balance.empty() && !run.cost.empty() && !run.loads.empty()) return;
+    throw UserError(fmt::format("{} holds no computed time step", (run.directory / "postProcessing").string()),
+                    "A report needs the tables balance, cost and loads of cutterFoam",
+                    "Start or continue the run: cutterflow run --resume");
+}
+
+}  // namespace
+
+RunData read_run(const fs::path& directory) {
+    StudyReader study(directory / names::resolved_study);
+    const OperatingPoint point = read_operating_point(study);
+    const double bin_width = study.positive("report.bin_width_m");
+    const double gap = study.positive("suction.gap_m");
+    study.require_all();
+    const json geometry = read_json(directory / names::geometry_report);
+    const Contour contour = read_contour(directory, geometry, gap);
+    RunData run{directory,
+                point,
+                contour,
+                axial_bins(contour, bin_width),
+                read_feed(directory / names::feed_report),
+                read_rock(directory),
+                {},
+                {},
+                {},
+                {},
+                geometry,
+                read_json(directory / names::mesh_report),
+                read_json(directory / names::manifest),
+                {},
+                false};
+    std::vector<std::string> bin_names;
+    for (const AxialBin& bin : run.bins) bin_names.push_back(bin.name);
+    bin_names.insert(bin_names.begin(), "time_s");
+    run.outflow = read_joined_table(directory, "outflow", "contour_velocity.csv",
+                                    {bin_names, {}, {}, "Make the report with the bin width of the run (report.bin_width_m)"});
+    run.loads = read_joined_table(
+        directory, "loads", "loads.csv",
+        {{"time_s", "rotor_angle_rad", "torque_pressure_n_m", "torque_viscous_n_m", "torque_rock_n_m", "power_w"}, {}, {}, k_rerun});
+    run.balance = read_joined_table(directory, "balance", "balance.csv", balance_rules());
+    run.cost = read_joined_table(directory, "cost", "cost.csv",
+                                 {{"time_s", "step_s", "fluid_s", "mesh_motion_s", "mapping_s", "dem_s", "output_s"}, {}, {}, k_rerun});
+    require_computed(run);
+    const auto cost_folders = start_folders(directory, "cost");
+    run.cost_summary = read_json(cost_folders.back().second / "cost.json");
+    run.blades = read_blades(geometry);
+    run.finished = !run.cost_summary.empty();
+    return run;
+}
+
+}  // namespace cutterflow::postproc

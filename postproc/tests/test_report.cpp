@@ -1,0 +1,179 @@
+#include "postproc/report.hpp"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/error.hpp"
+#include "postproc/not_modelled.hpp"
+#include "postproc/tests/synthetic_run.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using testing::read_text;
+using testing::SmallRun;
+
+std::size_t occurrences(const std::string& text, const std::string& word) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + word.size())) ++count;
+    return count;
+}
+
+bool contains(const std::string& text, const std::string& word) {
+    return text.find(word) != std::string::npos;
+}
+
+TEST(WriteReport, writes_both_files_and_leaves_nothing_else) {
+    SmallRun run("report");
+    run.write();
+    const ReportSummary summary = write_report(run.directory);
+    const auto document = nlohmann::json::parse(read_text(summary.results_file));
+    EXPECT_NEAR(document.at("spillage").at("ratio").get<double>(), 11.0 / 14.0, 1e-9);
+    EXPECT_NEAR(*summary.results.spillage->ratios.ratio, 11.0 / 14.0, 1e-9);
+    EXPECT_TRUE(summary.note.empty()) << summary.note;
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(run.directory / "report")) {
+        ++files;
+        EXPECT_TRUE(entry.path() == summary.results_file || entry.path() == summary.page_file) << entry.path();
+    }
+    EXPECT_EQ(files, 2);
+}
+
+TEST(WriteReport, page_gives_the_answer_first_with_bounds_error_and_cost) {
+    SmallRun run("report_answer");
+    run.write();
+    const std::string page = read_text(write_report(run.directory).page_file);
+    const std::size_t body = page.find("<body>");
+    std::size_t last = body;
+    for (const char* part : {"78.6 %", "between 68.8 % and 81.2 %", "18.8 %", "12.5 %", "names no best speed", "no replicate",
+                             "4·10<sup>−14</sup>", "5·10<sup>−12</sup>", "6.7 min wall time", "Where the rock goes"}) {
+        const std::size_t at = page.find(part, body);
+        ASSERT_NE(at, std::string::npos) << part;
+        EXPECT_GT(at, last) << part;
+        last = at;
+    }
+    for (const NotModelled& item : not_modelled()) EXPECT_TRUE(contains(page, item.name)) << item.name;
+    EXPECT_FALSE(contains(page, "is not finished"));
+}
+
+TEST(WriteReport, page_stands_alone_and_holds_every_plot) {
+    SmallRun run("report_alone");
+    run.write();
+    const std::string page = read_text(write_report(run.directory).page_file);
+    EXPECT_EQ(occurrences(page, "<svg"), occurrences(page, "</svg>"));
+    EXPECT_EQ(occurrences(page, "<svg"), 10u);  // eight plots and two pictures
+    EXPECT_EQ(occurrences(page, "data:image/png;base64,"), 2u);
+    EXPECT_FALSE(contains(page, "<script"));
+    EXPECT_FALSE(contains(page, "src="));
+    EXPECT_FALSE(contains(page, "@import"));
+    std::string outside = page;
+    for (std::size_t at = outside.find("http"); at != std::string::npos; at = outside.find("http", at + 1)) {
+        EXPECT_EQ(outside.compare(at, 18, "http://www.w3.org/"), 0) << outside.substr(at, 60);  // names of XML, not addresses to fetch
+    }
+    // Ids are unique in the page.
+    std::vector<std::string> ids;
+    for (std::size_t at = page.find(" id="); at != std::string::npos; at = page.find(" id=", at + 1))
+        ids.push_back(page.substr(at, page.find(page[at + 4], at + 5) - at));
+    const std::size_t all = ids.size();
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    EXPECT_EQ(ids.size(), all);
+}
+
+TEST(WriteReport, names_of_the_user_cannot_become_markup) {
+    SmallRun run("report_escape");
+    run.study_name = "<script>alert('x')</script> & \"rev B\"";
+    run.write();
+    auto feed = nlohmann::json::parse(read_text(run.directory / "feed.json"));
+    feed["feeds"][0]["reasons"] = {"<img onerror=1>"};
+    testing::write_text(run.directory / "feed.json", feed.dump());
+    const std::string page = read_text(write_report(run.directory).page_file);
+    EXPECT_FALSE(contains(page, "<script>alert"));
+    EXPECT_FALSE(contains(page, "<img"));
+    EXPECT_TRUE(contains(page, "Cutter &lt;rev B&gt;.STL"));
+    EXPECT_FALSE(contains(page, "/data/"));  // the folder is nobody's business
+    EXPECT_TRUE(contains(page, "&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; &quot;rev B&quot;"));
+}
+
+TEST(WriteReport, an_unfinished_run_is_reported_and_says_so) {
+    SmallRun run("report_unfinished");
+    run.finished = false;
+    run.end_time = 1.5;
+    run.write();
+    const std::string page = read_text(write_report(run.directory).page_file);
+    EXPECT_TRUE(contains(page, "The run is not finished."));
+    EXPECT_TRUE(contains(page, "t = 1.5 s"));
+}
+
+TEST(WriteReport, a_pure_flow_run_is_reported_by_its_outflow) {
+    SmallRun run("report_flow");
+    run.with_rock = false;
+    run.write();
+    const std::string page = read_text(write_report(run.directory).page_file);
+    EXPECT_TRUE(contains(page, "no rock"));
+    EXPECT_TRUE(contains(page, "Strongest mean radial velocity"));
+    EXPECT_FALSE(contains(page, "sucked up / placed"));
+    EXPECT_EQ(occurrences(page, "<svg"), 6u);
+}
+
+TEST(WriteReport, prototype_columns_follow_froude) {
+    SmallRun run("report_prototype");
+    run.length_ratio = 4.0;
+    run.write();
+    const std::string page = read_text(write_report(run.directory).page_file);
+    EXPECT_TRUE(contains(page, "Froude-scaled 4:1"));
+    EXPECT_TRUE(contains(page, "<td>60</td><td>30</td>"));      // rpm
+    EXPECT_TRUE(contains(page, "<td>0.12</td><td>3.84</td>"));  // m3/s
+    EXPECT_TRUE(contains(page, "<td>-11</td><td>-2816</td>"));  // N m
+}
+
+/// Hides every program from the process while it lives.
+class NoPrograms {
+public:
+    NoPrograms() : path_(std::getenv("PATH")) { setenv("PATH", "/nonexistent", 1); }
+    ~NoPrograms() { setenv("PATH", path_.c_str(), 1); }
+
+private:
+    std::string path_;
+};
+
+TEST(WriteReport, without_gnuplot_the_page_has_its_tables_and_names_the_program) {
+    SmallRun run("report_no_gnuplot");
+    run.write();
+    const NoPrograms guard;
+    const ReportSummary summary = write_report(run.directory);
+    EXPECT_TRUE(contains(summary.note, "gnuplot"));
+    const std::string page = read_text(summary.page_file);
+    EXPECT_TRUE(contains(page, "gnuplot-nox"));
+    EXPECT_TRUE(contains(page, "78.6 %"));
+    EXPECT_TRUE(contains(page, "60–90 mm"));
+    EXPECT_EQ(occurrences(page, "<svg"), 2u);  // the pictures need no program
+}
+
+TEST(WriteReport, fates_that_do_not_add_up_leave_an_older_report_alone) {
+    SmallRun run("report_old");
+    run.write();
+    const ReportSummary summary = write_report(run.directory);
+    const std::string before = read_text(summary.results_file);
+    const auto file = run.directory / "postProcessing/rock/0/events.csv";
+    std::string events = read_text(file);
+    events.resize(events.rfind('\n', events.size() - 2) + 1);
+    testing::write_text(file, events);
+    EXPECT_THROW(write_report(run.directory), CheckFailure);
+    EXPECT_EQ(read_text(summary.results_file), before);
+}
+
+TEST(WriteReport, realistic_run_gives_a_page) {
+    const auto directory = testing::fresh_directory("realistic");
+    testing::write_realistic_run(directory);
+    const ReportSummary summary = write_report(directory);
+    const Fates& fates = summary.results.spillage->fates;
+    EXPECT_EQ(fates.placed.count, 361);
+    EXPECT_EQ(fates.sucked_up.count + fates.spilled.count + fates.in_cutter.count + fates.never_entered.count, 361);
+    EXPECT_LT(std::filesystem::file_size(summary.page_file), 3'000'000u);
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc

@@ -1,0 +1,276 @@
+#include "postproc/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "postproc/tests/synthetic_run.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using nlohmann::json;
+using testing::small_rock_mass;
+using testing::SmallRun;
+
+json document_of(const SmallRun& run) {
+    const RunData data = read_run(run.directory);
+    return results_json(compute_results(data), data);
+}
+
+json document_of_small_run(const std::string& name) {
+    SmallRun run(name);
+    run.write();
+    return document_of(run);
+}
+
+/// The contract's keys below `object`, each with the predicate its value must fulfil.
+void expect_keys(const json& object, const std::vector<std::string>& keys, const std::string& where) {
+    for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << where << "." << key;
+}
+
+TEST(ResultsJson, has_every_key_of_the_contract) {
+    const json results = document_of_small_run("contract");
+    EXPECT_EQ(results.at("schema"), "cutterflow.results/1");
+    expect_keys(results,
+                {"rock", "spillage", "conservation", "rotor", "operation", "scale", "cost", "models", "not_modelled", "mesh", "versions"},
+                "");
+    expect_keys(results.at("rock"), {"requested", "placed", "rejected", "fates"}, "rock");
+    for (const char* fate : {"sucked_up", "spilled", "in_cutter", "never_entered"}) {
+        EXPECT_TRUE(results.at("rock").at("fates").at(fate).at("count").is_number_integer());
+        EXPECT_TRUE(results.at("rock").at("fates").at(fate).at("mass_kg").is_number());
+    }
+    expect_keys(results.at("spillage"), {"ratio", "ratio_min", "ratio_max", "undecided", "replicates", "bins"}, "spillage");
+    for (const json& bin : results.at("spillage").at("bins")) {
+        expect_keys(bin, {"name", "z_min_m", "z_max_m", "count", "mass_kg", "radial_velocity_mean_m_s"}, "bin");
+    }
+    for (const char* key : {"solid_volume_max_error", "momentum_exchange_max_error", "flow_balance_max_error", "interface_imbalance_max"}) {
+        EXPECT_TRUE(results.at("conservation").at(key).is_number()) << key;
+    }
+    for (const char* key : {"speed_rpm", "revolutions", "torque_flow_mean_n_m", "torque_rock_mean_n_m", "power_mean_w"}) {
+        EXPECT_TRUE(results.at("rotor").at(key).is_number()) << key;
+    }
+    for (const char* key : {"pipe_velocity_m_s", "delivered_concentration", "mixture_density_kg_m3"}) {
+        EXPECT_TRUE(results.at("operation").at(key).is_number()) << key;
+    }
+    for (const char* key : {"flow_number", "froude", "settling_ratio", "size_ratio"})
+        EXPECT_TRUE(results.at("scale").at(key).is_number()) << key;
+    for (const char* key : {"wall_s", "core_s", "steps", "cells", "ranks", "core_s_per_revolution"}) {
+        EXPECT_TRUE(results.at("cost").at(key).is_number()) << key;
+    }
+    for (const char* key : {"fluid", "mesh_motion", "mapping", "dem", "output"}) {
+        EXPECT_TRUE(results.at("cost").at("share").at(key).is_number()) << key;
+    }
+    ASSERT_FALSE(results.at("models").empty());
+    for (const json& model : results.at("models")) expect_keys(model, {"name", "why"}, "model");
+    EXPECT_FALSE(results.at("not_modelled").empty());
+    EXPECT_EQ(results.at("mesh").at("cells"), 61240);
+    EXPECT_EQ(results.at("versions").at("OpenFOAM"), "1912");
+    EXPECT_EQ(results.at("versions").at("cutterflow"), "0.1.0");
+}
+
+TEST(ResultsJson, counts_add_up_to_placed_and_bins_to_spilled) {
+    const json results = document_of_small_run("adding_up");
+    int count = 0;
+    double mass = 0.0;
+    for (const json& fate : results.at("rock").at("fates")) count += fate.at("count").get<int>();
+    EXPECT_EQ(count, results.at("rock").at("placed"));
+    EXPECT_EQ(results.at("rock").at("requested"), 11);
+    EXPECT_EQ(results.at("rock").at("rejected"), 2);
+    count = 0;
+    for (const json& bin : results.at("spillage").at("bins")) {
+        count += bin.at("count").get<int>();
+        mass += bin.at("mass_kg").get<double>();
+    }
+    const json& spilled = results.at("rock").at("fates").at("spilled");
+    EXPECT_EQ(count, spilled.at("count"));
+    EXPECT_NEAR(mass, spilled.at("mass_kg").get<double>(), 1e-6 * mass);
+    EXPECT_NEAR(mass, 11.0 * small_rock_mass(), 1e-6 * mass);
+}
+
+TEST(ResultsJson, bins_carry_names_limits_and_outflow) {
+    const json results = document_of_small_run("bins");
+    const json& bins = results.at("spillage").at("bins");
+    ASSERT_EQ(bins.size(), 17u);
+    EXPECT_EQ(bins[0].at("name"), "gap");
+    EXPECT_EQ(bins[0].at("z_min_m"), 0.0);
+    EXPECT_EQ(bins[0].at("z_max_m"), 0.03);
+    EXPECT_EQ(bins[3].at("name"), "60-90mm");
+    EXPECT_NEAR(bins[3].at("z_min_m").get<double>(), -0.09, 1e-12);
+    EXPECT_EQ(bins[16].at("name"), "below_hub");
+    EXPECT_TRUE(bins[16].at("z_min_m").is_null());
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+        EXPECT_NEAR(bins[k].at("radial_velocity_mean_m_s").get<double>(), 0.1 * static_cast<double>(k) - 0.3, 1e-9) << k;
+    }
+    EXPECT_EQ(results.at("outflow").at("window_start_s"), 1.0);
+    EXPECT_EQ(results.at("spillage").at("replicates"), "no replicate");
+}
+
+TEST(ResultsJson, loads_are_means_over_whole_revolutions_with_rock) {
+    SmallRun run("loads");
+    run.end_time = 2.6;  // the last 0.6 revolutions do not count
+    run.write();
+    const json rotor = document_of(run).at("rotor");
+    EXPECT_EQ(rotor.at("averaged_revolutions"), 1);
+    EXPECT_NEAR(rotor.at("revolutions").get<double>(), 2.6, 1e-9);
+    EXPECT_NEAR(rotor.at("torque_flow_mean_n_m").get<double>(), -11.0, 1e-9);
+    EXPECT_NEAR(rotor.at("torque_rock_mean_n_m").get<double>(), -2.0, 1e-9);
+    EXPECT_NEAR(rotor.at("power_mean_w").get<double>(), 13.0 * 2.0 * k_pi, 1e-6);
+}
+
+TEST(ResultsJson, operation_and_scale_follow_their_formulas) {
+    const json results = document_of_small_run("operation");
+    const double omega = 2.0 * k_pi, volume = small_rock_mass() / 2650.0;
+    const double concentration = 3.0 * volume / (0.12 * 1.0);
+    EXPECT_NEAR(results.at("operation").at("pipe_velocity_m_s").get<double>(), 0.12 / (k_pi * 0.01), 1e-12);
+    EXPECT_NEAR(results.at("operation").at("delivered_concentration").get<double>(), concentration, 1e-9 * concentration);
+    EXPECT_NEAR(results.at("operation").at("mixture_density_kg_m3").get<double>(), 998.2 + concentration * (2650.0 - 998.2), 1e-6);
+    EXPECT_NEAR(results.at("scale").at("flow_number").get<double>(), 0.12 / (omega * 0.064), 1e-12);
+    EXPECT_NEAR(results.at("scale").at("froude").get<double>(), omega * omega * 0.4 / 9.81, 1e-12);
+    EXPECT_NEAR(results.at("scale").at("settling_ratio").get<double>(), 1.036 / (omega * 0.4), 1e-12);
+    EXPECT_NEAR(results.at("scale").at("size_ratio").get<double>(), 0.05, 1e-12);
+}
+
+TEST(ResultsJson, settling_ratio_is_null_when_the_feed_has_no_settling_velocity) {
+    SmallRun run("no_settling");
+    run.write();
+    testing::write_text(run.directory / "feed.json",
+                        R"({"feeds": [{"requested": 9, "placed": 9, "rejected": 0,
+                       "classes": [{"diameter_m": 0.02, "density_kg_m3": 2650, "count": 9}]}]})");
+    const json scale = document_of(run).at("scale");
+    EXPECT_TRUE(scale.at("settling_ratio").is_null());
+    EXPECT_NEAR(scale.at("size_ratio").get<double>(), 0.05, 1e-12);
+}
+
+TEST(ResultsJson, conservation_is_the_largest_magnitude_of_all_steps) {
+    const json conservation = document_of_small_run("conservation").at("conservation");
+    EXPECT_DOUBLE_EQ(conservation.at("solid_volume_max_error").get<double>(), 4e-14);
+    EXPECT_DOUBLE_EQ(conservation.at("momentum_exchange_max_error").get<double>(), 5e-12);
+    EXPECT_DOUBLE_EQ(conservation.at("flow_balance_max_error").get<double>(), 3e-8);
+    EXPECT_DOUBLE_EQ(conservation.at("interface_imbalance_max").get<double>(), 2e-5);
+}
+
+TEST(ResultsJson, cost_sums_the_steps) {
+    const json cost = document_of_small_run("cost").at("cost");
+    EXPECT_NEAR(cost.at("wall_s").get<double>(), 400.0, 1e-9);
+    EXPECT_NEAR(cost.at("core_s").get<double>(), 800.0, 1e-9);
+    EXPECT_EQ(cost.at("steps"), 200);
+    EXPECT_NEAR(cost.at("core_s_per_revolution").get<double>(), 400.0, 1e-6);
+    EXPECT_NEAR(cost.at("share").at("fluid").get<double>(), 0.6, 1e-12);
+    EXPECT_NEAR(cost.at("share").at("dem").get<double>(), 0.03, 1e-12);
+}
+
+TEST(ResultsJson, a_resumed_run_gives_the_numbers_of_an_uninterrupted_one) {
+    const json whole = document_of_small_run("whole");
+    SmallRun run("resumed");
+    run.write();
+    // Killed at 1.73 s, resumed from the checkpoint of 1.3 s (rock 3 leaves in its very step). After it the killed part went another way.
+    const auto post = run.directory / "postProcessing";
+    std::filesystem::remove_all(post);
+    SmallRun killed = run;
+    killed.finished = false;
+    killed.events.push_back({1.71, 7, "mouth", "in", ""});
+    killed.write_tables("0", 0.0, 1.73);
+    run.write_tables("1.3", 1.3, 2.0);
+    for (const char* file : {"rock/0/fates.csv", "loads/0/loads.csv", "outflow/0/contour_velocity.csv", "balance/0/balance.csv"}) {
+        std::string text = testing::read_text(post / file);
+        text.resize(text.size() - 7);  // killed in the middle of a line
+        testing::write_text(post / file, text);
+    }
+    EXPECT_EQ(document_of(run).dump(2), [&] {
+        json same = whole;
+        same["run"]["name"] = "small run";
+        return same.dump(2);
+    }());
+}
+
+TEST(ResultsJson, pure_flow_has_outflow_and_no_rock) {
+    SmallRun run("pure_flow");
+    run.with_rock = false;
+    run.end_time = 3.0;
+    run.write();
+    const json results = document_of(run);
+    EXPECT_TRUE(results.at("rock").is_null());
+    EXPECT_TRUE(results.at("spillage").is_null());
+    EXPECT_NEAR(results.at("outflow").at("bins")[5].at("radial_velocity_mean_m_s").get<double>(), 0.2, 1e-9);
+    EXPECT_EQ(results.at("rotor").at("averaged_revolutions"), 2);
+    EXPECT_NEAR(results.at("rotor").at("torque_flow_mean_n_m").get<double>(), -11.0, 1e-9);
+    EXPECT_TRUE(results.at("rotor").at("torque_rock_mean_n_m").is_null());
+    EXPECT_TRUE(results.at("operation").at("delivered_concentration").is_null());
+    EXPECT_TRUE(results.at("conservation").at("solid_volume_max_error").is_null());
+    EXPECT_NEAR(results.at("conservation").at("flow_balance_max_error").get<double>(), 3e-8, 1e-20);
+}
+
+TEST(ResultsJson, an_unfinished_run_says_so_and_knows_no_mean_before_one_revolution) {
+    SmallRun run("unfinished");
+    run.finished = false;
+    run.end_time = 1.5;
+    run.write();
+    const json results = document_of(run);
+    EXPECT_EQ(results.at("run").at("finished"), false);
+    EXPECT_TRUE(results.at("rotor").at("torque_flow_mean_n_m").is_null());
+    EXPECT_FALSE(results.at("rotor").at("mean_reason").get<std::string>().empty());
+    EXPECT_TRUE(results.at("cost").at("core_s").is_null());
+    EXPECT_EQ(results.at("rock").at("fates").at("sucked_up").at("count"), 2);
+}
+
+TEST(ResultsJson, nothing_decided_leaves_the_ratio_null_with_its_reason) {
+    SmallRun run("undecided");
+    run.end_time = 1.2;
+    run.finished = false;
+    run.write();
+    const json spillage = document_of(run).at("spillage");
+    EXPECT_TRUE(spillage.at("ratio").is_null());
+    EXPECT_EQ(spillage.at("ratio_min"), 0.0);
+    EXPECT_EQ(spillage.at("ratio_max"), 1.0);
+    EXPECT_EQ(spillage.at("undecided"), 1.0);
+    EXPECT_EQ(spillage.at("ratio_reason"), "no rock was spilled or sucked up yet");
+}
+
+TEST(ReadRun, names_every_missing_key_of_the_study) {
+    SmallRun run("missing_keys");
+    run.write();
+    testing::write_text(run.directory / "study.resolved.toml", "[rotor]\nspeed_rpm = 0\n");
+    try {
+        read_run(run.directory);
+        FAIL();
+    } catch (const UserError& error) {
+        const std::string text = error.what();
+        for (const char* part :
+             {"rotor.speed_rpm = 0 is not positive", "suction.discharge_m3_s", "report.bin_width_m", "fluid.density_kg_m3"}) {
+            EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+        }
+    }
+}
+
+TEST(ReadRun, refuses_a_directory_without_a_computed_step) {
+    SmallRun run("not_started");
+    run.write();
+    std::filesystem::remove_all(run.directory / "postProcessing");
+    try {
+        read_run(run.directory);
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("holds no computed time step"), std::string::npos);
+    }
+    EXPECT_THROW(read_run(run.directory / "elsewhere"), UserError);
+}
+
+TEST(ReadRun, refuses_outflow_of_another_bin_width) {
+    SmallRun run("other_bins");
+    run.write();
+    const auto file = run.directory / "study.resolved.toml";
+    std::string text = testing::read_text(file);
+    const std::string key = "bin_width_m = ";
+    text.replace(text.find(key) + key.size(), 4, "0.05");
+    testing::write_text(file, text);
+    try {
+        read_run(run.directory);
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("report.bin_width_m"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
