@@ -1,0 +1,161 @@
+#include "cases/case_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "cases/flow_dictionaries.hpp"
+#include "geometry/base/run_names.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A surface of geometry/ and the copy that the DEM reads.
+struct DemSurface {
+    Wall wall;
+    const char* source;
+};
+
+std::vector<DemSurface> dem_surfaces() {
+    return {{{"cutter", "constant/triSurface/cutter_dem.stl", true}, names::cutter_surface},
+            {{"backplate", "constant/triSurface/backplate_dem.stl", false}, names::backplate_surface},
+            {{"suction_pipe", "constant/triSurface/suction_pipe_dem.stl", false}, names::suction_pipe_surface}};
+}
+
+FoamDictionary contact_section(const Rock& rock) {
+    return FoamDictionary()
+        .add("youngsModulus", rock.youngs_modulus)
+        .add("poissonRock", rock.poisson_rock)
+        .add("poissonSteel", rock.poisson_steel)
+        .add("friction", rock.friction)
+        .add("restitution", rock.restitution)
+        .add("wetRestitution", rock.wet_restitution)
+        .add("timeStepFraction", rock.time_step_fraction)
+        .add("maxSpeed", rock.max_speed);
+}
+
+FoamValue wall_list(const std::vector<Wall>& walls) {
+    std::vector<FoamValue> items;
+    for (const Wall& wall : walls)
+        items.emplace_back(
+            FoamDictionary().add("name", wall.name).add("file", FoamValue::quoted(wall.file)).add("rotating", wall.rotating));
+    return FoamValue::list(items);
+}
+
+FoamDictionary rock_section(const CaseInputs& inputs) {
+    FoamDictionary domain;
+    domain.add("radius", inputs.tank.radius)
+        .add("zMin", inputs.tank.z_min)
+        .add("zMinWall", true)
+        .add("zMax", inputs.tank.z_max)
+        .add("zMaxWall", true);
+    FoamDictionary section;
+    section.add("feed", FoamValue::quoted(names::rock_feed))
+        .add("contact", contact_section(*inputs.rock))
+        .add("walls", wall_list(inputs.rock->walls))
+        .add("domain", domain);
+    return section;
+}
+
+FoamDictionary fates_section(const CaseInputs& inputs) {
+    const Mouth& mouth = inputs.mouth;
+    FoamDictionary mouth_section;
+    mouth_section.add("centre", mouth.centre)
+        .add("direction", mouth.direction)
+        .add("radius", mouth.radius)
+        .add("depth", mouth.sucked_up_depth);
+    FoamDictionary section;
+    section.add("contour", FoamValue::quoted(names::contour_for_solver))
+        .add("ringRadius", inputs.contour.ring_radius())
+        .add("zBackplate", inputs.contour.z_backplate())
+        .add("hysteresis", inputs.fates.hysteresis)
+        .add("mouth", mouth_section)
+        .add("binWidth", inputs.fates.bin_width);
+    return section;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+    fs::create_directories(path.parent_path());
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+std::string contour_csv(const Contour& contour) {
+    std::string text = "z_m,r_m\n";
+    for (std::size_t i = 0; i < contour.z().size(); ++i) text += fmt::format("{},{}\n", contour.z()[i], contour.radius()[i]);
+    return text;
+}
+
+std::vector<FoamFile> case_files(const CaseInputs& inputs) {
+    std::vector<FoamFile> files = field_files(inputs);
+    for (const auto& more : {property_files(inputs), run_system_files(inputs)}) files.insert(files.end(), more.begin(), more.end());
+    files.push_back(dynamic_mesh_file(inputs));
+    files.push_back(decompose_file(inputs.ranks));
+    files.push_back({names::coupling_properties, "dictionary", coupling_dictionary(inputs)});
+    return files;
+}
+
+void copy_surface(const fs::path& run_directory, const DemSurface& surface) {
+    const fs::path target = run_directory / surface.wall.file;
+    fs::create_directories(target.parent_path());
+    fs::copy_file(run_directory / surface.source, target, fs::copy_options::overwrite_existing);
+}
+
+}  // namespace
+
+FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
+    FoamDictionary coupling;
+    if (inputs.rock) {
+        const Rock& rock = *inputs.rock;
+        FoamDictionary kernel, closures;
+        kernel.add("gamma", rock.kernel_gamma)
+            .add("minWidthInCells", rock.kernel_min_width_in_cells)
+            .add("maxSolidFraction", rock.max_solid_fraction);
+        closures.add("drag", rock.drag)
+            .add("hindrance", rock.hindrance)
+            .add("addedMass", rock.added_mass)
+            .add("dragModifier", rock.drag_modifier);
+        coupling.add("rock", rock_section(inputs)).add("kernel", kernel).add("closures", closures);
+    }
+    coupling.add("fates", fates_section(inputs));
+    coupling.add("outflow", FoamDictionary().add("offset", inputs.fates.outflow_offset).add("startTime", inputs.times.outflow_from));
+    if (inputs.fates.stop_undecided) coupling.add("stop", FoamDictionary().add("undecided", *inputs.fates.stop_undecided));
+    coupling.add("checkpoint",
+                 FoamDictionary().add("interval", inputs.times.checkpoint_interval).add("keep", inputs.times.checkpoints_kept));
+    return coupling;
+}
+
+std::vector<Wall> standard_walls() {
+    std::vector<Wall> walls;
+    for (const DemSurface& surface : dem_surfaces()) walls.push_back(surface.wall);
+    return walls;
+}
+
+std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs& inputs) {
+    const std::vector<Mistake> mistakes = check_case_inputs(inputs);
+    if (!mistakes.empty()) throw UserError(mistakes);
+
+    std::vector<fs::path> written;
+    for (const FoamFile& file : case_files(inputs)) {
+        write_foam_file(run_directory / file.path, file.foam_class, file.contents);
+        written.emplace_back(file.path);
+    }
+    write_text(run_directory / names::contour_for_solver, contour_csv(inputs.contour));
+    written.emplace_back(names::contour_for_solver);
+    if (inputs.rock) {
+        for (const DemSurface& surface : dem_surfaces()) {
+            copy_surface(run_directory, surface);
+            written.emplace_back(surface.wall.file);
+        }
+    }
+    written.emplace_back(fs::weakly_canonical(run_directory).filename().string() + ".foam");
+    write_text(run_directory / written.back(), "");
+    return written;
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,25 @@
+#pragma once
+/// \file Writes an OpenFOAM case for cutterFoam, pimpleFoam and the frozen-rotor start. The mesh (constant/polyMesh) is meshing's.
+#include <filesystem>
+#include <vector>
+
+#include "cases/case_inputs.hpp"
+#include "meshing/foam_dictionary.hpp"
+
+namespace cutterflow::cases {
+
+/// constant/couplingProperties, as docs/design/001-contracts.md lists its keys. Without inputs.rock it has no section `rock` and cutterFoam
+/// solves the flow alone.
+FoamDictionary coupling_dictionary(const CaseInputs& inputs);
+
+/// The steel surfaces of a run directory as DEM walls: cutter (rotating), backplate, suction pipe.
+std::vector<Wall> standard_walls();
+
+/// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, the DEM's surfaces (copies of geometry/*.stl, with rock
+/// only) and the empty file by which ParaView opens the case.
+/// \param run_directory  exists; with rock it holds geometry/cutter.stl, backplate.stl, suction_pipe.stl
+/// \return the files that were written, relative to the run directory
+/// \throws UserError  with every rule that the inputs break (check_case_inputs); nothing is written then
+std::vector<std::filesystem::path> write_case(const std::filesystem::path& run_directory, const CaseInputs& inputs);
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,16 @@
+#pragma once
+/// \file The sub-commands of cutterflow. Each adds itself with its options; its callback does the work and throws Failure.
+#include <CLI/CLI.hpp>
+
+namespace cutterflow::cli {
+
+void add_new(CLI::App& app);
+void add_check(CLI::App& app);
+void add_inspect(CLI::App& app);
+void add_generate_cutter(CLI::App& app);
+void add_mesh(CLI::App& app);
+void add_run(CLI::App& app);
+void add_report(CLI::App& app);
+void add_params(CLI::App& app);
+
+}  // namespace cutterflow::cli

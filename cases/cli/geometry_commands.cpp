@@ -1,0 +1,76 @@
+/// \file generate-cutter, inspect: work on surfaces alone.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/cli/commands.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/crown_cutter.hpp"
+#include "geometry/geometry_report.hpp"
+#include "geometry/io/read_surface.hpp"
+#include "geometry/io/write_stl.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GenerateOptions {
+    std::string crown;
+    std::string output;
+};
+
+void generate(const GenerateOptions& options) {
+    if (fs::exists(options.output))
+        throw UserError(fmt::format("{} is there already", options.output), "Nothing is overwritten", "Choose another name or remove it");
+    const TriangleSurface surface = generate_crown_cutter(read_crown_parameters(options.crown));
+    write_stl(surface, options.output);
+    std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3 of steel, in metres\n", options.output, surface.triangles.size(),
+                             volume_of(surface));
+}
+
+struct InspectOptions {
+    std::string cutter;
+    std::optional<std::string> unit;
+    std::optional<std::string> contour;
+    bool json = false;
+};
+
+void inspect(const InspectOptions& options) {
+    std::optional<LengthUnit> unit;
+    if (options.unit) unit = length_unit_of(*options.unit);
+    const GeometryInspection inspection = inspect_cutter(import_cutter(options.cutter, unit), options.cutter);
+    std::cout << (options.json ? to_json(inspection).dump(2) + "\n" : to_text(inspection)) << std::flush;
+    if (!inspection.soundness.sound()) {
+        const std::vector<Mistake> defects = defects_of(inspection.soundness, options.cutter);
+        throw UserError(defects);
+    }
+    if (options.contour) write_contour_csv(inspection.head->contour, *options.contour);
+}
+
+}  // namespace
+
+void add_generate_cutter(CLI::App& app) {
+    auto* command = app.add_subcommand("generate-cutter", "Write the STL of a parametric crown cutter.");
+    const auto options = std::make_shared<GenerateOptions>();
+    command->add_option("crown", options->crown, "TOML file of its sizes, as cases/examples/model_cutter/crown.toml")->required();
+    command->add_option("-o,--output", options->output, "STL file to write")->required();
+    command->callback([options] { generate(*options); });
+}
+
+void add_inspect(CLI::App& app) {
+    auto* command = app.add_subcommand("inspect", "Inspect a cutter: unit, soundness, axis, blades, contour.");
+    const auto options = std::make_shared<InspectOptions>();
+    command->add_option("cutter", options->cutter, "STL, OBJ or PLY file")->required();
+    command->add_option("--unit", options->unit,
+                        "Its unit of length (m, mm, cm, inch, ft); without it metres, or millimetres when only they give a plausible size");
+    command->add_option("--contour", options->contour, "CSV file to write the contour of revolution to");
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options] { inspect(*options); });
+}
+
+}  // namespace cutterflow::cli

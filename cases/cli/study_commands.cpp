@@ -1,0 +1,129 @@
+/// \file new, params, check: what can be done with a study alone.
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/cli/commands.hpp"
+#include "cases/machine.hpp"
+#include "cases/prediction.hpp"
+#include "cases/rock_feed.hpp"
+#include "cases/study.hpp"
+#include "cases/study_case.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewOptions {
+    std::string study = "study.toml";
+    std::string cutter;
+    std::optional<std::string> unit;
+};
+
+void write_new_study(const NewOptions& options) {
+    if (fs::exists(options.study))
+        throw UserError(fmt::format("{} is there already", options.study), "Nothing is overwritten", "Choose another name or remove it");
+    // The study refers to the cutter from its own folder.
+    const fs::path folder = fs::absolute(options.study).parent_path();
+    const fs::path cutter = options.cutter.empty() ? fs::path("cutter.stl") : fs::absolute(options.cutter).lexically_relative(folder);
+    write_file(options.study, cases::study_template(fs::path(options.study).stem().string(), cutter.string(), options.unit));
+    std::cout << fmt::format("wrote {}\nnext: edit it, then cutterflow check {}\n", options.study, options.study);
+}
+
+nlohmann::json parameter_json(const Parameter& parameter) {
+    nlohmann::json row{{"key", parameter.key}, {"unit", parameter.unit}, {"help", parameter.help}, {"repeated", parameter.repeated}};
+    row["required"] = !parameter.optional && !parameter.default_value;
+    if (parameter.default_value) row["default"] = toml_text(*parameter.default_value);
+    if (parameter.optional) row["derived_from"] = parameter.derived_from;
+    if (parameter.minimum) row["minimum"] = *parameter.minimum;
+    if (parameter.maximum) row["maximum"] = *parameter.maximum;
+    if (!parameter.choices.empty()) row["choices"] = parameter.choices;
+    return row;
+}
+
+void print_parameters(bool json) {
+    if (!json) {
+        std::cout << parameters_text(cases::study_table());
+        return;
+    }
+    nlohmann::json rows = nlohmann::json::array();
+    for (const Parameter& parameter : cases::study_table()) rows.push_back(parameter_json(parameter));
+    std::cout << rows.dump(2) << std::endl;
+}
+
+struct CheckOptions {
+    std::string study;
+    int ranks = 1;
+    bool json = false;
+};
+
+nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Mistake& mistake : mistakes) list.push_back(mistake.text());
+    return list;
+}
+
+void check_study_file(const CheckOptions& options) {
+    cases::require_machine(options.ranks, {});
+    const ParameterValues values = cases::read_study(options.study);
+    const fs::path folder = fs::path(options.study).parent_path();
+    const GeometryInspection inspection = cases::import_study_cutter(values, folder);
+    const cases::HeadSize size = cases::head_size(*inspection.head);
+    const ParameterValues resolved = cases::resolve_study(values, size);
+    const std::vector<Mistake> mistakes = cases::check_study(resolved, size);
+    if (!mistakes.empty()) throw UserError(mistakes);
+
+    const cases::Study study = cases::make_study(resolved, folder);
+    const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface);
+    const Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
+    const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
+    std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
+    for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
+    if (options.json) {
+        std::cout << nlohmann::json{{"cutter", to_json(inspection)},
+                                    {"prediction", to_json(prediction)},
+                                    {"feeds", nlohmann::json::parse(cases::feed_json(feeds, study)).at("feeds")},
+                                    {"warnings", mistakes_json(warnings)}}
+                         .dump(2)
+                  << std::endl;
+        return;
+    }
+    std::cout << to_text(inspection) << "\n" << to_text(prediction, options.ranks);
+    for (const std::string& line : cases::feed_lines(feeds)) std::cout << line << "\n";
+    for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
+    std::cout << fmt::format("{} is valid; next: cutterflow run {} --ranks {}\n", options.study, options.study, options.ranks);
+}
+
+}  // namespace
+
+void add_new(CLI::App& app) {
+    auto* command = app.add_subcommand("new", "Write a commented study file to edit.");
+    const auto options = std::make_shared<NewOptions>();
+    command->add_option("study", options->study, "File to write")->capture_default_str();
+    command->add_option("--cutter", options->cutter, "Surface of the cutter (STL, OBJ or PLY)");
+    command->add_option("--unit", options->unit, "Its unit of length: m, mm, cm, inch, ft");
+    command->callback([options] { write_new_study(*options); });
+}
+
+void add_params(CLI::App& app) {
+    auto* command = app.add_subcommand("params", "Print every key of a study: unit, bounds, default, meaning.");
+    const auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "Print JSON");
+    command->callback([json] { print_parameters(*json); });
+}
+
+void add_check(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("check", "Validate a study and its cutter; predict cells, time step and core hours without running.");
+    const auto options = std::make_shared<CheckOptions>();
+    command->add_option("study", options->study, "The study file")->required();
+    command->add_option("--ranks", options->ranks, "Processes of the run, for the predicted time")->capture_default_str();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options] { check_study_file(*options); });
+}
+
+}  // namespace cutterflow::cli

@@ -1,0 +1,45 @@
+#pragma once
+/// \file manifest.json of a run directory: which stage is done, from what, what it wrote. It is what a repeated or resumed run trusts.
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cutterflow::cases {
+
+enum class StageState { started, done };
+
+/// One stage of a run directory.
+struct StageRecord {
+    StageState state = StageState::started;
+    std::map<std::string, std::string> inputs;   ///< name -> value, or SHA-256 of a file
+    std::map<std::string, std::string> outputs;  ///< path relative to the run directory -> SHA-256
+    double wall_s = 0.0;
+    double core_s = 0.0;
+    std::string finished;  ///< UTC, ISO 8601; empty while started
+};
+
+/// The file, kept in memory and written whole at each change.
+class Manifest {
+public:
+    /// Reads the file, or begins an empty one when there is none. \throws UserError  when it is there and not readable as a manifest
+    explicit Manifest(std::filesystem::path file);
+
+    bool empty() const { return records_.empty(); }
+    const StageRecord* find(const std::string& stage) const;
+
+    /// Notes that a stage begins. `dropped`: later stages, whose records are no longer true.
+    void start(const std::string& stage, std::map<std::string, std::string> inputs, const std::vector<std::string>& dropped);
+    void finish(const std::string& stage, std::map<std::string, std::string> outputs, double wall_s, double core_s);
+    void set_versions(std::map<std::string, std::string> versions);
+
+private:
+    void write() const;
+
+    std::filesystem::path file_;
+    std::map<std::string, StageRecord> records_;
+    std::map<std::string, std::string> versions_;
+};
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,305 @@
+#include "cases/pipeline.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/case_builder.hpp"
+#include "cases/flow_dictionaries.hpp"
+#include "cases/prediction.hpp"
+#include "cases/rock_feed.hpp"
+#include "cases/run_progress.hpp"
+#include "cases/start_flow.hpp"
+#include "cases/study_case.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/progress.hpp"
+#include "geometry/base/run_names.hpp"
+#include "geometry/io/read_surface.hpp"
+#include "geometry/io/write_stl.hpp"
+#include "geometry/revolution_contour.hpp"
+#include "meshing/build_mesh.hpp"
+#include "meshing/foam_command.hpp"
+#include "postproc/report.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Which stage a key of the study belongs to: the first that uses it. Later stages depend on earlier ones as a whole.
+std::string stage_of(const std::string& key) {
+    const std::string section = key.substr(0, key.find('.'));
+    if (section == "cutter" || section == "tank") return "geometry";
+    if (section == "suction" && key != "suction.discharge_m3_s") return "geometry";
+    if (section == "mesh") return "mesh";
+    if (section == "name" || section == "scale") return "report";
+    return "case";
+}
+
+void add_table_inputs(const ParameterValues& values, const std::string& prefix, const std::string& section,
+                      std::map<std::string, std::string>& inputs) {
+    int index = 0;
+    for (const ParameterValues& member : values.tables(section)) {
+        const std::string name = fmt::format("{}[{}]", prefix, ++index);
+        for (const Parameter& parameter : study_table()) {
+            const std::size_t dot = parameter.key.rfind('.');
+            if (!parameter.repeated || parameter.key.substr(0, dot) != section || !member.has(parameter.key)) continue;
+            inputs[name + parameter.key.substr(dot)] = toml_text(*member.find(parameter.key));
+        }
+        if (section == "feed") add_table_inputs(member, name + ".class", "feed.class", inputs);
+    }
+}
+
+RevolutionContour read_contour_csv(const fs::path& file) {
+    std::istringstream lines(read_file(file));
+    RevolutionContour contour;
+    std::string line;
+    std::getline(lines, line);
+    if (line != "z_m,r_m")
+        throw UserError(fmt::format("{} begins with \"{}\"", file.string(), line), "Its first line must be z_m,r_m", "Begin anew");
+    while (std::getline(lines, line)) {
+        double z = 0.0, radius = 0.0;
+        if (std::sscanf(line.c_str(), "%lf,%lf", &z, &radius) != 2)
+            throw UserError(fmt::format("{} has the line \"{}\"", file.string(), line), "A line must hold two numbers", "Begin anew");
+        contour.z.push_back(z);
+        contour.radius.push_back(radius);
+    }
+    if (contour.z.empty()) throw UserError(file.string() + " holds no contour", "It must have lines of two numbers", "Begin anew");
+    return contour;
+}
+
+/// Ranks for which the case is decomposed; 0 when it is not.
+int decomposed_ranks(const fs::path& directory) {
+    int ranks = 0;
+    while (fs::is_directory(directory / fmt::format("processor{}", ranks))) ++ranks;
+    return ranks;
+}
+
+bool is_of_the_mesh(const std::string& file) {
+    return file.rfind(std::string(k_mesh_case) + "/", 0) == 0;
+}
+
+/// Overrides of the mesh's dictionaries take effect before the mesh is made, all others last.
+std::vector<std::string> mesh_overrides(const RunDirectory& directory) {
+    std::vector<std::string> files = directory.overrides();
+    files.erase(std::remove_if(files.begin(), files.end(), [](const std::string& file) { return !is_of_the_mesh(file); }), files.end());
+    return files;
+}
+
+std::vector<std::string> case_overrides(const RunDirectory& directory) {
+    std::vector<std::string> files = directory.overrides();
+    files.erase(std::remove_if(files.begin(), files.end(), is_of_the_mesh), files.end());
+    return files;
+}
+
+bool has_checkpoint(const fs::path& directory) {
+    const fs::path checkpoints = directory / names::checkpoints;
+    return fs::is_directory(checkpoints) &&
+           std::any_of(fs::directory_iterator(checkpoints), fs::directory_iterator(),
+                       [](const fs::directory_entry& entry) { return entry.path().extension() != ".part"; });
+}
+
+/// What a run left that was stopped before its first checkpoint: there is nothing to go on from.
+void remove_unfinished_run(const fs::path& directory) {
+    std::vector<fs::path> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        const bool later_time = name != "0" && name.find_first_not_of("0123456789.e-+") == std::string::npos;
+        const bool processor = name.rfind("processor", 0) == 0;
+        if (entry.is_directory() && (later_time || processor || name == "postProcessing" || name == names::checkpoints))
+            left.push_back(entry);
+    }
+    for (const fs::path& folder : left) fs::remove_all(folder);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> stage_inputs(const ParameterValues& values, const fs::path& study_folder, const std::string& stage) {
+    std::map<std::string, std::string> inputs;
+    for (const Parameter& parameter : study_table())
+        if (!parameter.repeated && stage_of(parameter.key) == stage && values.has(parameter.key))
+            inputs[parameter.key] = toml_text(*values.find(parameter.key));
+    if (stage == "geometry") inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
+    if (stage == "case") add_table_inputs(values, "feed", "feed", inputs);
+    return inputs;
+}
+
+RunHead read_run_head(const RunDirectory& directory) {
+    const fs::path file = directory.file(names::geometry_report);
+    try {
+        const double ring_radius = nlohmann::json::parse(read_file(file)).at("head").at("ring_radius_m").get<double>();
+        RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
+        const double tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
+        return {{ring_radius, tip_radius, -contour.z.front()}, std::move(contour)};
+    } catch (const nlohmann::json::exception& error) {
+        throw UserError(fmt::format("{} cannot be read: {}", file.string(), error.what()), "It must be as the geometry stage writes it",
+                        "Begin anew in another directory with -o");
+    }
+}
+
+Contour RunHead::with_backplate(double z_backplate) const {
+    return {profile.z, profile.radius, size.ring_radius, z_backplate};
+}
+
+Pipeline::Pipeline(const RunDirectory& directory, PipelineSettings settings, Say say)
+    : directory_(directory), settings_(std::move(settings)), say_(std::move(say)), values_(read_study(settings_.study_file)) {}
+
+std::vector<Stage> Pipeline::stages() {
+    const fs::path folder = settings_.study_file.parent_path();
+    const auto inputs = [&](const char* stage) { return stage_inputs(values_, folder, stage); };
+    const std::vector<std::string> case_files = case_overrides(directory_);
+    const std::vector<std::string> mesh_files = mesh_overrides(directory_);
+    const auto with_overrides = [&](std::map<std::string, std::string> all, const std::vector<std::string>& files) {
+        for (const std::string& file : files) all["overrides/" + file] = sha256_of_file(directory_.file("overrides/" + file));
+        return all;
+    };
+    return {{"geometry", inputs("geometry"), {}, false, [this](bool) { return make_geometry(); }},
+            {"mesh", with_overrides(inputs("mesh"), mesh_files), mesh_files, false, [this](bool) { return make_mesh(); }},
+            {"case", with_overrides(inputs("case"), case_files), case_files, false, [this](bool) { return make_case(); }},
+            {"start", {}, {"0/"}, false, [this](bool) { return make_start(); }},
+            {"run", {}, {"system/decomposeParDict"}, true, [this](bool resume) { return run_solver(resume); }},
+            {"report", inputs("report"), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
+}
+
+Study Pipeline::resolved_study(const HeadSize& head) const {
+    const ParameterValues resolved = resolve_study(values_, head);
+    const std::vector<Mistake> mistakes = check_study(resolved, head);
+    if (!mistakes.empty()) throw UserError(mistakes);
+    return make_study(resolved, settings_.study_file.parent_path());
+}
+
+void Pipeline::write_resolved_study(const HeadSize& head) const {
+    const ParameterValues resolved = resolve_study(values_, head);
+    write_file(directory_.file(names::resolved_study),
+               "# Every key of the study as it was computed. Written by cutterflow: change the study, not this file.\n\n" +
+                   commented_toml(study_table(), &resolved));
+}
+
+StageOutcome Pipeline::make_geometry() {
+    const GeometryInspection inspection = import_study_cutter(values_, settings_.study_file.parent_path());
+    const Head& head = *inspection.head;
+    const HeadSize size = head_size(head);
+    const Study study = resolved_study(size);
+    for (const Mistake& warning : study_warnings(resolve_study(values_, size), size)) say_("warning: " + warning.text());
+    for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
+    say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
+                     head.ring_radius, size.depth));
+
+    // A region without a free place is refused here, before the mesh costs anything.
+    place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
+
+    const StationarySteel steel = generate_stationary_steel(stationary_steel_of(study, size));
+    fs::create_directories(directory_.file("geometry"));
+    write_stl(head.surface, directory_.file(names::cutter_surface));
+    write_stl(steel.backplate, directory_.file(names::backplate_surface));
+    write_stl(steel.suction_pipe, directory_.file(names::suction_pipe_surface));
+    write_contour_csv(head.contour, directory_.file(names::contour_table));
+    write_file(directory_.file(names::geometry_report), to_json(inspection).dump(2) + "\n");
+    return {{names::cutter_surface, names::backplate_surface, names::suction_pipe_surface, names::contour_table, names::geometry_report},
+            0.0};
+}
+
+StageOutcome Pipeline::make_mesh() {
+    const RunHead head = read_run_head(directory_);
+    const TriangleSurface cutter = welded(read_surface(directory_.file(names::cutter_surface)));
+    const MeshPlan plan = plan_mesh(mesh_input_of(resolved_study(head.size), head.size, cutter));
+    std::vector<std::string> outputs;
+    for (const fs::path& file : write_mesh_case(directory_.path(), plan)) outputs.push_back(file.string());
+    for (const std::string& file : directory_.apply_overrides(mesh_overrides(directory_))) {
+        say_("override: " + file);
+        if (std::find(outputs.begin(), outputs.end(), file) == outputs.end()) outputs.push_back(file);
+    }
+    Progress progress("  mesh");
+    const MeshReport report = build_mesh(directory_.path(), plan, settings_.solver.parent_path(),
+                                         [&](double fraction, const std::string& program) { progress.update(fraction, program); });
+    progress.finish(fmt::format("{} cells", report.figures.cells));
+    require_mesh_gates(report);
+    for (const std::string& file : files_below(directory_.path(), "constant/polyMesh")) outputs.push_back(file);
+    outputs.emplace_back(names::mesh_report);
+    return {outputs, report.core_s};
+}
+
+StageOutcome Pipeline::make_case() {
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    std::vector<std::string> written;
+    for (const fs::path& file :
+         write_case(directory_.path(), case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks)))
+        written.push_back(file.string());
+    write_resolved_study(head.size);
+    written.emplace_back(names::resolved_study);
+    if (!study.feeds.empty()) {
+        const TriangleSurface cutter = welded(read_surface(directory_.file(names::cutter_surface)));
+        const std::vector<PlacedFeed> feeds =
+            place_feeds(study, feed_scene(study, head.size, head.with_backplate(study.suction.gap), cutter));
+        for (const std::string& line : feed_lines(feeds)) say_(line);
+        write_file(directory_.file(names::rock_feed), rock_feed_csv(feeds));
+        write_file(directory_.file(names::feed_report), feed_json(feeds, study));
+        written.insert(written.end(), {names::rock_feed, names::feed_report});
+    }
+    for (const std::string& file : directory_.apply_overrides(case_overrides(directory_))) {
+        say_("override: " + file);
+        if (std::find(written.begin(), written.end(), file) == written.end()) written.push_back(file);
+    }
+    return {written, 0.0};
+}
+
+StageOutcome Pipeline::make_start() {
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    const CaseInputs inputs = case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks);
+    Progress progress("  frozen rotor");
+    const StartFlowReport report = run_start_flow(directory_.path(), inputs, k_start_iterations, [&](int iteration, int iterations) {
+        progress.update(static_cast<double>(iteration) / iterations, fmt::format("iteration {} of {}", iteration, iterations));
+    });
+    progress.finish();
+    say_(report.text());
+    return {files_below(directory_.path(), "0"), report.core_s};
+}
+
+StageOutcome Pipeline::run_solver(bool resume) {
+    const Study study = resolved_study(read_run_head(directory_).size);
+    double core_s = 0.0;
+    if (resume && has_checkpoint(directory_.path())) {
+        require_same_ranks();
+        say_("going on from the last checkpoint");
+    } else {
+        remove_unfinished_run(directory_.path());
+        core_s += decompose();
+    }
+    const ChildCommand command = foam_command(directory_.path(), settings_.solver.string(), {}, settings_.ranks);
+    keep_older_log(command.log);
+    RunProgress progress(study);
+    const ChildResult result = run_child(command, [&](const std::string& line) { progress.take(line); });
+    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
+    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    progress.finish();
+    return {{}, core_s + result.core_s};
+}
+
+double Pipeline::decompose() const {
+    const FoamFile dictionary = decompose_file(settings_.ranks);
+    write_foam_file(directory_.file(dictionary.path), dictionary.foam_class, dictionary.contents);
+    if (settings_.ranks == 1) return 0.0;
+    return require_child(foam_command(directory_.path(), "decomposePar", {"-force"})).core_s;
+}
+
+void Pipeline::require_same_ranks() const {
+    const int begun = std::max(1, decomposed_ranks(directory_.path()));
+    if (begun == settings_.ranks) return;
+    throw UserError(fmt::format("--ranks {}, and {} was begun on {}", settings_.ranks, directory_.path().string(), begun),
+                    "A run is resumed on as many ranks as it was begun on", fmt::format("Use --ranks {}", begun));
+}
+
+StageOutcome Pipeline::make_report() {
+    write_resolved_study(read_run_head(directory_).size);
+    const postproc::ReportSummary summary = postproc::write_report(directory_.path());
+    if (!summary.note.empty()) say_(summary.note);
+    return {{names::resolved_study}, 0.0};  // the report itself is made anew at any time
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,90 @@
+#include "cases/prediction.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/rock_feed.hpp"
+#include "cases/study_case.hpp"
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/progress.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+constexpr double k_gravity = 9.81;
+// A coupled step costs at most this much more than one of the flow alone; the run's own cost.json tells the actual share.
+constexpr double k_rock_share = 1.5;
+
+double with_rock_share(const Study& study) {
+    double first = study.end_time();
+    for (const FeedRequest& feed : study.feeds) first = std::min(first, feed.start);
+    const double share = 1.0 - first / study.end_time();
+    return 1.0 + share * (k_rock_share - 1.0);
+}
+
+}  // namespace
+
+MeshInput mesh_input_of(const Study& study, const HeadSize& head, const TriangleSurface& cutter) {
+    MeshInput input;
+    input.ring_radius = head.ring_radius;
+    input.cutter = extent_of_cutter(cutter);
+    input.steel = stationary_steel_of(study, head);
+    input.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
+    input.resolution = mesh_preset(study.mesh_preset);
+    input.rotation_speed = study.rotation_speed;
+    input.discharge = study.suction.discharge;
+    input.max_courant = study.run.max_courant;
+    return input;
+}
+
+Prediction predict(const Study& study, const HeadSize& head, const TriangleSurface& cutter) {
+    Prediction prediction;
+    prediction.mesh = plan_mesh(mesh_input_of(study, head, cutter)).prediction;
+    prediction.revolutions = study.run.max_revolutions;
+    prediction.steps = study.end_time() / prediction.mesh.time_step;
+    prediction.core_hours = prediction.mesh.core_hours_per_revolution * study.run.max_revolutions * with_rock_share(study);
+    const double omega = std::abs(study.rotation_speed);
+    const double mouth = study.suction.mouth_radius;
+    prediction.tip_speed = omega * head.tip_radius;
+    prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
+    prediction.flow_number = study.suction.discharge / (omega * std::pow(head.ring_radius, 3));
+    prediction.froude = omega * omega * head.ring_radius / k_gravity;
+    for (const FeedRequest& feed : study.feeds) {
+        const std::vector<std::size_t> counts = rocks_per_class(feed);
+        prediction.rocks = std::accumulate(counts.begin(), counts.end(), prediction.rocks);
+        for (const RockClass& rock : feed.classes) prediction.settling_speeds.push_back(settling_speed(study, rock));
+    }
+    return prediction;
+}
+
+std::string to_text(const Prediction& p, int ranks) {
+    std::string text = fmt::format("cells        about {:.0f}\n", p.mesh.cells);
+    text += fmt::format("time step    about {:.2g} s, {:.0f} steps for {:g} revolutions\n", p.mesh.time_step, p.steps, p.revolutions);
+    text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s)\n", p.core_hours,
+                        duration_text(3600.0 * p.core_hours / ranks), ranks);
+    text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
+    text += fmt::format("numbers      Q/(omega R^3) = {:.3g}, omega^2 R/g = {:.3g}\n", p.flow_number, p.froude);
+    text += fmt::format("rock         {} rocks", p.rocks);
+    for (const double speed : p.settling_speeds) text += fmt::format(", settling at {:.3g} m/s", speed);
+    return text + "\n";
+}
+
+nlohmann::json to_json(const Prediction& p) {
+    return {{"cells", p.mesh.cells},
+            {"cell_size_min_m", p.mesh.cell_size_min},
+            {"time_step_s", p.mesh.time_step},
+            {"steps", p.steps},
+            {"core_hours", p.core_hours},
+            {"revolutions", p.revolutions},
+            {"rocks", p.rocks},
+            {"tip_speed_m_s", p.tip_speed},
+            {"mouth_speed_m_s", p.mouth_speed},
+            {"flow_number", p.flow_number},
+            {"froude", p.froude},
+            {"settling_velocity_m_s", p.settling_speeds}};
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,36 @@
+#pragma once
+/// \file What a study will cost and what its numbers mean, before anything is run.
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cases/study.hpp"
+#include "geometry/head.hpp"
+#include "meshing/mesh_plan.hpp"
+
+namespace cutterflow::cases {
+
+/// The mesh that a study asks for.
+MeshInput mesh_input_of(const Study& study, const HeadSize& head, const TriangleSurface& cutter);
+
+struct Prediction {
+    MeshPrediction mesh;
+    double steps = 0.0;
+    double core_hours = 0.0;  ///< of the whole run
+    double revolutions = 0.0;
+    std::size_t rocks = 0;
+    double tip_speed = 0.0;               ///< [m/s]
+    double mouth_speed = 0.0;             ///< [m/s]
+    double flow_number = 0.0;             ///< Q / (omega R^3)
+    double froude = 0.0;                  ///< omega^2 R / g
+    std::vector<double> settling_speeds;  ///< [m/s], one per class of rock, in the study's order
+};
+
+/// \throws UserError  when the mesh cannot be planned (clearances, gap, mouth, tank)
+Prediction predict(const Study& study, const HeadSize& head, const TriangleSurface& cutter);
+
+std::string to_text(const Prediction& prediction, int ranks);
+nlohmann::json to_json(const Prediction& prediction);
+
+}  // namespace cutterflow::cases

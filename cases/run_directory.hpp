@@ -1,0 +1,44 @@
+#pragma once
+/// \file A run directory: who may use it, and what of it is the user's.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cutterflow::cases {
+
+/// \throws UserError  when the path holds characters that OpenFOAM cannot take (spaces, quotes, brackets ...) or a folder that is there
+/// holds
+///                    something that is no run: nothing is overwritten
+void require_usable_run_directory(const std::filesystem::path& path);
+
+/// A run directory that belongs to this process while the object lives. Children inherit the lock: a solver that outlives its parent
+/// keeps the directory busy.
+class RunDirectory {
+public:
+    /// Makes the folder when there is none.
+    /// \throws UserError  when the path holds characters that OpenFOAM cannot take (spaces, quotes, brackets ...), the folder holds
+    /// something
+    ///                    that is no run (nothing is overwritten), or another process uses it
+    explicit RunDirectory(const std::filesystem::path& path);
+    ~RunDirectory();
+    RunDirectory(const RunDirectory&) = delete;
+    RunDirectory& operator=(const RunDirectory&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path file(const std::string& relative) const { return path_ / relative; }
+
+    /// Files below overrides/, relative to it, sorted.
+    std::vector<std::string> overrides() const;
+
+    /// Copies files of overrides/ (relative to it) over the run directory. \return the same
+    const std::vector<std::string>& apply_overrides(const std::vector<std::string>& files) const;
+
+private:
+    std::filesystem::path path_;
+    int lock_ = -1;
+};
+
+/// Regular files below a folder of the run directory, relative to `root`, sorted; empty when there is no such folder.
+std::vector<std::string> files_below(const std::filesystem::path& root, const std::string& folder);
+
+}  // namespace cutterflow::cases

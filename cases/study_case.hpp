@@ -1,0 +1,31 @@
+#pragma once
+/// \file From a study and its cutter to what geometry and the case builder work with.
+#include <filesystem>
+#include <string>
+
+#include "cases/case_inputs.hpp"
+#include "cases/study.hpp"
+#include "geometry/base/contour.hpp"
+#include "geometry/geometry_report.hpp"
+#include "geometry/stationary_steel.hpp"
+
+namespace cutterflow::cases {
+
+/// The study's cutter, read and understood.
+/// \throws UserError  when the file is no surface, its size implausible, the surface no sound solid, or no head
+GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder);
+
+HeadSize head_size(const Head& head);
+
+Contour head_contour(const Head& head, double z_backplate);
+
+/// Backplate and suction pipe of a study, the pipe standing out above the water.
+StationarySteelParameters stationary_steel_of(const Study& study, const HeadSize& head);
+
+/// Warns of a rotor that carries rock away from the suction side, or whose blades push along the axis in neither sense.
+std::vector<Mistake> carrying_warnings(const Study& study, const Head& head);
+
+/// The case of a study. \param ranks  of the run
+CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const Contour& contour, int ranks);
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,306 @@
+/// \file cutterflow as its users meet it: commands in, messages, exit codes and files out.
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/machine.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/io/read_surface.hpp"
+#include "geometry/io/write_stl.hpp"
+
+using namespace cutterflow;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path k_cutterflow = fs::path(CUTTERFLOW_BUILD_DIR) / "bin/cutterflow";
+const fs::path k_crown = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/crown.toml";
+
+struct Outcome {
+    int code = 0;
+    std::string text;
+};
+
+void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << "\n lacks: " << part;
+}
+
+/// The crown cutter of the example, made once for all tests by the program itself.
+const TriangleSurface& crown() {
+    static const TriangleSurface surface = [] {
+        const fs::path file = fs::temp_directory_path() / ("cutterflow_crown_" + std::to_string(::getpid()) + ".stl");
+        require_child({{k_cutterflow.string(), "generate-cutter", k_crown.string(), "-o", file.string()}, {}, {}, {}});
+        TriangleSurface read = welded(read_surface(file));
+        fs::remove(file);
+        return read;
+    }();
+    return surface;
+}
+
+TriangleSurface scaled(const TriangleSurface& surface, double factor) {
+    return transformed(surface, Eigen::Affine3d(Eigen::Scaling(factor)));
+}
+
+TriangleSurface mirrored(const TriangleSurface& surface) {
+    return transformed(surface, Eigen::Affine3d(Eigen::Scaling(-1.0, 1.0, 1.0)));
+}
+
+TriangleSurface inside_out(TriangleSurface surface) {
+    for (Triangle& triangle : surface.triangles) std::swap(triangle[0], triangle[1]);
+    return surface;
+}
+
+class Cli : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cutterflow_cli_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    Outcome call(std::vector<std::string> arguments, std::map<std::string, std::string> environment = {}) {
+        arguments.insert(arguments.begin(), k_cutterflow.string());
+        const fs::path log = folder_ / "output";
+        const ChildResult result = run_child({arguments, folder_, log, std::move(environment)});
+        Outcome outcome{result.exit_code, read_file(log)};
+        fs::remove(log);
+        return outcome;
+    }
+
+    /// A study of the crown with more lines; `cutter` is written unless it is there.
+    std::string study(const std::string& more = {}, const std::string& cutter = "cutter.stl") {
+        if (!fs::exists(folder_ / cutter)) write_stl(crown(), folder_ / cutter);
+        write_file(folder_ / "study.toml",
+                   "[cutter]\nfile = \"" + cutter + "\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n" + more);
+        return "study.toml";
+    }
+
+    void stand_in(const std::string& name, const std::string& script) {
+        write_file(folder_ / "bin" / name, "#!/bin/sh\n" + script + "\n");
+        fs::permissions(folder_ / "bin" / name, fs::perms::owner_all);
+    }
+
+    /// `cutterflow mesh` of a cutterflow in a folder of its own, where everything it starts is a stand-in.
+    ChildCommand mesh_with_stand_ins() {
+        fs::create_directories(folder_ / "bin");
+        fs::copy_file(k_cutterflow, folder_ / "bin/cutterflow");
+        for (const char* name : {"blockMesh", "surfaceFeatureExtract", "snappyHexMesh", "topoSet", "createPatch", "checkMesh",
+                                 "cutterInterfaceRestore", "cutterMeshProbe"})
+            stand_in(name, "exit 0");
+        return {{(folder_ / "bin/cutterflow").string(), "mesh", "study.toml", "-o", "runs/a"},
+                folder_,
+                folder_ / "output",
+                {{"PATH", (folder_ / "bin").string() + ":" + std::getenv("PATH")}}};
+    }
+
+    void expect_refused(const Outcome& outcome, int code, const std::string& part) {
+        EXPECT_EQ(outcome.code, code) << outcome.text;
+        expect_contains(outcome.text, part);
+        EXPECT_EQ(outcome.text.find("defect"), std::string::npos) << outcome.text;
+    }
+
+    fs::path folder_;
+};
+
+const char* const k_feed = "[[feed]]\ncount = 20\n[[feed.class]]\ndiameter_m = 0.02\n";
+
+}  // namespace
+
+TEST_F(Cli, explains_itself) {
+    const Outcome help = call({"--help"});
+    EXPECT_EQ(help.code, 0);
+    for (const char* command : {"new", "check", "inspect", "generate-cutter", "mesh", "run", "report", "params"}) {
+        expect_contains(help.text, command);
+        const Outcome of_command = call({command, "--help"});
+        EXPECT_EQ(of_command.code, 0) << command;
+        expect_contains(of_command.text, "Usage: cutterflow " + std::string(command));
+    }
+    EXPECT_EQ(call({}).code, 2);
+    expect_refused(call({"runn"}), 2, "there is no command runn");
+    EXPECT_EQ(call({"--version"}).text.substr(0, 2), "0.");
+}
+
+TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {
+    write_stl(crown(), folder_ / "head.stl");
+    EXPECT_EQ(call({"new", "--cutter", "head.stl", "mine.toml"}).code, 0);
+    EXPECT_EQ(call({"check", "mine.toml"}).code, 0);
+    expect_refused(call({"new", "mine.toml"}), 2, "Nothing is overwritten");
+}
+
+TEST_F(Cli, params_lists_every_key) {
+    const Outcome text = call({"params"});
+    expect_contains(text.text, "speed_rpm");
+    const nlohmann::json rows = nlohmann::json::parse(call({"params", "--json"}).text);
+    EXPECT_GT(rows.size(), 50u);
+    for (const nlohmann::json& row : rows)
+        EXPECT_TRUE(row.at("required").get<bool>() || row.contains("default") || row.contains("derived_from")) << row;
+}
+
+TEST_F(Cli, check_predicts_what_a_run_costs) {
+    study(k_feed);
+    const Outcome outcome = call({"check", "study.toml", "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const nlohmann::json prediction = nlohmann::json::parse(outcome.text).at("prediction");
+    EXPECT_GE(prediction.at("cells").get<double>(), 40000.0);
+    EXPECT_LE(prediction.at("cells").get<double>(), 70000.0);
+    EXPECT_EQ(prediction.at("rocks"), 20);
+    EXPECT_NEAR(prediction.at("tip_speed_m_s").get<double>(), 2.51, 0.03);
+    // A 20 mm rock of 2650 kg/m3 in the Newton regime: w = sqrt(4 g d (s-1) / (3 Cd)), Cd about 0.45.
+    EXPECT_NEAR(prediction.at("settling_velocity_m_s")[0].get<double>(), 0.99, 0.08);
+    const double hours = prediction.at("core_hours").get<double>();
+    EXPECT_GT(hours, 0.02);
+    EXPECT_LT(hours, 20.0);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "check writes nothing";
+}
+
+TEST_F(Cli, a_name_with_spaces_and_brackets_is_a_name_like_any_other) {
+    study("", "Cutter Head (rev B).STL");
+    EXPECT_EQ(call({"check", "study.toml"}).code, 0);
+    const Outcome outcome = call({"inspect", "Cutter Head (rev B).STL", "--contour", "my contour.csv"});
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(read_file(folder_ / "my contour.csv").substr(0, 8), "z_m,r_m\n");
+}
+
+TEST_F(Cli, refuses_surfaces_that_bound_no_solid) {
+    TriangleSurface open = crown();
+    open.triangles.erase(open.triangles.begin() + 100);
+    write_stl(open, folder_ / "open.stl");
+    write_stl(inside_out(crown()), folder_ / "inside_out.stl");
+    // The same head a second time, shifted: its surface cuts itself.
+    const TriangleSurface twice = joined({crown(), transformed(crown(), Eigen::Affine3d(Eigen::Translation3d(0.03, 0.01, 0.02)))});
+    write_stl(twice, folder_ / "twice.stl");
+    write_file(folder_ / "text.stl", "no surface at all");
+    for (const auto& [file, part] : std::map<std::string, std::string>{{"open.stl", "open"},
+                                                                       {"inside_out.stl", "inside"},
+                                                                       {"twice.stl", "intersect"},
+                                                                       {"text.stl", "text.stl"},
+                                                                       {"missing.stl", "missing.stl"}}) {
+        expect_refused(call({"inspect", file}), 2, part);
+        write_file(folder_ / "bad.toml", "[cutter]\nfile = \"" + file + "\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
+        expect_refused(call({"check", "bad.toml"}), 2, part);
+    }
+}
+
+TEST_F(Cli, refuses_millimetres_taken_as_metres_and_tells_them_when_not_said) {
+    write_stl(scaled(crown(), 1000.0), folder_ / "cutter.stl");
+    expect_refused(call({"check", study("", "cutter.stl")}), 0, "mm");
+    write_file(folder_ / "study.toml",
+               "[cutter]\nfile = \"cutter.stl\"\nunit = \"m\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
+    expect_refused(call({"check", "study.toml"}), 2, "mm");
+}
+
+TEST_F(Cli, reports_all_mistakes_of_a_study_at_once) {
+    study();
+    write_file(
+        folder_ / "study.toml",
+        "[cutter]\nfile = \"cutter.stl\"\n[rotor]\nspeed_rpm = \"fast\"\ndirektion = \"left_handed\"\n[suction]\ndischarge_m3_s = 0\n");
+    const Outcome outcome = call({"check", "study.toml"});
+    expect_refused(outcome, 2, "study.toml:4: rotor.speed_rpm");
+    expect_contains(outcome.text, "study.toml:5: key rotor.direktion is unknown");
+    expect_contains(outcome.text, "Did you mean rotor.direction?");
+    expect_contains(outcome.text, "study.toml:7: suction.discharge_m3_s = 0 is too low. It must be above 0 m3/s");
+    expect_refused(call({"check", "nowhere.toml"}), 2, "cannot read nowhere.toml");
+}
+
+TEST_F(Cli, refuses_sizes_that_cannot_be_meshed) {
+    expect_refused(call({"check", study("gap_m = 0.002\n")}), 2, "gap");
+    expect_refused(call({"check", study("mouth_radius_m = 0.3\n")}), 2, "must lie inside the ring");
+    expect_refused(call({"check", study("[tank]\nheight_m = 0.5\n")}), 2, "Make the tank higher");
+}
+
+TEST_F(Cli, refuses_a_feed_region_without_water_and_warns_of_one_too_small) {
+    // 5 mm of the ring's height at its radius: nothing but steel and gap narrower than a rock.
+    expect_refused(call({"check", study("[[feed]]\ncount = 5\ndepth_from_m = 0.0\ndepth_to_m = 0.005\nazimuth_width_deg = "
+                                        "1\n[[feed.class]]\ndiameter_m = 0.1\n")}),
+                   2, "feed");
+    const Outcome crowded = call({"check", study("[[feed]]\ncount = 5000\n[[feed.class]]\ndiameter_m = 0.02\n")});
+    EXPECT_EQ(crowded.code, 0);
+    expect_contains(crowded.text, "no free place left");
+}
+
+TEST_F(Cli, warns_of_a_rotor_that_carries_rock_away_and_of_rock_that_may_block) {
+    EXPECT_EQ(call({"check", study()}).text.find("warning"), std::string::npos);
+    const Outcome away = call({"check", study("[swing]\ndirection = \"under_cut\"\n", "cutter.stl")});
+    EXPECT_EQ(away.text.find("carry rock away"), std::string::npos);
+    write_stl(mirrored(crown()), folder_ / "mirror.stl");
+    const Outcome mirror = call({"check", study("", "mirror.stl")});
+    EXPECT_EQ(mirror.code, 0);
+    expect_contains(mirror.text, "warning: rotor.direction = \"right_handed\" makes the blades carry rock away from the suction side");
+    expect_contains(call({"check", study("[[feed]]\ncount = 1\n[[feed.class]]\ndiameter_m = 0.08\n")}).text, "third of the passage");
+}
+
+TEST_F(Cli, refuses_machines_that_cannot_run_it) {
+    study();
+    const std::string too_many = std::to_string(cases::available_cores() + 1);
+    expect_refused(call({"run", "study.toml", "--ranks", too_many}), 2, "Use --ranks " + std::to_string(cases::available_cores()));
+    expect_refused(call({"run", "study.toml", "--ranks", "0"}), 2, "--ranks 0");
+    expect_refused(call({"mesh", "study.toml"}, {{"WM_PROJECT_VERSION", "v2206"}}), 2, "OpenFOAM v2206");
+    const Outcome bare = call({"mesh", "study.toml"}, {{"PATH", folder_.string()}});
+    expect_refused(bare, 3, "snappyHexMesh was not found");
+    expect_contains(bare.text, "package openfoam");
+    expect_contains(bare.text, "./bootstrap");
+    EXPECT_FALSE(fs::exists(folder_ / "runs"));
+}
+
+TEST_F(Cli, refuses_run_directories_that_openfoam_cannot_take_or_that_are_in_use_by_others) {
+    study();
+    expect_refused(call({"mesh", "study.toml", "-o", "my runs/1"}), 2, "OpenFOAM");
+    EXPECT_FALSE(fs::exists(folder_ / "my runs"));
+    write_file(folder_ / "thesis/chapter.tex", "mine");
+    expect_refused(call({"mesh", "study.toml", "-o", "thesis"}), 2, "nothing is overwritten");
+    EXPECT_EQ(read_file(folder_ / "thesis/chapter.tex"), "mine");
+    expect_refused(call({"report", "thesis"}), 2, "thesis");
+}
+
+TEST_F(Cli, generate_cutter_writes_a_head_that_inspect_understands) {
+    ASSERT_EQ(call({"generate-cutter", k_crown.string(), "-o", "crown.stl"}).code, 0);
+    expect_refused(call({"generate-cutter", k_crown.string(), "-o", "crown.stl"}), 2, "Nothing is overwritten");
+    const Outcome outcome = call({"inspect", "crown.stl", "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const nlohmann::json report = nlohmann::json::parse(outcome.text);
+    EXPECT_EQ(report.at("head").at("blades"), 6);
+    EXPECT_NEAR(report.at("head").at("ring_radius_m").get<double>(), 0.40, 2e-3);
+    EXPECT_NEAR(report.at("head").at("lowest_z_m").get<double>(), -0.485, 2e-3);
+    write_file(folder_ / "crown.toml", "[ring]\nradius_m = -1\n");
+    expect_refused(call({"generate-cutter", "crown.toml", "-o", "bad.stl"}), 2, "crown.toml:2: ring.radius_m = -1");
+    EXPECT_FALSE(fs::exists(folder_ / "bad.stl"));
+}
+
+TEST_F(Cli, an_interrupt_stops_the_program_under_way_and_says_how_to_go_on) {
+    study();
+    const ChildCommand command = mesh_with_stand_ins();
+    stand_in("blockMesh", "trap 'echo > ../../../blockMesh.stopped; exit 0' INT; kill -INT $PPID; while :; do sleep 0.05; done");
+    EXPECT_EQ(run_child(command).exit_code, 130);
+    EXPECT_TRUE(fs::exists(folder_ / "blockMesh.stopped"));
+    const std::string text = read_file(folder_ / "output");
+    expect_contains(text, "blockMesh was stopped by Interrupt");
+    expect_contains(text, "go on with: cutterflow mesh study.toml -o runs/a --ranks 1");
+    const nlohmann::json stages = nlohmann::json::parse(read_file(folder_ / "runs/a/manifest.json")).at("stages");
+    EXPECT_EQ(stages.at("geometry").at("state"), "done");
+    EXPECT_EQ(stages.at("mesh").at("state"), "started");
+
+    stand_in("blockMesh", "echo 'the disk is full'; exit 1");
+    const ChildResult failed = run_child(command);
+    EXPECT_EQ(failed.exit_code, 3);
+    const std::string failure = read_file(folder_ / "output");
+    expect_contains(failure, "geometry: done before");
+    expect_contains(failure, "the disk is full");
+    expect_contains(failure, "log.blockMesh");
+}
+
+TEST_F(Cli, generated_files_changed_by_hand_stop_the_command) {
+    study();
+    const ChildCommand command = mesh_with_stand_ins();
+    stand_in("blockMesh", "exit 1");
+    EXPECT_EQ(run_child(command).exit_code, 3);
+    write_file(folder_ / "runs/a/geometry/contour.csv", "z_m,r_m\n-1,0\n0,1\n");
+    EXPECT_EQ(run_child(command).exit_code, 2);
+    const std::string text = read_file(folder_ / "output");
+    expect_contains(text, "runs/a/geometry/contour.csv: this generated file was changed by hand");
+    EXPECT_EQ(read_file(folder_ / "runs/a/geometry/contour.csv"), "z_m,r_m\n-1,0\n0,1\n");
+}

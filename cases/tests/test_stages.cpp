@@ -1,0 +1,205 @@
+#include "cases/stages.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+using namespace cutterflow;
+using namespace cutterflow::cases;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Fake stages a -> b -> run -> report that write one file each and note what they did.
+class Stages : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cutterflow_stages_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = fs::path(name) / "run";
+    }
+    void TearDown() override { fs::remove_all(folder_.parent_path()); }
+
+    Stage stage(const std::string& name, std::vector<std::string> rewrites = {}, bool resumable = false) {
+        Stage made{name, {{name + ".key", inputs_.count(name) ? inputs_[name] : "1"}}, std::move(rewrites), resumable, nullptr};
+        made.work = [this, name](bool resume) {
+            done_.push_back(resume ? name + " resumed" : name);
+            write_file(folder_ / (name + ".txt"), "of " + name);
+            if (name == "start") write_file(folder_ / "a.txt", "rewritten");
+            if (name == interrupted_) throw Interrupted("stopped");
+            return StageOutcome{{name + ".txt"}, 0.5};
+        };
+        return made;
+    }
+
+    /// \return what was done in this call
+    std::vector<std::string> go(bool resume = false, const std::string& until = "report") {
+        done_.clear();
+        const RunDirectory directory(folder_);
+        Manifest manifest(directory.file("manifest.json"));
+        run_stages(directory, manifest, {stage("a"), stage("start", {"a.txt"}), stage("run", {}, true), stage("report")}, until, resume,
+                   [](const Stage&, StageEvent, double) {});
+        return done_;
+    }
+
+    std::string refusal(bool resume = false) {
+        try {
+            go(resume);
+        } catch (const UserError& error) {
+            EXPECT_TRUE(done_.empty()) << "nothing is done before all rules are checked";
+            return error.what();
+        }
+        ADD_FAILURE() << "it was not refused";
+        return "";
+    }
+
+    using Names = std::vector<std::string>;
+    fs::path folder_;
+    std::map<std::string, std::string> inputs_;
+    std::string interrupted_;
+    Names done_;
+};
+
+void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << "\n lacks: " << part;
+}
+
+}  // namespace
+
+TEST_F(Stages, are_done_once_and_in_order) {
+    EXPECT_EQ(go(false, "start"), (Names{"a", "start"}));
+    EXPECT_EQ(go(), (Names{"run", "report"}));
+    EXPECT_EQ(go(), Names{});
+    EXPECT_EQ(go(true), Names{});
+    const Manifest manifest(folder_ / "manifest.json");
+    ASSERT_NE(manifest.find("run"), nullptr);
+    EXPECT_EQ(manifest.find("run")->state, StageState::done);
+    EXPECT_EQ(manifest.find("run")->core_s, 0.5);
+    EXPECT_EQ(manifest.find("run")->outputs.at("run.txt"), sha256("of run"));
+    EXPECT_EQ(manifest.find("run")->finished.size(), 20u);
+}
+
+TEST_F(Stages, changed_inputs_redo_what_follows_while_there_are_no_results) {
+    go(false, "start");
+    inputs_["a"] = "2";
+    EXPECT_EQ(go(false, "start"), (Names{"a", "start"}));
+    inputs_["start"] = "2";
+    EXPECT_EQ(go(false, "start"), Names{"start"});
+}
+
+TEST_F(Stages, results_are_not_overwritten_by_a_changed_study) {
+    go();
+    inputs_["a"] = "2";
+    const std::string text = refusal();
+    expect_contains(text, "a.key (1 -> 2)");
+    expect_contains(text, "-o");
+    refusal(true);
+    inputs_["a"] = "1";
+    inputs_["report"] = "2";
+    EXPECT_EQ(go(), Names{"report"}) << "a changed report costs nothing of the run";
+}
+
+TEST_F(Stages, an_interrupted_stage_begins_anew_and_a_resumable_one_goes_on_when_asked) {
+    interrupted_ = "start";
+    EXPECT_THROW(go(), Interrupted);
+    EXPECT_EQ(done_, (Names{"a", "start"}));
+    interrupted_ = "run";
+    EXPECT_THROW(go(), Interrupted);
+    EXPECT_EQ(done_, (Names{"start", "run"}));
+    interrupted_.clear();
+    expect_contains(refusal(), "--resume");
+    EXPECT_EQ(go(true), (Names{"run resumed", "report"}));
+}
+
+TEST_F(Stages, a_process_killed_in_the_middle_leaves_a_manifest_that_says_so) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const RunDirectory directory(folder_);
+        Manifest manifest(directory.file("manifest.json"));
+        Stage endless = stage("run", {}, true);
+        endless.work = [](bool) -> StageOutcome {
+            ::raise(SIGKILL);
+            return {};
+        };
+        run_stages(directory, manifest, {stage("a"), stage("start", {"a.txt"}), endless, stage("report")}, "report", false,
+                   [](const Stage&, StageEvent, double) {});
+        ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    expect_contains(refusal(), "the stage run");
+    EXPECT_EQ(go(true), (Names{"run resumed", "report"}));
+}
+
+TEST_F(Stages, files_changed_by_hand_are_named_and_kept) {
+    go(false, "start");
+    write_file(folder_ / "start.txt", "mine");
+    const std::string text = refusal();
+    expect_contains(text, (folder_ / "start.txt").string());
+    expect_contains(text, "changed by hand");
+    expect_contains(text, "overrides/start.txt");
+    EXPECT_EQ(read_file(folder_ / "start.txt"), "mine");
+    fs::remove(folder_ / "start.txt");
+    expect_contains(refusal(), "was removed");
+}
+
+TEST_F(Stages, a_file_that_a_later_stage_rewrites_is_not_taken_for_a_change_by_hand) {
+    go(false, "start");
+    EXPECT_EQ(read_file(folder_ / "a.txt"), "rewritten");
+    EXPECT_EQ(go(false, "start"), Names{});
+}
+
+TEST_F(Stages, refuses_directories_that_are_no_runs_and_paths_that_openfoam_cannot_take) {
+    write_file(folder_ / "thesis.tex", "mine");
+    expect_contains(refusal(), "nothing is overwritten");
+    fs::remove(folder_ / "thesis.tex");
+    write_file(folder_ / "overrides/system/fvSolution", "mine");
+    EXPECT_EQ(go(false, "a"), Names{"a"});
+    const fs::path good = folder_;
+    for (const char* name : {"run 1", "run(1)", "run'1"}) {
+        folder_ = good.parent_path() / name;
+        expect_contains(refusal(), "OpenFOAM");
+        EXPECT_FALSE(fs::exists(folder_));
+    }
+    folder_ = good / "manifest.json" / "below";
+    expect_contains(refusal(), "cannot be a run directory");
+    folder_ = good;
+    write_file(folder_ / "manifest.json", "{}");
+    expect_contains(refusal(), "cannot be read");
+}
+
+TEST_F(Stages, one_process_at_a_time_works_in_a_run_directory_and_its_children_count) {
+    {
+        const RunDirectory directory(folder_);
+        expect_contains(refusal(), "in use");
+        const pid_t child = ::fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            ::execlp("sleep", "sleep", "0.5", static_cast<char*>(nullptr));
+            ::_exit(127);
+        }
+    }
+    expect_contains(refusal(), "in use");
+    ::wait(nullptr);
+    EXPECT_EQ(go(false, "a"), Names{"a"});
+}
+
+TEST_F(Stages, overrides_are_copied_over_the_case) {
+    const RunDirectory directory(folder_);
+    write_file(folder_ / "system/fvSolution", "generated");
+    write_file(folder_ / "overrides/system/fvSolution", "mine");
+    write_file(folder_ / "overrides/constant/deep/er", "new");
+    EXPECT_EQ(directory.overrides(), (Names{"constant/deep/er", "system/fvSolution"}));
+    directory.apply_overrides(directory.overrides());
+    EXPECT_EQ(read_file(folder_ / "system/fvSolution"), "mine");
+    EXPECT_EQ(read_file(folder_ / "constant/deep/er"), "new");
+}

@@ -1,0 +1,236 @@
+#include "cases/study.hpp"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
+#include "solver/physics/contact.hpp"
+
+using namespace cutterflow;
+using namespace cutterflow::cases;
+namespace fs = std::filesystem;
+
+namespace {
+
+const HeadSize k_model{0.40, 0.40, 0.485};
+
+std::string minimal(const std::string& more = {}) {
+    return "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n" + more;
+}
+
+ParameterValues parse(const std::string& text) {
+    return parse_parameters(study_table(), text, "study.toml");
+}
+
+std::string with_feed(const std::string& feed_keys, const std::string& class_keys = "diameter_m = 0.02\n") {
+    return minimal("[[feed]]\n" + feed_keys + "[[feed.class]]\n" + class_keys);
+}
+
+class StudyFile : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cutterflow_study_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        file_ = fs::path(name) / "study.toml";
+    }
+    void TearDown() override { fs::remove_all(file_.parent_path()); }
+    std::vector<Mistake> mistakes_of(const std::string& text) {
+        write_file(file_, text);
+        try {
+            read_study(file_);
+        } catch (const UserError& error) {
+            return error.mistakes();
+        }
+        return {};
+    }
+    fs::path file_;
+};
+
+bool any_contains(const std::vector<Mistake>& mistakes, const std::string& part) {
+    for (const Mistake& mistake : mistakes)
+        if (mistake.text().find(part) != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_F(StudyFile, two_mistakes_are_both_reported_with_their_lines) {
+    const std::vector<Mistake> mistakes =
+        mistakes_of("[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0\nmouth_radius = 0.1\n");
+    ASSERT_EQ(mistakes.size(), 2u);
+    EXPECT_EQ(mistakes[0].where, file_.string() + ":6");
+    EXPECT_TRUE(any_contains(mistakes, "suction.discharge_m3_s = 0 is too low. It must be above 0 m3/s"));
+    EXPECT_TRUE(any_contains(mistakes, "Did you mean suction.mouth_radius_m?"));
+}
+
+TEST_F(StudyFile, a_feeds_quantity_is_given_once_and_its_rock_sinks) {
+    EXPECT_TRUE(mistakes_of(with_feed("count = 3\n")).empty());
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nmass_kg = 1\n")), "both count and mass_kg"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("seed = 3\n")), "neither count nor mass_kg"));
+    EXPECT_TRUE(any_contains(mistakes_of(minimal("[[feed]]\ncount = 3\n")), "no class of rock"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nduration_s = 2\n")), "Only batches"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n", "diameter_m = 0.02\ndensity_kg_m3 = 900\n")), "denser than the fluid"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nstart_revolution = 4\n")), "released before run.max_revolutions = 4"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n") + "[run]\nflow_revolutions = 4\n"), "no rock is ever released"));
+}
+
+TEST_F(StudyFile, the_template_reads_back) {
+    EXPECT_TRUE(mistakes_of(study_template("my study", "Cutter Head (rev B).STL", "mm")).empty());
+    const ParameterValues values = read_study(file_);
+    EXPECT_EQ(values.text("cutter.file"), "Cutter Head (rev B).STL");
+    EXPECT_EQ(values.text("cutter.unit"), "mm");
+    EXPECT_EQ(values.text("name"), "my study");
+    EXPECT_FALSE(values.has("tank.radius_m")) << "derived lengths stay derived";
+    ASSERT_EQ(values.tables("feed").size(), 1u);
+}
+
+TEST(Study, defaults_follow_the_ring_radius) {
+    const ParameterValues values = parse(with_feed("count = 3\n"));
+    const HeadSize large{3.0 * k_model.ring_radius, 3.0 * k_model.tip_radius, 3.0 * k_model.depth};
+    const ParameterValues small_head = resolve_study(values, k_model);
+    const ParameterValues large_head = resolve_study(values, large);
+    int followed = 0;
+    for (const Parameter& parameter : study_table()) {
+        if (parameter.repeated || parameter.unit != "m") continue;
+        EXPECT_NEAR(large_head.number(parameter.key), 3.0 * small_head.number(parameter.key), 1e-12) << parameter.key;
+        ++followed;
+    }
+    EXPECT_EQ(followed, 11);
+    EXPECT_NEAR(large_head.tables("feed")[0].number("feed.depth_to_m"), 3.0 * 0.485, 1e-12);
+    EXPECT_TRUE(check_study(small_head, k_model).empty());
+    EXPECT_TRUE(check_study(large_head, large).empty());
+}
+
+TEST(Study, the_model_cutters_tank_is_that_of_the_experiment) {
+    const ParameterValues resolved = resolve_study(parse(minimal()), k_model);
+    const Study study = make_study(resolved, "/tmp");
+    EXPECT_NEAR(2.0 * study.tank.radius, 5.0, 1e-12);
+    EXPECT_NEAR(study.tank.height, 1.31, 1e-12);
+    EXPECT_NEAR(study.tank_bottom(k_model), -0.875, 1e-12);
+    EXPECT_NEAR(study.tank_top(k_model), 0.435, 1e-12);
+    EXPECT_NEAR(study.report.bin_width, 0.03, 1e-12);
+}
+
+TEST(Study, is_in_si_units_and_radians) {
+    const Study study = make_study(resolve_study(parse(with_feed("count = 5\nstart_revolution = 1.5\nazimuth_width_deg = 90\n") +
+                                                       "[ladder]\ninclination_deg = 30\n[swing]\ndirection = \"under_cut\"\n"),
+                                                 k_model),
+                                   "/folder");
+    EXPECT_NEAR(study.rotation_speed, 2.0 * k_pi, 1e-12);
+    EXPECT_NEAR(study.period(), 1.0, 1e-12);
+    EXPECT_NEAR(study.end_time(), 4.0, 1e-12);
+    EXPECT_NEAR(study.inclination, k_pi / 6.0, 1e-12);
+    EXPECT_EQ(study.cutter.file, "/folder/c.stl");
+    ASSERT_EQ(study.feeds.size(), 1u);
+    EXPECT_EQ(study.feeds[0].count, 5);
+    EXPECT_FALSE(study.feeds[0].mass.has_value());
+    EXPECT_NEAR(study.feeds[0].start, 1.5, 1e-12);
+    EXPECT_NEAR(study.feeds[0].azimuth_width, k_pi / 2.0, 1e-12);
+    EXPECT_NEAR(study.feeds[0].azimuth_centre, k_pi / 2.0, 1e-12);
+    EXPECT_EQ(study.feeds[0].classes[0].density, 2650.0);
+}
+
+TEST(Study, a_left_handed_rotor_turns_the_other_way) {
+    const Study study = make_study(resolve_study(parse("[rotor]\nspeed_rpm = 30\ndirection = \"left_handed\"\n[cutter]\nfile = \"c.stl\"\n"
+                                                       "[suction]\ndischarge_m3_s = 0.1\n"),
+                                                 k_model),
+                                   "/");
+    EXPECT_NEAR(study.rotation_speed, -k_pi, 1e-12);
+    EXPECT_NEAR(study.period(), 2.0, 1e-12);
+}
+
+// At the bank's azimuth phi (0 lowest) a blade's velocity is omega x r: its downward part is omega (z x r) . x_down = -omega r sin(phi).
+TEST(Study, blades_go_down_at_the_bank_when_over_cutting_and_up_when_under_cutting) {
+    for (const char* rotor : {"right_handed", "left_handed"}) {
+        const double omega = std::string(rotor) == "right_handed" ? 1.0 : -1.0;
+        const auto downward = [&](const char* swing) { return -omega * std::sin(bank_azimuth_deg(swing, rotor) * k_pi / 180.0); };
+        EXPECT_NEAR(downward("over_cut"), 1.0, 1e-12) << rotor;
+        EXPECT_NEAR(downward("under_cut"), -1.0, 1e-12) << rotor;
+    }
+}
+
+TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
+    const ParameterValues resolved = resolve_study(parse(with_feed("count = 3\n")), k_model);
+    const double modulus = resolved.number("rock.youngs_modulus_pa");
+    const double radius = 0.01;
+    const double volume = 4.0 / 3.0 * k_pi * radius * radius * radius;
+    const physics::Impact impact{volume * (2650.0 + 0.5 * 998.2), radius, modulus / (2.0 - 0.24 * 0.24 - 0.27 * 0.27), 2.0 * k_pi * 0.4};
+    EXPECT_NEAR(physics::hertz_largest_overlap(impact) / radius, 0.05, 1e-9);
+    const ParameterValues given = resolve_study(parse(minimal("[rock]\nyoungs_modulus_pa = 1e7\n")), k_model);
+    EXPECT_EQ(given.number("rock.youngs_modulus_pa"), 1e7);
+}
+
+TEST(Study, refuses_sizes_that_contradict_each_other) {
+    const auto mistakes = [](const std::string& keys) { return check_study(resolve_study(parse(minimal(keys)), k_model), k_model); };
+    EXPECT_TRUE(any_contains(mistakes("mouth_radius_m = 0.19\n"), "must lie inside the ring"));
+    EXPECT_TRUE(any_contains(mistakes("backplate_radius_m = 0.31\n"), "must carry the pipe"));
+    EXPECT_TRUE(any_contains(mistakes("[tank]\nheight_m = 0.9\n"), "Make the tank higher"));
+    EXPECT_TRUE(any_contains(mistakes("[tank]\nradius_m = 0.5\n"), "1.5 times the radius"));
+    EXPECT_TRUE(any_contains(mistakes("[report]\noutflow_start_s = 4\n"), "The run ends at 4 s"));
+    EXPECT_TRUE(
+        any_contains(mistakes("[[feed]]\ncount = 1\ndepth_to_m = 0.6\n[[feed.class]]\ndiameter_m = 0.02\n"), "The head ends 0.485 m"));
+    EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n[tank]\nheight_m = 0.9\n[report]\noutflow_start_s = 4\n").size(), 4u)
+        << "ring and backplate, tank, report";
+    EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n")[0].where, "study.toml:7");
+}
+
+TEST(Study, warns_of_rock_larger_than_a_third_of_the_passage) {
+    const auto warnings = [](const std::string& diameter) {
+        return study_warnings(resolve_study(parse(with_feed("count = 3\n", "diameter_m = " + diameter + "\n")), k_model), k_model);
+    };
+    EXPECT_TRUE(any_contains(warnings("0.07"), "third of the passage (0.2 m"));
+    EXPECT_TRUE(warnings("0.066").empty());
+}
+
+TEST(Study, resolved_values_read_back_as_the_same_study) {
+    const ParameterValues resolved = resolve_study(
+        parse(with_feed("mass_kg = 4.08\n", "diameter_m = 0.02\n[[feed.class]]\ndiameter_m = 0.01\nmass_share = 2\n")), k_model);
+    const ParameterValues again = parse(commented_toml(study_table(), &resolved));
+    for (const Parameter& parameter : study_table()) {
+        if (parameter.repeated) continue;
+        ASSERT_EQ(again.has(parameter.key), resolved.has(parameter.key)) << parameter.key;
+        if (again.has(parameter.key)) {
+            EXPECT_TRUE(*again.find(parameter.key) == *resolved.find(parameter.key)) << parameter.key;
+        }
+    }
+    ASSERT_EQ(again.tables("feed").size(), 1u);
+    EXPECT_EQ(again.tables("feed")[0].tables("feed.class").size(), 2u);
+    EXPECT_EQ(again.tables("feed")[0].number("feed.mass_kg"), 4.08);
+}
+
+TEST(Study, every_example_reads) {
+    int studies = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples")) {
+        if (entry.path().extension() != ".toml" || entry.path().filename().string().rfind("study", 0) != 0) continue;
+        const ParameterValues values = read_study(entry.path());
+        EXPECT_TRUE(check_study(resolve_study(values, k_model), k_model).empty()) << entry.path();
+        ++studies;
+    }
+    EXPECT_GE(studies, 1);
+}
+
+TEST(Study, the_demo_is_the_reference_experiments_batch) {
+    const fs::path file = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/study.toml";
+    const Study study = make_study(resolve_study(read_study(file), k_model), file.parent_path());
+    ASSERT_EQ(study.feeds.size(), 1u);
+    EXPECT_EQ(study.feeds[0].count, 368);
+    EXPECT_NEAR(study.feeds[0].spacing * study.feeds[0].classes[0].diameter, 0.03, 1e-12);
+    EXPECT_NEAR(study.feeds[0].start, study.period(), 1e-12);
+    EXPECT_NEAR(study.end_time(), 2.0, 1e-12);
+    EXPECT_NEAR(study.suction.discharge, 0.12, 1e-12);
+}
+
+TEST(Study, every_key_is_documented) {
+    for (const Parameter& parameter : study_table()) {
+        EXPECT_GT(parameter.help.size(), 10u) << parameter.key;
+        EXPECT_EQ(parameter.help.back(), '.') << parameter.key;
+        EXPECT_NE(parameter.optional, parameter.derived_from.empty()) << parameter.key;
+    }
+}
+
+TEST(Study, the_manual_page_is_that_of_the_table) {
+    EXPECT_EQ(read_file(fs::path(CUTTERFLOW_SOURCE_DIR) / "docs/user/study_file.md"), study_manual_page())
+        << "build the target update_manual";
+}
