@@ -1,0 +1,223 @@
+#include "validation/support/box_case.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "geometry/base/child_process.hpp"
+
+namespace cutterflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string vector_text(const Vec3& v) { return fmt::format("({:.17g} {:.17g} {:.17g})", v.x(), v.y(), v.z()); }
+
+void write_dictionary(const fs::path& case_folder, const std::string& name, const std::string& kind, const std::string& body) {
+    const fs::path file = case_folder / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream stream(file);
+    stream << fmt::format("FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n{}\n", kind,
+                          file.filename().string(), body);
+    if (!stream) throw std::runtime_error("cannot write " + file.string());
+}
+
+std::string block_mesh(const BoxCase& box) {
+    const Vec3& a = box.lower;
+    const Vec3& b = box.upper;
+    const char* top = box.sides == BoxSides::open_top ? "patch" : "wall";
+    return fmt::format(
+        "scale 1;\nvertices (({0} {1} {2}) ({3} {1} {2}) ({3} {4} {2}) ({0} {4} {2}) ({0} {1} {5}) ({3} {1} {5}) ({3} {4} {5}) ({0} {4} {5}));\n"
+        "blocks ( hex (0 1 2 3 4 5 6 7) ({6} {7} {8}) simpleGrading (1 1 1) );\nedges ();\n"
+        "boundary\n(\n    sides {{ type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }}\n"
+        "    bottom {{ type wall; faces ((0 3 2 1)); }}\n    top {{ type {9}; faces ((4 5 6 7)); }}\n);\nmergePatchPairs ();",
+        a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), box.cells[0], box.cells[1], box.cells[2], top);
+}
+
+void write_fields(const fs::path& folder, const BoxCase& box) {
+    const bool open = box.sides == BoxSides::open_top;
+    write_dictionary(folder, "0/U", "volVectorField",
+                     fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type slip; "
+                                 "}}\n    top {{ {} }}\n}}",
+                                 open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : "type slip;"));
+    write_dictionary(folder, "0/p", "volScalarField",
+                     fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type "
+                                 "fixedFluxPressure; value uniform 0; }}\n    top {{ {} }}\n}}",
+                                 open ? "type fixedValue; value uniform 0;" : "type fixedFluxPressure; value uniform 0;"));
+}
+
+void write_constant(const fs::path& folder, const BoxCase& box) {
+    write_dictionary(folder, "constant/g", "uniformDimensionedVectorField",
+                     "dimensions [0 1 -2 0 0 0 0];\nvalue " + vector_text(box.gravity) + ";");
+    write_dictionary(folder, "constant/transportProperties", "dictionary",
+                     fmt::format("transportModel Newtonian;\nnu {:.17g};\nrho {:.17g};", box.viscosity, box.density));
+    write_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
+    write_dictionary(folder, "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;");
+    if (box.rocks.empty()) return;
+    // The DEM's room is the box; its corners lie on the cylinder about the z axis through the origin.
+    const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
+    write_dictionary(folder, "constant/couplingProperties", "dictionary",
+                     fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ();\n"
+                                 "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall true; }}\n}}\n"
+                                 "kernel {{ {} }}\nclosures {{ {} }}\n"
+                                 "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
+                                 "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
+                                 box.contact, radius, box.lower.z(), box.upper.z(), box.kernel, box.closures, box.extra));
+    // There is no head in the box: its volume is a pin below the floor.
+    std::ofstream(folder / "constant/contour.csv") << "z_m,r_m\n-0.02,0.001\n0,0.001\n";
+    std::ofstream feed(folder / "constant/rockFeed.csv");
+    feed << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
+    for (const FeedRock& rock : box.rocks)
+        feed << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", rock.id, rock.time, rock.position.x(),
+                            rock.position.y(), rock.position.z(), rock.diameter, rock.density, rock.velocity.x(), rock.velocity.y(),
+                            rock.velocity.z());
+    if (!feed) throw std::runtime_error("cannot write the rock feed");
+}
+
+void write_system(const fs::path& folder, const BoxCase& box) {
+    write_dictionary(folder, "system/blockMeshDict", "dictionary", block_mesh(box));
+    write_dictionary(folder, "system/controlDict", "dictionary",
+                     fmt::format("application cutterFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime {:.17g};\ndeltaT {:.17g};\n"
+                                 "adjustTimeStep no;\nmaxCo 0.9;\nmaxDeltaT {:.17g};\nwriteControl adjustable;\nwriteInterval {:.17g};\n"
+                                 "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;",
+                                 box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time)));
+    write_dictionary(folder, "system/fvSchemes", "dictionary",
+                     "ddtSchemes { default Euler; }\ngradSchemes { default Gauss linear; }\ndivSchemes\n{\n    default Gauss upwind;\n"
+                     "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}\n"
+                     "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }");
+    write_dictionary(folder, "system/fvSolution", "dictionary",
+                     "solvers\n{\n    \"p.*\" { solver GAMG; smoother DICGaussSeidel; tolerance 1e-9; relTol 0; }\n"
+                     "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
+                     "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
+}
+
+}  // namespace
+
+std::map<std::string, std::string> tool_environment() {
+    std::map<std::string, std::string> environment{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                                                   {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                                                   {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"}};
+    if (std::getenv("WM_PROJECT_DIR") == nullptr) environment["WM_PROJECT_DIR"] = "/usr/share/openfoam";
+    return environment;
+}
+
+fs::path scratch_folder(const std::string& name) {
+    const fs::path folder = fs::path(CUTTERFLOW_BUILD_DIR) / "scratch" / name;
+    fs::remove_all(folder);
+    fs::create_directories(folder.parent_path());
+    return folder;
+}
+
+void run_in_case(const fs::path& folder, const std::vector<std::string>& arguments) {
+    require_child({arguments, folder, folder / ("log." + fs::path(arguments.front()).filename().string()), tool_environment()});
+}
+
+void write_box_case(const fs::path& folder, const BoxCase& box) {
+    fs::create_directories(folder);
+    if (!fs::is_empty(folder)) throw std::runtime_error(folder.string() + " is not empty");
+    write_system(folder, box);
+    write_constant(folder, box);
+    write_fields(folder, box);
+    run_in_case(folder, {"blockMesh"});
+}
+
+void run_cutter_foam(const fs::path& folder, int ranks) {
+    const std::string program = std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam";
+    if (ranks == 1) {
+        run_in_case(folder, {program});
+        return;
+    }
+    if (!fs::exists(folder / "processor0")) {
+        write_dictionary(folder, "system/decomposeParDict", "dictionary",
+                         fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n (1 1 {}); delta 0.001; order xyz; }}", ranks,
+                                     ranks));
+        run_in_case(folder, {"decomposePar"});
+    }
+    run_in_case(folder, {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks), program, "-parallel"});
+}
+
+std::map<std::string, std::vector<double>> read_columns(const fs::path& file) {
+    std::ifstream stream(file);
+    std::string line;
+    if (!std::getline(stream, line)) throw std::runtime_error("cannot read " + file.string());
+    const auto split = [](const std::string& text) {
+        std::vector<std::string> fields;
+        std::istringstream fields_stream(text);
+        for (std::string field; std::getline(fields_stream, field, ',');) fields.push_back(field);
+        return fields;
+    };
+    const std::vector<std::string> names = split(line);
+    std::map<std::string, std::vector<double>> columns;
+    while (std::getline(stream, line)) {
+        std::vector<std::string> fields = split(line);
+        fields.resize(names.size());
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            char* end = nullptr;
+            const double value = std::strtod(fields[i].c_str(), &end);
+            columns[names[i]].push_back(end == fields[i].c_str() ? std::numeric_limits<double>::quiet_NaN() : value);
+        }
+    }
+    return columns;
+}
+
+namespace {
+
+/// Numbers of an ascii data array of a .vtp file, as vectors.
+std::vector<Vec3> read_vectors(const std::string& text, const std::string& name) {
+    std::size_t start = text.find("Name=\"" + name + "\"");
+    if (start == std::string::npos) throw std::runtime_error("no array " + name + " in the picture");
+    start = text.find('>', start) + 1;
+    std::istringstream numbers(text.substr(start, text.find('<', start) - start));
+    std::vector<Vec3> vectors;
+    for (Vec3 v; numbers >> v[0] >> v[1] >> v[2];) vectors.push_back(v);
+    return vectors;
+}
+
+}  // namespace
+
+RockPicture last_rocks(const fs::path& folder) {
+    fs::path last;
+    double last_time = -1.0;
+    for (const auto& entry : fs::directory_iterator(folder / "postProcessing/rock/vtk")) {
+        const std::string stem = entry.path().stem().string();
+        const double time = std::stod(stem.substr(stem.find('_') + 1));
+        if (time > last_time) {
+            last_time = time;
+            last = entry.path();
+        }
+    }
+    std::ifstream stream(last);
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    return {read_vectors(text, "Points"), read_vectors(text, "velocity")};
+}
+
+std::vector<double> read_scalar_field(const fs::path& file, std::size_t cells) {
+    std::ifstream stream(file);
+    std::string text((std::istreambuf_iterator<char>(stream)), {});
+    const std::size_t start = text.find("internalField");
+    if (start == std::string::npos) throw std::runtime_error("no internalField in " + file.string());
+    std::istringstream values(text.substr(start + std::string("internalField").size()));
+    std::string word;
+    values >> word;
+    if (word == "uniform") {
+        double value = 0.0;
+        values >> value;
+        return std::vector<double>(cells, value);
+    }
+    std::size_t count = 0;
+    char bracket = ' ';
+    values >> word >> count >> bracket;
+    if (count != cells || bracket != '(') throw std::runtime_error("unexpected field in " + file.string());
+    std::vector<double> field(count);
+    for (double& value : field) values >> value;
+    if (!values) throw std::runtime_error("truncated field in " + file.string());
+    return field;
+}
+
+}  // namespace cutterflow::validation

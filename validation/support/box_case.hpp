@@ -1,0 +1,82 @@
+#pragma once
+/// \file Box-shaped cases for cutterFoam, written by hand as a user would: the simplest rooms in which the coupling can be held against
+/// a known answer.
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::validation {
+
+struct FeedRock {
+    int id = 0;
+    double time = 0.0;      ///< [s]
+    Vec3 position;          ///< [m]
+    double diameter = 0.0;  ///< [m]
+    double density = 2650;  ///< [kg/m3]
+    Vec3 velocity = Vec3::Zero();
+};
+
+/// What the six sides of the box are.
+enum class BoxSides {
+    closed,    ///< slip walls all round: nothing gets in or out
+    open_top,  ///< slip walls, the upper side at p* = 0
+};
+
+/// A box of water with uniform hexahedra and rock, laminar, seeds' water unless told otherwise.
+struct BoxCase {
+    Vec3 lower, upper;           ///< corners [m]
+    std::array<int, 3> cells{};  ///< number along x, y, z
+    BoxSides sides = BoxSides::closed;
+    Vec3 gravity{0.0, 0.0, -9.81};
+    double density = 998.2;          ///< [kg/m3]
+    double viscosity = 1.0034e-6;    ///< kinematic [m2/s]
+    double end_time = 0.1;
+    double time_step = 1e-3;
+    double write_interval = 1e9;     ///< [s]
+    std::vector<FeedRock> rocks;
+    std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
+    std::string closures = "drag brown_lawler; hindrance di_felice; addedMass 0.5;";
+    std::string contact = "youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; "
+                          "timeStepFraction 0.1; maxSpeed 1.5;";
+    std::string extra;               ///< further sections of couplingProperties
+
+    double cell_size() const { return (upper.x() - lower.x()) / cells[0]; }
+    std::size_t cell_count() const { return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]; }
+};
+
+/// Writes the case into `folder` (created; must be empty or absent) and makes its mesh with blockMesh.
+void write_box_case(const std::filesystem::path& folder, const BoxCase& box);
+
+/// Runs cutterFoam (from the build) on a case; with ranks > 1 it is decomposed along its longest side first. Throws ToolError with the end
+/// of the log when it fails.
+void run_cutter_foam(const std::filesystem::path& folder, int ranks = 1);
+
+/// Runs any program in a case folder, its output in log.<program>.
+void run_in_case(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+
+/// Columns of a CSV file with one header line, by name; not-a-number where a field is no number.
+std::map<std::string, std::vector<double>> read_columns(const std::filesystem::path& file);
+
+/// Rocks of a particle picture (postProcessing/rock/vtk).
+struct RockPicture {
+    std::vector<Vec3> position;  ///< [m]
+    std::vector<Vec3> velocity;  ///< [m/s]
+};
+
+/// The last picture that a run wrote.
+RockPicture last_rocks(const std::filesystem::path& folder);
+
+/// Values of an ascii OpenFOAM scalar field, one per cell (a uniform field is spread over `cells` values).
+std::vector<double> read_scalar_field(const std::filesystem::path& file, std::size_t cells);
+
+/// A fresh folder for a test's case under the build folder; what an earlier test run left there is removed.
+std::filesystem::path scratch_folder(const std::string& name);
+
+/// Environment that OpenFOAM's and Open MPI's programs need on a bare machine.
+std::map<std::string, std::string> tool_environment();
+
+}  // namespace cutterflow::validation
