@@ -87,8 +87,13 @@ public:
     /// advances the time, moves the mesh. After it, fields() still shows the old values in the moved cells.
     virtual void begin_step(double travel_limit) = 0;
 
+    /// Volume rate at which the steel beside each cell moves out of the fluid in the step under way [m3/s]: negative where it moves in. Its
+    /// sum over a closed body is 0.
+    virtual gsl::span<const double> wall_retreat() const = 0;
+
     /// Ends the step: solves momentum, pressure (with d(alpha)/dt from the two void fractions, both evaluated on the moved mesh) and
-    /// turbulence. \param void_fraction_old  for the rocks' old positions, \param void_fraction_new  for their new ones; one per cell.
+    /// turbulence. \param void_fraction_old  for the rocks' old positions, less the rock that moving steel has driven from where it stands
+    /// now (wall_retreat); \param void_fraction_new  for their new ones; one per cell.
     virtual void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                           const MomentumExchange& exchange) = 0;
 

@@ -210,7 +210,7 @@ void RockCoupling::map() {
     const std::vector<double> volumes = volumes_of(rocks);
     Stencils* const both[] = {&old, &present_};
     const auto fractions = redistribute(both, volumes, cell_volume, settings_.kernel.max_solid_fraction, communicator_);
-    void_fraction_old_ = void_fraction_of(fractions[0]);
+    void_fraction_old_ = void_fraction_before(old, volumes);
     void_fraction_new_ = void_fraction_of(fractions[1]);
 
     source_.resize(carry_.size());
@@ -238,6 +238,24 @@ void RockCoupling::map() {
     balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
     balance_.solid_fraction_max = std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_));
     require_room(balance_.solid_fraction_max, settings_.kernel.max_solid_fraction);
+}
+
+/// The old void fraction on the cells as they stand now. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
+/// displace is sum alpha_w v.S, and the rock of the swept space, sum (1 - alpha_w) v.S dt, was there before and is no more. So the old kernel
+/// of each rock holds, on the present cells, its volume less what was swept:
+///   V_old = V (1 + dt sum_c w_c v.S_c).
+/// Without it a blade that passes rock would be a source of fluid.
+std::vector<double> RockCoupling::void_fraction_before(const Stencils& old, std::vector<double> volume) const {
+    const gsl::span<const double> retreat = fluid_.wall_retreat();
+    std::vector<double> swept(volume.size(), 0.0);
+    for (std::size_t p = 0; p < present_.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i)
+            swept[p] += present_.deposit[i] * retreat[static_cast<std::size_t>(present_.cell[i])];
+    communicator_.sum(swept);
+    for (std::size_t p = 0; p < volume.size(); ++p) volume[p] *= 1.0 + fluid_.time_step() * swept[p];
+    std::vector<double> solid_fraction(retreat.size(), 0.0);
+    deposit(old, volume, solid_fraction);
+    return void_fraction_of(solid_fraction);
 }
 
 void RockCoupling::check_ranges() {

@@ -90,6 +90,7 @@ private:
     void follow_departures();
     void add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
                       gsl::span<const double> volume);
+    std::vector<double> void_fraction_before(const Stencils& old, std::vector<double> volume) const;
     void check_ranges();
     void warn_once(const std::string& subject, const std::string& text);
     double volume_error(const std::vector<double>& solid_fraction, const std::vector<double>& rock_volume) const;

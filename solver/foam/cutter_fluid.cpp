@@ -289,6 +289,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     volVectorField HbyA(constrainHbyA(rAU * momentum.H(), U_, p_));
     surfaceScalarField phiHbyA("phiHbyA", predicted_flux(HbyA, rAU));
     close_domain(phiHbyA);
+    const dimensionedScalar surplus(domain_surplus(phiHbyA));
 
     tmp<volScalarField> rAtU(rAU);
     if (pimple_.consistent()) {
@@ -300,7 +301,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     constrainPressure(p_, U_, phiHbyA, rAtU());
 
     const surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
-    const volScalarField::Internal outflow(predicted_outflow(phiHbyA));
+    const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * phiHbyA)().internalField() - surplus);
     while (pimple_.correctNonOrthogonal()) {
         fvScalarMatrix pressure(fvm::laplacian(alpha_rAtUf, p_));
         pressure -= outflow;
@@ -341,12 +342,12 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
     fvc::makeAbsolute(flux, U_);
 }
 
-/// What leaves each cell per volume [1/s] before pressure acts.
-tmp<volScalarField::Internal> CutterFluid::predicted_outflow(const surfaceScalarField& flux) const {
-    tmp<volScalarField::Internal> outflow(alpha_rate_ + fvc::div(alphaf_ * flux)().internalField());
-    // What is left in the sum over a closed domain (rounding, and what the interface's sides disagree by) would go to the reference cell.
-    if (p_.needReference()) outflow.ref() -= outflow().weightedAverage(mesh_.V());
-    return outflow;
+/// What is left in a closed domain's sum of continuity [1/s] (rounding, and what the interface's sides disagree by), which would all go to
+/// the pressure's reference cell; 0 in an open one. To be asked before forces at walls enter the flux: pressure balances those there.
+dimensionedScalar CutterFluid::domain_surplus(const surfaceScalarField& flux) const {
+    if (!p_.needReference()) return dimensionedScalar(dimless / dimTime, Zero);
+    const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * flux)().internalField());
+    return outflow.weightedAverage(mesh_.V());
 }
 
 /// Called while phi_ is absolute.

@@ -90,7 +90,7 @@ private:
     Foam::tmp<Foam::surfaceScalarField> predicted_flux(const Foam::volVectorField& HbyA, const Foam::volScalarField& rAU) const;
     void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
     void close_domain(Foam::surfaceScalarField& flux);
-    Foam::tmp<Foam::volScalarField::Internal> predicted_outflow(const Foam::surfaceScalarField& flux) const;
+    Foam::dimensionedScalar domain_surplus(const Foam::surfaceScalarField& flux) const;
     void report_continuity();
     void correct_turbulence();
     void update_material_acceleration();

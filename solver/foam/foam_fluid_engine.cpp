@@ -1,5 +1,6 @@
 #include "solver/foam/foam_fluid_engine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,7 @@
 
 #include "fvcAverage.H"
 #include "surfaceInterpolate.H"
+#include "wallFvPatch.H"
 #include "zeroGradientFvPatchFields.H"
 
 namespace cutterflow::foam {
@@ -56,6 +58,18 @@ std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
     return std::vector<double>(size.begin(), size.end());
 }
 
+/// Volume rate swept by the wall faces of each cell, positive out of the cell [m3/s].
+void add_up_wall_motion(const Foam::fvMesh& mesh, std::vector<double>& of_cells) {
+    std::fill(of_cells.begin(), of_cells.end(), 0.0);
+    if (!mesh.moving()) return;
+    forAll(mesh.boundary(), patch) {
+        if (!Foam::isA<Foam::wallFvPatch>(mesh.boundary()[patch])) continue;
+        const Foam::labelUList& cells = mesh.boundary()[patch].faceCells();
+        const Foam::scalarField& swept = mesh.phi().boundaryField()[patch];
+        forAll(cells, i) of_cells[cells[i]] += swept[i];
+    }
+}
+
 }  // namespace
 
 struct FoamFluidEngine::Parts {
@@ -66,7 +80,8 @@ struct FoamFluidEngine::Parts {
           in_rotor(mark_rotor_cells(session.mesh())),
           centres(centres_in_zone_frame(session.mesh(), in_rotor, motion.axis, motion.angle(session.time().value()))),
           volumes(session.mesh().V().begin(), session.mesh().V().end()),
-          sizes(smooth_cell_sizes(session.mesh())) {}
+          sizes(smooth_cell_sizes(session.mesh())),
+          wall_retreat(volumes.size(), 0.0) {}
 
     coupling::Cells cells() const { return {centres, volumes, sizes, in_rotor}; }
 
@@ -77,6 +92,7 @@ struct FoamFluidEngine::Parts {
     std::vector<Vec3> centres;
     std::vector<double> volumes;
     std::vector<double> sizes;
+    std::vector<double> wall_retreat;
     PstreamCommunicator communicator;
     SteelFaces steel;
     std::unique_ptr<VelocitySampler> sampler;
@@ -103,7 +119,12 @@ double FoamFluidEngine::time() const { return parts_->time.value(); }
 std::string FoamFluidEngine::time_name() const { return parts_->time.timeName(); }
 double FoamFluidEngine::time_step() const { return parts_->time.deltaTValue(); }
 bool FoamFluidEngine::running() { return parts_->fluid.running(); }
-void FoamFluidEngine::begin_step(double travel_limit) { parts_->fluid.begin_step(travel_limit); }
+void FoamFluidEngine::begin_step(double travel_limit) {
+    parts_->fluid.begin_step(travel_limit);
+    add_up_wall_motion(parts_->fluid.mesh(), parts_->wall_retreat);
+}
+
+gsl::span<const double> FoamFluidEngine::wall_retreat() const { return parts_->wall_retreat; }
 
 void FoamFluidEngine::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                                const coupling::MomentumExchange& exchange) {

@@ -27,6 +27,7 @@ public:
     double time_step() const override;
     bool running() override;
     void begin_step(double travel_limit) override;
+    gsl::span<const double> wall_retreat() const override;
     void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                   const coupling::MomentumExchange& exchange) override;
     void reset_void_fraction(gsl::span<const double> void_fraction) override;

@@ -46,9 +46,10 @@ TEST_P(Settling, reaches_the_terminal_speed) {
     const double expected = terminal_speed(diameter, 2650.0, box);
     ASSERT_NEAR(expected, 0.736, 0.001);
 
-    // Released at three quarters of the terminal speed, off every symmetry of the mesh.
+    // Released off every symmetry of the mesh and 5 % slow: differences decay within about 0.07 s, so after the shortest fall (0.19 s) less
+    // than 0.4 % of the speed is left of it, while nine tenths of what a wrong balance of forces does have shown.
     const double below_top = 0.06;
-    box.rocks = {{1, 0.0, Vec3(0.0013, -0.0021, box.upper.z() - below_top), diameter, 2650.0, 0.75 * expected * Vec3(0.0, 0.0, -1.0)}};
+    box.rocks = {{1, 0.0, Vec3(0.0013, -0.0021, box.upper.z() - below_top), diameter, 2650.0, 0.95 * expected * Vec3(0.0, 0.0, -1.0)}};
     box.time_step = 1e-3;
     box.end_time = std::round(room.fall / expected / box.time_step) * box.time_step;
     const auto folder = scratch_folder(fmt::format("settling_{}", room.ratio));

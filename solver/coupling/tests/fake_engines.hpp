@@ -18,6 +18,7 @@ public:
         velocity.assign(mesh.size(), Vec3::Zero());
         acceleration.assign(mesh.size(), Vec3::Zero());
         void_fraction.assign(mesh.size(), 1.0);
+        retreat.assign(mesh.size(), 0.0);
         received_.assign(mesh.size(), Vec3::Zero());
     }
 
@@ -40,6 +41,8 @@ public:
         step_ = std::min(time_step_, travel_limit);
         time_ += step_;
     }
+
+    gsl::span<const double> wall_retreat() const override { return retreat; }
 
     void end_step(gsl::span<const double> old_values, gsl::span<const double> new_values, const MomentumExchange& exchange) override {
         log += "end ";
@@ -82,6 +85,7 @@ public:
     std::function<Vec3(const Vec3& position, double time)> flow;
     std::vector<Vec3> velocity, acceleration;
     std::vector<double> void_fraction, void_fraction_old;
+    std::vector<double> retreat;  // of walls, as a test wants it
     std::vector<double> travel_limits;
     FluidLoads given_loads;
     bool writes_fields = false;

@@ -237,6 +237,28 @@ TEST(Rotor, leaves_rock_at_rest_alone) {
     }
 }
 
+TEST(Rotor, takes_the_rock_of_the_space_its_blades_sweep_from_the_old_void_fraction) {
+    // Steel moves through the layer of cells at the box's lower side. Fluid that it displaces with the void fraction beside it, and the
+    // void fraction's change, must add up to nothing: sum V (alpha - alpha_old) / dt + sum alpha v.S = 0 for a closed body.
+    Rig rig(box(0.05, 0.01), {}, 2e-3);
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+        const Vec3& x = rig.fluid.mesh.centres[c];
+        if (x[2] < -0.04) rig.fluid.retreat[c] = x[0] < 0.0 ? -3e-5 : 3e-5;
+    }
+    rig.coupling.insert({rock(1, Vec3(-0.012, 0.003, -0.038), 0.02, Vec3(0.3, 0.0, 0.1)), rock(2, Vec3(0.03, -0.02, -0.03), 0.012, Vec3::Zero())});
+    for (int n = 0; n < 5; ++n) {
+        EXPECT_LE(rig.step().solid_volume_error, 1e-12);
+        double change = 0.0, displaced = 0.0, net_displaced = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+            change += rig.fluid.mesh.volumes[c] * (rig.fluid.void_fraction[c] - rig.fluid.void_fraction_old[c]) / rig.fluid.time_step();
+            displaced += std::abs((1.0 - rig.fluid.void_fraction[c]) * rig.fluid.retreat[c]);
+            net_displaced += rig.fluid.void_fraction[c] * rig.fluid.retreat[c];
+        }
+        EXPECT_GT(std::abs(net_displaced), 1e-2 * displaced);
+        EXPECT_NEAR(change + net_displaced, 0.0, 1e-9 * displaced);
+    }
+}
+
 TEST(Ranks, exchange_the_same_as_one) {
     const auto due = [] {
         std::vector<FeedRock> rocks;
