@@ -14,15 +14,18 @@ public:
     explicit FailurePrinter(int rank) : rank_(rank) {}
 
 private:
+    // GoogleTest holds its lock while it tells of a failure: asking it for the test then would wait for ever.
+    void OnTestStart(const ::testing::TestInfo& test) override { test_ = &test; }
+
     void OnTestPartResult(const ::testing::TestPartResult& result) override {
         if (!result.failed()) return;
-        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        std::printf("rank %d, %s.%s, %s:%d\n%s\n", rank_, test->test_suite_name(), test->name(), result.file_name(), result.line_number(),
-                    result.message());
+        std::printf("rank %d, %s.%s, %s:%d\n%s\n", rank_, test_->test_suite_name(), test_->name(), result.file_name(),
+                    result.line_number(), result.message());
         std::fflush(stdout);
     }
 
     int rank_;
+    const ::testing::TestInfo* test_ = nullptr;
 };
 
 }  // namespace
