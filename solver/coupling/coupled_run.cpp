@@ -16,6 +16,15 @@ namespace fs = std::filesystem;
 /// Angles [rad] of mesh and walls may differ by rounding only.
 constexpr double k_angle_tolerance = 1e-9;
 
+/// Rock is due when its time is this share of a step ahead: times are sums of steps and carry their rounding.
+constexpr double k_due_tolerance = 1e-6;
+
+/// A release this many steps ahead is steered at, so that no step need be much shorter than its neighbours.
+constexpr double k_steps_to_release = 10.0;
+
+/// Steps grow by no more than this from one to the next.
+constexpr double k_step_growth = 1.2;
+
 /// Adds the wall time of its life to a sum [s].
 class Timer {
 public:
@@ -91,7 +100,8 @@ Moment CoupledRun::now() const {
 void CoupledRun::insert_due_rock() {
     if (!has_rock()) return;
     const Timer timer(cost_.mapping);
-    const auto later = std::find_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return rock.time > fluid_.time(); });
+    const double due_until = fluid_.time() + k_due_tolerance * fluid_.time_step();
+    const auto later = std::find_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return rock.time > due_until; });
     if (later == feed_.begin()) return;
     const std::vector<FeedRock> due(feed_.begin(), later);
     feed_.erase(feed_.begin(), later);
@@ -117,7 +127,17 @@ void CoupledRun::sample_flow() {
 void CoupledRun::begin_fluid_step() {
     step_start_ = now();
     const Timer timer(cost_.mesh_motion);
-    fluid_.begin_step(has_rock() ? rock_->travel_limit() : std::numeric_limits<double>::infinity());
+    fluid_.begin_step(has_rock() ? step_limit() : std::numeric_limits<double>::infinity());
+}
+
+/// Longest step [s] that rock allows and that ends no later than the next release: rock was placed for the rotor's angle at that time.
+double CoupledRun::step_limit() const {
+    const double limit = rock_->travel_limit();
+    if (feed_.empty()) return limit;
+    const double remaining = feed_.front().time - fluid_.time();
+    const double longest = std::min(limit, k_step_growth * fluid_.time_step());
+    if (remaining > k_steps_to_release * longest) return limit;
+    return remaining / std::ceil(remaining / longest);
 }
 
 void CoupledRun::move_rock() {

@@ -16,6 +16,7 @@
 #include "cases/case_builder.hpp"
 #include "cases/tests/tiny_rotor_mesh.hpp"
 #include "geometry/base/run_names.hpp"
+#include "meshing/foam_command.hpp"
 #include "validation/support/box_case.hpp"
 
 namespace cutterflow::validation {
@@ -122,13 +123,13 @@ INSTANTIATE_TEST_SUITE_P(Ranks, Rotor, ::testing::Values(1, 2));
 
 /// Starts cutterFoam and kills it once it has gone on for some steps after its first checkpoint with rock.
 void run_and_kill(const fs::path& folder) {
-    const std::string program = std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam";
+    const ChildCommand command = foam_command(folder, cutter_foam());
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder.c_str()) != 0) _exit(1);
-        for (const auto& [name, value] : tool_environment()) setenv(name.c_str(), value.c_str(), 1);
+        for (const auto& [name, value] : command.environment) setenv(name.c_str(), value.c_str(), 1);
         if (freopen("log.killed", "w", stdout) == nullptr) _exit(1);
-        execl(program.c_str(), program.c_str(), nullptr);
+        execl(command.arguments[0].c_str(), command.arguments[0].c_str(), nullptr);
         _exit(127);
     }
     const fs::path checkpoint = folder / names::checkpoints / "0.1";

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
+#include "meshing/foam_command.hpp"
 
 namespace cutterflow::validation {
 namespace {
@@ -99,13 +99,7 @@ void write_system(const fs::path& folder, const BoxCase& box) {
 
 }  // namespace
 
-std::map<std::string, std::string> tool_environment() {
-    std::map<std::string, std::string> environment{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
-                                                   {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
-                                                   {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"}};
-    if (std::getenv("WM_PROJECT_DIR") == nullptr) environment["WM_PROJECT_DIR"] = "/usr/share/openfoam";
-    return environment;
-}
+std::string cutter_foam() { return std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam"; }
 
 fs::path scratch_folder(const std::string& name) {
     const fs::path folder = fs::path(CUTTERFLOW_BUILD_DIR) / "scratch" / name;
@@ -115,7 +109,7 @@ fs::path scratch_folder(const std::string& name) {
 }
 
 void run_in_case(const fs::path& folder, const std::vector<std::string>& arguments) {
-    require_child({arguments, folder, folder / ("log." + fs::path(arguments.front()).filename().string()), tool_environment()});
+    require_child(foam_command(folder, arguments.front(), {arguments.begin() + 1, arguments.end()}));
 }
 
 void write_box_case(const fs::path& folder, const BoxCase& box) {
@@ -128,18 +122,13 @@ void write_box_case(const fs::path& folder, const BoxCase& box) {
 }
 
 void run_cutter_foam(const fs::path& folder, int ranks) {
-    const std::string program = std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam";
-    if (ranks == 1) {
-        run_in_case(folder, {program});
-        return;
-    }
-    if (!fs::exists(folder / "processor0")) {
+    if (ranks > 1 && !fs::exists(folder / "processor0")) {
         write_dictionary(folder, "system/decomposeParDict", "dictionary",
                          fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n (1 1 {}); delta 0.001; order xyz; }}", ranks,
                                      ranks));
         run_in_case(folder, {"decomposePar"});
     }
-    run_in_case(folder, {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks), program, "-parallel"});
+    require_child(foam_command(folder, cutter_foam(), {}, ranks));
 }
 
 std::map<std::string, std::vector<double>> read_columns(const fs::path& file) {

@@ -76,7 +76,7 @@ std::vector<double> read_scalar_field(const std::filesystem::path& file, std::si
 /// A fresh folder for a test's case under the build folder; what an earlier test run left there is removed.
 std::filesystem::path scratch_folder(const std::string& name);
 
-/// Environment that OpenFOAM's and Open MPI's programs need on a bare machine.
-std::map<std::string, std::string> tool_environment();
+/// Path of the built solver.
+std::string cutter_foam();
 
 }  // namespace cutterflow::validation
