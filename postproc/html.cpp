@@ -1,8 +1,87 @@
 #include "postproc/html.hpp"
 
+#include <chrono>
+#include <ctime>
+
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 namespace cutterflow::postproc::html {
+namespace {
+
+constexpr const char* k_style_sheet = R"css(
+:root { --ink: #26303a; --soft: #5a6672; --line: #dfe4e9; --tint: #f5f7f9; }
+* { box-sizing: border-box; }
+html { font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Liberation Sans", Arial, sans-serif; font-size: 16px;
+  color: var(--ink); background: #fff; line-height: 1.5; }
+body { max-width: 1180px; margin: 0 auto; padding: 36px 32px 64px; }
+header { border-bottom: 2px solid var(--ink); padding-bottom: 14px; margin-bottom: 20px; }
+h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 4px; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }
+h2 { font-size: 1.18rem; margin: 44px 0 12px; font-weight: 650; border-bottom: 1px solid var(--line); padding-bottom: 6px; }
+p { margin: 0 0 10px; max-width: 78ch; }
+.operating { color: var(--soft); margin: 0; max-width: none; }
+.scope { border-left: 4px solid #f0c14b; background: #fdf8ea; padding: 10px 14px; margin: 18px 0; max-width: none; }
+.notice { border-left: 4px solid #d55e00; background: #fdf1ea; padding: 10px 14px; margin: 0 0 20px; max-width: none; }
+.answers { display: grid; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); gap: 14px; margin: 0 0 14px; }
+.answer { border: 1px solid var(--line); border-top: 4px solid var(--colour, var(--ink)); border-radius: 3px; padding: 12px 16px 14px; }
+.answer .label { font-size: 0.86rem; color: var(--soft); line-height: 1.35; min-height: 2.7em; }
+.answer .value { font-size: 2.1rem; line-height: 1.2; font-weight: 650; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
+.answer .detail { font-size: 0.86rem; color: var(--soft); }
+.trust { font-size: 0.92rem; margin: 16px 0 0; padding: 0; list-style: none; }
+.trust li { padding: 7px 0; border-top: 1px solid var(--line); display: grid; grid-template-columns: 11em 1fr; gap: 14px; }
+.trust b { font-weight: 600; }
+.figures { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 26px 30px; align-items: start; }
+figure { margin: 0; break-inside: avoid; min-width: 0; }
+figure.wide { grid-column: 1 / -1; }
+figure.head { display: grid; grid-template-columns: 13fr 10fr; gap: 10px; align-items: center; }
+figure.head figcaption { grid-column: 1 / -1; }
+figure.rose svg { max-width: 430px; margin: 0 auto; }
+figure svg { display: block; width: 100%; height: auto; }
+svg text { font-family: inherit; }
+figure + table { margin-top: 18px; }
+figcaption { font-size: 0.86rem; color: var(--soft); margin-top: 6px; }
+.legend { list-style: none; margin: 4px 0 0; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 0.9rem; }
+.legend i { display: inline-block; width: 0.8em; height: 0.8em; border-radius: 50%; margin-right: 0.45em; vertical-align: -0.05em; }
+.tables > div { min-width: 0; overflow-x: auto; }
+.tables { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 18px 34px; align-items: start; }
+table { border-collapse: collapse; width: 100%; font-size: 0.9rem; break-inside: auto; }
+th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
+tr { break-inside: avoid; }
+thead th { color: var(--soft); font-weight: 600; border-bottom: 1.5px solid #b8c1ca; }
+tbody th { font-weight: 500; }
+table + table, table + p { margin-top: 14px; }
+sup { font-size: 0.72em; line-height: 0; }
+sub { font-size: 0.72em; line-height: 0; }
+table.numbers td, table.numbers thead th:not(:first-child) { text-align: right; font-variant-numeric: tabular-nums; }
+table.numbers th, table.numbers td { overflow-wrap: normal; }
+table.numbers td, table.numbers tbody th { white-space: nowrap; }
+table.numbers td:last-child, table.numbers thead th:last-child { padding-right: 2px; }
+h3 { font-size: 0.95rem; margin: 14px 0 6px; font-weight: 600; }
+.passed { color: #00795c; } .failed { color: #b3361b; font-weight: 650; }
+footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px; font-size: 0.82rem; color: var(--soft); }
+@media (max-width: 900px) {
+  body { padding: 22px 20px 48px; }
+  .answers { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  .figures, .tables { grid-template-columns: minmax(0, 1fr); }
+  .figures figure:not(.wide) { max-width: 640px; }
+  .trust li { grid-template-columns: 8.5em 1fr; }
+}
+@media print {
+  @page { size: A4; margin: 14mm; }
+  html { font-size: 12px; }
+  body { max-width: none; padding: 0; }
+  table { font-size: 0.78rem; }
+  th, td { padding-right: 7px; }
+  .tables { gap: 12px 22px; }
+  .tables > div { overflow: visible; }
+  .answers { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .figures, .tables { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  h2 { break-after: avoid; }
+  * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+}
+)css";
+
+}  // namespace
 
 std::string escape(const std::string& text) {
     std::string result;
@@ -55,6 +134,16 @@ std::string figure(const std::string& content, const std::string& caption, const
 
 std::string section(const std::string& title, const std::string& content) {
     return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, content);
+}
+
+std::string document(const std::string& title, const std::string& body, const std::string& footer) {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+        "<title>{} – Cutterflow</title><style>{}</style></head><body>\n{}"
+        "<footer>Written by Cutterflow on {:%Y-%m-%d %H:%M} UTC. {}</footer>\n</body></html>\n",
+        title, k_style_sheet, body, fmt::gmtime(now), footer);
 }
 
 }  // namespace cutterflow::postproc::html

@@ -15,4 +15,7 @@ std::string figure(const std::string& content, const std::string& caption, const
 
 std::string section(const std::string& title, const std::string& content);
 
+/// A whole page with the project's style, time of writing and footer. All three are markup.
+std::string document(const std::string& title, const std::string& body, const std::string& footer);
+
 }  // namespace cutterflow::postproc::html

@@ -1,141 +1,23 @@
 #include "postproc/page.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "postproc/figures.hpp"
 #include "postproc/html.hpp"
 #include "postproc/not_modelled.hpp"
 #include "postproc/palette.hpp"
+#include "postproc/text.hpp"
 
 namespace cutterflow::postproc {
 namespace {
 
 using html::escape;
 using nlohmann::json;
+using namespace text;
 
-constexpr const char* k_dash = "–";
-
-constexpr const char* k_style_sheet = R"css(
-:root { --ink: #26303a; --soft: #5a6672; --line: #dfe4e9; --tint: #f5f7f9; }
-* { box-sizing: border-box; }
-html { font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Liberation Sans", Arial, sans-serif; font-size: 16px;
-  color: var(--ink); background: #fff; line-height: 1.5; }
-body { max-width: 1180px; margin: 0 auto; padding: 36px 32px 64px; }
-header { border-bottom: 2px solid var(--ink); padding-bottom: 14px; margin-bottom: 20px; }
-h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 4px; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }
-h2 { font-size: 1.18rem; margin: 44px 0 12px; font-weight: 650; border-bottom: 1px solid var(--line); padding-bottom: 6px; }
-p { margin: 0 0 10px; max-width: 78ch; }
-.operating { color: var(--soft); margin: 0; max-width: none; }
-.scope { border-left: 4px solid #f0c14b; background: #fdf8ea; padding: 10px 14px; margin: 18px 0; max-width: none; }
-.notice { border-left: 4px solid #d55e00; background: #fdf1ea; padding: 10px 14px; margin: 0 0 20px; max-width: none; }
-.answers { display: grid; grid-template-columns: repeat(auto-fit, minmax(230px, 1fr)); gap: 14px; margin: 0 0 14px; }
-.answer { border: 1px solid var(--line); border-top: 4px solid var(--colour, var(--ink)); border-radius: 3px; padding: 12px 16px 14px; }
-.answer .label { font-size: 0.86rem; color: var(--soft); line-height: 1.35; min-height: 2.7em; }
-.answer .value { font-size: 2.1rem; line-height: 1.2; font-weight: 650; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
-.answer .detail { font-size: 0.86rem; color: var(--soft); }
-.trust { font-size: 0.92rem; margin: 16px 0 0; padding: 0; list-style: none; }
-.trust li { padding: 7px 0; border-top: 1px solid var(--line); display: grid; grid-template-columns: 11em 1fr; gap: 14px; }
-.trust b { font-weight: 600; }
-.figures { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 26px 30px; align-items: start; }
-figure { margin: 0; break-inside: avoid; min-width: 0; }
-figure.wide { grid-column: 1 / -1; }
-figure.head { display: grid; grid-template-columns: 13fr 10fr; gap: 10px; align-items: center; }
-figure.head figcaption { grid-column: 1 / -1; }
-figure.rose svg { max-width: 430px; margin: 0 auto; }
-figure svg { display: block; width: 100%; height: auto; }
-svg text { font-family: inherit; }
-figure + table { margin-top: 18px; }
-figcaption { font-size: 0.86rem; color: var(--soft); margin-top: 6px; }
-.legend { list-style: none; margin: 4px 0 0; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 0.9rem; }
-.legend i { display: inline-block; width: 0.8em; height: 0.8em; border-radius: 50%; margin-right: 0.45em; vertical-align: -0.05em; }
-.tables > div { min-width: 0; overflow-x: auto; }
-.tables { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 18px 34px; align-items: start; }
-table { border-collapse: collapse; width: 100%; font-size: 0.9rem; break-inside: auto; }
-th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
-tr { break-inside: avoid; }
-thead th { color: var(--soft); font-weight: 600; border-bottom: 1.5px solid #b8c1ca; }
-tbody th { font-weight: 500; }
-table + table, table + p { margin-top: 14px; }
-sup { font-size: 0.72em; line-height: 0; }
-sub { font-size: 0.72em; line-height: 0; }
-table.numbers td, table.numbers thead th:not(:first-child) { text-align: right; font-variant-numeric: tabular-nums; }
-table.numbers th, table.numbers td { overflow-wrap: normal; }
-table.numbers td, table.numbers tbody th { white-space: nowrap; }
-table.numbers td:last-child, table.numbers thead th:last-child { padding-right: 2px; }
-h3 { font-size: 0.95rem; margin: 14px 0 6px; font-weight: 600; }
-.passed { color: #00795c; } .failed { color: #b3361b; font-weight: 650; }
-footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px; font-size: 0.82rem; color: var(--soft); }
-@media (max-width: 900px) {
-  body { padding: 22px 20px 48px; }
-  .answers { grid-template-columns: repeat(2, minmax(0, 1fr)); }
-  .figures, .tables { grid-template-columns: minmax(0, 1fr); }
-  .figures figure:not(.wide) { max-width: 640px; }
-  .trust li { grid-template-columns: 8.5em 1fr; }
-}
-@media print {
-  @page { size: A4; margin: 14mm; }
-  html { font-size: 12px; }
-  body { max-width: none; padding: 0; }
-  table { font-size: 0.78rem; }
-  th, td { padding-right: 7px; }
-  .tables { gap: 12px 22px; }
-  .tables > div { overflow: visible; }
-  .answers { grid-template-columns: repeat(4, minmax(0, 1fr)); }
-  .figures, .tables { grid-template-columns: repeat(2, minmax(0, 1fr)); }
-  h2 { break-after: avoid; }
-  * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
-}
-)css";
-
-std::string percent(double share) {
-    return fmt::format("{:.1f} %", 100.0 * share);
-}
-
-std::string percent(const std::optional<double>& share) {
-    return share ? percent(*share) : std::string("undefined");
-}
-
-/// Number with `digits` significant digits: plain where people read it so, else with a power of ten.
-std::string digits_of(double value, int digits) {
-    if (std::abs(value) < 1e-300) return "0";  // also limits that say "above zero"
-    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
-    if (exponent < -4 || exponent > 6) {
-        const std::string power = exponent < 0 ? fmt::format("−{}", -exponent) : fmt::format("{}", exponent);
-        return fmt::format("{:.{}g}·10<sup>{}</sup>", value / std::pow(10.0, exponent), digits, power);
-    }
-    const double unit = std::pow(10.0, exponent - digits + 1);
-    std::string text = fmt::format("{:.{}f}", std::round(value / unit) * unit, std::max(0, digits - 1 - exponent));
-    if (text.find('.') == std::string::npos) return text;
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text;
-}
-
-std::string number(const std::optional<double>& value, const char* unit = "", int digits = 3) {
-    if (!value) return k_dash;
-    return digits_of(*value, digits) + (*unit ? fmt::format(" {}", unit) : "");
-}
-
-/// Mean and standard error to the same decimal.
-std::string number(const std::optional<TimeAverage>& average, const char* unit) {
-    if (!average) return k_dash;
-    const std::string tail = *unit ? fmt::format(" {}", unit) : "";
-    if (!average->standard_error || *average->standard_error == 0.0) return digits_of(average->mean, 3) + tail;
-    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(*average->standard_error))), 0, 6);
-    return fmt::format("{:.{}f} ± {:.{}f}{}", average->mean, decimals, *average->standard_error, decimals, tail);
-}
-
-std::string duration(double seconds) {
-    if (seconds < 120.0) return fmt::format("{:.3g} s", seconds);
-    if (seconds < 7200.0) return fmt::format("{:.1f} min", seconds / 60.0);
-    return fmt::format("{:.1f} h", seconds / 3600.0);
-}
 
 /// Value of a JSON file as markup.
 std::string json_text(const json& value) {
@@ -167,14 +49,6 @@ std::string key_text(const std::string& key) {
     return escape(words) + unit;
 }
 
-/// "0-30mm" as "0–30 mm".
-std::string bin_text(const std::string& name) {
-    const std::size_t dash = name.find('-');
-    if (dash == std::string::npos || name.size() < 2 || name.substr(name.size() - 2) != "mm")
-        return name == "below_hub" ? "below hub" : escape(name);
-    return escape(name.substr(0, dash) + "–" + name.substr(dash + 1, name.size() - dash - 3) + " mm");
-}
-
 /// The single values of a JSON file as rows.
 std::vector<std::vector<std::string>> value_rows(const json& object) {
     std::vector<std::vector<std::string>> rows;
@@ -188,13 +62,9 @@ std::string fate_detail(const RockAmount& amount) {
     return fmt::format("{} rocks, {:.4g} kg", amount.count, amount.mass);
 }
 
-std::optional<double> mean_of(const std::optional<TimeAverage>& average) {
-    return average ? std::optional<double>(average->mean) : std::nullopt;
-}
-
 std::string over_revolutions(const RotorLoads& rotor) {
-    if (rotor.averaged_revolutions == 0) return "less than one revolution after the start of the averaging window";
-    return fmt::format("mean over {} whole revolution{}", rotor.averaged_revolutions, rotor.averaged_revolutions == 1 ? "" : "s");
+    if (rotor.averaged_revolutions == 0.0) return "no blade has passed yet since the start of the averaging window";
+    return fmt::format("mean over {:.3g} revolution{}", rotor.averaged_revolutions, rotor.averaged_revolutions == 1.0 ? "" : "s");
 }
 
 std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail) {
@@ -548,23 +418,14 @@ std::string version_section(const json& versions) {
 
 std::string report_page(const Results& results, const RunData& run, const PageFigures& figures) {
     const std::string title = run.operating_point.study_name.empty() ? std::string("Cutter head") : escape(run.operating_point.study_name);
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::string page = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-        "<title>{} – Cutterflow</title><style>{}</style></head><body>\n",
-        title, k_style_sheet);
-    page += header(results, run);
+    std::string page = header(results, run);
     page += unfinished_notice(results);
     page += answer_section(results, run, figures);
     if (!figures.note.empty()) page += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
     page += figure_section(results, figures) + rock_section(results, run) + operation_section(results, run);
     page += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
     page += version_section(results_json(results, run).at("versions"));
-    page +=
-        fmt::format("<footer>Written by Cutterflow on {:%Y-%m-%d %H:%M} UTC. The same numbers for programs: results.json ({}).</footer>\n",
-                    fmt::gmtime(now), k_results_schema);
-    return page + "</body></html>\n";
+    return html::document(title, page, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));
 }
 
 }  // namespace cutterflow::postproc

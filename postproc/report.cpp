@@ -1,10 +1,6 @@
 #include "postproc/report.hpp"
 
-#include <fstream>
-
-#include <fmt/format.h>
-
-#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/run_names.hpp"
 #include "postproc/figures.hpp"
 #include "postproc/page.hpp"
@@ -13,20 +9,6 @@ namespace cutterflow::postproc {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_atomically(const fs::path& file, const std::string& text) {
-    const fs::path part = file.string() + ".part";
-    {
-        std::ofstream stream(part, std::ios::binary);
-        stream << text;
-        stream.flush();
-        if (!stream) {
-            throw UserError(fmt::format("{} cannot be written", part.string()), "",
-                            "Check the folder's permissions and the space on the disk");
-        }
-    }
-    fs::rename(part, file);
-}
 
 std::vector<PlotScript> plots_of(const Results& results, const RunData& run) {
     const double revolution = run.operating_point.revolution_s();
@@ -64,11 +46,10 @@ PageFigures draw_figures(const Results& results, const RunData& run, const fs::p
 ReportSummary write_report(const fs::path& run_directory) {
     const RunData run = read_run(run_directory);
     ReportSummary summary{run_directory / names::results_json, run_directory / names::report_page, compute_results(run), ""};
-    fs::create_directories(summary.results_file.parent_path());
-    write_atomically(summary.results_file, results_json(summary.results, run).dump(2) + "\n");
+    write_file(summary.results_file, results_json(summary.results, run).dump(2) + "\n");
     const PageFigures figures = draw_figures(summary.results, run, summary.page_file.parent_path() / "plots.part");
     summary.note = figures.note;
-    write_atomically(summary.page_file, report_page(summary.results, run, figures));
+    write_file(summary.page_file, report_page(summary.results, run, figures));
     return summary;
 }
 

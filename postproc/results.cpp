@@ -30,12 +30,13 @@ std::vector<BinOutflow> average_outflow(const RunData& run) {
 RotorLoads average_loads(const RunData& run, double start) {
     RotorLoads rotor;
     const std::vector<double>& times = run.loads.number("time_s");
-    const double revolution = run.operating_point.revolution_s();
     rotor.revolutions = std::abs(run.loads.number("rotor_angle_rad").back()) / (2.0 * k_pi);
-    // Time steps do not fall on the mark: a hundredth of a revolution short still counts as whole.
-    rotor.averaged_revolutions = std::max(0, static_cast<int>(std::floor((times.back() - start) / revolution + 0.01)));
-    if (rotor.averaged_revolutions == 0) return rotor;
-    const double end = start + rotor.averaged_revolutions * revolution;
+    // Time steps do not fall on the mark: a twentieth of a passing short still counts as whole.
+    double passings = std::max(0.0, std::floor((times.back() - start) / blade_period(run) + 0.05));
+    if (passings > run.blades) passings = run.blades * std::floor(passings / run.blades);
+    rotor.averaged_revolutions = passings / run.blades;
+    if (passings == 0.0) return rotor;
+    const double end = start + passings * blade_period(run);
     std::vector<double> torque_flow = run.loads.number("torque_pressure_n_m");
     const std::vector<double>& viscous = run.loads.number("torque_viscous_n_m");
     for (std::size_t i = 0; i < torque_flow.size(); ++i) torque_flow[i] += viscous[i];
@@ -228,7 +229,7 @@ json rotor_json(const Results& results, const RunData& run) {
                 {"torque_rock_mean_n_m", results.spillage ? mean_or_null(results.rotor.torque_rock) : json(nullptr)},
                 {"power_mean_w", mean_or_null(results.rotor.power)},
                 {"averaged_revolutions", results.rotor.averaged_revolutions}};
-    if (results.rotor.averaged_revolutions == 0) object["mean_reason"] = "less than one revolution after the start of the window";
+    if (results.rotor.averaged_revolutions == 0.0) object["mean_reason"] = "no blade has passed yet since the start of the window";
     return object;
 }
 

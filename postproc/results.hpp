@@ -22,11 +22,12 @@ struct BinOutflow {
     std::optional<TimeAverage> radial_velocity;
 };
 
-/// Means over whole revolutions after the start of the window. The torques are those that flow and rock put on the cutter, about the
+/// Means over whole revolutions after the start of the window; before there is one, over whole passings of a blade, with which all
+/// that the flow does to the rotor repeats. The torques are those that flow and rock put on the cutter, about the
 /// axis from hub to ring; power is what the drive must give.
 struct RotorLoads {
     double revolutions = 0.0;                ///< of the whole run
-    int averaged_revolutions = 0;            ///< 0: less than one after the start, no means
+    double averaged_revolutions = 0.0;       ///< 0: no blade has passed since the start, no means
     std::optional<TimeAverage> torque_flow;  ///< [N m], pressure and viscous
     std::optional<TimeAverage> torque_rock;  ///< [N m]
     std::optional<TimeAverage> power;        ///< [W]

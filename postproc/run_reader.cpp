@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -52,6 +53,25 @@ public:
         if (!value && required) miss(key, "is missing or not a text");
         return value.value_or("");
     }
+    /// The study but for its name and what repeats of a run vary.
+    std::string setting() const {
+        toml::table study = root_;
+        study.erase("name");
+        study.erase("report");
+        if (toml::table* run = study["run"].as_table()) {
+            run->erase("max_revolutions");
+            run->erase("checkpoint_interval_s");
+            run->erase("write_interval_s");
+        }
+        if (toml::array* feeds = study["feed"].as_array())
+            for (toml::node& feed : *feeds)
+                if (toml::table* table = feed.as_table())
+                    for (const char* key : {"seed", "start_revolution"}) table->erase(key);
+        std::ostringstream text;
+        text << toml::toml_formatter(study);
+        return text.str();
+    }
+    int seed() const { return root_["feed"][0]["seed"].value_or(0); }
     void require_all() {
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
     }
@@ -212,8 +232,9 @@ RunData read_run(const fs::path& directory) {
                 geometry,
                 read_json(directory / names::mesh_report),
                 read_json(directory / names::manifest),
-                {},
-                false};
+                {}};
+    run.setting = study.setting();
+    run.seed = study.seed();
     std::vector<std::string> bin_names;
     for (const AxialBin& bin : run.bins) bin_names.push_back(bin.name);
     bin_names.insert(bin_names.begin(), "time_s");

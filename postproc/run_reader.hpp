@@ -70,6 +70,8 @@ struct RunData {
     nlohmann::json geometry, mesh, manifest, cost_summary;  ///< objects, empty when the file is absent
     int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
     bool finished = false;                                  ///< the run came to its end
+    std::string setting{};  ///< the study without its name and what repeats vary (seed and time of release); equal for repeats
+    int seed = 0;         ///< of the first feed
 };
 
 /// Reads a run directory, finished or not.

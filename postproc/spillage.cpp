@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gsl/assert>
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -76,11 +77,9 @@ std::vector<RatiosAt> ratios_every(const Table& fates, std::size_t last, double 
     const std::vector<double>& times = fates.number("time_s");
     const double end = times[last] + 0.005 * interval;
     for (int k = 1; start + k * interval <= end; ++k) {
-        const auto after =
-            std::upper_bound(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(last) + 1, with_tolerance(start + k * interval));
-        if (after == times.begin()) continue;
-        const Fates now = fates_at(fates, static_cast<std::size_t>(after - times.begin()) - 1);
-        series.push_back({static_cast<double>(k), now.time, now, ratios_of(now)});
+        RatiosAt at = ratios_after(fates, start, k * interval);
+        at.since_feed = k;
+        series.push_back(at);
     }
     return series;
 }
@@ -107,6 +106,14 @@ Fates fates_at(const Table& fates, std::size_t row) {
                             "The four fates add up to the placed rock", k_remedy});
     }
     return now;
+}
+
+RatiosAt ratios_after(const Table& fates, double feed_start, double since_feed) {
+    const std::vector<double>& times = fates.number("time_s");
+    const auto after = std::upper_bound(times.begin(), times.end(), with_tolerance(feed_start + since_feed));
+    Expects(after != times.begin());
+    const Fates now = fates_at(fates, static_cast<std::size_t>(after - times.begin()) - 1);
+    return {since_feed, now.time, now, ratios_of(now)};
 }
 
 SpillageRatios ratios_of(const Fates& fates) {

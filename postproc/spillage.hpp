@@ -89,6 +89,9 @@ struct Spillage {
     double sucked_volume = 0.0;               ///< of sucked up rock [m3]
 };
 
+/// Fates and ratios when `since_feed` [s] have passed since the first rock: those of the last row before. \pre fates has such a row
+RatiosAt ratios_after(const Table& fates, double feed_start, double since_feed);
+
 /// Evaluates fates.csv and events.csv (neither empty of columns; fates with rows).
 /// \param revolution  time of one revolution [s] > 0
 /// \param finished    the run came to its end: then the last row of fates and the events must agree

@@ -201,15 +201,28 @@ TEST(ResultsJson, pure_flow_has_outflow_and_no_rock) {
     EXPECT_NEAR(results.at("conservation").at("flow_balance_max_error").get<double>(), 3e-8, 1e-20);
 }
 
-TEST(ResultsJson, an_unfinished_run_says_so_and_knows_no_mean_before_one_revolution) {
+TEST(ResultsJson, loads_are_means_over_passings_of_a_blade_before_there_is_a_whole_revolution) {
+    SmallRun run("passings");
+    run.finished = false;
+    run.end_time = 1.6;  // three of six passings and a part of the fourth
+    run.write();
+    const json rotor = document_of(run).at("rotor");
+    EXPECT_DOUBLE_EQ(rotor.at("averaged_revolutions").get<double>(), 0.5);
+    EXPECT_NEAR(rotor.at("torque_flow_mean_n_m").get<double>(), -11.0 - 4.0 * 2.0 / k_pi, 0.01);
+    run.end_time = 1.1;
+    run.write();
+    const json early = document_of(run).at("rotor");
+    EXPECT_TRUE(early.at("torque_flow_mean_n_m").is_null());
+    EXPECT_FALSE(early.at("mean_reason").get<std::string>().empty());
+}
+
+TEST(ResultsJson, an_unfinished_run_says_so) {
     SmallRun run("unfinished");
     run.finished = false;
     run.end_time = 1.5;
     run.write();
     const json results = document_of(run);
     EXPECT_EQ(results.at("run").at("finished"), false);
-    EXPECT_TRUE(results.at("rotor").at("torque_flow_mean_n_m").is_null());
-    EXPECT_FALSE(results.at("rotor").at("mean_reason").get<std::string>().empty());
     EXPECT_TRUE(results.at("cost").at("core_s").is_null());
     EXPECT_EQ(results.at("rock").at("fates").at("sucked_up").at("count"), 2);
 }

@@ -1,0 +1,125 @@
+#include "postproc/comparison.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "postproc/comparison_page.hpp"
+#include "postproc/tests/synthetic_run.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::SmallRun;
+
+const Quantity& quantity_of(const Comparison& comparison, const std::string& key) {
+    for (const Quantity& quantity : comparison.quantities)
+        if (quantity.key == key) return quantity;
+    throw std::runtime_error("no quantity " + key);
+}
+
+/// The small run in which the given rocks, sucked up in the original, leave by the gap instead.
+fs::path variant(const std::string& name, const std::vector<int>& spilled_instead, double length_ratio = 1.0) {
+    SmallRun run(name);
+    run.length_ratio = length_ratio;
+    for (testing::Event& event : run.events)
+        for (const int id : spilled_instead)
+            if (event.id == id && event.surface == "mouth") {
+                event.surface = "head";
+                event.direction = "out";
+                event.bin = "gap";
+            }
+    run.write();
+    return run.directory;
+}
+
+TEST(Comparison, takes_runs_of_one_setting_for_repeats_and_gives_students_interval) {
+    const Comparison comparison = compare_runs({variant("repeat_1", {}), variant("repeat_2", {4}), variant("repeat_3", {4, 5})});
+    ASSERT_EQ(comparison.settings.size(), 1u);
+    EXPECT_EQ(comparison.settings[0].runs.size(), 3u);
+    // By mass of 16 small rocks: 11 spilled and 3 sucked up, 12 and 2, 13 and 1.
+    const double r[] = {11.0 / 14.0, 12.0 / 14.0, 13.0 / 14.0};
+    const Estimate& ratio = quantity_of(comparison, "ratio").settings[0];
+    EXPECT_NEAR(*ratio.value, r[1], 1e-9);
+    EXPECT_NEAR(*ratio.half_width, 4.302653 * (r[1] - r[0]) / std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR(*ratio.low, 12.0 / 16.0, 1e-9);
+    EXPECT_NEAR(*ratio.high, 14.0 / 16.0, 1e-9);
+}
+
+TEST(Comparison, of_single_runs_has_bounds_and_no_interval) {
+    const Comparison comparison = compare_runs({variant("single_a", {}), variant("single_b", {4, 5, 6}, 2.0)});
+    ASSERT_EQ(comparison.settings.size(), 2u);
+    const Quantity& ratio = quantity_of(comparison, "ratio");
+    EXPECT_FALSE(ratio.settings[0].half_width);
+    const Difference difference = difference_of(comparison, ratio, 1);
+    EXPECT_NEAR(*difference.estimate.value, 1.0 - 11.0 / 14.0, 1e-9);
+    EXPECT_NEAR(*difference.estimate.low, 14.0 / 16.0 - 13.0 / 16.0, 1e-9);
+    EXPECT_NEAR(*difference.estimate.high, 1.0 - 11.0 / 16.0, 1e-9);
+    EXPECT_EQ(difference.verdict, Verdict::no_replicate);
+    EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "production"), 1).verdict, Verdict::no_replicate);
+}
+
+TEST(Comparison, says_when_bounds_or_scatter_hide_a_difference) {
+    // One rock more spilled, two undecided: the bounds hold zero.
+    const Comparison bounded = compare_runs({variant("bounds_a", {}), variant("bounds_b", {4}, 2.0)});
+    EXPECT_EQ(difference_of(bounded, quantity_of(bounded, "ratio"), 1).verdict, Verdict::undecided);
+    // Three repeats each; the same mean within their scatter in what has no bounds.
+    const Comparison scattered = compare_runs({variant("scatter_a1", {}), variant("scatter_a2", {4}), variant("scatter_a3", {4, 5}),
+                                               variant("scatter_b1", {4}, 2.0), variant("scatter_b2", {}, 2.0), variant("scatter_b3", {4, 5}, 2.0)});
+    ASSERT_EQ(scattered.settings.size(), 2u);
+    EXPECT_EQ(difference_of(scattered, quantity_of(scattered, "spilled_at_equal_time"), 1).verdict, Verdict::equal);
+    // All repeats apart from all others.
+    const Comparison apart = compare_runs({variant("apart_a1", {}), variant("apart_a2", {}), variant("apart_a3", {}), variant("apart_b1", {4, 5, 6}, 2.0),
+                                           variant("apart_b2", {4, 5, 6}, 2.0), variant("apart_b3", {4, 5, 6}, 2.0)});
+    EXPECT_EQ(difference_of(apart, quantity_of(apart, "spilled_at_equal_time"), 1).verdict, Verdict::differs);
+}
+
+TEST(Comparison, is_made_at_the_time_and_the_revolutions_that_all_runs_reached) {
+    SmallRun longer("longer"), shorter("shorter");
+    shorter.end_time = 1.5;
+    shorter.finished = false;
+    shorter.length_ratio = 2.0;
+    longer.write();
+    shorter.write();
+    const Comparison comparison = compare_runs({longer.directory, shorter.directory});
+    EXPECT_NEAR(*comparison.equal_time, 0.5, 1e-9);
+    EXPECT_NEAR(*comparison.equal_revolutions, 0.5, 1e-9);
+    const Quantity& spilled = quantity_of(comparison, "spilled_at_equal_time");
+    EXPECT_DOUBLE_EQ(*spilled.settings[0].value, *spilled.settings[1].value);
+}
+
+TEST(Comparison, names_every_directory_that_holds_no_run) {
+    EXPECT_THROW(compare_runs({variant("alone", {})}), UserError);
+    try {
+        compare_runs({"/nowhere/a", variant("there", {}), "/nowhere/b"});
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 2u);
+    }
+}
+
+TEST(ComparisonPage, holds_every_setting_and_escapes_names) {
+    SmallRun first("page_first"), second("page_second");
+    first.study_name = "deep <b>head</b>";
+    second.length_ratio = 2.0;
+    first.write();
+    second.write();
+    const fs::path folder = testing::fresh_directory("comparison_page") / "page";
+    const std::string page = testing::read_text(write_comparison(compare_runs({first.directory, second.directory}), folder));
+    EXPECT_THAT(page, HasSubstr("deep &lt;b&gt;head&lt;/b&gt;"));
+    EXPECT_THAT(page, HasSubstr("No replicate"));
+    EXPECT_EQ(page.find("http"), page.find("http://www.w3.org"));
+    const auto document = nlohmann::json::parse(testing::read_text(folder / "comparison.json"));
+    EXPECT_EQ(document.at("schema"), k_comparison_schema);
+    EXPECT_EQ(document.at("settings").size(), 2u);
+    const fs::path taken = testing::fresh_directory("comparison_taken");
+    testing::write_text(taken / "thesis.tex", "mine");
+    EXPECT_THROW(write_comparison(compare_runs({first.directory, second.directory}), taken), UserError);
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
