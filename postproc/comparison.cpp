@@ -5,8 +5,8 @@
 #include <functional>
 #include <set>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
 
 #include "geometry/base/error.hpp"
 #include "postproc/not_modelled.hpp"
@@ -95,8 +95,7 @@ std::vector<QuantityRule> operating_rules() {
 
 std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
     std::vector<QuantityRule> rules{
-        {"placed", "rocks placed", "-", false,
-         [](const ComparedRun& r) { return plain(r.results.spillage->fates.placed.count); }},
+        {"placed", "rocks placed", "-", false, [](const ComparedRun& r) { return plain(r.results.spillage->fates.placed.count); }},
         {"ratio", "spillage: spilled / (spilled + sucked up)", "-", true,
          [](const ComparedRun& r) { return spillage_of(r.results.spillage->ratios); }},
         {"production", "production: sucked up / placed", "-", true,
@@ -117,19 +116,21 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
     }
     if (comparison.equal_revolutions) {
         const double turns = *comparison.equal_revolutions;
-        rules.push_back({"spilled_at_equal_revolutions", fmt::format("spilled / placed after {:.3g} revolutions", turns), "-", true,
-                         [=](const ComparedRun& r) { return plain(at(r, turns * r.run.operating_point.revolution_s()).ratios.ratio_min); }});
+        rules.push_back(
+            {"spilled_at_equal_revolutions", fmt::format("spilled / placed after {:.3g} revolutions", turns), "-", true,
+             [=](const ComparedRun& r) { return plain(at(r, turns * r.run.operating_point.revolution_s()).ratios.ratio_min); }});
     }
     return rules;
 }
 
 std::vector<QuantityRule> load_rules(bool with_rock) {
-    std::vector<QuantityRule> rules{
-        {"torque_flow_mean_n_m", "mean torque of the flow", "N m", false, [](const ComparedRun& r) { return of_average(r.results.rotor.torque_flow); }}};
+    std::vector<QuantityRule> rules{{"torque_flow_mean_n_m", "mean torque of the flow", "N m", false,
+                                     [](const ComparedRun& r) { return of_average(r.results.rotor.torque_flow); }}};
     if (with_rock)
         rules.push_back({"torque_rock_mean_n_m", "mean torque of the rock", "N m", true,
                          [](const ComparedRun& r) { return of_average(r.results.rotor.torque_rock); }});
-    rules.push_back({"power_mean_w", "mean power of the drive", "W", false, [](const ComparedRun& r) { return of_average(r.results.rotor.power); }});
+    rules.push_back(
+        {"power_mean_w", "mean power of the drive", "W", false, [](const ComparedRun& r) { return of_average(r.results.rotor.power); }});
     if (with_rock)
         rules.push_back({"energy_per_volume_j_m3", "energy per delivered volume of rock (cutting excluded)", "J/m³", true,
                          [](const ComparedRun& r) { return energy_per_volume(r.results); }});
@@ -144,7 +145,8 @@ std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
     };
     for (const BinOutflow& bin : runs.front().results.outflow) {
         const std::string name = bin.bin.name;
-        if (!std::all_of(runs.begin(), runs.end(), [&](const ComparedRun& r) { return find(r, name) != r.results.outflow.end(); })) continue;
+        if (!std::all_of(runs.begin(), runs.end(), [&](const ComparedRun& r) { return find(r, name) != r.results.outflow.end(); }))
+            continue;
         rules.push_back({fmt::format("outflow_{}_m_s", name), fmt::format("radial outflow, {}", name), "m/s", false,
                          [=](const ComparedRun& r) { return of_average(find(r, name)->radial_velocity); }});
     }
@@ -158,14 +160,14 @@ std::vector<QuantityRule> cost_rules() {
              [](const ComparedRun& r) { return plain(r.results.conservation.flow_balance); }}};
 }
 
-std::vector<double> values_of(const std::vector<Estimate>& estimates, std::optional<double> Estimate::* member) {
+std::vector<double> values_of(const std::vector<Estimate>& estimates, std::optional<double> Estimate::*member) {
     std::vector<double> values;
     for (const Estimate& estimate : estimates)
         if (estimate.*member) values.push_back(*(estimate.*member));
     return values;
 }
 
-std::optional<double> mean_when_all(const std::vector<Estimate>& estimates, std::optional<double> Estimate::* member) {
+std::optional<double> mean_when_all(const std::vector<Estimate>& estimates, std::optional<double> Estimate::*member) {
     const std::vector<double> values = values_of(estimates, member);
     if (values.size() != estimates.size()) return std::nullopt;
     return sample_of(values).mean;
@@ -179,16 +181,17 @@ std::vector<Estimate> of_repeats(const Comparison& comparison, const Setting& se
 
 Estimate of_setting(const std::vector<Estimate>& repeats, bool of_rock) {
     if (repeats.size() == 1) return repeats.front();
-    Estimate estimate{mean_when_all(repeats, &Estimate::value), mean_when_all(repeats, &Estimate::low), mean_when_all(repeats, &Estimate::high),
-                      std::nullopt};
+    Estimate estimate{mean_when_all(repeats, &Estimate::value), mean_when_all(repeats, &Estimate::low),
+                      mean_when_all(repeats, &Estimate::high), std::nullopt};
     if (!estimate.value) return estimate;
-    estimate.half_width = of_rock ? half_width_of(sample_of(values_of(repeats, &Estimate::value)))
-                                  : mean_when_all(repeats, &Estimate::half_width);
+    estimate.half_width =
+        of_rock ? half_width_of(sample_of(values_of(repeats, &Estimate::value))) : mean_when_all(repeats, &Estimate::half_width);
     return estimate;
 }
 
 std::vector<QuantityRule> rules_of(const Comparison& comparison) {
-    const bool with_rock = std::all_of(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.results.spillage.has_value(); });
+    const bool with_rock =
+        std::all_of(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.results.spillage.has_value(); });
     std::vector<QuantityRule> rules = operating_rules();
     const auto append = [&](std::vector<QuantityRule> more) { rules.insert(rules.end(), more.begin(), more.end()); };
     if (with_rock) append(rock_rules(comparison));
@@ -205,14 +208,16 @@ std::string label_of(const RunData& run) {
 std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
     std::vector<Setting> settings;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const auto same = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return runs[s.runs.front()].run.setting == runs[i].run.setting; });
+        const auto same = std::find_if(settings.begin(), settings.end(),
+                                       [&](const Setting& s) { return runs[s.runs.front()].run.setting == runs[i].run.setting; });
         if (same == settings.end())
             settings.push_back({label_of(runs[i].run), {i}});
         else
             same->runs.push_back(i);
     }
     for (Setting& setting : settings) {
-        std::sort(setting.runs.begin(), setting.runs.end(), [&](std::size_t a, std::size_t b) { return runs[a].run.seed < runs[b].run.seed; });
+        std::sort(setting.runs.begin(), setting.runs.end(),
+                  [&](std::size_t a, std::size_t b) { return runs[a].run.seed < runs[b].run.seed; });
         if (setting.runs.size() > 1) setting.label += fmt::format(" ({} repeats)", setting.runs.size());
     }
     return settings;
@@ -251,8 +256,8 @@ std::optional<double> half_width_of_difference(const std::vector<double>& a, con
     if (first.count < k_fewest_repeats || second.count < k_fewest_repeats) return std::nullopt;
     const double va = first.variance / static_cast<double>(first.count), vb = second.variance / static_cast<double>(second.count);
     if (va + vb == 0.0) return 0.0;
-    const double freedom = (va + vb) * (va + vb) /
-                           (va * va / static_cast<double>(first.count - 1) + vb * vb / static_cast<double>(second.count - 1));
+    const double freedom =
+        (va + vb) * (va + vb) / (va * va / static_cast<double>(first.count - 1) + vb * vb / static_cast<double>(second.count - 1));
     return student_factor(freedom) * std::sqrt(va + vb);
 }
 
@@ -333,10 +338,14 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
 
 const char* verdict_text(Verdict verdict) {
     switch (verdict) {
-        case Verdict::differs: return "differs";
-        case Verdict::equal: return "not significant";
-        case Verdict::undecided: return "within the bounds";
-        case Verdict::no_replicate: break;
+        case Verdict::differs:
+            return "differs";
+        case Verdict::equal:
+            return "not significant";
+        case Verdict::undecided:
+            return "within the bounds";
+        case Verdict::no_replicate:
+            break;
     }
     return "no replicate";
 }
@@ -346,7 +355,10 @@ json comparison_json(const Comparison& comparison) {
     for (const Setting& setting : comparison.settings) {
         json runs = json::array();
         for (const std::size_t run : setting.runs) runs.push_back(comparison.runs[run].run.directory.string());
-        document["settings"].push_back({{"label", setting.label}, {"runs", runs}, {"finished", std::all_of(setting.runs.begin(), setting.runs.end(), [&](std::size_t run) { return comparison.runs[run].results.finished; })}});
+        document["settings"].push_back({{"label", setting.label},
+                                        {"runs", runs},
+                                        {"finished", std::all_of(setting.runs.begin(), setting.runs.end(),
+                                                                 [&](std::size_t run) { return comparison.runs[run].results.finished; })}});
     }
     for (const Quantity& quantity : comparison.quantities) {
         json item{{"key", quantity.key}, {"unit", quantity.unit}, {"settings", json::array()}, {"differences", json::array()}};
@@ -383,7 +395,9 @@ std::string comparison_text(const Comparison& comparison) {
             text += "\n";
         }
     }
-    return text + "value ± half the 95 % interval (batch means in time; Student's t over three or more repeats) [bounds: whatever the undecided rock does]\n";
+    return text +
+           "value ± half the 95 % interval (batch means in time; Student's t over three or more repeats) [bounds: whatever the undecided "
+           "rock does]\n";
 }
 
 }  // namespace cutterflow::postproc

@@ -35,17 +35,17 @@ struct Quantity {
     std::string key;   ///< with its unit, as in results.json
     std::string name;  ///< markup
     std::string unit;
-    bool of_rock = false;            ///< repeats scatter: from k_fewest_repeats on the interval is theirs
+    bool of_rock = false;                        ///< repeats scatter: from k_fewest_repeats on the interval is theirs
     std::vector<Estimate> settings;              ///< one for each setting
     std::vector<std::vector<Estimate>> repeats;  ///< the runs of each setting, in its order
 };
 
 /// Whether a setting differs from the first one in a quantity.
 enum class Verdict {
-    differs,        ///< interval and bounds of the difference exclude zero
-    equal,          ///< the interval of the difference holds zero: not significant
-    undecided,      ///< the bounds of the difference hold zero
-    no_replicate,   ///< the bounds exclude zero, but nothing is known of the scatter
+    differs,       ///< interval and bounds of the difference exclude zero
+    equal,         ///< the interval of the difference holds zero: not significant
+    undecided,     ///< the bounds of the difference hold zero
+    no_replicate,  ///< the bounds exclude zero, but nothing is known of the scatter
 };
 
 struct Difference {

@@ -18,7 +18,6 @@ using html::escape;
 using nlohmann::json;
 using namespace text;
 
-
 /// Value of a JSON file as markup.
 std::string json_text(const json& value) {
     if (value.is_string()) return escape(value.get<std::string>());

@@ -11,6 +11,7 @@ void add_generate_cutter(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_run(CLI::App& app);
 void add_report(CLI::App& app);
+void add_sweep(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_params(CLI::App& app);
 

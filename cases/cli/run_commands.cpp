@@ -1,4 +1,4 @@
-/// \file mesh, run, report, compare: work in run directories.
+/// \file mesh, run, report: work in a run directory.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,7 +14,6 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_names.hpp"
-#include "postproc/comparison_page.hpp"
 #include "postproc/report.hpp"
 
 namespace cutterflow::cli {
@@ -110,18 +109,6 @@ void report(const std::string& folder, bool json) {
     std::cout << (json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string())) << std::flush;
 }
 
-struct CompareOptions {
-    std::vector<std::string> runs;
-    std::optional<std::string> output;
-    bool json = false;
-};
-
-void compare(const CompareOptions& options) {
-    const postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
-    std::cout << (options.json ? postproc::comparison_json(comparison).dump(2) + "\n" : postproc::comparison_text(comparison));
-    if (options.output) say(fmt::format("the page: {}", postproc::write_comparison(comparison, *options.output).string()));
-}
-
 void add_run_options(CLI::App& command, RunOptions& options) {
     command.add_option("study", options.study, "The study file")->required();
     command.add_option("-o,--output", options.output, "Run directory; without it runs/<name of the study file>");
@@ -154,15 +141,6 @@ void add_report(CLI::App& app) {
     command->add_option("run_directory", *folder, "The run directory")->required();
     command->add_flag("--json", *json, "Print results.json");
     command->callback([folder, json] { report(*folder, *json); });
-}
-
-void add_compare(CLI::App& app) {
-    auto* command = app.add_subcommand("compare", "Put runs side by side: designs, speeds, discharges, repeats; differences from the first.");
-    const auto options = std::make_shared<CompareOptions>();
-    command->add_option("run_directories", options->runs, "Run directories; repeats of one study are taken together")->required();
-    command->add_option("-o,--output", options->output, "Folder for the page and comparison.json");
-    command->add_flag("--json", options->json, "Print comparison.json");
-    command->callback([options] { compare(*options); });
 }
 
 }  // namespace cutterflow::cli

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -13,10 +14,12 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <mutex>
 #include <set>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <gsl/assert>
 
 #include "geometry/base/error.hpp"
 
@@ -27,43 +30,54 @@ namespace {
 
 constexpr std::array<int, 3> k_stop_signals{SIGINT, SIGTERM, SIGHUP};
 
-// What the signal handler needs; a handler may touch nothing else. One child runs at a time.
-volatile std::sig_atomic_t g_child = 0;
+// What the signal handler needs; a handler may touch nothing else.
+constexpr std::size_t k_most_children = 256;
+std::array<volatile std::sig_atomic_t, k_most_children> g_children{};
 volatile std::sig_atomic_t g_received = 0;
 
 extern "C" void pass_on(int signal_number) {
     const int saved_errno = errno;
     g_received = signal_number;
-    if (g_child > 0) ::kill(static_cast<pid_t>(g_child), signal_number);
+    for (const volatile std::sig_atomic_t& child : g_children)
+        if (child > 0) ::kill(static_cast<pid_t>(child), signal_number);
     errno = saved_errno;
 }
 
-/// Passes stop signals on to the child while it lives; the caller's own handling is back afterwards.
+/// Passes stop signals on to the children while any of them lives; the caller's own handling is back after the last.
 class SignalRelay {
 public:
     SignalRelay() {
-        g_child = 0;
+        const std::lock_guard<std::mutex> lock(s_mutex);
+        if (s_relays++ > 0) return;
         g_received = 0;
         struct sigaction action {};
         action.sa_handler = pass_on;
         sigemptyset(&action.sa_mask);
-        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &action, &previous_[i]);
+        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &action, &s_previous[i]);
     }
     ~SignalRelay() {
-        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &previous_[i], nullptr);
-        g_child = 0;
+        const std::lock_guard<std::mutex> lock(s_mutex);
+        if (slot_ != nullptr) *slot_ = 0;
+        if (--s_relays > 0) return;
+        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &s_previous[i], nullptr);
     }
     SignalRelay(const SignalRelay&) = delete;
     SignalRelay& operator=(const SignalRelay&) = delete;
 
     void attach(pid_t child) {
-        g_child = child;
+        const std::lock_guard<std::mutex> lock(s_mutex);
+        slot_ = std::find(g_children.begin(), g_children.end(), 0);
+        Expects(slot_ != g_children.end());
+        *slot_ = child;
         if (g_received != 0) ::kill(child, g_received);  // it came before the child was known
     }
     static int received() { return g_received; }
 
 private:
-    std::array<struct sigaction, k_stop_signals.size()> previous_{};
+    volatile std::sig_atomic_t* slot_ = nullptr;
+    static inline std::mutex s_mutex;
+    static inline int s_relays = 0;
+    static inline std::array<struct sigaction, k_stop_signals.size()> s_previous{};
 };
 
 class FileDescriptor {

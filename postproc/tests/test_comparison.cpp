@@ -68,13 +68,15 @@ TEST(Comparison, says_when_bounds_or_scatter_hide_a_difference) {
     const Comparison bounded = compare_runs({variant("bounds_a", {}), variant("bounds_b", {4}, 2.0)});
     EXPECT_EQ(difference_of(bounded, quantity_of(bounded, "ratio"), 1).verdict, Verdict::undecided);
     // Three repeats each; the same mean within their scatter in what has no bounds.
-    const Comparison scattered = compare_runs({variant("scatter_a1", {}), variant("scatter_a2", {4}), variant("scatter_a3", {4, 5}),
-                                               variant("scatter_b1", {4}, 2.0), variant("scatter_b2", {}, 2.0), variant("scatter_b3", {4, 5}, 2.0)});
+    const Comparison scattered =
+        compare_runs({variant("scatter_a1", {}), variant("scatter_a2", {4}), variant("scatter_a3", {4, 5}), variant("scatter_b1", {4}, 2.0),
+                      variant("scatter_b2", {}, 2.0), variant("scatter_b3", {4, 5}, 2.0)});
     ASSERT_EQ(scattered.settings.size(), 2u);
     EXPECT_EQ(difference_of(scattered, quantity_of(scattered, "spilled_at_equal_time"), 1).verdict, Verdict::equal);
     // All repeats apart from all others.
-    const Comparison apart = compare_runs({variant("apart_a1", {}), variant("apart_a2", {}), variant("apart_a3", {}), variant("apart_b1", {4, 5, 6}, 2.0),
-                                           variant("apart_b2", {4, 5, 6}, 2.0), variant("apart_b3", {4, 5, 6}, 2.0)});
+    const Comparison apart =
+        compare_runs({variant("apart_a1", {}), variant("apart_a2", {}), variant("apart_a3", {}), variant("apart_b1", {4, 5, 6}, 2.0),
+                      variant("apart_b2", {4, 5, 6}, 2.0), variant("apart_b3", {4, 5, 6}, 2.0)});
     EXPECT_EQ(difference_of(apart, quantity_of(apart, "spilled_at_equal_time"), 1).verdict, Verdict::differs);
 }
 

@@ -241,8 +241,8 @@ void RockCoupling::map() {
 }
 
 /// The old void fraction on the cells as they stand now. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
-/// displace is sum alpha_w v.S, and the rock of the swept space, sum (1 - alpha_w) v.S dt, was there before and is no more. So the old kernel
-/// of each rock holds, on the present cells, its volume less what was swept:
+/// displace is sum alpha_w v.S, and the rock of the swept space, sum (1 - alpha_w) v.S dt, was there before and is no more. So the old
+/// kernel of each rock holds, on the present cells, its volume less what was swept:
 ///   V_old = V (1 + dt sum_c w_c v.S_c).
 /// Without it a blade that passes rock would be a source of fluid.
 std::vector<double> RockCoupling::void_fraction_before(const Stencils& old, std::vector<double> volume) const {

@@ -147,7 +147,9 @@ void CutterFluid::save_state() {
     state_.set("continuityCumulative", continuity_cumulative_);
 }
 
-bool CutterFluid::running() { return time_.run(); }
+bool CutterFluid::running() {
+    return time_.run();
+}
 
 void CutterFluid::begin_step(double travel_limit) {
     choose_time_step(travel_limit);
@@ -188,8 +190,12 @@ bool CutterFluid::write_if_due() {
     return wrote;
 }
 
-void CutterFluid::write_now() { time_.writeNow(); }
-std::string CutterFluid::turbulence_model() const { return turbulence_->type(); }
+void CutterFluid::write_now() {
+    time_.writeNow();
+}
+std::string CutterFluid::turbulence_model() const {
+    return turbulence_->type();
+}
 
 void CutterFluid::update_courant_number() {
     const scalarField gross_flux(fvc::surfaceSum(mag(phi_))().primitiveField());

@@ -45,10 +45,9 @@ std::vector<Vec3> centres_in_zone_frame(const Foam::fvMesh& mesh, const std::vec
 /// Cube root of the cells' volume, averaged with the neighbours' a few times: a jump of cell size becomes a ramp of a few cells.
 std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
     constexpr int passes = 4;
-    Foam::volScalarField size(Foam::IOobject("cellSize", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE,
-                                             false),
-                              mesh, Foam::dimensionedScalar(Foam::dimLength, Foam::Zero),
-                              Foam::zeroGradientFvPatchScalarField::typeName);
+    Foam::volScalarField size(
+        Foam::IOobject("cellSize", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false), mesh,
+        Foam::dimensionedScalar(Foam::dimLength, Foam::Zero), Foam::zeroGradientFvPatchScalarField::typeName);
     size.primitiveFieldRef() = Foam::cbrt(mesh.V().field());
     for (int pass = 0; pass < passes; ++pass) {
         size.correctBoundaryConditions();
@@ -106,43 +105,73 @@ FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock) : parts_(
 
 FoamFluidEngine::~FoamFluidEngine() = default;
 
-coupling::Cells FoamFluidEngine::cells() const { return parts_->cells(); }
-coupling::Steel FoamFluidEngine::steel() const { return {parts_->steel.rotor, parts_->steel.stator}; }
-coupling::RotorMotion FoamFluidEngine::rotor() const { return parts_->motion; }
+coupling::Cells FoamFluidEngine::cells() const {
+    return parts_->cells();
+}
+coupling::Steel FoamFluidEngine::steel() const {
+    return {parts_->steel.rotor, parts_->steel.stator};
+}
+coupling::RotorMotion FoamFluidEngine::rotor() const {
+    return parts_->motion;
+}
 
 coupling::FluidFields FoamFluidEngine::fields() const {
     const CutterFluid& fluid = parts_->fluid;
     return {view(fluid.velocity()), view(fluid.material_acceleration()), view(fluid.void_fraction())};
 }
 
-double FoamFluidEngine::time() const { return parts_->time.value(); }
-std::string FoamFluidEngine::time_name() const { return parts_->time.timeName(); }
-double FoamFluidEngine::time_step() const { return parts_->time.deltaTValue(); }
-bool FoamFluidEngine::running() { return parts_->fluid.running(); }
+double FoamFluidEngine::time() const {
+    return parts_->time.value();
+}
+std::string FoamFluidEngine::time_name() const {
+    return parts_->time.timeName();
+}
+double FoamFluidEngine::time_step() const {
+    return parts_->time.deltaTValue();
+}
+bool FoamFluidEngine::running() {
+    return parts_->fluid.running();
+}
 void FoamFluidEngine::begin_step(double travel_limit) {
     parts_->fluid.begin_step(travel_limit);
     add_up_wall_motion(parts_->fluid.mesh(), parts_->wall_retreat);
 }
 
-gsl::span<const double> FoamFluidEngine::wall_retreat() const { return parts_->wall_retreat; }
+gsl::span<const double> FoamFluidEngine::wall_retreat() const {
+    return parts_->wall_retreat;
+}
 
 void FoamFluidEngine::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                                const coupling::MomentumExchange& exchange) {
     parts_->fluid.end_step(void_fraction_old, void_fraction_new, exchange);
 }
 
-void FoamFluidEngine::reset_void_fraction(gsl::span<const double> void_fraction) { parts_->fluid.reset_void_fraction(void_fraction); }
-gsl::span<const Vec3> FoamFluidEngine::received() const { return view(parts_->fluid.received()); }
+void FoamFluidEngine::reset_void_fraction(gsl::span<const double> void_fraction) {
+    parts_->fluid.reset_void_fraction(void_fraction);
+}
+gsl::span<const Vec3> FoamFluidEngine::received() const {
+    return view(parts_->fluid.received());
+}
 
 void FoamFluidEngine::sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> velocity) {
     parts_->sampler->sample(parts_->fluid.velocity(), time(), parts_->communicator, points, velocity);
 }
 
-coupling::FluidLoads FoamFluidEngine::loads() { return compute_loads(parts_->fluid, parts_->in_rotor, parts_->motion); }
-bool FoamFluidEngine::write_if_due() { return parts_->fluid.write_if_due(); }
-void FoamFluidEngine::write_now() { parts_->fluid.write_now(); }
+coupling::FluidLoads FoamFluidEngine::loads() {
+    return compute_loads(parts_->fluid, parts_->in_rotor, parts_->motion);
+}
+bool FoamFluidEngine::write_if_due() {
+    return parts_->fluid.write_if_due();
+}
+void FoamFluidEngine::write_now() {
+    parts_->fluid.write_now();
+}
 
-std::string FoamFluidEngine::turbulence_model() const { return parts_->fluid.turbulence_model(); }
-coupling::FluidProperties FoamFluidEngine::fluid_properties() const { return {parts_->fluid.density(), parts_->fluid.viscosity()}; }
+std::string FoamFluidEngine::turbulence_model() const {
+    return parts_->fluid.turbulence_model();
+}
+coupling::FluidProperties FoamFluidEngine::fluid_properties() const {
+    return {parts_->fluid.density(), parts_->fluid.viscosity()};
+}
 
 }  // namespace cutterflow::foam

@@ -1,6 +1,6 @@
-/// What a step costs on the mesh of a run: flow with its rock, flow alone, and stock pimpleFoam, each on one and on two ranks, with the same
-/// time step, schemes and solvers from the same start. Times are wall seconds between the steps' first lines of output; variants take turns,
-/// and medians are compared.
+/// What a step costs on the mesh of a run: flow with its rock, flow alone, and stock pimpleFoam, each on one and on two ranks, with the
+/// same time step, schemes and solvers from the same start. Times are wall seconds between the steps' first lines of output; variants take
+/// turns, and medians are compared.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -63,8 +63,11 @@ fs::path prepare(const fs::path& run, const Variant& variant) {
     set_entry(folder, "writeControl", "runTime");
     set_entry(folder, "writeInterval", "1000");
     if (variant.ranks > 1) {
-        require_child(foam_command(folder, "foamDictionary", {"-entry", "numberOfSubdomains", "-set", std::to_string(variant.ranks), "system/decomposeParDict"}));
-        require_child(foam_command(folder, "foamDictionary", {"-entry", "hierarchicalCoeffs/n", "-set", fmt::format("({} 1 1)", variant.ranks), "system/decomposeParDict"}));
+        require_child(foam_command(folder, "foamDictionary",
+                                   {"-entry", "numberOfSubdomains", "-set", std::to_string(variant.ranks), "system/decomposeParDict"}));
+        require_child(
+            foam_command(folder, "foamDictionary",
+                         {"-entry", "hierarchicalCoeffs/n", "-set", fmt::format("({} 1 1)", variant.ranks), "system/decomposeParDict"}));
         require_child(foam_command(folder, "decomposePar", {"-force"}));
     }
     return folder;
@@ -111,7 +114,8 @@ int measure(const fs::path& run) {
         const auto [fastest, slowest] = std::minmax_element(seconds[i].begin(), seconds[i].end());
         fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", variants[i].name, variants[i].ranks, median(seconds[i]), *fastest, *slowest);
     }
-    fmt::print("\nrock / flow: {:.2f} on one rank, {:.2f} on two\n", step[{"rock", 1}] / step[{"flow", 1}], step[{"rock", 2}] / step[{"flow", 2}]);
+    fmt::print("\nrock / flow: {:.2f} on one rank, {:.2f} on two\n", step[{"rock", 1}] / step[{"flow", 1}],
+               step[{"rock", 2}] / step[{"flow", 2}]);
     fmt::print("flow / pimpleFoam: {:.2f} on one rank, {:.2f} on two\n", step[{"flow", 1}] / step[{"pimpleFoam", 1}],
                step[{"flow", 2}] / step[{"pimpleFoam", 2}]);
     for (const char* name : {"rock", "flow", "pimpleFoam"})

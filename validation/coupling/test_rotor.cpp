@@ -1,5 +1,6 @@
-/// Rock between the blades of a turning rotor, in small: 2,928 cells, 20 rocks, a sliding interface, walls that push both. What must hold in
-/// every step of every run is held here: volume, momentum and flow balances, a batch that enters without a blow, a killed run that resumes.
+/// Rock between the blades of a turning rotor, in small: 2,928 cells, 20 rocks, a sliding interface, walls that push both. What must hold
+/// in every step of every run is held here: volume, momentum and flow balances, a batch that enters without a blow, a killed run that
+/// resumes.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,9 +52,9 @@ fs::path rotor_case(const std::string& name) {
     cases::write_case(folder, inputs);
     cases::test::write_tiny_block_mesh(folder);
     run_in_case(folder, {"blockMesh"});
-    for (const auto& [patch, surface] : {std::pair(names::cutter_patch, names::cutter_surface),
-                                         std::pair(names::backplate_patch, names::backplate_surface),
-                                         std::pair(names::tank_top_patch, names::suction_pipe_surface)})
+    for (const auto& [patch, surface] :
+         {std::pair(names::cutter_patch, names::cutter_surface), std::pair(names::backplate_patch, names::backplate_surface),
+          std::pair(names::tank_top_patch, names::suction_pipe_surface)})
         run_in_case(folder, {"surfaceMeshExtract", "-patches", fmt::format("({})", patch), surface});
     inputs.rock.emplace();
     inputs.rock->walls = cases::standard_walls();
@@ -70,7 +71,9 @@ Table table_of(const fs::path& folder, const std::string& name) {
     return read_columns(folder / "postProcessing" / name.substr(0, name.find('/')) / "0" / file);
 }
 
-double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
 
 class Rotor : public ::testing::TestWithParam<int> {};
 
@@ -95,9 +98,10 @@ TEST_P(Rotor, conserves_volume_momentum_and_flow_with_rock_between_its_blades) {
     double placed = 0.0;
     for (const char* fate : {"sucked_up_count", "spilled_count", "in_cutter_count", "never_entered_count"}) placed += fates.at(fate).back();
     EXPECT_EQ(placed, k_rocks);
-    fmt::print("rotor on {} rank(s): {} steps, solid volume error {:.1e}, momentum exchange error {:.1e}, flow balance {:.1e} of Q, spilled {}\n",
-               GetParam(), time.size(), largest(balance.at("solid_volume_error")), largest(balance.at("momentum_exchange_error")), flow_balance,
-               fates.at("spilled_count").back());
+    fmt::print(
+        "rotor on {} rank(s): {} steps, solid volume error {:.1e}, momentum exchange error {:.1e}, flow balance {:.1e} of Q, spilled {}\n",
+        GetParam(), time.size(), largest(balance.at("solid_volume_error")), largest(balance.at("momentum_exchange_error")), flow_balance,
+        fates.at("spilled_count").back());
 }
 
 TEST_P(Rotor, takes_a_batch_of_rock_without_a_blow) {
@@ -175,7 +179,8 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
 
     const std::vector<std::string> events = rows_of(killed / "postProcessing/rock", "events.csv");
     EXPECT_EQ(std::set<std::string>(events.begin(), events.end()).size(), events.size());
-    EXPECT_EQ(std::count_if(events.begin(), events.end(), [](const std::string& row) { return row.find(",feed,") != std::string::npos; }), k_rocks);
+    EXPECT_EQ(std::count_if(events.begin(), events.end(), [](const std::string& row) { return row.find(",feed,") != std::string::npos; }),
+              k_rocks);
     EXPECT_EQ(events, rows_of(whole / "postProcessing/rock", "events.csv"));
     EXPECT_EQ(rows_of(killed / "postProcessing/rock", "fates.csv"), rows_of(whole / "postProcessing/rock", "fates.csv"));
 

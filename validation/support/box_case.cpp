@@ -17,7 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string vector_text(const Vec3& v) { return fmt::format("({:.17g} {:.17g} {:.17g})", v.x(), v.y(), v.z()); }
+std::string vector_text(const Vec3& v) {
+    return fmt::format("({:.17g} {:.17g} {:.17g})", v.x(), v.y(), v.z());
+}
 
 void write_dictionary(const fs::path& case_folder, const std::string& name, const std::string& kind, const std::string& body) {
     const fs::path file = case_folder / name;
@@ -33,7 +35,8 @@ std::string block_mesh(const BoxCase& box) {
     const Vec3& b = box.upper;
     const char* top = box.sides == BoxSides::open_top ? "patch" : "wall";
     return fmt::format(
-        "scale 1;\nvertices (({0} {1} {2}) ({3} {1} {2}) ({3} {4} {2}) ({0} {4} {2}) ({0} {1} {5}) ({3} {1} {5}) ({3} {4} {5}) ({0} {4} {5}));\n"
+        "scale 1;\nvertices (({0} {1} {2}) ({3} {1} {2}) ({3} {4} {2}) ({0} {4} {2}) ({0} {1} {5}) ({3} {1} {5}) ({3} {4} {5}) ({0} {4} "
+        "{5}));\n"
         "blocks ( hex (0 1 2 3 4 5 6 7) ({6} {7} {8}) simpleGrading (1 1 1) );\nedges ();\n"
         "boundary\n(\n    sides {{ type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }}\n"
         "    bottom {{ type wall; faces ((0 3 2 1)); }}\n    top {{ type {9}; faces ((4 5 6 7)); }}\n);\nmergePatchPairs ();",
@@ -42,14 +45,16 @@ std::string block_mesh(const BoxCase& box) {
 
 void write_fields(const fs::path& folder, const BoxCase& box) {
     const bool open = box.sides == BoxSides::open_top;
-    write_dictionary(folder, "0/U", "volVectorField",
-                     fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type slip; "
-                                 "}}\n    top {{ {} }}\n}}",
-                                 open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : "type slip;"));
-    write_dictionary(folder, "0/p", "volScalarField",
-                     fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type "
-                                 "fixedFluxPressure; value uniform 0; }}\n    top {{ {} }}\n}}",
-                                 open ? "type fixedValue; value uniform 0;" : "type fixedFluxPressure; value uniform 0;"));
+    write_dictionary(
+        folder, "0/U", "volVectorField",
+        fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type slip; "
+                    "}}\n    top {{ {} }}\n}}",
+                    open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : "type slip;"));
+    write_dictionary(
+        folder, "0/p", "volScalarField",
+        fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type "
+                    "fixedFluxPressure; value uniform 0; }}\n    top {{ {} }}\n}}",
+                    open ? "type fixedValue; value uniform 0;" : "type fixedFluxPressure; value uniform 0;"));
 }
 
 void write_constant(const fs::path& folder, const BoxCase& box) {
@@ -62,35 +67,38 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
     if (box.rocks.empty()) return;
     // The DEM's room is the box; its corners lie on the cylinder about the z axis through the origin.
     const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
-    write_dictionary(folder, "constant/couplingProperties", "dictionary",
-                     fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ();\n"
-                                 "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall true; }}\n}}\n"
-                                 "kernel {{ {} }}\nclosures {{ {} }}\n"
-                                 "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
-                                 "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
-                                 box.contact, radius, box.lower.z(), box.upper.z(), box.kernel, box.closures, box.extra));
+    write_dictionary(
+        folder, "constant/couplingProperties", "dictionary",
+        fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ();\n"
+                    "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall true; }}\n}}\n"
+                    "kernel {{ {} }}\nclosures {{ {} }}\n"
+                    "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
+                    "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
+                    box.contact, radius, box.lower.z(), box.upper.z(), box.kernel, box.closures, box.extra));
     // There is no head in the box: its volume is a pin below the floor.
     std::ofstream(folder / "constant/contour.csv") << "z_m,r_m\n-0.02,0.001\n0,0.001\n";
     std::ofstream feed(folder / "constant/rockFeed.csv");
     feed << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
     for (const FeedRock& rock : box.rocks)
-        feed << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", rock.id, rock.time, rock.position.x(),
-                            rock.position.y(), rock.position.z(), rock.diameter, rock.density, rock.velocity.x(), rock.velocity.y(),
-                            rock.velocity.z());
+        feed << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", rock.id, rock.time,
+                            rock.position.x(), rock.position.y(), rock.position.z(), rock.diameter, rock.density, rock.velocity.x(),
+                            rock.velocity.y(), rock.velocity.z());
     if (!feed) throw std::runtime_error("cannot write the rock feed");
 }
 
 void write_system(const fs::path& folder, const BoxCase& box) {
     write_dictionary(folder, "system/blockMeshDict", "dictionary", block_mesh(box));
-    write_dictionary(folder, "system/controlDict", "dictionary",
-                     fmt::format("application cutterFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime {:.17g};\ndeltaT {:.17g};\n"
-                                 "adjustTimeStep no;\nmaxCo 0.9;\nmaxDeltaT {:.17g};\nwriteControl adjustable;\nwriteInterval {:.17g};\n"
-                                 "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;",
-                                 box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time)));
+    write_dictionary(
+        folder, "system/controlDict", "dictionary",
+        fmt::format("application cutterFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime {:.17g};\ndeltaT {:.17g};\n"
+                    "adjustTimeStep no;\nmaxCo 0.9;\nmaxDeltaT {:.17g};\nwriteControl adjustable;\nwriteInterval {:.17g};\n"
+                    "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;",
+                    box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time)));
     write_dictionary(folder, "system/fvSchemes", "dictionary",
                      "ddtSchemes { default Euler; }\ngradSchemes { default Gauss linear; }\ndivSchemes\n{\n    default Gauss upwind;\n"
                      "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}\n"
-                     "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { default corrected; }");
+                     "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { "
+                     "default corrected; }");
     write_dictionary(folder, "system/fvSolution", "dictionary",
                      "solvers\n{\n    \"p.*\" { solver GAMG; smoother DICGaussSeidel; tolerance 1e-9; relTol 0; }\n"
                      "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
@@ -99,7 +107,9 @@ void write_system(const fs::path& folder, const BoxCase& box) {
 
 }  // namespace
 
-std::string cutter_foam() { return std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam"; }
+std::string cutter_foam() {
+    return std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam";
+}
 
 fs::path scratch_folder(const std::string& name) {
     const fs::path folder = fs::path(CUTTERFLOW_BUILD_DIR) / "scratch" / name;
@@ -123,9 +133,10 @@ void write_box_case(const fs::path& folder, const BoxCase& box) {
 
 void run_cutter_foam(const fs::path& folder, int ranks) {
     if (ranks > 1 && !fs::exists(folder / "processor0")) {
-        write_dictionary(folder, "system/decomposeParDict", "dictionary",
-                         fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n (1 1 {}); delta 0.001; order xyz; }}", ranks,
-                                     ranks));
+        write_dictionary(
+            folder, "system/decomposeParDict", "dictionary",
+            fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n (1 1 {}); delta 0.001; order xyz; }}", ranks,
+                        ranks));
         run_in_case(folder, {"decomposePar"});
     }
     require_child(foam_command(folder, cutter_foam(), {}, ranks));

@@ -1,0 +1,104 @@
+/// \file sweep, compare: many runs.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/cli/commands.hpp"
+#include "cases/machine.hpp"
+#include "cases/sweep.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/error.hpp"
+#include "postproc/comparison_page.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void say(const std::string& text) {
+    std::cerr << "  " << text << std::endl;
+}
+
+struct SweepOptions {
+    std::string study;
+    std::optional<std::string> output;
+    cases::SweepAxes axes;
+    int ranks = 1;
+    bool resume = false;
+};
+
+void sweep(const SweepOptions& options) {
+    cases::require_machine(options.ranks, {});
+    const fs::path folder =
+        options.output ? fs::path(*options.output) : fs::path("runs") / (fs::path(options.study).stem().string() + "_sweep");
+    const std::vector<cases::SweepPoint> points = cases::sweep_points(options.study, options.axes, folder);
+    const int jobs = std::max(1, cases::available_cores() / options.ranks);
+    say(fmt::format("{} points, {} at a time on {} rank(s) each, in {}", points.size(), jobs, options.ranks, folder.string()));
+    const cases::SweepSettings settings{folder, fs::read_symlink("/proc/self/exe"), options.ranks, jobs, options.resume};
+    cases::SweepOutcome outcome;
+    try {
+        outcome = cases::run_sweep(points, settings, say);
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(fmt::format("{}. What is done is kept in {}; give the same command with --resume to go on", interrupted.what(),
+                                      folder.string()));
+    }
+    if (outcome.done.size() > 1)
+        std::cout << fmt::format("the comparison: {}\n",
+                                 postproc::write_comparison(postproc::compare_runs(outcome.done), folder / "comparison").string());
+    if (!outcome.failed.empty()) {
+        std::vector<Mistake> failures;
+        for (const std::string& text : outcome.failed) failures.push_back({"", text, "", ""});
+        throw ToolError(failures);
+    }
+}
+
+struct CompareOptions {
+    std::vector<std::string> runs;
+    std::optional<std::string> output;
+    bool json = false;
+};
+
+void compare(const CompareOptions& options) {
+    const postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
+    std::cout << (options.json ? postproc::comparison_json(comparison).dump(2) + "\n" : postproc::comparison_text(comparison));
+    if (options.output) say(fmt::format("the page: {}", postproc::write_comparison(comparison, *options.output).string()));
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app) {
+    auto* command = app.add_subcommand("sweep", "Run a study at several speeds, discharges, designs and repeats, and compare them.");
+    const auto options = std::make_shared<SweepOptions>();
+    command->add_option("study", options->study, "The study that all points begin from")->required();
+    command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(CLI::PositiveNumber);
+    command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber);
+    command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
+    command
+        ->add_option("--repeats", options->axes.repeats,
+                     "Repeats that differ by placement and angle of release; three or more give intervals")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "Folder of the sweep; without it runs/<name of the study file>_sweep");
+    command->add_option("--ranks", options->ranks, "Processes of each run; as many runs go on at a time as the cores carry")
+        ->capture_default_str();
+    command->add_flag("--resume", options->resume, "Go on with a sweep that was stopped or killed, or add points to it");
+    command->callback([options] { sweep(*options); });
+}
+
+void add_compare(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("compare", "Put runs side by side: designs, speeds, discharges, repeats; differences from the first.");
+    const auto options = std::make_shared<CompareOptions>();
+    command->add_option("run_directories", options->runs, "Run directories; repeats of one study are taken together")->required();
+    command->add_option("-o,--output", options->output, "Folder for the page and comparison.json");
+    command->add_flag("--json", options->json, "Print comparison.json");
+    command->callback([options] { compare(*options); });
+}
+
+}  // namespace cutterflow::cli

@@ -1,0 +1,50 @@
+#pragma once
+/// \file Many points of one study: speeds, discharges, designs, repeats. A folder of run directories, filled by as many runs at a time as
+/// the cores carry.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cutterflow::cases {
+
+/// What is varied; an empty list keeps the study's own value.
+struct SweepAxes {
+    std::vector<double> speeds;        ///< [rpm]
+    std::vector<double> discharges;    ///< [m3/s]
+    std::vector<std::string> designs;  ///< surfaces of cutters
+    int repeats = 1;
+};
+
+struct SweepPoint {
+    std::string name;    ///< also of its run directory
+    std::string text;    ///< of its study file, which stands in the sweep's folder
+    std::string design;  ///< points of one design share geometry and mesh
+};
+
+/// The points of a sweep. Repeats differ in the seed of the placement and in the rotor's angle at the release, both the same for the same
+/// repeat of all points, so that designs are compared in pairs.
+/// \param folder  of the sweep
+/// \throws UserError  with every mistake of all points that can be seen without running them
+std::vector<SweepPoint> sweep_points(const std::filesystem::path& study, const SweepAxes& axes, const std::filesystem::path& folder);
+
+struct SweepSettings {
+    std::filesystem::path folder;
+    std::filesystem::path program;  ///< cutterflow
+    int ranks = 1;                  ///< of each run
+    int jobs = 1;                   ///< runs at a time
+    bool resume = false;
+};
+
+struct SweepOutcome {
+    std::vector<std::filesystem::path> done;  ///< run directories
+    std::vector<std::string> failed;          ///< what to tell of each point that failed
+};
+
+/// Takes every point to its report. A point that fails is told of and the others go on. Lines for the user go to `say`.
+/// \throws UserError    when the folder holds another sweep, or this one and `resume` is false
+/// \throws Interrupted  when the user stops it; what is done is kept
+SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
+                       const std::function<void(const std::string&)>& say);
+
+}  // namespace cutterflow::cases

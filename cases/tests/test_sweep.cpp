@@ -1,0 +1,137 @@
+#include "cases/sweep.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cases/study.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/crown_cutter.hpp"
+#include "geometry/io/write_stl.hpp"
+
+using namespace cutterflow;
+using namespace cutterflow::cases;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+namespace {
+
+class Sweep : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cutterflow_sweep_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+        static const TriangleSurface crown =
+            generate_crown_cutter(read_crown_parameters(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/crown.toml"));
+        for (const char* file : {"a.stl", "b.stl"}) write_stl(crown, folder_ / file);
+        write_file(folder_ / "study.toml",
+                   "name = \"head\"\n[cutter]\nfile = \"a.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"
+                   "[run]\nflow_revolutions = 1\n[[feed]]\ncount = 20\nseed = 7\n[[feed.class]]\ndiameter_m = 0.02\n");
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::vector<SweepPoint> points(SweepAxes axes) const { return sweep_points(folder_ / "study.toml", axes, folder_ / "sweep"); }
+
+    /// A stand-in for cutterflow: `script` is given the command, the study, "-o" and the run directory as $1, $2, $3, $4.
+    SweepSettings settings(const std::string& script, bool resume = false, int jobs = 2) const {
+        write_file(folder_ / "program", "#!/bin/sh\n" + script + "\n");
+        fs::permissions(folder_ / "program", fs::perms::owner_all);
+        return {folder_ / "sweep", folder_ / "program", 1, jobs, resume};
+    }
+
+    SweepOutcome run(const std::vector<SweepPoint>& all, const SweepSettings& how) {
+        lines_.clear();
+        return run_sweep(all, how, [this](const std::string& line) { lines_.push_back(line); });
+    }
+
+    fs::path folder_;
+    std::vector<std::string> lines_;
+};
+
+constexpr const char* k_runs = R"([ "$1" = run ] || exit 0; echo "  run: 50 %, half"; mkdir -p "$4"; echo ran >> "$4/ran")";
+
+}  // namespace
+
+TEST_F(Sweep, has_a_point_for_every_combination_and_pairs_repeats) {
+    const std::vector<SweepPoint> all = points({{30, 60}, {0.1}, {(folder_ / "a.stl").string(), (folder_ / "b.stl").string()}, 2});
+    ASSERT_EQ(all.size(), 8u);
+    EXPECT_EQ(all[0].name, "a_30rpm_0.1m3_s_repeat1");
+    EXPECT_EQ(all[7].name, "b_60rpm_0.1m3_s_repeat2");
+    EXPECT_EQ(all[0].design, all[3].design);
+    EXPECT_NE(all[0].design, all[4].design);
+    for (const SweepPoint& point : all) write_file(folder_ / "sweep/studies" / (point.name + ".toml"), point.text);
+    const ParameterValues first = read_study(folder_ / "sweep/studies" / (all[6].name + ".toml"));
+    const ParameterValues second = read_study(folder_ / "sweep/studies" / (all[7].name + ".toml"));
+    EXPECT_EQ(first.number("rotor.speed_rpm"), 60.0);
+    EXPECT_EQ(first.number("suction.discharge_m3_s"), 0.1);
+    EXPECT_TRUE(fs::equivalent(folder_ / "sweep/studies" / first.text("cutter.file"), folder_ / "b.stl"));
+    EXPECT_EQ(first.tables("feed")[0].integer("feed.seed"), 7);
+    EXPECT_EQ(second.tables("feed")[0].integer("feed.seed"), 8);
+    // Six blades, two repeats: the second is released half a passing later.
+    EXPECT_FALSE(first.tables("feed")[0].has("feed.start_revolution"));
+    EXPECT_NEAR(second.tables("feed")[0].number("feed.start_revolution"), 1.0 + 1.0 / 12.0, 1e-12);
+}
+
+TEST_F(Sweep, reports_the_mistakes_of_all_points_before_anything_runs) {
+    try {
+        points({{60, 6000}, {}, {(folder_ / "a.stl").string(), (folder_ / "absent.stl").string()}, 1});
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("6000"));
+        EXPECT_THAT(error.what(), HasSubstr("absent.stl"));
+    }
+    EXPECT_THROW(points({{60, 60}, {}, {}, 1}), UserError);  // two points of one name
+    EXPECT_FALSE(fs::exists(folder_ / "sweep"));
+}
+
+TEST_F(Sweep, goes_on_past_a_point_that_fails) {
+    const SweepOutcome outcome =
+        run(points({{20, 30, 45}, {}, {}, 1}), settings(std::string(k_runs) + "; case $4 in *30rpm) echo broken; exit 3;; esac"));
+    EXPECT_THAT(outcome.done, ElementsAre(folder_ / "sweep/20rpm", folder_ / "sweep/45rpm"));
+    ASSERT_EQ(outcome.failed.size(), 1u);
+    EXPECT_THAT(outcome.failed[0], HasSubstr("exit code 3"));
+    EXPECT_THAT(outcome.failed[0], HasSubstr("broken"));
+    EXPECT_TRUE(fs::exists(folder_ / "sweep/logs/30rpm.run.log"));
+}
+
+TEST_F(Sweep, is_gone_on_with_when_asked_and_only_as_the_same_sweep) {
+    const auto all = points({{20, 30}, {}, {}, 1});
+    run(all, settings(k_runs));
+    EXPECT_THROW(run(all, settings(k_runs)), UserError);
+    run(points({{20, 30, 45}, {}, {}, 1}), settings(k_runs, true));
+    EXPECT_EQ(read_file(folder_ / "sweep/20rpm/ran"), "ran\nran\n");
+    EXPECT_EQ(read_file(folder_ / "sweep/45rpm/ran"), "ran\n");
+    write_file(folder_ / "study.toml", read_file(folder_ / "study.toml") + "density_kg_m3 = 2700\n");
+    EXPECT_THROW(run(points({{20, 30}, {}, {}, 1}), settings(k_runs, true)), UserError);
+}
+
+TEST_F(Sweep, runs_as_many_at_a_time_as_it_is_told) {
+    // Each point waits for the other: they end only when both run at once.
+    const std::string meet =
+        std::string(k_runs) +
+        R"(; n=0; while [ $(ls -d "$4"/../*rpm | wc -l) -lt 2 ]; do sleep 0.05; n=$((n+1)); [ $n -lt 200 ] || exit 3; done)";
+    EXPECT_TRUE(run(points({{20, 30}, {}, {}, 1}), settings(meet)).failed.empty());
+}
+
+TEST_F(Sweep, stops_all_its_runs_when_interrupted) {
+    const auto all = points({{20, 30, 45}, {}, {}, 1});
+    const auto how = settings(
+        R"([ "$1" = run ] || exit 0; mkdir -p "$4"; trap 'touch "$4/stopped"; exit 130' INT; touch "$4/began"; while :; do sleep 0.05; done)");
+    std::thread stopper([this] {
+        while (!fs::exists(folder_ / "sweep/20rpm/began") || !fs::exists(folder_ / "sweep/30rpm/began"))
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        ::kill(::getpid(), SIGINT);
+    });
+    EXPECT_THROW(run(all, how), Interrupted);
+    stopper.join();
+    EXPECT_TRUE(fs::exists(folder_ / "sweep/20rpm/stopped"));
+    EXPECT_TRUE(fs::exists(folder_ / "sweep/30rpm/stopped"));
+    EXPECT_FALSE(fs::exists(folder_ / "sweep/45rpm"));
+}
