@@ -17,13 +17,7 @@ namespace fs = std::filesystem;
 constexpr double k_angle_tolerance = 1e-9;
 
 /// Rock is due when its time is this share of a step ahead: times are sums of steps and carry their rounding.
-constexpr double k_due_tolerance = 1e-6;
-
-/// A release this many steps ahead is steered at, so that no step need be much shorter than its neighbours.
-constexpr double k_steps_to_release = 10.0;
-
-/// Steps grow by no more than this from one to the next.
-constexpr double k_step_growth = 1.2;
+constexpr double k_due_tolerance = 1e-3;
 
 /// Adds the wall time of its life to a sum [s].
 class Timer {
@@ -127,17 +121,9 @@ void CoupledRun::sample_flow() {
 void CoupledRun::begin_fluid_step() {
     step_start_ = now();
     const Timer timer(cost_.mesh_motion);
-    fluid_.begin_step(has_rock() ? step_limit() : std::numeric_limits<double>::infinity());
-}
-
-/// Longest step [s] that rock allows and that ends no later than the next release: rock was placed for the rotor's angle at that time.
-double CoupledRun::step_limit() const {
-    const double limit = rock_->travel_limit();
-    if (feed_.empty()) return limit;
-    const double remaining = feed_.front().time - fluid_.time();
-    const double longest = std::min(limit, k_step_growth * fluid_.time_step());
-    if (remaining > k_steps_to_release * longest) return limit;
-    return remaining / std::ceil(remaining / longest);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    // Rock was placed for the rotor's angle at its time.
+    fluid_.begin_step(has_rock() ? rock_->travel_limit() : infinity, feed_.empty() ? infinity : feed_.front().time);
 }
 
 void CoupledRun::move_rock() {

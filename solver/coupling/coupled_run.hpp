@@ -59,7 +59,6 @@ private:
     void insert_due_rock();
     void sample_flow();
     void begin_fluid_step();
-    double step_limit() const;
     void move_rock();
     void map_rock();
     void end_fluid_step();

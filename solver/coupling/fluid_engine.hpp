@@ -84,8 +84,9 @@ public:
     virtual bool running() = 0;
 
     /// Begins a step: picks its length from the Courant limit and `travel_limit` [s] (what rocks and interface allow; infinity: no limit),
+    /// such that equal steps lead to the next time at which fields are written or to `stop_time` [s] (rock comes in then; infinity: none);
     /// advances the time, moves the mesh. After it, fields() still shows the old values in the moved cells.
-    virtual void begin_step(double travel_limit) = 0;
+    virtual void begin_step(double travel_limit, double stop_time) = 0;
 
     /// Volume rate at which the steel beside each cell moves out of the fluid in the step under way [m3/s]: negative where it moves in. Its
     /// sum over a closed body is 0.

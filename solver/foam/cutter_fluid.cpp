@@ -25,6 +25,16 @@ using namespace Foam;
 
 namespace {
 
+/// Times are sums of steps: this share of a step or of an interval is rounding.
+constexpr double k_time_tolerance = 1e-6;
+
+/// Interval between fields that are written by simulated time; none when the case counts otherwise.
+std::optional<double> read_write_interval(const dictionary& control) {
+    const word kind(control.lookupOrDefault<word>("writeControl", "timeStep"));
+    if (kind != "adjustable" && kind != "adjustableRunTime") return std::nullopt;
+    return control.get<scalar>("writeInterval");
+}
+
 IOobject registered(const word& name, const fvMesh& mesh, IOobject::readOption read, IOobject::writeOption write) {
     return IOobject(name, mesh.time().timeName(), mesh, read, write);
 }
@@ -70,6 +80,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
       time_(const_cast<Time&>(mesh.time())),
       rock_(rock),
       pimple_(mesh),
+      write_interval_(read_write_interval(time_.controlDict())),
       p_(registered("p", mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh),
       U_(registered("U", mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh),
       phi_(registered("phi", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), fvc::flux(U_)),
@@ -151,8 +162,8 @@ bool CutterFluid::running() {
     return time_.run();
 }
 
-void CutterFluid::begin_step(double travel_limit) {
-    choose_time_step(travel_limit);
+void CutterFluid::begin_step(double travel_limit, double stop_time) {
+    choose_time_step(travel_limit, stop_time);
     ++time_;
     Info << "Time = " << time_.timeName() << nl << endl;
     move_mesh();
@@ -185,9 +196,13 @@ void CutterFluid::reset_void_fraction(gsl::span<const double> void_fraction) {
 }
 
 bool CutterFluid::write_if_due() {
-    const bool wrote = time_.write();
     time_.printExecutionTime(Info);
-    return wrote;
+    if (!write_interval_) return time_.write();
+    const double half_step = 0.5 * time_.deltaTValue();
+    const auto intervals = [this](double time) { return std::floor(time / *write_interval_); };
+    if (intervals(time_.value() + half_step) == intervals(time_.value() - half_step)) return false;
+    time_.writeNow();
+    return true;
 }
 
 void CutterFluid::write_now() {
@@ -205,7 +220,7 @@ void CutterFluid::update_courant_number() {
     Info << "Courant Number mean: " << mean << " max: " << courant_max_ << endl;
 }
 
-void CutterFluid::choose_time_step(double travel_limit) {
+void CutterFluid::choose_time_step(double travel_limit, double stop_time) {
     update_courant_number();
     const dictionary& control = time_.controlDict();
     if (!control.lookupOrDefault("adjustTimeStep", false)) {
@@ -216,10 +231,19 @@ void CutterFluid::choose_time_step(double travel_limit) {
     const bool first = time_.timeIndex() == 0;
     const scalar growth = first ? 1.0 : std::min(1.0 + 0.1 * headroom, 1.2);
     const scalar limit = std::min<scalar>(control.lookupOrDefault<scalar>("maxDeltaT", GREAT), travel_limit);
-    time_.setDeltaT(std::min(std::min(headroom, growth) * time_.deltaTValue(), limit));
-    // To meet a write time OpenFOAM may lengthen a step by half.
-    if (time_.deltaTValue() > limit) time_.setDeltaT(2.0 / 3.0 * limit);
+    const scalar step = std::min(std::min(headroom, growth) * time_.deltaTValue(), limit);
+    // OpenFOAM's own way of meeting write times counts from the run's start, which a restart moves.
+    const scalar ahead = std::min(next_write_time(), stop_time) - time_.value();
+    time_.setDeltaT(ahead / std::ceil(ahead / step - k_time_tolerance), false);
     Info << "deltaT = " << time_.deltaTValue() << endl;
+}
+
+/// The next multiple of the write interval, or the end of the run when that is earlier.
+double CutterFluid::next_write_time() const {
+    const double end = time_.endTime().value();
+    if (!write_interval_) return end;
+    const double next = *write_interval_ * (std::floor(time_.value() / *write_interval_ + k_time_tolerance) + 1.0);
+    return end - time_.value() > k_time_tolerance * time_.deltaTValue() ? std::min(next, end) : next;
 }
 
 /// A fixed time step is the user's choice; that it is too long for the rock is said once.

@@ -1,5 +1,6 @@
 #pragma once
 /// \file The fluid solver: volume-averaged incompressible flow on a moving mesh. Only for .cpp files of this folder.
+#include <optional>
 #include <string>
 
 #include <gsl/span>
@@ -40,8 +41,8 @@ public:
 
     bool running();
 
-    /// Picks the time step (Courant number, `travel_limit` [s]), advances the time and moves the mesh.
-    void begin_step(double travel_limit);
+    /// Picks the time step (as coupling::FluidEngine::begin_step says), advances the time and moves the mesh.
+    void begin_step(double travel_limit, double stop_time);
 
     /// Solves the step. Arrays have one entry per cell; without rock all are empty.
     void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
@@ -77,7 +78,8 @@ private:
     void start_old_times();
     void require_case_for_rock() const;
     void update_courant_number();
-    void choose_time_step(double travel_limit);
+    void choose_time_step(double travel_limit, double stop_time);
+    double next_write_time() const;
     void warn_of_long_step(double travel_limit);
     void move_mesh();
     void take_void_fraction(gsl::span<const double> old_values, gsl::span<const double> new_values);
@@ -102,6 +104,7 @@ private:
     Foam::Time& time_;
     const Rock rock_;
     Foam::pimpleControl pimple_;
+    const std::optional<double> write_interval_;  // [s]
 
     Foam::volScalarField p_;
     Foam::volVectorField U_;

@@ -16,6 +16,7 @@
 #include "solver/foam/steel_faces.hpp"
 #include "solver/foam/velocity_sampler.hpp"
 
+#include "cyclicAMIFvPatch.H"
 #include "fvcAverage.H"
 #include "surfaceInterpolate.H"
 #include "wallFvPatch.H"
@@ -42,7 +43,8 @@ std::vector<Vec3> centres_in_zone_frame(const Foam::fvMesh& mesh, const std::vec
     return centres;
 }
 
-/// Cube root of the cells' volume, averaged with the neighbours' a few times: a jump of cell size becomes a ramp of a few cells.
+/// Cube root of the cells' volume, averaged with the neighbours' a few times: a jump of cell size becomes a ramp of a few cells. The rotor
+/// interface is left out: who is a neighbour there depends on the angle at which the run began or was resumed.
 std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
     constexpr int passes = 4;
     Foam::volScalarField size(
@@ -51,7 +53,11 @@ std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
     size.primitiveFieldRef() = Foam::cbrt(mesh.V().field());
     for (int pass = 0; pass < passes; ++pass) {
         size.correctBoundaryConditions();
-        const Foam::surfaceScalarField of_faces(Foam::linearInterpolate(size));
+        Foam::surfaceScalarField of_faces(Foam::linearInterpolate(size));
+        forAll(mesh.boundary(), patch) {
+            if (!Foam::isA<Foam::cyclicAMIFvPatch>(mesh.boundary()[patch])) continue;
+            of_faces.boundaryFieldRef()[patch] = size.boundaryField()[patch].patchInternalField();
+        }
         size.primitiveFieldRef() = Foam::fvc::average(of_faces)().primitiveField();
     }
     return std::vector<double>(size.begin(), size.end());
@@ -132,8 +138,8 @@ double FoamFluidEngine::time_step() const {
 bool FoamFluidEngine::running() {
     return parts_->fluid.running();
 }
-void FoamFluidEngine::begin_step(double travel_limit) {
-    parts_->fluid.begin_step(travel_limit);
+void FoamFluidEngine::begin_step(double travel_limit, double stop_time) {
+    parts_->fluid.begin_step(travel_limit, stop_time);
     add_up_wall_motion(parts_->fluid.mesh(), parts_->wall_retreat);
 }
 

@@ -26,7 +26,7 @@ public:
     std::string time_name() const override;
     double time_step() const override;
     bool running() override;
-    void begin_step(double travel_limit) override;
+    void begin_step(double travel_limit, double stop_time) override;
     gsl::span<const double> wall_retreat() const override;
     void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                   const coupling::MomentumExchange& exchange) override;

@@ -35,10 +35,10 @@ public:
     double time_step() const override { return step_; }
     bool running() override { return time_ < end_time - 1e-12; }
 
-    void begin_step(double travel_limit) override {
+    void begin_step(double travel_limit, double stop_time) override {
         log += "begin ";
         travel_limits.push_back(travel_limit);
-        step_ = std::min(time_step_, travel_limit);
+        step_ = std::min({time_step_, travel_limit, stop_time - time_});
         time_ += step_;
     }
 

@@ -45,7 +45,7 @@ struct Rig {
 
     ExchangeBalance step() {
         coupling.sample();
-        fluid.begin_step(coupling.travel_limit());
+        fluid.begin_step(coupling.travel_limit(), std::numeric_limits<double>::infinity());
         coupling.move();
         coupling.map();
         fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
@@ -273,7 +273,7 @@ TEST(Ranks, exchange_the_same_as_one) {
         double worst = 0.0;
         for (int n = 0; n < 10; ++n) {
             coupling.sample();
-            fluid.begin_step(coupling.travel_limit());
+            fluid.begin_step(coupling.travel_limit(), std::numeric_limits<double>::infinity());
             coupling.move();
             coupling.map();
             fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());

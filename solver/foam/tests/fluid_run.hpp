@@ -33,7 +33,7 @@ public:
         return values;
     }
 
-    void begin() { engine_.begin_step(std::numeric_limits<double>::infinity()); }
+    void begin() { engine_.begin_step(std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()); }
     void end(const std::vector<double>& old_fraction, const std::vector<double>& new_fraction) {
         engine_.end_step(old_fraction, new_fraction, {source, drag_rate, inertia});
     }

@@ -105,9 +105,26 @@ TEST(TimeStep, KeepsWithinTheTravelLimitAndTheCourantNumber) {
         EXPECT_LE(run.engine().loads().courant_max, 0.3 * 1.05);
     }
     const double free_step = run.engine().time_step();
-    run.engine().begin_step(0.4 * free_step);
+    run.engine().begin_step(0.4 * free_step, std::numeric_limits<double>::infinity());
     run.end({}, {});
     EXPECT_NEAR(run.engine().time_step(), 0.4 * free_step, 1e-15);
+}
+
+TEST(TimeStep, MeetsAReleaseWithoutAStepMuchShorterThanTheOthers) {
+    FluidRun run(testing::build_case(stirred_annulus("release")), false);
+    for (int step = 0; step < 12; ++step) {
+        run.begin();
+        run.end({}, {});
+    }
+    const double free_step = run.engine().time_step(), release = run.engine().time() + 3.3 * free_step;
+    double shortest = free_step;
+    while (run.engine().time() < release - 1e-9) {
+        run.engine().begin_step(std::numeric_limits<double>::infinity(), release);
+        run.end({}, {});
+        shortest = std::min(shortest, run.engine().time_step());
+    }
+    EXPECT_NEAR(run.engine().time(), release, 1e-12);
+    EXPECT_GT(shortest, 0.5 * free_step);
 }
 
 TEST(Steel, OfTheRotorIsGivenInItsOwnFrame) {
