@@ -33,6 +33,10 @@ const std::array<Vec3, 13>& view_points() {
     return points;
 }
 
+/// Where the lattice's nodes stand between whole multiples of its spacing. Steel likes round coordinates: a node in the plane of a face would
+/// see past it or not by rounding.
+const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);
+
 std::uint64_t key_of(int level, const std::array<std::int64_t, 3>& index) {
     std::uint64_t key = static_cast<std::uint64_t>(level + 128);
     for (const std::int64_t i : index) key = key << 18 | (static_cast<std::uint64_t>(i) & 0x3ffff);
@@ -96,7 +100,7 @@ void Visibility::look_past(Zone steel, const Vec3& position, double clearance, d
     std::array<std::int64_t, 3> base;
     Vec3 fraction;
     for (int i = 0; i < 3; ++i) {
-        const double x = position[i] / h;
+        const double x = position[i] / h - k_lattice_offset[i];
         base[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(x));
         fraction[i] = x - std::floor(x);
     }
@@ -132,7 +136,8 @@ void Visibility::look_past(Zone steel, const Vec3& position, double clearance, d
 Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing) {
     SamplePoint& point = nodes_[steel][key_of(level, index)];
     if (point.last_used == 0)
-        point.position = spacing * Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2]));
+        point.position =
+            spacing * (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) + k_lattice_offset);
     point.last_used = stamp_;
     return point;
 }
