@@ -73,6 +73,14 @@ fs::path prepare(const fs::path& run, const Variant& variant) {
     return folder;
 }
 
+/// What a program leaves behind would be its next start.
+void remove_results(const fs::path& folder, int ranks) {
+    const std::string end = fmt::format("{:g}", k_steps * k_time_step);
+    for (const char* left : {"postProcessing", "checkpoints"}) fs::remove_all(folder / left);
+    fs::remove_all(folder / end);
+    for (int rank = 0; rank < ranks; ++rank) fs::remove_all(folder / fmt::format("processor{}", rank) / end);
+}
+
 /// Wall seconds of the counted steps.
 std::vector<double> time_steps(const fs::path& folder, const Variant& variant) {
     using Clock = std::chrono::steady_clock;
@@ -83,8 +91,8 @@ std::vector<double> time_steps(const fs::path& folder, const Variant& variant) {
     std::vector<double> seconds;
     for (std::size_t i = k_settling_steps; i + 1 < begins.size(); ++i)
         seconds.push_back(std::chrono::duration<double>(begins[i + 1] - begins[i]).count());
-    // What a program leaves behind would be its next start.
-    for (const char* left : {"postProcessing", "checkpoints"}) fs::remove_all(folder / left);
+    remove_results(folder, variant.ranks);
+    if (seconds.size() + k_settling_steps + 1 != k_steps) throw std::runtime_error(folder.string() + " did not run all its steps");
     return seconds;
 }
 
