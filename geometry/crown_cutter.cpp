@@ -25,6 +25,9 @@ constexpr double k_part_refinement = 0.5;
 constexpr std::array<double, 4> k_shortest_feature_edges{0.6, 0.4, 0.2, 0.05};
 /// The blades' outer edge lies within the ring by this share of its width: no faces of ring and blade coincide.
 constexpr double k_edge_inset = 0.08;
+constexpr double k_pick_tip = 0.5;      // width of a pick's tip over that of its base
+constexpr double k_pick_root = 0.8;     // how deep it stands in the blade, over its width
+constexpr double k_pick_spacing = 1.2;  // least distance of picks over their width
 
 /// The outer edge of a blade in the meridional half plane, by arc length from the ring end.
 class EdgeCurve {
@@ -64,14 +67,20 @@ public:
 
     double edge_length() const { return edge_.length(); }
 
+    double thickness(double u) const { return p_.blade_thickness + u * (p_.blade_thickness_at_hub - p_.blade_thickness); }
+
+    /// Meridional direction in which the strip points outwards, as (radial, axial).
+    static Eigen::Vector2d outwards(double u) { return {std::cos(0.5 * k_pi * u), -std::sin(0.5 * k_pi * u)}; }
+
+    /// Azimuth per positive rotation in the sense in which the head carries: +1 or -1.
+    double carrying_sense() const { return p_.blade_wrap < 0.0 ? -1.0 : 1.0; }
+
     Vec3 point(double u, double v) const {
         const double s = u * edge_.length();
         const Eigen::Vector2d edge = edge_.at(s);
         const double distance = v * (p_.blade_depth_at_ring + u * (p_.blade_depth_at_hub - p_.blade_depth_at_ring));
-        const double slope = 0.5 * k_pi * u;
-        const Eigen::Vector2d at = edge + distance * Eigen::Vector2d(-std::cos(slope), std::sin(slope));
-        const double carrying_sense = p_.blade_wrap < 0.0 ? -1.0 : 1.0;
-        const double lag = carrying_sense * std::tan(p_.blade_rake) * distance / std::max(edge.x(), p_.hub_radius);
+        const Eigen::Vector2d at = edge - distance * outwards(u);
+        const double lag = carrying_sense() * std::tan(p_.blade_rake) * distance / std::max(edge.x(), p_.hub_radius);
         const double azimuth = p_.blade_wrap * u - lag;
         return {at.x() * std::cos(azimuth), at.x() * std::sin(azimuth), at.y()};
     }
@@ -115,13 +124,14 @@ std::vector<std::uint32_t> rim_of(const Grid& grid) {
     return rim;
 }
 
-Grid add_offset_sheet(TriangleSurface& surface, const BladeSheet& sheet, int rows, int columns, double offset) {
+/// The sheet moved along its normal by `side` thicknesses.
+Grid add_offset_sheet(TriangleSurface& surface, const BladeSheet& sheet, int rows, int columns, double side) {
     const Grid grid{rows, columns, static_cast<std::uint32_t>(surface.points.size())};
     for (int i = 0; i <= rows; ++i)
         for (int j = 0; j <= columns; ++j) {
             const double u = static_cast<double>(i) / rows;
             const double v = static_cast<double>(j) / columns;
-            surface.points.push_back(sheet.point(u, v) + offset * sheet.normal(u, v));
+            surface.points.push_back(sheet.point(u, v) + side * sheet.thickness(u) * sheet.normal(u, v));
         }
     return grid;
 }
@@ -147,6 +157,48 @@ TriangleSurface crown_hub(const CrownParameters& p, double edge) {
     return solid_of_revolution(section, circle_segments(p.hub_radius, edge), edge);
 }
 
+/// Where picks may stand on the edge, as parameters u of the sheet: a width clear of ring and hub.
+struct PickRange {
+    double from = 1.0, to = 0.0;
+};
+
+PickRange range_for_picks(const CrownParameters& p) {
+    const EdgeCurve edge(p);
+    constexpr int k_samples = 1000;
+    PickRange range;
+    for (int i = 0; i <= k_samples; ++i) {
+        const double u = static_cast<double>(i) / k_samples;
+        const Eigen::Vector2d at = edge.at(u * edge.length());
+        if (at.y() > -p.ring_height - p.pick_width || at.x() < p.hub_radius + p.pick_width) continue;
+        range.from = std::min(range.from, u);
+        range.to = std::max(range.to, u);
+    }
+    return range;
+}
+
+double length_for_picks(const CrownParameters& p) {
+    const PickRange range = range_for_picks(p);
+    return std::max(0.0, range.to - range.from) * EdgeCurve(p).length();
+}
+
+/// Frustum along `axis` through `foot` on the blade's edge; two of its sides are parallel to `along` as far as the axis lets them be.
+TriangleSurface pick_at(const Vec3& foot, const Vec3& axis, const Vec3& along, const CrownParameters& p) {
+    const Vec3 e0 = (along - along.dot(axis) * axis).normalized();
+    const Vec3 e1 = axis.cross(e0);
+    const double root = k_pick_root * p.pick_width;
+    TriangleSurface pick;
+    for (const auto& [height, half] : {std::pair(-root, 0.5 * p.pick_width), std::pair(p.pick_length, 0.5 * k_pick_tip * p.pick_width)})
+        for (const auto& [a, b] : {std::pair(-1.0, -1.0), std::pair(1.0, -1.0), std::pair(1.0, 1.0), std::pair(-1.0, 1.0)})
+            pick.points.push_back(foot + height * axis + half * (a * e0 + b * e1));
+    pick.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t next = (k + 1) % 4;
+        pick.triangles.push_back({k, next, next + 4});
+        pick.triangles.push_back({k, next + 4, k + 4});
+    }
+    return pick;
+}
+
 void require_consistent(const CrownParameters& p) {
     std::vector<Mistake> mistakes;
     const auto require = [&mistakes](bool holds, std::string what, std::string rule, std::string remedy) {
@@ -164,13 +216,27 @@ void require_consistent(const CrownParameters& p) {
     require(p.blade_depth_at_ring < p.ring_radius - p.ring_inner_radius, fmt::format("blades.depth_at_ring_m = {}", p.blade_depth_at_ring),
             fmt::format("It must be smaller than the ring's width of {}", p.ring_radius - p.ring_inner_radius),
             "Make the blade narrower there or the ring wider");
+    const double thickest = std::max(p.blade_thickness, p.blade_thickness_at_hub);
     require(p.blade_thickness < p.ring_height, fmt::format("blades.thickness_m = {}", p.blade_thickness),
             fmt::format("A blade must end within the ring, ring.height_m = {}", p.ring_height),
             "Make the blade thinner or the ring higher");
     const double pitch = 2.0 * k_pi * p.hub_radius / p.blade_count;
-    require(p.blade_thickness < 0.7 * pitch, fmt::format("blades.thickness_m = {}", p.blade_thickness),
+    require(thickest < 0.7 * pitch,
+            fmt::format("blades.thickness_m = {}, blades.thickness_at_hub_m = {}", p.blade_thickness, p.blade_thickness_at_hub),
             fmt::format("The passages must stay open at the hub: less than 0.7 of the pitch there, {:.4g}", pitch),
             "Take fewer or thinner blades or a larger hub");
+    if (p.picks_per_blade > 0) {
+        const double room = length_for_picks(p);
+        require(k_pick_spacing * p.pick_width * p.picks_per_blade <= room, fmt::format("picks.per_blade = {}", p.picks_per_blade),
+                fmt::format("Picks of picks.width_m = {} need {} times their width each, and the edge has {:.4g} m between ring and hub",
+                            p.pick_width, k_pick_spacing, room),
+                "Take fewer or narrower picks");
+        require(k_pick_root * p.pick_width < std::min(p.blade_depth_at_ring, p.blade_depth_at_hub),
+                fmt::format("picks.width_m = {}", p.pick_width),
+                fmt::format("A pick stands {} of its width deep in the blade, which is {} deep", k_pick_root,
+                            std::min(p.blade_depth_at_ring, p.blade_depth_at_hub)),
+                "Make the picks narrower or the blades deeper");
+    }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
@@ -221,8 +287,8 @@ TriangleSurface crown_blade(const CrownParameters& p) {
     const int rows = static_cast<int>(std::ceil(strip_length / edge));
     const int columns = static_cast<int>(std::ceil(std::max(p.blade_depth_at_ring, p.blade_depth_at_hub) / edge));
     TriangleSurface blade;
-    const Grid top = add_offset_sheet(blade, sheet, rows, columns, 0.5 * p.blade_thickness);
-    const Grid bottom = add_offset_sheet(blade, sheet, rows, columns, -0.5 * p.blade_thickness);
+    const Grid top = add_offset_sheet(blade, sheet, rows, columns, 0.5);
+    const Grid bottom = add_offset_sheet(blade, sheet, rows, columns, -0.5);
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) {
             add_quad(blade, top.at(i, j), top.at(i + 1, j), top.at(i + 1, j + 1), top.at(i, j + 1));
@@ -239,27 +305,57 @@ TriangleSurface crown_blade(const CrownParameters& p) {
     return blade;
 }
 
-double crown_blade_sheet_area(const CrownParameters& p) {
+double crown_blade_sheet_volume(const CrownParameters& p) {
     const BladeSheet sheet(p);
     TriangleSurface fine;
     const Grid grid = add_offset_sheet(fine, sheet, 400, 60, 0.0);
-    for (int i = 0; i < grid.rows; ++i)
+    double volume = 0.0;
+    for (int i = 0; i < grid.rows; ++i) {
+        fine.triangles.clear();
         for (int j = 0; j < grid.columns; ++j) add_quad(fine, grid.at(i, j), grid.at(i + 1, j), grid.at(i + 1, j + 1), grid.at(i, j + 1));
-    return area_of(fine);
+        volume += sheet.thickness((i + 0.5) / grid.rows) * area_of(fine);
+    }
+    return volume;
 }
 
-TriangleSurface generate_crown_cutter(const CrownParameters& p) {
+std::vector<TriangleSurface> crown_picks(const CrownParameters& p) {
+    const BladeSheet sheet(p);
+    const PickRange range = range_for_picks(p);
+    std::vector<TriangleSurface> picks;
+    for (int k = 0; k < p.picks_per_blade; ++k) {
+        const double u = range.from + (range.to - range.from) * (k + 0.5) / p.picks_per_blade;
+        const Vec3 foot = sheet.point(u, 0.0);
+        const double azimuth = std::atan2(foot.y(), foot.x());
+        const Eigen::Vector2d out = BladeSheet::outwards(u);
+        const Vec3 outwards(out.x() * std::cos(azimuth), out.x() * std::sin(azimuth), out.y());
+        const Vec3 ahead = sheet.carrying_sense() * Vec3(-std::sin(azimuth), std::cos(azimuth), 0.0);
+        const Vec3 axis = std::cos(p.pick_lean) * outwards + std::sin(p.pick_lean) * ahead;
+        constexpr double h = 1e-4;
+        picks.push_back(pick_at(foot, axis, sheet.point(u + h, 0.0) - sheet.point(u - h, 0.0), p));
+    }
+    return picks;
+}
+
+TriangleSurface united_crown_parts(const CrownParameters& p) {
     require_consistent(p);
     const double part_edge = k_part_refinement * p.edge_length;
     ExactSolid head(crown_hub(p, part_edge));
     const TriangleSurface blade = crown_blade(p);
     require_simple(blade);
+    const TriangleSurface picks = joined(crown_picks(p));
+    std::vector<TriangleSurface> all_picks;
     for (int i = 0; i < p.blade_count; ++i) {
         const Eigen::Affine3d turn(Eigen::AngleAxisd(2.0 * k_pi * i / p.blade_count, Vec3::UnitZ()));
         head.unite(ExactSolid(transformed(blade, turn)));
+        all_picks.push_back(transformed(picks, turn));
     }
     head.unite(ExactSolid(crown_ring(p, part_edge)));
-    return remeshed_cutter(head.surface(), p.edge_length);
+    if (p.picks_per_blade > 0) head.unite(ExactSolid(joined(all_picks)));
+    return head.surface();
+}
+
+TriangleSurface generate_crown_cutter(const CrownParameters& p) {
+    return remeshed_cutter(united_crown_parts(p), p.edge_length);
 }
 
 }  // namespace cutterflow

@@ -62,6 +62,8 @@ json head_json(const Head& head) {
             {"ring_radius_m", head.ring_radius},
             {"lowest_z_m", head.lowest_z},
             {"steel_above_ring_m", head.steel_above_ring},
+            {"passage_m", head.passage ? json(*head.passage) : json()},
+            {"thickness_m", head.thickness},
             {"carrying", {{"sense", name_of_sense(head.carrying.sense)}, {"measure", head.carrying.measure}}},
             {"contour", {{"nodes", head.contour.z.size()}, {"error_m", head.contour.error}}}};
 }
@@ -73,6 +75,8 @@ std::string head_text(const Head& head) {
                                    o.x(), o.y(), o.z(), d.x(), d.y(), d.z());
     text += fmt::format("blades       {} (RMS distance from symmetry {:.3g} m)\n", head.symmetry.blade_count, head.symmetry.residual);
     text += fmt::format("ring radius  {:.5g} m\nhead height  {:.5g} m\n", head.ring_radius, -head.lowest_z);
+    if (head.passage) text += fmt::format("passage      {:.4g} m: the largest rock that gets between two blades\n", *head.passage);
+    text += fmt::format("thickness    {:.4g} m where the steel is thinnest\n", head.thickness);
     text += fmt::format("contour      {} nodes, error {:.3g} m\n", head.contour.z.size(), head.contour.error);
     text += fmt::format("carries rock to the suction side for rotation: {} (measure {:.3g})\n", name_of_sense(head.carrying.sense),
                         head.carrying.measure);

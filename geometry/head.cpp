@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/narrow_places.hpp"
 
 namespace cutterflow {
 namespace {
 
-constexpr double k_ring_share = 0.6;     // of the largest radius: farther out is ring
-constexpr double k_ring_band = 0.02;     // of the largest radius, below the ring plane
-constexpr double k_widest_share = 0.97;  // of the largest radius: the widest place
-constexpr int k_heights = 200;
-constexpr double k_end_contrast = 0.05;
+constexpr double k_ring_share = 0.6;  // of the largest radius: farther out is ring
+constexpr double k_ring_band = 0.02;  // of the largest radius, below the ring plane
+constexpr double k_wide = 0.75;       // of the largest radius: a ring is wider
+constexpr double k_half = 0.5;        // of the largest radius: a shaft is thinner
+constexpr int k_heights = 400;
+constexpr double k_end_contrast = 0.02;
 constexpr double k_contour_tolerance = 5e-4;  // of the ring radius
 constexpr double k_carrying_limit = 0.02;
 constexpr double k_standing_angle = 0.02 * k_pi / 180.0;
@@ -39,32 +42,20 @@ double largest_radius(const TriangleSurface& surface) {
     return radius;
 }
 
-/// Mean height of the steel that is farthest from the axis.
-double widest_height(const TriangleSurface& surface) {
-    const double limit = k_widest_share * largest_radius(surface);
-    double sum = 0.0;
-    int count = 0;
-    for (const Vec3& point : surface.points)
-        if (radius_of(point) >= limit) {
-            sum += point.z();
-            ++count;
-        }
-    return sum / count;
-}
-
-/// The volumes of revolution below and above the widest place, as (below - above) / (below + above): positive when the head hangs below its
-/// ring. A shaft on the ring's other side is thin and counts little.
+/// Over how much of the height the outer radius shrinks from k_wide to k_half of its largest, at the lower end less at the upper: positive
+/// when the head hangs below its ring. The ring ends at once, the blades run in to the hub; a shaft is too thin to count, and picks that
+/// stand out farther than the ring do not move it.
 double ring_is_above(const TriangleSurface& surface) {
     const RadiusProfile profile(surface);
-    const double widest = widest_height(surface);
-    double below = 0.0;
-    double above = 0.0;
-    for (int i = 0; i < k_heights; ++i) {
-        const double z = profile.z_min() + (profile.z_max() - profile.z_min()) * (i + 0.5) / k_heights;
-        const double radius = profile.radius_at(z);
-        (z < widest ? below : above) += radius * radius;
-    }
-    return (below - above) / (below + above);
+    std::vector<double> radii;
+    for (int i = 0; i < k_heights; ++i)
+        radii.push_back(profile.radius_at(profile.z_min() + (profile.z_max() - profile.z_min()) * (i + 0.5) / k_heights));
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const auto first_above = [&](auto begin, auto end, double share) {
+        return std::distance(begin, std::find_if(begin, end, [&](double r) { return r >= share * largest; }));
+    };
+    const auto taper = [&](auto begin, auto end) { return first_above(begin, end, k_wide) - first_above(begin, end, k_half); };
+    return static_cast<double>(taper(radii.begin(), radii.end()) - taper(radii.rbegin(), radii.rend())) / k_heights;
 }
 
 /// Points the axis from hub to ring.
@@ -72,9 +63,9 @@ RotationAxis directed(const TriangleSurface& surface, RotationAxis axis) {
     const double contrast = ring_is_above(transformed(surface, upright(axis)));
     if (std::abs(contrast) < k_end_contrast)
         throw UserError(
-            fmt::format("hub and ring cannot be told apart: the volumes of revolution on both sides of the widest place differ by {:.2g} %",
+            fmt::format("hub and ring cannot be told apart: the outer radius runs in at both ends over the same height to {:.2g} % of it",
                         100.0 * std::abs(contrast)),
-            "The ring is the widest place and stands at one end", "Check that the file holds the whole head, ring and hub");
+            "The head ends at once at its ring and runs in to its hub", "Check that the file holds the whole head, ring and hub");
     if (contrast < 0.0) axis.direction = -axis.direction;
     return axis;
 }
@@ -138,6 +129,8 @@ Head understand_head(const TriangleSurface& surface) {
     head.steel_above_ring = std::max(0.0, profile.z_max());
     head.carrying = carrying_sense(head.surface);
     head.contour = fit_contour(profile, head.lowest_z, std::min(0.0, profile.z_max()), k_contour_tolerance * head.ring_radius);
+    if (head.symmetry.blade_count > 1) head.passage = passage_between_blades(head.surface, head.contour, head.symmetry.blade_count);
+    head.thickness = smallest_thickness(head.surface);
     return head;
 }
 

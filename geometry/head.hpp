@@ -1,5 +1,7 @@
 #pragma once
 /// \file What a cutter head is, as far as flow and rock care: axis, blades, ring, contour, carrying sense.
+#include <optional>
+
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/revolution_contour.hpp"
 #include "geometry/rotational_symmetry.hpp"
@@ -31,14 +33,17 @@ struct Head {
     double lowest_z = 0.0;                                           ///< of the hub's end, negative: the head's height is -lowest_z
     double steel_above_ring = 0.0;  ///< how far steel nearer to the axis (a shaft) stands out above the ring plane
     Carrying carrying;
-    RevolutionContour contour;  ///< from the lowest point to the ring plane
+    RevolutionContour contour;      ///< from the lowest point to the ring plane
+    std::optional<double> passage;  ///< passage_between_blades; none without blades
+    double thickness = 0.0;         ///< smallest_thickness of the steel
 };
 
-/// Axis and blades by rotational symmetry; the ring is the widest place, the hub lies on the side with the larger volume of revolution; the
-/// ring plane, z = 0, is the highest point of the steel that is farther from the axis than 0.6 of the largest radius (the ring's top face);
-/// the ring radius is the largest radius within 0.02 of the largest radius below it. The head turns by the smallest angle that makes its
-/// axis z. An axis that already is the z axis, within 0.02 degrees and 1e-4 of the radius, is taken as such: the head is shifted along z
-/// only. \pre the surface [m] is sound \throws UserError  when there is no rotational symmetry or both ends look alike
+/// Axis and blades by rotational symmetry; the outer radius runs in (from 0.75 to 0.5 of its largest) over more height at the hub's end
+/// than at the ring's; the ring plane, z = 0, is the highest point of the steel that is farther from the axis than 0.6 of the largest
+/// radius (the ring's top face); the ring radius is the largest radius within 0.02 of the largest radius below it. The head turns by the
+/// smallest angle that makes its axis z. An axis that already is the z axis, within 0.02 degrees and 1e-4 of the radius, is taken as such:
+/// the head is shifted along z only. \pre the surface [m] is sound \throws UserError  when there is no rotational symmetry or both ends
+/// look alike
 Head understand_head(const TriangleSurface& surface);
 
 }  // namespace cutterflow

@@ -173,6 +173,11 @@ TEST(GeometryReport, holds_what_was_found_with_units_in_the_keys) {
     EXPECT_TRUE(report.at("sound").get<bool>());
     EXPECT_EQ(report.at("head").at("blades").get<int>(), 6);
     EXPECT_NEAR(report.at("head").at("ring_radius_m").get<double>(), 0.4, 1e-5);
+    EXPECT_NEAR(report.at("head").at("thickness_m").get<double>(), 0.024, 0.001);
+    // Straight blades would leave the chord of a pitch at their inner edge below the ring, less their thickness; wrapped ones less.
+    const double chord = 2.0 * 0.335 * std::sin(k_pi / 6.0) - 0.024;
+    EXPECT_LT(report.at("head").at("passage_m").get<double>(), chord);
+    EXPECT_GT(report.at("head").at("passage_m").get<double>(), 0.5 * chord);
     EXPECT_EQ(report.at("head").at("carrying").at("sense").get<std::string>(), "positive");
     EXPECT_NEAR(report.at("surface").at("volume_m3").get<double>(), volume_of(imported.surface), 1e-12);
     EXPECT_EQ(report.at("unit").at("name").get<std::string>(), "m");

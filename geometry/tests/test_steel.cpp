@@ -5,6 +5,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/cgal/exact_solid.hpp"
 #include "geometry/cgal/planar_region.hpp"
 #include "geometry/cgal/remesh.hpp"
@@ -104,7 +105,7 @@ TEST(CrownCutter, a_blade_has_the_volume_of_its_sheet_times_its_thickness) {
     const CrownParameters p = model_crown();
     const TriangleSurface blade = crown_blade(p);
     EXPECT_TRUE(inspect_surface(blade).sound());
-    EXPECT_NEAR(volume_of(blade) / (p.blade_thickness * crown_blade_sheet_area(p)), 1.0, 0.005);
+    EXPECT_NEAR(volume_of(blade) / crown_blade_sheet_volume(p), 1.0, 0.005);
 }
 
 TEST(CrownCutter, its_volume_lies_between_its_parts_alone_and_their_sum) {
@@ -112,7 +113,7 @@ TEST(CrownCutter, its_volume_lies_between_its_parts_alone_and_their_sum) {
     const double ring = k_pi * (p.ring_radius * p.ring_radius - p.ring_inner_radius * p.ring_inner_radius) * p.ring_height;
     const double cap = k_pi * p.hub_cap_height / 6.0 * (3.0 * p.hub_radius * p.hub_radius + p.hub_cap_height * p.hub_cap_height);
     const double hub = k_pi * p.hub_radius * p.hub_radius * p.hub_height + cap;
-    const double blades = p.blade_count * p.blade_thickness * crown_blade_sheet_area(p);
+    const double blades = p.blade_count * crown_blade_sheet_volume(p);
     const double volume = volume_of(model_cutter());
     // A fifth of a blade at most is buried in ring and hub at each end.
     EXPECT_LT(volume, ring + hub + blades);
@@ -166,6 +167,67 @@ TEST(CrownCutter, nine_tenths_of_what_the_blades_sweep_is_swept_by_faces_that_lo
     EXPECT_GT(lifted / swept, 0.9);
 }
 
+CrownParameters crown_with_picks() {
+    CrownParameters p = model_crown();
+    p.edge_length = 0.03;
+    p.blade_count = 5;
+    p.blade_thickness_at_hub = 0.03;
+    p.picks_per_blade = 5;
+    p.pick_length = 0.035;
+    p.pick_width = 0.03;
+    p.pick_lean = 0.4;
+    return p;
+}
+
+TEST(CrownCutter, with_picks_and_a_thickness_profile_has_the_volume_of_its_parts_united_exactly) {
+    const CrownParameters p = crown_with_picks();
+    const TriangleSurface cutter = generate_crown_cutter(p);
+    EXPECT_NEAR(volume_of(cutter) / volume_of(united_crown_parts(p)), 1.0, 0.005);
+    const SoundnessReport report = inspect_surface(cutter);
+    EXPECT_TRUE(report.sound());
+    EXPECT_EQ(report.components.size(), 1u);
+    const TriangleSurface blade = crown_blade(p);
+    EXPECT_NEAR(volume_of(blade) / crown_blade_sheet_volume(p), 1.0, 0.005);
+}
+
+TEST(CrownCutter, picks_are_frusta_that_lean_as_far_as_asked) {
+    const CrownParameters p = crown_with_picks();
+    const std::vector<TriangleSurface> picks = crown_picks(p);
+    ASSERT_EQ(picks.size(), 5u);
+    const double height = p.pick_length + 0.8 * p.pick_width;
+    for (const TriangleSurface& pick : picks) {
+        EXPECT_NEAR(volume_of(pick), height / 3.0 * p.pick_width * p.pick_width * (1.0 + 0.5 + 0.25), 1e-12);
+        const Vec3 root = 0.25 * (pick.points[0] + pick.points[1] + pick.points[2] + pick.points[3]);
+        const Vec3 tip = 0.25 * (pick.points[4] + pick.points[5] + pick.points[6] + pick.points[7]);
+        const Vec3 axis = (tip - root).normalized();
+        const Vec3 foot = tip - p.pick_length * axis;
+        const Vec3 ahead = Vec3::UnitZ().cross(foot).normalized();  // positive rotation: the head carries for it
+        EXPECT_NEAR(std::asin(axis.dot(ahead)), p.pick_lean, 1e-9);
+        EXPECT_GT(std::hypot(tip.x(), tip.y()) - tip.z(), std::hypot(root.x(), root.y()) - root.z()) << "outwards and down";
+    }
+    CrownParameters mirrored = p;
+    mirrored.blade_wrap = -p.blade_wrap;
+    const auto centre = [](const TriangleSurface& pick) { return mass_properties(pick).centroid; };
+    for (std::size_t k = 0; k < picks.size(); ++k)
+        EXPECT_NEAR((centre(crown_picks(mirrored)[k]) - centre(picks[k]).cwiseProduct(Vec3(1.0, -1.0, 1.0))).norm(), 0.0, 1e-12);
+}
+
+TEST(CrownCutter, the_manual_page_is_that_of_the_table) {
+    EXPECT_EQ(read_file(std::filesystem::path(CUTTERFLOW_SOURCE_DIR) / "docs/user/crown_file.md"), crown_manual_page())
+        << "build the target update_manual";
+}
+
+TEST(CrownCutter, picks_that_find_no_room_are_refused) {
+    CrownParameters p = crown_with_picks();
+    p.picks_per_blade = 30;
+    try {
+        generate_crown_cutter(p);
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("picks.per_blade = 30"), std::string::npos) << error.what();
+    }
+}
+
 TEST(CrownCutter, contradicting_sizes_are_all_named) {
     CrownParameters p = model_crown();
     p.ring_inner_radius = 0.5;
@@ -192,8 +254,9 @@ TEST_P(CrownFamily, other_blade_counts_and_sizes_are_sound_too) {
     CrownParameters p = model_crown();
     p.edge_length = 0.03;
     const double scale = GetParam() % 2 == 0 ? 0.3 : 4.0;
-    for (double* length : {&p.ring_radius, &p.ring_inner_radius, &p.ring_height, &p.hub_radius, &p.hub_depth, &p.hub_height,
-                           &p.hub_cap_height, &p.blade_thickness, &p.blade_depth_at_ring, &p.blade_depth_at_hub, &p.edge_length})
+    for (double* length :
+         {&p.ring_radius, &p.ring_inner_radius, &p.ring_height, &p.hub_radius, &p.hub_depth, &p.hub_height, &p.hub_cap_height,
+          &p.blade_thickness, &p.blade_thickness_at_hub, &p.blade_depth_at_ring, &p.blade_depth_at_hub, &p.edge_length})
         *length *= scale;
     p.blade_count = GetParam();
     p.blade_wrap = (GetParam() - 6) * 0.5;

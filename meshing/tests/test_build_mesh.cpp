@@ -31,7 +31,7 @@ CrownParameters small_parameters() {
     p.hub_cap_height = 0.01;
     p.blade_count = 4;
     p.blade_wrap = 30.0 * k_pi / 180.0;
-    p.blade_thickness = 0.02;
+    p.blade_thickness = p.blade_thickness_at_hub = 0.02;
     p.blade_depth_at_ring = 0.028;
     p.blade_depth_at_hub = 0.03;
     p.contour_exponent = 2.0;

@@ -30,7 +30,7 @@ const std::vector<Layer> k_layers = {
     {"solver/app/", {"geometry/base/", "solver/"}},
     {"postproc/", {"geometry/base/", "postproc/"}},
     {"cases/", {"geometry/", "meshing/", "solver/physics/", "solver/coupling/", "postproc/", "cases/"}},
-    {"validation/", {"geometry/base/", "meshing/", "cases/", "postproc/", "validation/"}},
+    {"validation/", {"geometry/", "meshing/", "cases/", "postproc/", "validation/"}},
 };
 
 /// Third-party headers that only some folders may see.
