@@ -107,7 +107,9 @@ TEST(TimeStep, KeepsWithinTheTravelLimitAndTheCourantNumber) {
     const double free_step = run.engine().time_step();
     run.engine().begin_step(0.4 * free_step, std::numeric_limits<double>::infinity());
     run.end({}, {});
-    EXPECT_NEAR(run.engine().time_step(), 0.4 * free_step, 1e-15);
+    // Steps are a little shorter than the limit, so that a whole number of them leads to the end of the run.
+    EXPECT_LE(run.engine().time_step(), 0.4 * free_step * (1.0 + 1e-12));
+    EXPECT_GE(run.engine().time_step(), 0.999 * 0.4 * free_step);
 }
 
 TEST(TimeStep, MeetsAReleaseWithoutAStepMuchShorterThanTheOthers) {
