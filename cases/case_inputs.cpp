@@ -91,8 +91,8 @@ Vec3 gravity_of(double inclination) {
     return k_standard_gravity * Vec3(std::cos(inclination), 0.0, -std::sin(inclination));
 }
 
-double largest_time_step(const CaseInputs& inputs) {
-    return k_turn_per_step / std::abs(inputs.rotor.speed);
+double largest_time_step(double speed) {
+    return k_turn_per_step / std::abs(speed);
 }
 
 double youngs_modulus_for(const CaseInputs& inputs) {

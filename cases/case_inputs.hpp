@@ -129,7 +129,8 @@ double mouth_speed(const CaseInputs& inputs);
 Vec3 gravity_of(double inclination);
 
 /// Longest time step [s] whatever the Courant number: the rotor turns one degree.
-double largest_time_step(const CaseInputs& inputs);
+/// \param speed  of the rotor [rad/s], either sign
+double largest_time_step(double speed);
 
 /// Young's modulus [Pa] with which a rock of inputs.rock that hits steel at the tip speed overlaps it by 5 % of its radius, within what
 /// LIGGGHTS accepts (5 MPa to 1 GPa). The wall is as soft as the rock, and added mass takes part in the impact. \pre inputs.rock

@@ -239,7 +239,7 @@ std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
         .add("deltaT", times.first_time_step)
         .add("adjustTimeStep", true)
         .add("maxCo", inputs.numerics.max_courant)
-        .add("maxDeltaT", largest_time_step(inputs))
+        .add("maxDeltaT", largest_time_step(inputs.rotor.speed))
         .add("writeControl", "adjustableRunTime")
         .add("writeInterval", times.write_interval)
         .add("purgeWrite", 0)

@@ -131,10 +131,14 @@ std::map<std::string, std::string> stage_inputs(const ParameterValues& values, c
 RunHead read_run_head(const RunDirectory& directory) {
     const fs::path file = directory.file(names::geometry_report);
     try {
-        const double ring_radius = nlohmann::json::parse(read_file(file)).at("head").at("ring_radius_m").get<double>();
+        const nlohmann::json head = nlohmann::json::parse(read_file(file)).at("head");
+        HeadSize size;
+        size.ring_radius = head.at("ring_radius_m").get<double>();
+        if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m").get<double>();
         RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
-        const double tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
-        return {{ring_radius, tip_radius, -contour.z.front()}, std::move(contour)};
+        size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
+        size.depth = -contour.z.front();
+        return {size, std::move(contour)};
     } catch (const nlohmann::json::exception& error) {
         throw UserError(fmt::format("{} cannot be read: {}", file.string(), error.what()), "It must be as the geometry stage writes it",
                         "Begin anew in another directory with -o");
@@ -146,7 +150,9 @@ Contour RunHead::with_backplate(double z_backplate) const {
 }
 
 Pipeline::Pipeline(const RunDirectory& directory, PipelineSettings settings, Say say)
-    : directory_(directory), settings_(std::move(settings)), say_(std::move(say)), values_(read_study(settings_.study_file)) {}
+    : directory_(directory), settings_(std::move(settings)), say_(std::move(say)), values_(read_study(settings_.study_file)) {
+    require_cutter_file(values_, settings_.study_file.parent_path());
+}
 
 std::vector<Stage> Pipeline::stages() {
     const fs::path folder = settings_.study_file.parent_path();
@@ -206,21 +212,41 @@ StageOutcome Pipeline::make_geometry() {
 StageOutcome Pipeline::make_mesh() {
     const RunHead head = read_run_head(directory_);
     const TriangleSurface cutter = welded(read_surface(directory_.file(names::cutter_surface)));
-    const MeshPlan plan = plan_mesh(mesh_input_of(resolved_study(head.size), head.size, cutter));
+    MeshInput input = mesh_input_of(resolved_study(head.size), head.size, cutter);
+    const bool own_dictionaries = !mesh_overrides(directory_).empty();
     std::vector<std::string> outputs;
+    std::vector<MeshRetry> retries;
+    double core_s = 0.0;
+    for (int attempts = 1;; ++attempts) {
+        const MeshReport report = make_mesh_of(plan_mesh(input), retries, outputs);
+        core_s += report.core_s;
+        const std::optional<MeshRetry> retry = own_dictionaries ? std::nullopt : next_attempt(report, attempts, input);
+        if (!retry) {
+            require_mesh_gates(report);
+            break;
+        }
+        say_(fmt::format("a gate failed ({}); once more with {}", retry->failed_gate, retry->change));
+        retries.push_back(*retry);
+    }
+    for (const std::string& file : files_below(directory_.path(), "constant/polyMesh")) outputs.push_back(file);
+    outputs.emplace_back(names::mesh_report);
+    return {outputs, core_s};
+}
+
+MeshReport Pipeline::make_mesh_of(const MeshPlan& plan, const std::vector<MeshRetry>& retries, std::vector<std::string>& outputs) {
+    outputs.clear();
     for (const fs::path& file : write_mesh_case(directory_.path(), plan)) outputs.push_back(file.string());
     for (const std::string& file : directory_.apply_overrides(mesh_overrides(directory_))) {
         say_("override: " + file);
         if (std::find(outputs.begin(), outputs.end(), file) == outputs.end()) outputs.push_back(file);
     }
     Progress progress("  mesh");
-    const MeshReport report = build_mesh(directory_.path(), plan, settings_.solver.parent_path(),
-                                         [&](double fraction, const std::string& program) { progress.update(fraction, program); });
-    progress.finish(fmt::format("{} cells", report.figures.cells));
-    require_mesh_gates(report);
-    for (const std::string& file : files_below(directory_.path(), "constant/polyMesh")) outputs.push_back(file);
-    outputs.emplace_back(names::mesh_report);
-    return {outputs, report.core_s};
+    const MeshReport report = build_mesh(
+        directory_.path(), plan, settings_.solver.parent_path(),
+        [&](double fraction, const std::string& program) { progress.update(fraction, program); }, retries);
+    progress.finish(fmt::format("{} cells ({:.0f} were predicted), {:.2g} GB at most ({:.2g} predicted)", report.figures.cells,
+                                report.prediction.cells, 1e-9 * report.memory, 1e-9 * report.prediction.mesh_memory));
+    return report;
 }
 
 StageOutcome Pipeline::make_case() {
@@ -261,10 +287,18 @@ StageOutcome Pipeline::make_start() {
     return {files_below(directory_.path(), "0"), report.core_s};
 }
 
+void Pipeline::say_cost(const Study& study, const HeadSize& head, double core_s) const {
+    const Prediction prediction = predict(study, head, welded(read_surface(directory_.file(names::cutter_surface))));
+    say_(fmt::format("took {:.3g} core hours; {:.3g} were predicted for {:g} revolutions", core_s / 3600.0, prediction.core_hours,
+                     prediction.revolutions));
+}
+
 StageOutcome Pipeline::run_solver(bool resume) {
-    const Study study = resolved_study(read_run_head(directory_).size);
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    const bool goes_on = resume && has_checkpoint(directory_.path());
     double core_s = 0.0;
-    if (resume && has_checkpoint(directory_.path())) {
+    if (goes_on) {
         require_same_ranks();
         say_("going on from the last checkpoint");
     } else {
@@ -278,6 +312,7 @@ StageOutcome Pipeline::run_solver(bool resume) {
     if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
     if (result.exit_code != 0) throw ToolError(failure_of(command, result));
     progress.finish();
+    if (!goes_on) say_cost(study, head.size, result.core_s);
     return {{}, core_s + result.core_s};
 }
 

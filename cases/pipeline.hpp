@@ -11,6 +11,7 @@
 #include "cases/study.hpp"
 #include "geometry/base/contour.hpp"
 #include "geometry/revolution_contour.hpp"
+#include "meshing/mesh_report.hpp"
 
 namespace cutterflow::cases {
 
@@ -46,6 +47,8 @@ public:
 private:
     StageOutcome make_geometry();
     StageOutcome make_mesh();
+    /// One attempt. `outputs` receives the files of the mesh's case.
+    MeshReport make_mesh_of(const MeshPlan& plan, const std::vector<MeshRetry>& retries, std::vector<std::string>& outputs);
     StageOutcome make_case();
     StageOutcome make_start();
     StageOutcome run_solver(bool resume);
@@ -54,6 +57,7 @@ private:
     Study resolved_study(const HeadSize& head) const;
     void write_resolved_study(const HeadSize& head) const;
     void require_same_ranks() const;
+    void say_cost(const Study& study, const HeadSize& head, double core_s) const;  ///< actual beside predicted
     double decompose() const;  ///< \return core seconds
 
     const RunDirectory& directory_;

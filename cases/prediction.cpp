@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/case_inputs.hpp"
 #include "cases/rock_feed.hpp"
 #include "cases/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
@@ -17,12 +18,20 @@ namespace {
 constexpr double k_gravity = 9.81;
 // A coupled step costs at most this much more than one of the flow alone; the run's own cost.json tells the actual share.
 constexpr double k_rock_share = 1.5;
+// Rock may travel this share of a cell in a step; the smallest cells that it meets at the cutter measure this share of
+// the background's (docs/design/003-meshing.md).
+constexpr double k_travel_share = 0.25;
+constexpr double k_cell_at_rock = 0.387;
 
-double with_rock_share(const Study& study) {
+double first_release(const Study& study) {
     double first = study.end_time();
     for (const FeedRequest& feed : study.feeds) first = std::min(first, feed.start);
-    const double share = 1.0 - first / study.end_time();
-    return 1.0 + share * (k_rock_share - 1.0);
+    return first;
+}
+
+/// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed. Kernels are wider than a cell.
+double step_of_rock(double tip_speed, double cell_size) {
+    return k_travel_share * k_cell_at_rock * cell_size / tip_speed;
 }
 
 }  // namespace
@@ -31,6 +40,7 @@ MeshInput mesh_input_of(const Study& study, const HeadSize& head, const Triangle
     MeshInput input;
     input.ring_radius = head.ring_radius;
     input.cutter = extent_of_cutter(cutter);
+    input.cutter.passage = head.passage;
     input.steel = stationary_steel_of(study, head);
     input.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
     input.resolution = mesh_preset(study.mesh_preset);
@@ -42,11 +52,18 @@ MeshInput mesh_input_of(const Study& study, const HeadSize& head, const Triangle
 
 Prediction predict(const Study& study, const HeadSize& head, const TriangleSurface& cutter) {
     Prediction prediction;
-    prediction.mesh = plan_mesh(mesh_input_of(study, head, cutter)).prediction;
-    prediction.revolutions = study.run.max_revolutions;
-    prediction.steps = study.end_time() / prediction.mesh.time_step;
-    prediction.core_hours = prediction.mesh.core_hours_per_revolution * study.run.max_revolutions * with_rock_share(study);
+    const MeshPlan plan = plan_mesh(mesh_input_of(study, head, cutter));
     const double omega = std::abs(study.rotation_speed);
+    prediction.mesh = plan.prediction;
+    prediction.revolutions = study.run.max_revolutions;
+    prediction.flow_step = std::min(plan.prediction.time_step, largest_time_step(omega));
+    prediction.rock_step = prediction.flow_step;
+    if (!study.feeds.empty()) prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size));
+    const double flow_steps = first_release(study) / prediction.flow_step;
+    const double rock_steps = (study.end_time() - first_release(study)) / prediction.rock_step;
+    prediction.steps = flow_steps + rock_steps;
+    const double core_hours_per_step = plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
+    prediction.core_hours = core_hours_per_step * (flow_steps + k_rock_share * rock_steps);
     const double mouth = study.suction.mouth_radius;
     prediction.tip_speed = omega * head.tip_radius;
     prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
@@ -62,7 +79,10 @@ Prediction predict(const Study& study, const HeadSize& head, const TriangleSurfa
 
 std::string to_text(const Prediction& p, int ranks) {
     std::string text = fmt::format("cells        about {:.0f}\n", p.mesh.cells);
-    text += fmt::format("time step    about {:.2g} s, {:.0f} steps for {:g} revolutions\n", p.mesh.time_step, p.steps, p.revolutions);
+    text += fmt::format("time step    about {:.2g} s, with rock {:.2g} s; {:.0f} steps for {:g} revolutions\n", p.flow_step, p.rock_step,
+                        p.steps, p.revolutions);
+    text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
+                        1e-9 * p.mesh.run_memory);
     text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s)\n", p.core_hours,
                         duration_text(3600.0 * p.core_hours / ranks), ranks);
     text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
@@ -75,7 +95,10 @@ std::string to_text(const Prediction& p, int ranks) {
 nlohmann::json to_json(const Prediction& p) {
     return {{"cells", p.mesh.cells},
             {"cell_size_min_m", p.mesh.cell_size_min},
-            {"time_step_s", p.mesh.time_step},
+            {"time_step_s", p.flow_step},
+            {"time_step_with_rock_s", p.rock_step},
+            {"mesh_memory_bytes", p.mesh.mesh_memory},
+            {"run_memory_bytes", p.mesh.run_memory},
             {"steps", p.steps},
             {"core_hours", p.core_hours},
             {"revolutions", p.revolutions},

@@ -16,6 +16,8 @@ MeshInput mesh_input_of(const Study& study, const HeadSize& head, const Triangle
 
 struct Prediction {
     MeshPrediction mesh;
+    double flow_step = 0.0;  ///< before rock is released [s]
+    double rock_step = 0.0;  ///< from then on [s]; that of the flow without rock
     double steps = 0.0;
     double core_hours = 0.0;  ///< of the whole run
     double revolutions = 0.0;

@@ -86,7 +86,7 @@ public:
 
 private:
     void add(const ParameterValues& table, const std::string& key, const std::string& rule, const std::string& remedy) {
-        mistakes.push_back({table.where(key), fmt::format("{} = {}", key, table.number(key)), rule, remedy});
+        mistakes.push_back({table.where(key), fmt::format("{} = {:.6g}", key, table.number(key)), rule, remedy});
     }
     const ParameterValues& values_;
 };
@@ -131,14 +131,16 @@ void check_suction(const ParameterValues& study, const HeadSize& head, Rules& ru
     const double radius = study.number("suction.mouth_radius_m");
     const double wall = study.number("suction.pipe_wall_m");
     const double plate = study.number("suction.backplate_radius_m");
+    // The key that the file gives is the one to change.
+    const char* key = study.where("suction.mouth_radius_m").empty() ? "suction.mouth_offset_m" : "suction.mouth_radius_m";
     rules.require(
-        offset + radius <= head.ring_radius, "suction.mouth_radius_m",
-        fmt::format("The mouth must lie inside the ring: mouth_offset_m + mouth_radius_m = {} may be at most the ring radius {:.4g} m",
+        offset + radius <= head.ring_radius, key,
+        fmt::format("The mouth must lie inside the ring: mouth_offset_m + mouth_radius_m = {:.4g} may be at most the ring radius {:.4g} m",
                     offset + radius, head.ring_radius),
         "Make the mouth smaller or move it towards the axis");
     rules.require(
         offset + radius + wall <= plate, "suction.backplate_radius_m",
-        fmt::format("The backplate must carry the pipe: mouth_offset_m + mouth_radius_m + pipe_wall_m = {} may be at most its radius",
+        fmt::format("The backplate must carry the pipe: mouth_offset_m + mouth_radius_m + pipe_wall_m = {:.4g} may be at most its radius",
                     offset + radius + wall),
         "Enlarge the backplate or make the pipe smaller");
 }
@@ -148,9 +150,12 @@ void check_tank(const ParameterValues& study, const HeadSize& head, Rules& rules
     const double least_height = study.number("tank.bed_clearance_m") + head.depth + steel;
     rules.require(study.number("tank.height_m") > least_height, "tank.height_m",
                   fmt::format("Bed clearance, head, gap and backplate take {:.4g} m of it", least_height), "Make the tank higher");
-    const double widest = std::max(head.tip_radius, study.number("suction.backplate_radius_m"));
+    const double plate = study.number("suction.backplate_radius_m");
+    const double widest = std::max(head.tip_radius, plate);
     rules.require(study.number("tank.radius_m") >= 1.5 * widest, "tank.radius_m",
-                  fmt::format("It must be at least 1.5 times the radius of head and backplate, {:.4g} m", 1.5 * widest), "Widen the tank");
+                  fmt::format("It must be at least 1.5 times the radius of head ({:.4g} m) and backplate ({:.4g} m), {:.4g} m",
+                              head.tip_radius, plate, 1.5 * widest),
+                  "Widen the tank, or check cutter.unit");
 }
 
 void check_feed_region(const ParameterValues& study, const HeadSize& head, Rules& rules) {
@@ -264,11 +269,13 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
 
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
-    const double passage = 2.0 * resolved.number("suction.mouth_radius_m");
+    const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
+    const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
+    const char* place = passage < mouth ? "between the blades" : "the suction mouth";
     for (const ParameterValues& feed : resolved.tables("feed"))
         for (const ParameterValues& rock : feed.tables("feed.class"))
             rules.require(rock.number("feed.class.diameter_m") <= passage / 3.0, rock, "feed.class.diameter_m",
-                          fmt::format("Rock larger than a third of the passage ({:.4g} m, the suction mouth) may block it", passage),
+                          fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place),
                           "Check the diameter");
     const double speed = rpm_to_rad_s(resolved.number("rotor.speed_rpm")) * head.tip_radius;
     if (!resolved.tables("feed").empty() && resolved.where("rock.youngs_modulus_pa").empty())

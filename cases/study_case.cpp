@@ -41,8 +41,18 @@ Rock rock_of(const Study& study) {
 
 }  // namespace
 
+void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder) {
+    const std::filesystem::path file = study_folder / values.text("cutter.file");
+    if (!std::filesystem::exists(file))
+        throw UserError(
+            std::vector<Mistake>{{values.where("cutter.file"), fmt::format("cutter.file = \"{}\"", values.text("cutter.file")),
+                                  fmt::format("There is no file {}", std::filesystem::absolute(file).lexically_normal().string()),
+                                  "Check the name; the path is relative to the study file"}});
+}
+
 GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder) {
     const std::filesystem::path file = study_folder / values.text("cutter.file");
+    require_cutter_file(values, study_folder);
     std::optional<LengthUnit> unit;
     if (values.has("cutter.unit")) unit = length_unit_of(values.text("cutter.unit"));
     const GeometryInspection inspection = inspect_cutter(import_cutter(file, unit), file.string());
@@ -52,7 +62,7 @@ GeometryInspection import_study_cutter(const ParameterValues& values, const std:
 
 HeadSize head_size(const Head& head) {
     const double tip = *std::max_element(head.contour.radius.begin(), head.contour.radius.end());
-    return {head.ring_radius, tip, -head.lowest_z};
+    return {head.ring_radius, tip, -head.lowest_z, head.passage};
 }
 
 Contour head_contour(const Head& head, double z_backplate) {

@@ -11,6 +11,9 @@
 
 namespace cutterflow::cases {
 
+/// \throws UserError  with the line of the study that names a cutter's file which is not there
+void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder);
+
 /// The study's cutter, read and understood.
 /// \throws UserError  when the file is no surface, its size implausible, the surface no sound solid, or no head
 GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -22,7 +23,8 @@ using nlohmann::json;
 
 constexpr const char* k_restore_report = "interface_restore.json";
 constexpr const char* k_probe_report = "mesh_probe.json";
-constexpr int k_angles_per_pitch = 12;
+constexpr int k_angles_per_pitch = 8;
+constexpr std::array<double, 3> k_attempts = {1.0, 0.93, 0.85};  // cells over those of the preset
 
 /// One program of the stage; `weight` is its usual share of the time.
 struct Step {
@@ -52,10 +54,13 @@ public:
         const ChildResult result = require_child(foam_command(directory_, step.program.string(), step.arguments));
         wall_s += result.wall_s;
         core_s += result.core_s;
+        memory = std::max(memory, result.memory);
+        program_core_s.emplace_back(step.program.filename().string(), result.core_s);
         done_ += step.weight;
     }
 
-    double wall_s = 0.0, core_s = 0.0;
+    double wall_s = 0.0, core_s = 0.0, memory = 0.0;
+    std::vector<std::pair<std::string, double>> program_core_s;
 
 private:
     fs::path directory_;
@@ -91,6 +96,14 @@ std::vector<double> probe_angles(const RotorZone& rotor) {
     return angles;
 }
 
+std::optional<MeshRetry> next_attempt(const MeshReport& failed, int attempts, MeshInput& input) {
+    const MeshGate* gate = failed.first_failed_gate();
+    if (!gate || attempts >= static_cast<int>(k_attempts.size())) return {};
+    const double share = k_attempts[static_cast<std::size_t>(attempts)];
+    input.resolution.cell_size *= share / k_attempts[static_cast<std::size_t>(attempts) - 1];
+    return MeshRetry{gate->name, fmt::format("cells {:g} times as wide as the preset's", share)};
+}
+
 std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshPlan& plan) {
     const std::array<std::pair<const char*, FoamDictionary>, 8> dictionaries = {
         {{"controlDict", mesh_control()},
@@ -115,7 +128,8 @@ std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshP
     return written;
 }
 
-MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const fs::path& programs, const MeshObserver& observer) {
+MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const fs::path& programs, const MeshObserver& observer,
+                      const std::vector<MeshRetry>& retries) {
     const fs::path mesh_case = run_directory / k_mesh_case;
     const fs::path own = fs::absolute(programs);  // the programs start in the mesh's folder
     const std::string sides = fmt::format("({} {})", k_rotor_side_patch, k_stator_side_patch);
@@ -141,6 +155,9 @@ MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const
     report.gates = check_mesh_gates(plan, report.quality, report.figures);
     report.wall_s = runner.wall_s;
     report.core_s = runner.core_s;
+    report.memory = runner.memory;
+    report.program_core_s = runner.program_core_s;
+    report.retries = retries;
     move_mesh(mesh_case, run_directory);
     std::ofstream(run_directory / names::mesh_report) << to_json(report).dump(2) << '\n';
     return report;

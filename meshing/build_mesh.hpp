@@ -2,6 +2,7 @@
 /// \file The mesh stage: from a plan and the steel's surfaces to constant/polyMesh and mesh.json.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,16 @@ std::vector<std::filesystem::path> write_mesh_case(const std::filesystem::path& 
 /// blockMesh (rotor and stator without common points), surfaceFeatureExtract and snappyHexMesh (steel), cutterInterfaceRestore
 /// (interface points back in place), topoSet and createPatch (outlet, cyclicAMI), checkMesh and cutterMeshProbe (figures).
 /// \param programs  folder of cutterInterfaceRestore and cutterMeshProbe
+/// \param retries   what was tried before, for the report
 /// \return the report; a mesh whose gates failed is kept, to be looked at: require_mesh_gates decides
 /// \throws ToolError  when a program is missing or fails
 MeshReport build_mesh(const std::filesystem::path& run_directory, const MeshPlan& plan, const std::filesystem::path& programs,
-                      const MeshObserver& observer = {});
+                      const MeshObserver& observer = {}, const std::vector<MeshRetry>& retries = {});
+
+/// What to try next when a gate of the mesh of `input` failed: the first attempt's cells, made smaller a little at a time, which moves
+/// every face of the background against the steel. None after the last attempt. \param attempts  how many meshes were made so far, 1 or
+/// more
+std::optional<MeshRetry> next_attempt(const MeshReport& failed, int attempts, MeshInput& input);
 
 /// Rotor angles [rad] at which the interface is measured: within one azimuthal pitch, and the same offsets spread over the turn.
 std::vector<double> probe_angles(const RotorZone& rotor);

@@ -24,6 +24,8 @@ constexpr double k_gap_aspect_max = 4.5;
 constexpr int k_gap_cells_min = 2;
 constexpr double k_mouth_cells_min = 4.0;  // across the mouth
 constexpr double k_tank_cells_min = 2.0;
+constexpr double k_passage_cells_min = 2.0;  // of the cutter's, across the passage between two blades
+constexpr double k_cutter_cell = 0.5;        // of the background's, by one level of refinement
 // Corner of the core over the annulus' inner radius: cells of the core about as wide as those of the annulus are high.
 constexpr double k_core_ratio = 0.82;
 // Bulge that makes the core's corners 120 degrees, as three blocks that meet want it.
@@ -31,9 +33,11 @@ constexpr double k_core_bulge = 0.80;
 
 // Calibrated on the presets' meshes of the model cutter, docs/design/003-meshing.md.
 constexpr double k_refined_per_area = 1.9;  // background cells that a surface of unit area refines, times the cell's mean face area
-constexpr double k_mouth_rate = 1.95;       // Courant number per step over (mouth velocity x step / height of the gap's cells)
-constexpr double k_tip_rate = 2.2;          // over (tip speed x step / width of the cutter's cells)
-constexpr double k_core_s_per_cell_step = 8e-6;
+constexpr double k_mouth_rate = 1.26;       // Courant number per step over (mouth velocity x step / height of the gap's cells)
+constexpr double k_tip_rate = 1.95;         // over (tip speed x step / width of the cutter's cells)
+constexpr double k_core_s_per_cell_step = 9.3e-6;
+constexpr double k_mesh_memory = 0.13e9, k_mesh_memory_per_cell = 1.36e3;  // snappyHexMesh [bytes]
+constexpr double k_run_memory = 0.32e9, k_run_memory_per_cell = 2.04e3;    // cutterFoam on one rank [bytes]
 
 constexpr std::array<const char*, 3> k_presets = {"draft", "standard", "paper"};
 
@@ -97,6 +101,10 @@ double needed_mouth_radius(double ring_radius, const MeshResolution& resolution)
     return 0.5 * k_mouth_cells_min * resolution.cell_size * ring_radius;
 }
 
+double needed_passage(double ring_radius, const MeshResolution& resolution) {
+    return k_passage_cells_min * k_cutter_cell * resolution.cell_size * ring_radius;
+}
+
 /// "Use preset standard or ", or nothing when none would do.
 template <class Enough>
 std::string finer_preset(const Enough& enough) {
@@ -134,6 +142,17 @@ void check_mouth(const MeshInput& in, std::vector<Mistake>& mistakes) {
                         fmt::format("The mouth needs {:g} cells across, a radius of {:.4g} m at preset {}", k_mouth_cells_min, needed,
                                     in.resolution.preset),
                         sentence(finer, "enlarge the mouth")});
+}
+
+void check_passage(const MeshInput& in, std::vector<Mistake>& mistakes) {
+    const double needed = needed_passage(in.ring_radius, in.resolution);
+    if (!in.cutter.passage || *in.cutter.passage >= needed) return;
+    const double passage = *in.cutter.passage;
+    const std::string finer = finer_preset(
+        [&](const MeshResolution& r) { return r.cell_size < in.resolution.cell_size && passage >= needed_passage(in.ring_radius, r); });
+    mistakes.push_back({"", fmt::format("The passage between two blades is {:.4g} m wide", passage),
+                        fmt::format("It needs {:g} cells across, {:.4g} m at preset {}", k_passage_cells_min, needed, in.resolution.preset),
+                        sentence(finer, "widen the passages, with fewer or thinner blades")});
 }
 
 /// Room of the tank around zone, backplate and pipe.
@@ -230,10 +249,14 @@ MeshPrediction predict(const MeshPlan& plan) {
     prediction.cell_size_min = 0.5 * std::cbrt(h * std::min(h, width) * std::min(gap_cell, height));
 
     const double tip_speed = std::abs(in.rotation_speed) * in.cutter.radius;
-    const double rate = std::max(k_mouth_rate * mouth_velocity(in) / gap_cell, k_tip_rate * tip_speed / (0.5 * std::min(h, height)));
+    // The largest Courant number is that of a cell which has a part of both: the fits of the model at 30, 60 and 90 rpm lie on this sum.
+    const double rate =
+        std::hypot(k_mouth_rate * mouth_velocity(in) / gap_cell, k_tip_rate * tip_speed / (k_cutter_cell * std::min(h, height)));
     prediction.time_step = in.max_courant / rate;
     const double steps = 2.0 * k_pi / std::abs(in.rotation_speed) / prediction.time_step;
     prediction.core_hours_per_revolution = steps * prediction.cells * k_core_s_per_cell_step / 3600.0;
+    prediction.mesh_memory = k_mesh_memory + k_mesh_memory_per_cell * prediction.cells;
+    prediction.run_memory = k_run_memory + k_run_memory_per_cell * prediction.cells;
     return prediction;
 }
 
@@ -307,6 +330,7 @@ MeshPlan plan_mesh(const MeshInput& input) {
     std::vector<Mistake> mistakes;
     check_gap(input, mistakes);
     check_mouth(input, mistakes);
+    check_passage(input, mistakes);
 
     MeshPlan plan;
     plan.input = input;

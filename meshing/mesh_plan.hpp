@@ -1,6 +1,7 @@
 #pragma once
 /// \file What the mesh of a study will be, computed before anything is run: cell sizes, the rotor zone and its clearances, the blocks of
 /// the background mesh, and the cost of the run on it.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,11 @@ struct CutterExtent {
     double z_max = 0.0;   ///< highest point [m]; 0 for a head that ends in its ring plane
     double area = 0.0;    ///< of the surface [m2]
     double volume = 0.0;  ///< of the steel [m3]
+    /// Diameter of the largest sphere that passes between the blades [m] (passage_between_blades); none: not asked for.
+    std::optional<double> passage{};
 };
 
-/// \pre the surface is closed, outward oriented and in the run's frame
+/// All but the passage. \pre the surface is closed, outward oriented and in the run's frame
 CutterExtent extent_of_cutter(const TriangleSurface& cutter);
 
 /// The water: a cylinder about the axis.
@@ -86,8 +89,10 @@ struct Clearance {
 struct MeshPrediction {
     double cells = 0.0;
     double cell_size_min = 0.0;              ///< cube root of the smallest cell's volume, roughly [m]
-    double time_step = 0.0;                  ///< [s]
+    double time_step = 0.0;                  ///< by the Courant number of the flow [s]
     double core_hours_per_revolution = 0.0;  ///< of the flow alone
+    double mesh_memory = 0.0;                ///< most that a program of the mesh stage takes [bytes]
+    double run_memory = 0.0;                 ///< of the solver on one rank [bytes]
 };
 
 /// The plan. The background mesh in a section normal to the axis, from inside out: a square core with bulged sides, a transition, an
@@ -116,9 +121,9 @@ struct MeshPlan {
 };
 
 /// Computes the plan.
-/// \throws UserError  with every reason why the zone, the gap, the tank or the mouth cannot be meshed; a gap or mouth that is too small for
-/// the preset names
-///                    the preset that would resolve it
+/// \throws UserError  with every reason why the zone, the gap, the tank, the mouth or the passages between the blades cannot be meshed;
+/// what
+///                    is too small for the preset names the preset that would resolve it
 /// \throws std::invalid_argument  when a size that must be positive is not
 MeshPlan plan_mesh(const MeshInput& input);
 

@@ -95,6 +95,11 @@ ProbeFigures parse_probe(const json& probe, const json& restore) {
     return figures;
 }
 
+const MeshGate* MeshReport::first_failed_gate() const {
+    const auto failed = std::find_if(gates.begin(), gates.end(), [](const MeshGate& gate) { return !gate.passed(); });
+    return failed == gates.end() ? nullptr : &*failed;
+}
+
 double MeshReport::cell_size_min() const {
     return std::cbrt(figures.volume_min);
 }
@@ -141,6 +146,8 @@ json to_json(const MeshReport& report) {
         gates.push_back({{"name", gate.name}, {"value", gate.value}, {"limit", gate.limit}, {"passed", gate.passed()}});
     json retries = json::array();
     for (const MeshRetry& retry : report.retries) retries.push_back({{"failed_gate", retry.failed_gate}, {"change", retry.change}});
+    json programs = json::object();
+    for (const auto& [program, core_s] : report.program_core_s) programs[program] = core_s;
     return {{"preset", report.preset},
             {"cells", report.figures.cells},
             {"rotor_cells", report.figures.rotor_cells},
@@ -159,8 +166,11 @@ json to_json(const MeshReport& report) {
             {"time_step_s", report.prediction.time_step},
             {"predicted_cells", std::round(report.prediction.cells)},
             {"predicted_core_hours_per_revolution", report.prediction.core_hours_per_revolution},
+            {"predicted_memory_bytes", std::round(report.prediction.mesh_memory)},
+            {"memory_bytes", report.memory},
             {"gates", gates},
             {"retries", retries},
+            {"program_core_s", programs},
             {"wall_s", report.wall_s},
             {"core_s", report.core_s}};
 }

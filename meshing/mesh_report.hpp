@@ -1,6 +1,7 @@
 #pragma once
 /// \file What a mesh turned out to be, judged by its gates.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -72,8 +73,11 @@ struct MeshReport {
     MeshPrediction prediction;
     std::vector<MeshGate> gates;
     std::vector<MeshRetry> retries;
+    std::vector<std::pair<std::string, double>> program_core_s;  ///< programs in the order in which they ran [s]
     double wall_s = 0.0, core_s = 0.0;
+    double memory = 0.0;  ///< largest resident set of a program [bytes]
 
+    const MeshGate* first_failed_gate() const;  ///< null when all passed
     std::size_t stator_cells() const { return figures.cells - figures.rotor_cells; }
     double cell_size_min() const;        ///< cube root of the smallest volume [m]
     double cell_size_max() const;        ///< [m]

@@ -61,7 +61,7 @@ TEST(ScaledDefaults, do_not_depend_on_the_sense_of_rotation) {
     CaseInputs backwards = model_cutter();
     backwards.rotor.speed = -backwards.rotor.speed;
     EXPECT_EQ(tip_speed(backwards), tip_speed(model_cutter()));
-    EXPECT_NEAR(largest_time_step(backwards) * std::abs(backwards.rotor.speed), k_pi / 180.0, 1e-15);
+    EXPECT_NEAR(largest_time_step(backwards.rotor.speed) * std::abs(backwards.rotor.speed), k_pi / 180.0, 1e-15);
 }
 
 TEST(Gravity, stands_at_90_degrees_minus_inclination_from_the_axis) {

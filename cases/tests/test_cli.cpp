@@ -152,6 +152,9 @@ TEST_F(Cli, check_predicts_what_a_run_costs) {
     EXPECT_NEAR(prediction.at("tip_speed_m_s").get<double>(), 2.51, 0.03);
     // A 20 mm rock of 2650 kg/m3 in the Newton regime: w = sqrt(4 g d (s-1) / (3 Cd)), Cd about 0.45.
     EXPECT_NEAR(prediction.at("settling_velocity_m_s")[0].get<double>(), 0.99, 0.08);
+    EXPECT_LT(prediction.at("time_step_with_rock_s").get<double>(), prediction.at("time_step_s").get<double>());
+    // Resident set of cutterFoam on such a mesh: 446 MB.
+    EXPECT_NEAR(prediction.at("run_memory_bytes").get<double>() / 446e6, 1.0, 0.15);
     const double hours = prediction.at("core_hours").get<double>();
     EXPECT_GT(hours, 0.02);
     EXPECT_LT(hours, 20.0);
@@ -213,6 +216,29 @@ TEST_F(Cli, refuses_sizes_that_cannot_be_meshed) {
     expect_refused(call({"check", study("[tank]\nheight_m = 0.5\n")}), 2, "Make the tank higher");
 }
 
+TEST_F(Cli, names_the_line_of_a_cutter_file_that_is_not_there) {
+    study();
+    write_file(folder_ / "study.toml",
+               "[cutter]\nfile = \"heads/revision_b.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
+    const std::string message = "study.toml:2: cutter.file = \"heads/revision_b.stl\". There is no file /";
+    const Outcome outcome = call({"check", "study.toml"});
+    expect_refused(outcome, 2, message);
+    expect_contains(outcome.text, "the path is relative to the study file");
+    EXPECT_EQ(run_child(mesh_with_stand_ins()).exit_code, 2);
+    expect_contains(read_file(folder_ / "output"), message);
+}
+
+TEST_F(Cli, refuses_a_head_larger_than_the_tank_and_a_mouth_outside_the_ring) {
+    expect_refused(
+        call({"check", study("[tank]\nradius_m = 0.3\n")}), 2,
+        "study.toml:8: tank.radius_m = 0.3. It must be at least 1.5 times the radius of head (0.4 m) and backplate (0.4 m), 0.6 m");
+    expect_refused(call({"check", study("[tank]\nheight_m = 0.4\n")}), 2,
+                   "study.toml:8: tank.height_m = 0.4. Bed clearance, head, gap and backplate take");
+    expect_refused(
+        call({"check", study("mouth_offset_m = 0.45\n")}), 2,
+        "study.toml:7: suction.mouth_offset_m = 0.45. The mouth must lie inside the ring: mouth_offset_m + mouth_radius_m = 0.55");
+}
+
 TEST_F(Cli, refuses_a_feed_region_without_water_and_warns_of_one_too_small) {
     // 5 mm of the ring's height at its radius: nothing but steel and gap narrower than a rock.
     expect_refused(call({"check", study("[[feed]]\ncount = 5\ndepth_from_m = 0.0\ndepth_to_m = 0.005\nazimuth_width_deg = "
@@ -231,7 +257,8 @@ TEST_F(Cli, warns_of_a_rotor_that_carries_rock_away_and_of_rock_that_may_block) 
     const Outcome mirror = call({"check", study("", "mirror.stl")});
     EXPECT_EQ(mirror.code, 0);
     expect_contains(mirror.text, "warning: rotor.direction = \"right_handed\" makes the blades carry rock away from the suction side");
-    expect_contains(call({"check", study("[[feed]]\ncount = 1\n[[feed.class]]\ndiameter_m = 0.08\n")}).text, "third of the passage");
+    expect_contains(call({"check", study("[[feed]]\ncount = 1\n[[feed.class]]\ndiameter_m = 0.08\n")}).text,
+                    "third of the smallest passage");
 }
 
 TEST_F(Cli, refuses_machines_that_cannot_run_it) {

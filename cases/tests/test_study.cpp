@@ -167,7 +167,8 @@ TEST(Study, refuses_sizes_that_contradict_each_other) {
     EXPECT_TRUE(any_contains(mistakes("mouth_radius_m = 0.19\n"), "must lie inside the ring"));
     EXPECT_TRUE(any_contains(mistakes("backplate_radius_m = 0.31\n"), "must carry the pipe"));
     EXPECT_TRUE(any_contains(mistakes("[tank]\nheight_m = 0.9\n"), "Make the tank higher"));
-    EXPECT_TRUE(any_contains(mistakes("[tank]\nradius_m = 0.5\n"), "1.5 times the radius"));
+    EXPECT_TRUE(any_contains(mistakes("[tank]\nradius_m = 0.5\n"), "1.5 times the radius of head (0.4 m)"));
+    EXPECT_EQ(mistakes("mouth_offset_m = 0.31\n")[0].where, "study.toml:7") << "the key that the file gives";
     EXPECT_TRUE(any_contains(mistakes("[report]\noutflow_start_s = 4\n"), "The run ends at 4 s"));
     EXPECT_TRUE(
         any_contains(mistakes("[[feed]]\ncount = 1\ndepth_to_m = 0.6\n[[feed.class]]\ndiameter_m = 0.02\n"), "The head ends 0.485 m"));
@@ -180,8 +181,12 @@ TEST(Study, warns_of_rock_larger_than_a_third_of_the_passage) {
     const auto warnings = [](const std::string& diameter) {
         return study_warnings(resolve_study(parse(with_feed("count = 3\n", "diameter_m = " + diameter + "\n")), k_model), k_model);
     };
-    EXPECT_TRUE(any_contains(warnings("0.07"), "third of the passage (0.2 m"));
+    EXPECT_TRUE(any_contains(warnings("0.07"), "third of the smallest passage (0.2 m, the suction mouth)"));
     EXPECT_TRUE(warnings("0.066").empty());
+    HeadSize narrow = k_model;
+    narrow.passage = 0.15;
+    const ParameterValues resolved = resolve_study(parse(with_feed("count = 3\n", "diameter_m = 0.055\n")), narrow);
+    EXPECT_TRUE(any_contains(study_warnings(resolved, narrow), "third of the smallest passage (0.15 m, between the blades)"));
 }
 
 TEST(Study, resolved_values_read_back_as_the_same_study) {

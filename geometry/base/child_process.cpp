@@ -194,8 +194,8 @@ public:
     ChildGuard(const ChildGuard&) = delete;
     ChildGuard& operator=(const ChildGuard&) = delete;
 
-    /// Exit code and core seconds.
-    std::pair<int, double> wait() {
+    /// How it ended, without the wall time.
+    ChildResult wait() {
         int status = 0;
         struct rusage usage {};
         while (::wait4(child_, &status, 0, &usage) < 0 && errno == EINTR) {
@@ -205,7 +205,8 @@ public:
             return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
         };
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-        return {code, seconds(usage.ru_utime) + seconds(usage.ru_stime)};
+        // The kernel counts the resident set in KiB.
+        return {code, 0.0, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024.0 * static_cast<double>(usage.ru_maxrss)};
     }
 
 private:
@@ -302,11 +303,11 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
     relay.attach(pid);
     output.close();
     reader.read_all(input.number());
-    const auto [exit_code, core_s] = child.wait();
-    const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    ChildResult result = child.wait();
+    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (SignalRelay::received() != 0)
         throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), ::strsignal(SignalRelay::received())));
-    return {exit_code, wall_s, core_s};
+    return result;
 }
 
 Mistake failure_of(const ChildCommand& command, const ChildResult& result) {

@@ -25,6 +25,7 @@ struct ChildResult {
     int exit_code = 0;  ///< 128 + signal when a signal ended it
     double wall_s = 0.0;
     double core_s = 0.0;  ///< user and system time of the child and its waited-for descendants
+    double memory = 0.0;  ///< largest resident set of any one of them [bytes]
 };
 
 /// Runs a program to its end. `each_line` (may be empty) is called with every complete line of output while the program runs, after it

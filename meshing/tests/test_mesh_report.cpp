@@ -1,5 +1,7 @@
 #include "meshing/mesh_report.hpp"
 
+#include "meshing/build_mesh.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -162,6 +164,26 @@ TEST(MeshGates, stop_the_run_with_value_limit_and_remedy) {
     EXPECT_NO_THROW(require_mesh_gates(report));
 }
 
+TEST(NextAttempt, makes_the_cells_smaller_twice_and_names_gate_and_change) {
+    Case c;
+    MeshReport report;
+    report.gates = check_mesh_gates(c.plan, c.quality, c.figures);
+    MeshInput input = c.plan.input;
+    EXPECT_FALSE(next_attempt(report, 1, input)) << "every gate was passed";
+
+    c.quality.skewness_max = 5.25;
+    report.gates = check_mesh_gates(c.plan, c.quality, c.figures);
+    const std::optional<MeshRetry> second = next_attempt(report, 1, input);
+    ASSERT_TRUE(second);
+    EXPECT_EQ(second->failed_gate, "skewness");
+    EXPECT_EQ(second->change, "cells 0.93 times as wide as the preset's");
+    EXPECT_NEAR(input.resolution.cell_size, 0.93 * c.plan.input.resolution.cell_size, 1e-12);
+    EXPECT_GT(plan_mesh(input).background_cells(), c.plan.background_cells());
+    ASSERT_TRUE(next_attempt(report, 2, input));
+    EXPECT_NEAR(input.resolution.cell_size, 0.85 * c.plan.input.resolution.cell_size, 1e-12);
+    EXPECT_FALSE(next_attempt(report, 3, input)) << "the last attempt";
+}
+
 nlohmann::json side(double min, double max) {
     return {{"min", min}, {"max", max}, {"mean", 1.0}};
 }
@@ -200,13 +222,33 @@ TEST(MeshReport, writes_the_keys_of_its_contract) {
     report.prediction = c.plan.prediction;
     report.gates = check_mesh_gates(c.plan, c.quality, c.figures);
     report.gates.back().value = 2.0;
+    report.program_core_s = {{"blockMesh", 0.5}, {"snappyHexMesh", 12.0}};
     const nlohmann::json json = to_json(report);
-    for (const char* key :
-         {"cells", "rotor_cells", "stator_cells", "cell_size_min_m", "cell_size_max_m", "cell_size_at_cutter_m",
-          "non_orthogonality_max_deg", "non_orthogonality_mean_deg", "skewness_max", "aspect_ratio_max", "interface_weight_min",
-          "interface_weight_max", "interface_faces", "time_step_s", "preset", "gates", "wall_s", "core_s", "retries"})
+    for (const char* key : {"cells",
+                            "rotor_cells",
+                            "stator_cells",
+                            "cell_size_min_m",
+                            "cell_size_max_m",
+                            "cell_size_at_cutter_m",
+                            "non_orthogonality_max_deg",
+                            "non_orthogonality_mean_deg",
+                            "skewness_max",
+                            "aspect_ratio_max",
+                            "interface_weight_min",
+                            "interface_weight_max",
+                            "interface_faces",
+                            "time_step_s",
+                            "preset",
+                            "gates",
+                            "wall_s",
+                            "core_s",
+                            "retries",
+                            "predicted_memory_bytes",
+                            "memory_bytes",
+                            "program_core_s"})
         EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_EQ(json["stator_cells"], 33000);
+    EXPECT_EQ(json["program_core_s"]["snappyHexMesh"], 12.0);
     EXPECT_NEAR(json["cell_size_min_m"].get<double>(), std::cbrt(3e-7), 1e-12);
     EXPECT_EQ(json["cell_size_at_cutter_m"], 0.0128);
     EXPECT_EQ(json["gates"].size(), report.gates.size());
