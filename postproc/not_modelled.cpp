@@ -23,7 +23,7 @@ const std::string& scope_sentence(bool with_rock) {
     static const std::string rock =
         "This is spillage by mixing of loose rock in a turning head with imposed discharge: cutting, bank, hauling and continuous feed are "
         "not "
-        "modelled, so spillage only rises with speed here, unlike in practice, and this report names no best speed.";
+        "modelled, so there is no optimum over speed here as there is in practice, and this report names no best speed.";
     static const std::string flow =
         "This is the flow of clear water through a turning head with imposed discharge, without bank, hauling and rock; it shows where "
         "water "
