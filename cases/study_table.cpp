@@ -74,7 +74,7 @@ ParameterTable head_rows() {
         Row("cutter.file", ParameterKind::path, "-",
             "Surface of the cutter (STL, OBJ or PLY), relative to this file; closed and facing outwards."),
         choice("cutter.unit", {"m", "mm", "cm", "inch", "ft"}, "Unit of length in the cutter's file.")
-            .derived("metres, or millimetres when only they give a plausible size"),
+            .derived("metres, millimetres or inches, the first that gives a plausible size"),
         number("rotor.speed_rpm", "rpm", "Rotation speed of the cutter.").above(0.0).at_most(600.0),
         choice("rotor.direction", {"right_handed", "left_handed"},
                "Sense of rotation about the axis from hub to ring. Seen from the suction side, right_handed turns counterclockwise.")

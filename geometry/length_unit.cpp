@@ -40,6 +40,15 @@ std::string remedy_for(double half_extent) {
     return fmt::format("Say in which unit the file is: {}", fmt::join(options, " or "));
 }
 
+/// The other units in which the size would be plausible, in words.
+std::string alternatives_to(LengthUnit taken, double half_extent) {
+    std::vector<std::string> others;
+    for (const UnitRow& row : k_units)
+        if (row.unit != taken && is_plausible(half_extent, row.unit))
+            others.push_back(fmt::format("{:.4g} m with --unit {}", half_extent * row.metres, row.name));
+    return others.empty() ? "" : fmt::format(" ({})", fmt::join(others, ", "));
+}
+
 }  // namespace
 
 double metres_per(LengthUnit unit) {
@@ -71,12 +80,14 @@ UnitDecision decide_unit(double half_extent, std::optional<LengthUnit> given) {
                 remedy_for(half_extent));
         return {*given, false, metres, fmt::format("unit {} as given: half the largest extent is {:.4g} m", name_of(*given), metres)};
     }
-    for (const LengthUnit unit : {LengthUnit::metre, LengthUnit::millimetre}) {
+    for (const LengthUnit unit : {LengthUnit::metre, LengthUnit::millimetre, LengthUnit::inch}) {
         if (!is_plausible(half_extent, unit)) continue;
         const double metres = half_extent * metres_per(unit);
-        return {unit, true, metres, fmt::format("unit {} told from the size: half the largest extent is {:.4g} m", name_of(unit), metres)};
+        return {unit, true, metres,
+                fmt::format("unit {} told from the size: half the largest extent is {:.4g} m{}", name_of(unit), metres,
+                            alternatives_to(unit, half_extent))};
     }
-    throw UserError(fmt::format("half the surface's largest extent is {:.4g} in the file's unit, which fits neither m nor mm", half_extent),
+    throw UserError(fmt::format("half the surface's largest extent is {:.4g} in the file's unit, which fits none of m, mm and inch", half_extent),
                     rule, remedy_for(half_extent));
 }
 

@@ -27,10 +27,10 @@ struct UnitDecision {
     std::string reason;
 };
 
-/// Metres if that gives a plausible head, else millimetres: no size is plausible in both. A size that is plausible in neither is refused,
-/// and the units in which it would be are named.
+/// Metres if that gives a plausible head, else millimetres, else inches (a half extent of 3 to 50). No size is plausible in metres and in
+/// millimetres; centimetres and feet are taken only when given. `reason` names every other unit in which the size would be plausible.
 /// \param half_extent  half the largest extent of the bounding box, in the file's unit
-/// \throws UserError   when the size is implausible in the given unit, or when no unit was given and neither metre nor millimetre fits
+/// \throws UserError   when the size is implausible in the given unit, or when no unit was given and none of the three fits
 UnitDecision decide_unit(double half_extent, std::optional<LengthUnit> given);
 
 }  // namespace cutterflow

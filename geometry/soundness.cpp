@@ -1,55 +1,17 @@
 #include "geometry/soundness.hpp"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "geometry/cgal/self_intersections.hpp"
+#include "geometry/topology.hpp"
 
 namespace cutterflow {
 namespace {
 
 constexpr std::size_t k_places = 5;
-
-/// One passage of a triangle along an edge between points low < high.
-struct EdgeUse {
-    std::uint32_t low;
-    std::uint32_t high;
-    std::size_t triangle;
-    bool ascending;
-    bool same_edge(const EdgeUse& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<EdgeUse> sorted_edge_uses(const TriangleSurface& surface) {
-    std::vector<EdgeUse> uses;
-    uses.reserve(3 * surface.triangles.size());
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = surface.triangles[t][k];
-            const std::uint32_t b = surface.triangles[t][(k + 1) % 3];
-            if (a != b) uses.push_back({std::min(a, b), std::max(a, b), t, a < b});
-        }
-    std::sort(uses.begin(), uses.end(),
-              [](const EdgeUse& x, const EdgeUse& y) { return std::tie(x.low, x.high, x.triangle) < std::tie(y.low, y.high, y.triangle); });
-    return uses;
-}
-
-/// Disjoint sets of indices.
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void unite(std::size_t i, std::size_t j) { parent_[root(i)] = root(j); }
-
-private:
-    std::vector<std::size_t> parent_;
-};
 
 void add(Defect& defect, const std::vector<std::size_t>& triangles, const Vec3& place) {
     ++defect.count;
@@ -89,39 +51,26 @@ void find_edge_defects(const TriangleSurface& surface, const std::vector<EdgeUse
 }
 
 void find_components(const TriangleSurface& surface, const std::vector<EdgeUse>& uses, SoundnessReport& report) {
-    Sets sets(surface.triangles.size());
-    for (std::size_t i = 1; i < uses.size(); ++i)
-        if (uses[i].same_edge(uses[i - 1])) sets.unite(uses[i].triangle, uses[i - 1].triangle);
-    std::map<std::size_t, SurfaceComponent> by_root;
+    const std::vector<std::size_t> number = component_numbers(surface, uses);
     const Vec3 origin = report.bounds.min;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        if (number[t] == report.components.size()) report.components.emplace_back();
+        SurfaceComponent& component = report.components[number[t]];
         const Vec3 area = area_vector(surface, surface.triangles[t]);
-        SurfaceComponent& component = by_root[sets.root(t)];
         ++component.triangles;
         component.area += area.norm();
         component.volume += area.dot(surface.points[surface.triangles[t][0]] - origin) / 3.0;
     }
-    for (const auto& [root, component] : by_root) report.components.push_back(component);
-    std::sort(report.components.begin(), report.components.end(),
-              [](const SurfaceComponent& a, const SurfaceComponent& b) { return a.area > b.area; });
+    std::stable_sort(report.components.begin(), report.components.end(),
+                     [](const SurfaceComponent& a, const SurfaceComponent& b) { return a.area > b.area; });
 }
 
 /// Triangles around each point must form one fan: hang together over edges that end in the point.
 void find_point_defects(const TriangleSurface& surface, const std::vector<EdgeUse>& uses, SoundnessReport& report) {
-    // Corner 3 t + k is triangle t at its k-th point; corners of one point are united over the edges their triangles share.
-    Sets corners(3 * surface.triangles.size());
-    const auto corner_of = [&](std::size_t t, std::uint32_t point) {
-        const Triangle& triangle = surface.triangles[t];
-        return 3 * t + static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), point) - triangle.begin());
-    };
-    for (std::size_t i = 1; i < uses.size(); ++i) {
-        if (!uses[i].same_edge(uses[i - 1])) continue;
-        for (const std::uint32_t point : {uses[i].low, uses[i].high})
-            corners.unite(corner_of(uses[i].triangle, point), corner_of(uses[i - 1].triangle, point));
-    }
+    const std::vector<std::size_t> fan_of = fans_of_corners(surface, uses);
     std::vector<std::set<std::size_t>> fans(surface.points.size());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) fans[surface.triangles[t][k]].insert(corners.root(3 * t + k));
+        for (std::size_t k = 0; k < 3; ++k) fans[surface.triangles[t][k]].insert(fan_of[3 * t + k]);
     for (std::size_t p = 0; p < fans.size(); ++p) {
         if (fans[p].size() < 2) continue;
         std::vector<std::size_t> triangles;
@@ -198,7 +147,9 @@ std::vector<Mistake> defects_of(const SoundnessReport& report, const std::string
 
 void require_sound(const SoundnessReport& report, const std::string& name) {
     std::vector<Mistake> mistakes = defects_of(report, name);
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    if (mistakes.empty()) return;
+    mistakes.back().remedy += fmt::format(". Or try: cutterflow repair \"{}\" -o repaired.stl", name);
+    throw UserError(std::move(mistakes));
 }
 
 }  // namespace cutterflow

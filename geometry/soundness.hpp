@@ -50,7 +50,7 @@ SoundnessReport inspect_surface(const TriangleSurface& surface);
 /// The defects in words, one Mistake each: what, how many, where, the rule, the remedy. Empty for a sound surface.
 std::vector<Mistake> defects_of(const SoundnessReport& report, const std::string& name);
 
-/// \throws UserError  with every defect of the surface called `name`
+/// \throws UserError  with every defect of the surface called `name`, a file, and the command that may repair it
 void require_sound(const SoundnessReport& report, const std::string& name);
 
 }  // namespace cutterflow

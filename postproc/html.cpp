@@ -36,6 +36,7 @@ figure.wide { grid-column: 1 / -1; }
 figure.head { display: grid; grid-template-columns: 13fr 10fr; gap: 10px; align-items: center; }
 figure.head figcaption { grid-column: 1 / -1; }
 figure.rose svg { max-width: 430px; margin: 0 auto; }
+.views { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 18px; }
 figure svg { display: block; width: 100%; height: auto; }
 svg text { font-family: inherit; }
 figure + table { margin-top: 18px; }
@@ -134,6 +135,13 @@ std::string figure(const std::string& content, const std::string& caption, const
 
 std::string section(const std::string& title, const std::string& content) {
     return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, content);
+}
+
+std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail) {
+    return fmt::format(
+        "<div class=\"answer\" style=\"--colour: {}\"><div class=\"label\">{}</div><div class=\"value\">{}</div>"
+        "<div class=\"detail\">{}</div></div>\n",
+        colour, label, value, detail);
 }
 
 std::string document(const std::string& title, const std::string& body, const std::string& footer) {

@@ -14,6 +14,7 @@
 namespace cutterflow::postproc {
 namespace {
 
+using html::answer;
 using html::escape;
 using nlohmann::json;
 using namespace text;
@@ -64,13 +65,6 @@ std::string fate_detail(const RockAmount& amount) {
 std::string over_revolutions(const RotorLoads& rotor) {
     if (rotor.averaged_revolutions == 0.0) return "no blade has passed yet since the start of the averaging window";
     return fmt::format("mean over {:.3g} revolution{}", rotor.averaged_revolutions, rotor.averaged_revolutions == 1.0 ? "" : "s");
-}
-
-std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail) {
-    return fmt::format(
-        "<div class=\"answer\" style=\"--colour: {}\"><div class=\"label\">{}</div><div class=\"value\">{}</div>"
-        "<div class=\"detail\">{}</div></div>\n",
-        colour, label, value, detail);
 }
 
 std::string plot(const PageFigures& figures, const std::string& name, const std::string& caption, const std::string& css_class = "") {

@@ -7,6 +7,7 @@ namespace cutterflow::cli {
 void add_new(CLI::App& app);
 void add_check(CLI::App& app);
 void add_inspect(CLI::App& app);
+void add_repair(CLI::App& app);
 void add_generate_cutter(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_run(CLI::App& app);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/inspection_page.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/crown_cutter.hpp"
 #include "geometry/geometry_report.hpp"
@@ -37,18 +38,18 @@ struct InspectOptions {
     std::string cutter;
     std::optional<std::string> unit;
     std::optional<std::string> contour;
+    std::optional<std::string> output;
     bool json = false;
 };
 
 void inspect(const InspectOptions& options) {
     std::optional<LengthUnit> unit;
     if (options.unit) unit = length_unit_of(*options.unit);
-    const GeometryInspection inspection = inspect_cutter(import_cutter(options.cutter, unit), options.cutter);
+    const ImportedSurface imported = import_cutter(options.cutter, unit);
+    const GeometryInspection inspection = inspect_cutter(imported, options.cutter);
+    if (options.output) cases::write_inspection(inspection, imported.surface, *options.output);
     std::cout << (options.json ? to_json(inspection).dump(2) + "\n" : to_text(inspection)) << std::flush;
-    if (!inspection.soundness.sound()) {
-        const std::vector<Mistake> defects = defects_of(inspection.soundness, options.cutter);
-        throw UserError(defects);
-    }
+    require_sound(inspection.soundness, options.cutter);
     if (options.contour) write_contour_csv(inspection.head->contour, *options.contour);
 }
 
@@ -67,7 +68,8 @@ void add_inspect(CLI::App& app) {
     const auto options = std::make_shared<InspectOptions>();
     command->add_option("cutter", options->cutter, "STL, OBJ or PLY file")->required();
     command->add_option("--unit", options->unit,
-                        "Its unit of length (m, mm, cm, inch, ft); without it metres, or millimetres when only they give a plausible size");
+                        "Its unit of length (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives a plausible size");
+    command->add_option("-o,--output", options->output, "Folder to write inspection.json and index.html (pictures, contour) to");
     command->add_option("--contour", options->contour, "CSV file to write the contour of revolution to");
     command->add_flag("--json", options->json, "Print JSON");
     command->callback([options] { inspect(*options); });

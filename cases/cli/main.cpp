@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
     cli::add_params(app);
     cli::add_generate_cutter(app);
     cli::add_inspect(app);
+    cli::add_repair(app);
     cli::add_check(app);
     cli::add_mesh(app);
     cli::add_run(app);

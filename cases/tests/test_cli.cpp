@@ -114,7 +114,7 @@ const char* const k_feed = "[[feed]]\ncount = 20\n[[feed.class]]\ndiameter_m = 0
 TEST_F(Cli, explains_itself) {
     const Outcome help = call({"--help"});
     EXPECT_EQ(help.code, 0);
-    for (const char* command : {"new", "check", "inspect", "generate-cutter", "mesh", "run", "report", "params"}) {
+    for (const char* command : {"new", "check", "inspect", "repair", "generate-cutter", "mesh", "run", "report", "params"}) {
         expect_contains(help.text, command);
         const Outcome of_command = call({command, "--help"});
         EXPECT_EQ(of_command.code, 0) << command;
@@ -187,6 +187,62 @@ TEST_F(Cli, refuses_surfaces_that_bound_no_solid) {
         write_file(folder_ / "bad.toml", "[cutter]\nfile = \"" + file + "\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
         expect_refused(call({"check", "bad.toml"}), 2, part);
     }
+}
+
+TEST_F(Cli, repairs_a_cutter_that_a_study_has_refused) {
+    TriangleSurface open = crown();
+    open.triangles.erase(open.triangles.begin() + 100);
+    std::swap(open.triangles[7][0], open.triangles[7][1]);
+    study();
+    write_stl(scaled(open, 1000.0), folder_ / "cutter.stl");
+    const std::string before = read_file(folder_ / "cutter.stl");
+    expect_refused(call({"check", "study.toml"}), 2, "cutterflow repair");
+    const Outcome repaired = call({"repair", "cutter.stl", "-o", "sound.stl", "--report", "repair.json"});
+    ASSERT_EQ(repaired.code, 0) << repaired.text;
+    expect_contains(repaired.text, "unit mm told from the size");
+    EXPECT_EQ(read_file(folder_ / "cutter.stl"), before);
+    const nlohmann::json report = nlohmann::json::parse(read_file(folder_ / "repair.json"));
+    std::map<std::string, int> counts;
+    for (const nlohmann::json& step : report.at("steps")) counts[step.at("name")] = step.at("count");
+    EXPECT_EQ(counts.at("fill holes"), 1);
+    EXPECT_EQ(counts.at("orient faces"), 1);
+    EXPECT_NEAR(report.at("after").at("volume_m3").get<double>() / volume_of(crown()), 1.0, 1e-4);
+    expect_refused(call({"repair", "cutter.stl", "-o", "sound.stl"}), 2, "Nothing is overwritten");
+    study("", "sound.stl");
+    EXPECT_EQ(call({"check", "study.toml"}).code, 0);
+}
+
+TEST_F(Cli, repair_says_where_it_cannot_and_shows_the_faces) {
+    TriangleSurface half{crown().points, {}};
+    for (const Triangle& t : crown().triangles)
+        if (centroid_of(crown(), t).x() > 0.0) half.triangles.push_back(t);
+    write_stl(half, folder_ / "half.stl");
+    const Outcome outcome = call({"repair", "half.stl", "-o", "sound.stl"});
+    expect_refused(outcome, 2, "a hole of");
+    expect_contains(outcome.text, "Open it in ParaView");
+    EXPECT_FALSE(fs::exists(folder_ / "sound.stl"));
+    const std::string faces = read_file(folder_ / "sound.bad_faces.vtp");
+    expect_contains(faces, "<VTKFile type=\"PolyData\"");
+    expect_contains(faces, "Name=\"source_face\"");
+    call({"repair", "half.stl", "-o", "sound.stl"});
+    EXPECT_TRUE(fs::exists(folder_ / "sound.bad_faces.2.vtp"));
+}
+
+TEST_F(Cli, inspect_writes_a_page_with_pictures_for_heads_and_for_what_is_none) {
+    write_stl(crown(), folder_ / "head.stl");
+    EXPECT_EQ(call({"inspect", "head.stl", "-o", "page"}).code, 0);
+    const std::string page = read_file(folder_ / "page/index.html");
+    std::size_t pictures = 0;
+    for (std::size_t at = page.find("data:image/png"); at != std::string::npos; at = page.find("data:image/png", at + 1)) ++pictures;
+    EXPECT_EQ(pictures, 3u);
+    EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org")) << "the page needs no network";
+    EXPECT_EQ(nlohmann::json::parse(read_file(folder_ / "page/inspection.json")).at("head").at("blades"), 6);
+    expect_refused(call({"inspect", "head.stl", "-o", "page"}), 2, "Nothing is overwritten");
+    TriangleSurface open = crown();
+    open.triangles.erase(open.triangles.begin() + 100);
+    write_stl(open, folder_ / "open.stl");
+    expect_refused(call({"inspect", "open.stl", "-o", "open_page"}), 2, "open edge(s)");
+    expect_contains(read_file(folder_ / "open_page/index.html"), "cutterflow repair open.stl");
 }
 
 TEST_F(Cli, refuses_millimetres_taken_as_metres_and_tells_them_when_not_said) {

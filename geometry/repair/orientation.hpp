@@ -1,0 +1,14 @@
+#pragma once
+#include "geometry/repair/welding.hpp"
+
+namespace cutterflow::repair {
+
+/// Within each sheet (triangles that hang together over edges of exactly two) all triangles take the sense of the larger part by area.
+/// count: triangles flipped.
+Stepped orient_consistently(const TracedSurface& traced);
+
+/// Closed components that enclose a negative volume are turned inside out, except those that lie wholly inside another one: they are
+/// cavities. count: triangles flipped.
+Stepped orient_outwards(const TracedSurface& traced);
+
+}  // namespace cutterflow::repair

@@ -1,0 +1,14 @@
+#pragma once
+#include "geometry/repair/welding.hpp"
+
+namespace cutterflow::repair {
+
+/// Joins borders that run along each other with different points (T-junctions): an open edge is divided at every border point within
+/// `distance` [m] of it. count: edges divided.
+Stepped join_seams(const TracedSurface& traced, double distance);
+
+/// Parts the surface where it touches itself in a point alone: of the fans of triangles that meet there the largest keeps the point, each
+/// other one gets a point of its own, `distance` [m] from it towards the middle of the fan. count: points added.
+Stepped part_touching_points(const TracedSurface& traced, double distance);
+
+}  // namespace cutterflow::repair
