@@ -21,14 +21,18 @@ namespace fs = std::filesystem;
 constexpr const char* k_overrides = "overrides";
 constexpr const char* k_lock = ".lock";
 
-void require_usable_path(const fs::path& path) {
+}  // namespace
+
+void require_openfoam_path(const fs::path& path) {
     const std::string text = path.string();
     const std::size_t bad = text.find_first_of(" \t\n\r\"'`\\$(){}[];#*?|<>&!");
     if (bad == std::string::npos) return;
-    throw UserError(fmt::format("the run directory \"{}\" has '{}' in its path", text, text[bad]),
+    throw UserError(fmt::format("the folder \"{}\" has '{}' in its path", text, text[bad]),
                     "OpenFOAM's programs cannot take paths with spaces, quotes, brackets or other signs of a shell",
                     "Choose a path of letters, digits, '-', '_', '.' and '/' with -o");
 }
+
+namespace {
 
 /// Empty, holding nothing but overrides/, or a run directory already.
 bool may_hold_a_run(const fs::path& path) {
@@ -53,7 +57,7 @@ int take_lock(const fs::path& path) {
 }  // namespace
 
 void require_usable_run_directory(const fs::path& path) {
-    require_usable_path(fs::absolute(path));
+    require_openfoam_path(fs::absolute(path));
     if (!fs::is_directory(path) || may_hold_a_run(path)) return;
     throw UserError(fmt::format("{} holds files and no {}", path.string(), names::manifest),
                     "A run directory is empty, or one that cutterflow made; nothing is overwritten", "Choose another with -o");

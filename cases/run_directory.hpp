@@ -6,9 +6,10 @@
 
 namespace cutterflow::cases {
 
-/// \throws UserError  when the path holds characters that OpenFOAM cannot take (spaces, quotes, brackets ...) or a folder that is there
-/// holds
-///                    something that is no run: nothing is overwritten
+/// \throws UserError  when the path holds characters that OpenFOAM cannot take (spaces, quotes, brackets ...)
+void require_openfoam_path(const std::filesystem::path& path);
+
+/// \throws UserError  as require_openfoam_path, or when a folder that is there holds something that is no run: nothing is overwritten
 void require_usable_run_directory(const std::filesystem::path& path);
 
 /// A run directory that belongs to this process while the object lives. Children inherit the lock: a solver that outlives its parent

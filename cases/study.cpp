@@ -27,7 +27,7 @@ void fill(ParameterValues& values, const char* key, double derived) {
 }
 
 /// Young's modulus [Pa] with which the densest rock at tip speed overlaps steel of the same modulus by the accepted share of its radius.
-double derived_youngs_modulus(const ParameterValues& values, const HeadSize& head) {
+double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head) {
     double density = 2650.0;
     for (const ParameterValues& feed : values.tables("feed"))
         for (const ParameterValues& rock : feed.tables("feed.class")) density = std::max(density, rock.number("feed.class.density_kg_m3"));
@@ -35,9 +35,11 @@ double derived_youngs_modulus(const ParameterValues& values, const HeadSize& hea
     const double rock = values.number("rock.poisson_rock");
     const double steel = values.number("rock.poisson_steel");
     const double speed = rpm_to_rad_s(values.number("rotor.speed_rpm")) * head.tip_radius;
-    const double modulus =
-        physics::youngs_modulus_for_overlap(inertia_density, speed, physics::k_largest_overlap_ratio, 2.0 - rock * rock - steel * steel);
-    return std::clamp(modulus, k_softest_pa, k_stiffest_pa);
+    return physics::youngs_modulus_for_overlap(inertia_density, speed, physics::k_largest_overlap_ratio, 2.0 - rock * rock - steel * steel);
+}
+
+double derived_youngs_modulus(const ParameterValues& values, const HeadSize& head) {
+    return std::clamp(needed_youngs_modulus(values, head), k_softest_pa, k_stiffest_pa);
 }
 
 double derived_outflow_start(const ParameterValues& values) {
@@ -278,10 +280,13 @@ std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadS
                           fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place),
                           "Check the diameter");
     const double speed = rpm_to_rad_s(resolved.number("rotor.speed_rpm")) * head.tip_radius;
-    if (!resolved.tables("feed").empty() && resolved.where("rock.youngs_modulus_pa").empty())
-        rules.require(resolved.number("rock.youngs_modulus_pa") < k_stiffest_pa, "rock.youngs_modulus_pa",
-                      fmt::format("The DEM accepts at most this; at a tip speed of {:.3g} m/s rock overlaps steel by more than 5 %", speed),
-                      "Look at overlap_ratio_max in the report");
+    // Hertz' largest overlap goes with E^(-2/5).
+    const double softness = needed_youngs_modulus(resolved, head) / resolved.number("rock.youngs_modulus_pa");
+    if (!resolved.tables("feed").empty())
+        rules.require(softness <= 1.0 + 1e-9, "rock.youngs_modulus_pa",
+                      fmt::format("At a tip speed of {:.3g} m/s rock overlaps steel by {:.0f} % of its radius; {:.0f} % is accepted", speed,
+                                  100.0 * physics::k_largest_overlap_ratio * std::pow(softness, 0.4), 100.0 * physics::k_largest_overlap_ratio),
+                      "Raise it to at most what the DEM accepts, or look at overlap_ratio_max in the report");
     return rules.mistakes;
 }
 

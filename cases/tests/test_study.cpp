@@ -1,7 +1,9 @@
 #include "cases/study.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
@@ -160,6 +162,13 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
     EXPECT_NEAR(physics::hertz_largest_overlap(impact) / radius, 0.05, 1e-9);
     const ParameterValues given = resolve_study(parse(minimal("[rock]\nyoungs_modulus_pa = 1e7\n")), k_model);
     EXPECT_EQ(given.number("rock.youngs_modulus_pa"), 1e7);
+    const std::string feed = "[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\n";
+    const auto warnings = [&](const std::string& rock) { return study_warnings(resolve_study(parse(minimal(rock + feed)), k_model), k_model); };
+    EXPECT_TRUE(warnings("").empty());
+    // Overlap goes with E^(-2/5).
+    const std::string share = fmt::format("overlaps steel by {:.0f} %", 5.0 * std::pow(modulus / 1e7, 0.4));
+    ASSERT_EQ(warnings("[rock]\nyoungs_modulus_pa = 1e7\n").size(), 1u);
+    EXPECT_NE(warnings("[rock]\nyoungs_modulus_pa = 1e7\n")[0].text().find(share), std::string::npos) << share;
 }
 
 TEST(Study, refuses_sizes_that_contradict_each_other) {

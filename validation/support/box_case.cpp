@@ -21,15 +21,6 @@ std::string vector_text(const Vec3& v) {
     return fmt::format("({:.17g} {:.17g} {:.17g})", v.x(), v.y(), v.z());
 }
 
-void write_dictionary(const fs::path& case_folder, const std::string& name, const std::string& kind, const std::string& body) {
-    const fs::path file = case_folder / name;
-    fs::create_directories(file.parent_path());
-    std::ofstream stream(file);
-    stream << fmt::format("FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n{}\n", kind,
-                          file.filename().string(), body);
-    if (!stream) throw std::runtime_error("cannot write " + file.string());
-}
-
 std::string block_mesh(const BoxCase& box) {
     const Vec3& a = box.lower;
     const Vec3& b = box.upper;
@@ -45,12 +36,12 @@ std::string block_mesh(const BoxCase& box) {
 
 void write_fields(const fs::path& folder, const BoxCase& box) {
     const bool open = box.sides == BoxSides::open_top;
-    write_dictionary(
+    write_foam_dictionary(
         folder, "0/U", "volVectorField",
         fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type slip; "
                     "}}\n    top {{ {} }}\n}}",
                     open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : "type slip;"));
-    write_dictionary(
+    write_foam_dictionary(
         folder, "0/p", "volScalarField",
         fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type "
                     "fixedFluxPressure; value uniform 0; }}\n    top {{ {} }}\n}}",
@@ -58,16 +49,16 @@ void write_fields(const fs::path& folder, const BoxCase& box) {
 }
 
 void write_constant(const fs::path& folder, const BoxCase& box) {
-    write_dictionary(folder, "constant/g", "uniformDimensionedVectorField",
+    write_foam_dictionary(folder, "constant/g", "uniformDimensionedVectorField",
                      "dimensions [0 1 -2 0 0 0 0];\nvalue " + vector_text(box.gravity) + ";");
-    write_dictionary(folder, "constant/transportProperties", "dictionary",
+    write_foam_dictionary(folder, "constant/transportProperties", "dictionary",
                      fmt::format("transportModel Newtonian;\nnu {:.17g};\nrho {:.17g};", box.viscosity, box.density));
-    write_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
-    write_dictionary(folder, "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;");
+    write_foam_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
+    write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;");
     if (box.rocks.empty()) return;
     // The DEM's room is the box; its corners lie on the cylinder about the z axis through the origin.
     const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
-    write_dictionary(
+    write_foam_dictionary(
         folder, "constant/couplingProperties", "dictionary",
         fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ();\n"
                     "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall true; }}\n}}\n"
@@ -87,25 +78,34 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
 }
 
 void write_system(const fs::path& folder, const BoxCase& box) {
-    write_dictionary(folder, "system/blockMeshDict", "dictionary", block_mesh(box));
-    write_dictionary(
+    write_foam_dictionary(folder, "system/blockMeshDict", "dictionary", block_mesh(box));
+    write_foam_dictionary(
         folder, "system/controlDict", "dictionary",
         fmt::format("application cutterFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime {:.17g};\ndeltaT {:.17g};\n"
                     "adjustTimeStep no;\nmaxCo 0.9;\nmaxDeltaT {:.17g};\nwriteControl adjustable;\nwriteInterval {:.17g};\n"
                     "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;",
                     box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time)));
-    write_dictionary(folder, "system/fvSchemes", "dictionary",
+    write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
                      "ddtSchemes { default Euler; }\ngradSchemes { default Gauss linear; }\ndivSchemes\n{\n    default Gauss upwind;\n"
                      "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}\n"
                      "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { "
                      "default corrected; }");
-    write_dictionary(folder, "system/fvSolution", "dictionary",
+    write_foam_dictionary(folder, "system/fvSolution", "dictionary",
                      "solvers\n{\n    \"p.*\" { solver GAMG; smoother DICGaussSeidel; tolerance 1e-9; relTol 0; }\n"
                      "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
                      "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
 }
 
 }  // namespace
+
+void write_foam_dictionary(const fs::path& case_folder, const std::string& name, const std::string& kind, const std::string& body) {
+    const fs::path file = case_folder / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream stream(file);
+    stream << fmt::format("FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n{}\n", kind,
+                          file.filename().string(), body);
+    if (!stream) throw std::runtime_error("cannot write " + file.string());
+}
 
 std::string cutter_foam() {
     return std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam";
@@ -133,7 +133,7 @@ void write_box_case(const fs::path& folder, const BoxCase& box) {
 
 void run_cutter_foam(const fs::path& folder, int ranks) {
     if (ranks > 1 && !fs::exists(folder / "processor0")) {
-        write_dictionary(
+        write_foam_dictionary(
             folder, "system/decomposeParDict", "dictionary",
             fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n (1 1 {}); delta 0.001; order xyz; }}", ranks,
                         ranks));
@@ -197,26 +197,38 @@ RockPicture last_rocks(const fs::path& folder) {
     return {read_vectors(text, "Points"), read_vectors(text, "velocity")};
 }
 
-std::vector<double> read_scalar_field(const fs::path& file, std::size_t cells) {
+namespace {
+
+/// The numbers of an ascii field's internalField, `components` a cell.
+std::vector<double> read_field(const fs::path& file, std::size_t cells, std::size_t components) {
     std::ifstream stream(file);
     std::string text((std::istreambuf_iterator<char>(stream)), {});
     const std::size_t start = text.find("internalField");
     if (start == std::string::npos) throw std::runtime_error("no internalField in " + file.string());
-    std::istringstream values(text.substr(start + std::string("internalField").size()));
-    std::string word;
-    values >> word;
-    if (word == "uniform") {
-        double value = 0.0;
-        values >> value;
-        return std::vector<double>(cells, value);
-    }
-    std::size_t count = 0;
-    char bracket = ' ';
-    values >> word >> count >> bracket;
-    if (count != cells || bracket != '(') throw std::runtime_error("unexpected field in " + file.string());
-    std::vector<double> field(count);
-    for (double& value : field) values >> value;
-    if (!values) throw std::runtime_error("truncated field in " + file.string());
+    const std::size_t end = text.find("boundaryField", start);
+    const bool uniform = text.compare(text.find_first_not_of(' ', start + std::string("internalField").size()), 7, "uniform") == 0;
+    const std::size_t list = uniform ? text.find("uniform", start) + 7 : text.find('(', start) + 1;
+    std::string numbers = text.substr(list, end - list);
+    std::replace_if(numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ';'; }, ' ');
+    std::istringstream values(numbers);
+    std::vector<double> field;
+    for (double value; values >> value;) field.push_back(value);
+    if (uniform)
+        for (std::size_t i = components; i < cells * components; ++i) field.push_back(field[i - components]);
+    if (field.size() != cells * components) throw std::runtime_error("unexpected field in " + file.string());
+    return field;
+}
+
+}  // namespace
+
+std::vector<double> read_scalar_field(const fs::path& file, std::size_t cells) {
+    return read_field(file, cells, 1);
+}
+
+std::vector<Vec3> read_vector_field(const fs::path& file, std::size_t cells) {
+    const std::vector<double> numbers = read_field(file, cells, 3);
+    std::vector<Vec3> field;
+    for (std::size_t i = 0; i < cells; ++i) field.emplace_back(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
     return field;
 }
 

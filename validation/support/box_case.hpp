@@ -48,6 +48,9 @@ struct BoxCase {
     std::size_t cell_count() const { return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]; }
 };
 
+/// Writes `body` under OpenFOAM's head into a file of a case. \param kind  dictionary, volScalarField ...
+void write_foam_dictionary(const std::filesystem::path& case_folder, const std::string& name, const std::string& kind, const std::string& body);
+
 /// Writes the case into `folder` (created; must be empty or absent) and makes its mesh with blockMesh.
 void write_box_case(const std::filesystem::path& folder, const BoxCase& box);
 
@@ -72,6 +75,9 @@ RockPicture last_rocks(const std::filesystem::path& folder);
 
 /// Values of an ascii OpenFOAM scalar field, one per cell (a uniform field is spread over `cells` values).
 std::vector<double> read_scalar_field(const std::filesystem::path& file, std::size_t cells);
+
+/// The same of a vector field.
+std::vector<Vec3> read_vector_field(const std::filesystem::path& file, std::size_t cells);
 
 /// A fresh folder for a test's case under the build folder; what an earlier test run left there is removed.
 std::filesystem::path scratch_folder(const std::string& name);

@@ -31,6 +31,8 @@ const std::vector<Layer> k_layers = {
     {"postproc/", {"geometry/base/", "postproc/"}},
     {"cases/", {"geometry/", "meshing/", "solver/physics/", "solver/coupling/", "postproc/", "cases/"}},
     {"validation/", {"geometry/", "meshing/", "cases/", "postproc/", "validation/"}},
+    {"validation/support/", {"geometry/", "meshing/", "postproc/", "solver/coupling/", "solver/liggghts/", "validation/"}},
+    {"validation/cases/", {"geometry/", "meshing/", "cases/", "postproc/", "solver/physics/", "solver/coupling/", "validation/"}},
 };
 
 /// Third-party headers that only some folders may see.
@@ -45,7 +47,7 @@ const std::vector<Quarantine> k_quarantines = {
     {"assimp", std::regex("^assimp/"), {"geometry/io/"}},
     {"OpenFOAM", std::regex(".*\\.H$"), {"solver/foam/", "meshing/foam/"}},
     {"LIGGGHTS", std::regex("^liggghts/|^lammps\\.h$|^library\\.h$|^library_cfd_coupling\\.h$"), {"solver/liggghts/"}},
-    {"MPI", std::regex("^mpi\\.h$"), {"solver/foam/", "solver/liggghts/", "solver/app/"}},
+    {"MPI", std::regex("^mpi\\.h$"), {"solver/foam/", "solver/liggghts/", "solver/app/", "validation/support/"}},
 };
 
 bool starts_with(const std::string& text, const std::string& prefix) { return text.rfind(prefix, 0) == 0; }

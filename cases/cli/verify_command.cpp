@@ -1,0 +1,131 @@
+/// \file verify: the built-in verification suite.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cases/cli/commands.hpp"
+#include "cases/verification.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using cases::Effort;
+using postproc::Verdict;
+using postproc::VerifiedCase;
+
+constexpr const char* k_docs = CUTTERFLOW_SOURCE_DIR "/docs";
+constexpr const char* k_kept = "results/validation";
+
+struct VerifyOptions {
+    std::vector<std::string> names;
+    std::string output = "runs/verification";
+    bool list = false, all = false, fast = false, longest = false, json = false, resume = false, publish = false;
+};
+
+cases::VerificationPlaces places() {
+    const fs::path tools = fs::read_symlink("/proc/self/exe").parent_path();
+    return {CUTTERFLOW_SOURCE_DIR "/validation/cases", tools.parent_path() / "verification", tools, fs::path(k_docs) / k_kept};
+}
+
+void say(const std::string& text) {
+    std::cerr << "  " << text << std::endl;
+}
+
+void list(const std::vector<cases::VerificationCase>& all, bool json) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (const cases::VerificationCase& one : all) {
+        rows.push_back({{"case", one.name}, {"title", one.title}, {"class", cases::effort_text(one.effort)}, {"needs", one.needs}});
+        if (!json) std::cout << fmt::format("{:24} {:9} {}\n", one.name, cases::effort_text(one.effort), one.title);
+    }
+    if (json) std::cout << rows.dump(2) << "\n";
+}
+
+Effort effort_of(const VerifyOptions& options) {
+    return options.fast ? Effort::fast : options.longest ? Effort::longest : Effort::standard;
+}
+
+std::vector<cases::VerificationCase> selected(const std::vector<cases::VerificationCase>& all, const VerifyOptions& options) {
+    if (!options.all && !options.fast && options.names.empty() && !options.publish)
+        throw UserError("no case is named", "verify takes names, --fast or --all", "See cutterflow verify --list");
+    std::vector<cases::VerificationCase> chosen = cases::select_cases(all, options.names);
+    if (!options.names.empty() || (!options.all && !options.fast)) return chosen;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(chosen),
+                 [&](const cases::VerificationCase& one) { return one.effort <= effort_of(options); });
+    return chosen;
+}
+
+/// A folder's path from another, for links.
+std::string link_to_cases(const fs::path& from) {
+    return fs::path(CUTTERFLOW_SOURCE_DIR "/validation/cases").lexically_relative(fs::absolute(from).lexically_normal()).string() + "/";
+}
+
+/// Results of the folder join those kept in the repository, and its pages are made from all.
+void publish(const std::vector<VerifiedCase>& results) {
+    const fs::path docs = k_docs, kept = docs / k_kept;
+    const std::vector<VerifiedCase> all = cases::merged_verification(cases::read_verification(kept), results);
+    for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), postproc::case_json(result).dump(2) + "\n");
+    write_file(docs / "validation.md", postproc::verification_markdown(all, link_to_cases(docs)));
+    write_file(kept / "index.html", postproc::verification_page(all, link_to_cases(kept)));
+    say(fmt::format("published: {} and {}", (docs / "validation.md").string(), (kept / "index.html").string()));
+}
+
+void write_pages(const fs::path& folder, const cases::VerificationPlaces& where) {
+    const std::vector<VerifiedCase> all =
+        cases::merged_verification(cases::read_verification(where.kept), cases::read_verification(folder));
+    write_file(folder / "validation.md", postproc::verification_markdown(all, link_to_cases(folder)));
+    write_file(folder / "index.html", postproc::verification_page(all, link_to_cases(folder)));
+    say(fmt::format("the page, with earlier results of other cases: {}", (folder / "index.html").string()));
+}
+
+void verify(const VerifyOptions& options) {
+    const cases::VerificationPlaces where = places();
+    const std::vector<cases::VerificationCase> all = cases::find_verification_cases(where.cases);
+    if (options.list) return list(all, options.json);
+    const std::vector<cases::VerificationCase> chosen = selected(all, options);
+    std::vector<VerifiedCase> results;
+    try {
+        results = cases::run_verification(chosen, where, {options.output, effort_of(options), options.resume}, say);
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(fmt::format("{}. Finished cases are kept in {}; give the same command with --resume to go on",
+                                      interrupted.what(), options.output));
+    }
+    nlohmann::json rows = nlohmann::json::array();
+    std::vector<std::string> failed;
+    for (const VerifiedCase& result : results) {
+        rows.push_back(postproc::case_json(result));
+        if (!options.json) std::cout << postproc::verification_text(result);
+        if (result.verdict() == Verdict::fail || result.verdict() == Verdict::not_converged) failed.push_back(result.name);
+    }
+    if (options.json) std::cout << rows.dump(2) << std::endl;
+    write_pages(options.output, where);
+    if (options.publish) publish(cases::read_verification(options.output));
+    if (!failed.empty())
+        throw CheckFailure({"", fmt::format("{} of {} cases did not pass: {}", failed.size(), results.size(), fmt::join(failed, ", ")), "",
+                            fmt::format("Their logs and files are in {}", options.output)});
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+    auto* command = app.add_subcommand("verify", "Run cases with a known answer and say how far off the program is.");
+    const auto options = std::make_shared<VerifyOptions>();
+    command->add_option("cases", options->names, "Cases by name");
+    auto* const fast = command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
+    command->add_flag("--all", options->all, "All cases, in full");
+    command->add_flag("--long", options->longest, "What takes hours too")->excludes(fast);
+    command->add_flag("--list", options->list, "List the cases");
+    command->add_option("-o,--output", options->output, "Folder of the results")->capture_default_str();
+    command->add_flag("--resume", options->resume, "Keep the cases of the folder that were finished with the same programs");
+    command->add_flag("--publish", options->publish, "Keep the folder's results in docs/results/validation and make docs/validation.md anew");
+    command->add_flag("--json", options->json, "Print the results as JSON");
+    command->callback([options] { verify(*options); });
+}
+
+}  // namespace cutterflow::cli

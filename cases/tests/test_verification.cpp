@@ -1,0 +1,163 @@
+/// The suite's runner with shell scripts in the place of cases.
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "cases/verification.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using postproc::Verdict;
+using postproc::VerifiedCase;
+using ::testing::HasSubstr;
+
+std::string quantity(const std::string& verdict) {
+    return R"({"quantity":"speed","unit":"m/s","reference":1.0,"value":1.1,"error":0.1,"tolerance":0.2,"aim":null,)"
+           R"("rule":"relative","verdict":")" + verdict + R"(","source":"Legendre2006","note":"a cause"})";
+}
+
+class VerificationRun : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+        root_ = fs::temp_directory_path() / ("cutterflow_verify_" + std::string(test->name()));
+        fs::remove_all(root_);
+        places_ = {root_ / "cases", root_ / "programs", root_ / "bin", root_ / "kept"};
+        settings_.folder = root_ / "results";
+        fs::create_directories(places_.programs);
+    }
+    void TearDown() override { fs::remove_all(root_); }
+
+    void add_case(const std::string& name, const std::string& script, const std::string& head = "- class: fast\n") {
+        write_file(places_.cases / name / "README.md", "# Case " + name + "\n\n" + head + "\nText.\n");
+        if (script.empty()) return;
+        write_file(places_.programs / name, "#!/bin/sh\n" + script + "\n");
+        fs::permissions(places_.programs / name, fs::perms::owner_all);
+    }
+    /// A case that finds one quantity and adds a line to a file each time it runs.
+    void add_case_with(const std::string& name, const std::string& verdict) {
+        add_case(name, fmt::format("echo run >> {}\necho '[{}]' > $2/quantities.json\n{}", (root_ / (name + ".runs")).string(),
+                                   quantity(verdict), verdict == "fail" ? "exit 4" : "exit 0"));
+    }
+    std::size_t times_run(const std::string& name) const {
+        return fs::exists(root_ / (name + ".runs")) ? fs::file_size(root_ / (name + ".runs")) / 4 : 0;
+    }
+    std::vector<VerifiedCase> run() {
+        return run_verification(find_verification_cases(places_.cases), places_, settings_, [](const std::string&) {});
+    }
+
+    fs::path root_;
+    VerificationPlaces places_;
+    VerificationSettings settings_;
+};
+
+TEST_F(VerificationRun, tells_each_case_by_what_its_program_found) {
+    add_case_with("bad", "fail");
+    add_case_with("good", "pass");
+    add_case_with("loose", "not converged");
+    const auto results = run();
+    ASSERT_EQ(results.size(), 3u);
+    EXPECT_EQ(results[0].verdict(), Verdict::fail);
+    EXPECT_EQ(results[1].verdict(), Verdict::pass);
+    EXPECT_EQ(results[1].title, "Case good");
+    EXPECT_EQ(results[1].quantities.at(0).value, 1.1);
+    EXPECT_EQ(results[2].verdict(), Verdict::not_converged);
+    EXPECT_EQ(read_verification(settings_.folder).size(), 3u) << "every case has its file";
+}
+
+TEST_F(VerificationRun, skips_what_cannot_run_here_and_never_passes_it) {
+    add_case("unbuilt", "");
+    add_case("bare", "exit 0", "- class: fast\n- needs: sh, noSuchSolver\n");
+    for (const VerifiedCase& result : run()) {
+        EXPECT_EQ(result.verdict(), Verdict::skipped);
+        EXPECT_FALSE(result.reason.empty());
+    }
+    EXPECT_THAT(read_verification(settings_.folder)[0].reason, HasSubstr("noSuchSolver not found"));
+}
+
+TEST_F(VerificationRun, a_program_that_breaks_or_says_nothing_fails) {
+    add_case("crash", "echo 'the mesh is gone'; exit 3");
+    add_case("killed", "kill -9 $$");
+    for (const VerifiedCase& result : run()) EXPECT_EQ(result.verdict(), Verdict::fail);
+    const auto kept = read_verification(settings_.folder);
+    EXPECT_EQ(kept[0].verdict(), Verdict::fail);
+    EXPECT_THAT(kept[0].reason, HasSubstr("the mesh is gone"));
+    add_case("silent", "exit 0");
+    EXPECT_EQ(run().back().verdict(), Verdict::fail);
+}
+
+TEST_F(VerificationRun, resume_keeps_what_the_same_programs_finished) {
+    add_case_with("one", "pass");
+    run();
+    settings_.resume = true;
+    add_case_with("two", "pass");
+    run();
+    EXPECT_EQ(times_run("one"), 1u);
+    EXPECT_EQ(times_run("two"), 1u);
+    settings_.effort = Effort::longest;  // asks for more than what was done
+    run();
+    EXPECT_EQ(times_run("one"), 2u);
+    write_file(places_.tools / "cutterFoam", "another solver");
+    run();
+    EXPECT_EQ(times_run("one"), 3u);
+    settings_.resume = false;
+    run();
+    EXPECT_EQ(times_run("two"), 4u);
+}
+
+TEST_F(VerificationRun, refuses_unknown_names_wrong_heads_and_folders_of_others) {
+    add_case_with("settling", "pass");
+    add_case_with("couette", "pass");
+    const auto all = find_verification_cases(places_.cases);
+    EXPECT_EQ(select_cases(all, {"settling"}).at(0).name, "settling");
+    try {
+        select_cases(all, {"setling", "x"});
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 2u);
+        EXPECT_THAT(error.what(), HasSubstr("The cases are couette, settling"));
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean settling?"));
+    }
+    write_file(root_ / "thesis/chapter.tex", "mine");
+    settings_.folder = root_ / "thesis";
+    EXPECT_THROW(run(), UserError);
+    add_case("headless", "exit 0", "- class: quick\n");
+    EXPECT_THROW(find_verification_cases(places_.cases), UserError);
+}
+
+TEST_F(VerificationRun, keeps_the_result_that_was_run_with_more_effort) {
+    VerifiedCase older, newer;
+    older.name = newer.name = "settling";
+    older.effort = "standard";
+    newer.effort = "fast";
+    older.quantities = newer.quantities = {postproc::quantity_from_json(nlohmann::json::parse(quantity("pass")), "here")};
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard");
+    EXPECT_EQ(merged_verification({newer}, {older}).at(0).effort, "standard");
+    newer.effort = "long";
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "long");
+    newer.quantities.clear();
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard") << "a skipped case replaces nothing";
+}
+
+TEST_F(VerificationRun, pages_name_every_shortfall_with_its_cause) {
+    add_case_with("bad", "fail");
+    add_case_with("good", "pass");
+    add_case("unbuilt", "");
+    const auto results = run();
+    const std::string markdown = postproc::verification_markdown(results, "../cases/");
+    EXPECT_THAT(markdown, HasSubstr("1 of 2 quantities of 3 cases pass"));
+    EXPECT_THAT(markdown, HasSubstr("[bad](#bad), speed [m/s], **fail**: 10 % where ≤ 20 % is asked. a cause"));
+    EXPECT_THAT(markdown, HasSubstr("[unbuilt](#unbuilt), skipped: its program"));
+    EXPECT_THAT(markdown, HasSubstr("(../cases/good/README.md)"));
+    const std::string page = postproc::verification_page(results, "../cases/");
+    EXPECT_THAT(page, HasSubstr("<span class=\"failed\">fail</span>: 10 % where ≤ 20 % is asked. a cause"));
+    EXPECT_THAT(page, HasSubstr("not built"));
+}
+
+}  // namespace
+}  // namespace cutterflow::cases
