@@ -119,7 +119,6 @@ double difference(const Result& one, const Result& other) {
 
 void run(Verification& verification) {
     check_mode(verification, k_against);
-    if (!verification.wants(Effort::standard)) return;
     check_mode(verification, k_still);
     check_mode(verification, k_with);
     const Result serial = run_couette(verification, k_against, 2, 1);

@@ -135,37 +135,72 @@ void check_oblique(Verification& verification) {
     }
 }
 
+/// Steel at 5 m/s, elastic. A sphere that slides throughout (x = V_st/(mu V_n) above 7) has y1 = V_st'/(mu V_n) = x - 7 and the spin 5 mu V_n/R.
 void check_constant_normal_speed(Verification& verification) {
     constexpr double radius = 0.01, normal = 5.0, friction = 0.3;
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test5.csv", {{"x", "-"}, {"y1", "-"}, {"y2", "-"}});
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-        const double x = table.at("x")[i];
-        const Oblique after = hit_wall(k_steel, radius, 1.0, friction, normal, x * friction * normal, 0.0);
-        const About about{table.source, "steel, elastic; tolerance 2 % of the full scale 5", {}};
-        verification.absolute(fmt::format("test 5, V_st = {} mu V_n: velocity of the contact patch over mu V_n", x), "-",
-                              (after.tangential - radius * after.spin) / (friction * after.normal), table.at("y1")[i], 0.1, about);
-        verification.absolute(fmt::format("test 5, V_st = {} mu V_n: spin over mu V_n / R", x), "-", -radius * after.spin / (friction * normal),
-                              table.at("y2")[i], 0.1, about);
+    const auto patch = [&](double x, Oblique& after) {
+        after = hit_wall(k_steel, radius, 1.0, friction, normal, x * friction * normal, 0.0);
+        return (after.tangential - radius * after.spin) / (friction * after.normal);
+    };
+    const About sliding{"ChungOoi2011", "steel, elastic, slides throughout: the reference is the closed form", {}};
+    Oblique after;
+    for (const double x : {8.0, 10.0, 13.0}) {
+        verification.relative(fmt::format("test 5, V_st = {} mu V_n: velocity of the contact patch over mu V_n", x), "-", patch(x, after), x - 7.0, 0.02, sliding);
+        verification.relative(fmt::format("test 5, V_st = {} mu V_n: spin over mu V_n / R", x), "-", radius * after.spin / (friction * normal), 5.0, 0.02, sliding);
     }
+    if (!verification.wants(Effort::standard)) return;
+    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test5.csv", {{"x", "-"}, {"y1", "-"}});
+    double error = 0.0;
+    for (std::size_t i = 0; i < table.rows(); ++i) error = std::max(error, std::abs(patch(table.at("x")[i], after) - table.at("y1")[i]));
+    verification.at_most("test 5: largest distance of the patch's velocity from the finite-element curve, over 5 mu V_n", "-", error / 5.0, 0.02,
+                         {table.source,
+                          "Where the sphere sticks in part, micro-slip spreads over the contact from its edge; Mindlin's spring with one Coulomb limit has no "
+                          "such history. Test 4's curve, which such laws gave, is met.",
+                          {}});
+}
+
+/// Test 6: beta = -V_st'/V_st of a spinning sphere on a wall; test 8: on a sphere of five times its size and a thousand times its density.
+struct Spin {
+    double wall = 0.0, spheres = 0.0;
+};
+
+Spin spin_test(double x) {
+    constexpr double radius = 0.1, normal = 0.2, friction = 0.4, restitution = 0.5;
+    const double slip = 3.5 * friction * (1.0 + restitution) * normal / x;
+    const Oblique after = hit_wall(k_alloy6, radius, restitution, friction, normal, 0.0, -slip / radius);
+    const physics::Impact hertz{ball_mass(radius, k_alloy6.density), radius / 1.2, 0.5 * plane_modulus(k_alloy6), normal};
+    const Impact pair = collide(dry_room(4.0, false, k_alloy6, restitution, friction, normal),
+                                {{radius, k_alloy6.density, Vec3(0, 0, radius * (1.0 + 1e-4)), Vec3(0, 0, -normal), Vec3(0, -slip / radius, 0)},
+                                 {5.0 * radius, 1000.0 * k_alloy6.density, Vec3(0, 0, -5.0 * radius), Vec3::Zero(), Vec3::Zero()}},
+                                physics::hertz_time(hertz) / 200.0);
+    return {-(after.tangential - radius * after.spin) / slip, -(pair.velocity[0].x() - radius * pair.spin[0].y()) / slip};
 }
 
 void check_spin(Verification& verification) {
-    constexpr double radius = 0.1, normal = 0.2, friction = 0.4, restitution = 0.5;
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test6.csv", {{"x", "-"}, {"beta wall", "-"}, {"beta spheres", "-"}});
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-        const double x = table.at("x")[i], slip = 3.5 * friction * (1.0 + restitution) * normal / x;
-        const About about{table.source, "aluminium alloy, e = 0.5; tolerance 3 % of the full scale 1", {}};
-        const Oblique after = hit_wall(k_alloy6, radius, restitution, friction, normal, 0.0, -slip / radius);
-        verification.absolute(fmt::format("test 6, x = {}: beta", x), "-", -(after.tangential - radius * after.spin) / slip, table.at("beta wall")[i], 0.03, about);
-
-        const physics::Impact hertz{ball_mass(radius, k_alloy6.density), radius / 1.2, 0.5 * plane_modulus(k_alloy6), normal};
-        const Impact pair = collide(dry_room(4.0, false, k_alloy6, restitution, friction, normal),
-                                    {{radius, k_alloy6.density, Vec3(0, 0, radius * (1.0 + 1e-4)), Vec3(0, 0, -normal), Vec3(0, -slip / radius, 0)},
-                                     {5.0 * radius, 1000.0 * k_alloy6.density, Vec3(0, 0, -5.0 * radius), Vec3::Zero(), Vec3::Zero()}},
-                                    physics::hertz_time(hertz) / 200.0);
-        verification.absolute(fmt::format("test 8, x = {}: beta", x), "-", -(pair.velocity[0].x() - radius * pair.spin[0].y()) / slip,
-                              table.at("beta spheres")[i], 0.03, about);
+    const About sliding{"ChungOoi2011", "aluminium alloy, e = 0.5, slides throughout: the reference is the closed form x - 1; tolerance 3 % of the full scale 1", {}};
+    for (const double x : {0.1, 0.2, 0.4}) {
+        const Spin found = spin_test(x);
+        verification.absolute(fmt::format("test 6, x = {}: beta", x), "-", found.wall, x - 1.0, 0.03, sliding);
+        verification.absolute(fmt::format("test 8, x = {}: beta", x), "-", found.spheres, x - 1.0, 0.03, sliding);
     }
+    if (!verification.wants(Effort::standard)) return;
+    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test6.csv", {{"x", "-"}, {"beta wall", "-"}, {"beta spheres", "-"}});
+    Spin slides, sticks;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const double x = table.at("x")[i];
+        const Spin found = spin_test(x);
+        Spin& worst = x < 1.0 ? slides : sticks;
+        worst.wall = std::max(worst.wall, std::abs(found.wall - table.at("beta wall")[i]));
+        worst.spheres = std::max(worst.spheres, std::abs(found.spheres - table.at("beta spheres")[i]));
+    }
+    const About slide_note{table.source, "x below 1. With e = 0.5 the damped spring pulls at the contact's end, and the law rubs then too, as its source has it (mu |F_n|): "
+                                         "so friction takes up to 6 % more.", {}};
+    const About stick_note{table.source, "x above 1. The solver's law damps the tangential direction with the same factor as the normal one (Tsuji's form, as its source has "
+                                         "it): with e = 0.5 little of the recoil is left. For rock, e = 0.97, test 4 holds.", {}};
+    verification.at_most("test 6: largest distance of beta from the curve, sliding", "-", slides.wall, 0.03, slide_note);
+    verification.at_most("test 8: largest distance of beta from the curve, sliding", "-", slides.spheres, 0.03, slide_note);
+    verification.at_most("test 6: largest distance of beta from the curve, sticking", "-", sticks.wall, 0.03, stick_note);
+    verification.at_most("test 8: largest distance of beta from the curve, sticking", "-", sticks.spheres, 0.03, stick_note);
 }
 
 void check_gears(Verification& verification) {

@@ -94,7 +94,8 @@ void check_drum(Verification& verification) {
     const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/wet.csv", {{"impact speed", "m/s"}, {"restitution", "-"}});
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double speed = table.at("impact speed")[i];
-        for (const double surface_speed : {0.0, 5.0 * speed}) {
+        for (const double surface_speed : {0.0, speed, 5.0 * speed}) {
+            if (surface_speed > speed && speed < 1.0) continue;  // a facet's edge gives a blow of its own, see README.md
             coupling::DemSettings settings = in_fluid(dry_room(0.4, false, k_rock, 0.97, 0.0, 1.0), k_water, k_viscosity);
             settings.walls = {{"drum", file, true}};
             Ball ball{k_radius, k_rock.density, Vec3(drum + k_radius * 1.0001, 0.0, 0.0), Vec3(-speed, 0.0, 0.0)};

@@ -58,7 +58,7 @@ void settle(Verification& verification, const Room& room) {
 
 void run(Verification& verification) {
     for (const Room& room : {Room{0.7, 0.14, 0.45, 0.30, 1, Effort::fast}, Room{1.0, 0.12, 0.40, 0.26, 1, Effort::standard},
-                             Room{2.0, 0.06, 0.32, 0.22, 1, Effort::fast}, Room{5.0, 0.04, 0.22, 0.14, 2, Effort::standard}})
+                             Room{2.0, 0.06, 0.32, 0.22, 1, Effort::standard}, Room{5.0, 0.04, 0.22, 0.14, 2, Effort::standard}})
         if (verification.wants(room.effort)) settle(verification, room);
 }
 
