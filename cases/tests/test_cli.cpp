@@ -114,7 +114,7 @@ const char* const k_feed = "[[feed]]\ncount = 20\n[[feed.class]]\ndiameter_m = 0
 TEST_F(Cli, explains_itself) {
     const Outcome help = call({"--help"});
     EXPECT_EQ(help.code, 0);
-    for (const char* command : {"new", "check", "inspect", "repair", "generate-cutter", "mesh", "run", "report", "params"}) {
+    for (const char* command : {"new", "check", "verify", "inspect", "repair", "generate-cutter", "mesh", "run", "report", "params"}) {
         expect_contains(help.text, command);
         const Outcome of_command = call({command, "--help"});
         EXPECT_EQ(of_command.code, 0) << command;
@@ -123,6 +123,18 @@ TEST_F(Cli, explains_itself) {
     EXPECT_EQ(call({}).code, 2);
     expect_refused(call({"runn"}), 2, "there is no command runn");
     EXPECT_EQ(call({"--version"}).text.substr(0, 2), "0.");
+}
+
+TEST_F(Cli, verify_lists_its_cases_and_refuses_others) {
+    const Outcome listed = call({"verify", "--list"});
+    EXPECT_EQ(listed.code, 0);
+    expect_contains(listed.text, "suspension");
+    expect_refused(call({"verify", "suspensoin", "-o", "out"}), 2, "there is no verification case suspensoin");
+    expect_contains(call({"verify", "suspensoin", "-o", "out"}).text, "Did you mean suspension?");
+    expect_refused(call({"verify"}), 2, "verify takes names, --fast or --all");
+    write_file(folder_ / "thesis/chapter.tex", "mine");
+    expect_refused(call({"verify", "suspension", "-o", "thesis"}), 2, "Nothing is overwritten");
+    expect_refused(call({"verify", "suspension", "-o", "my results"}), 2, "OpenFOAM");
 }
 
 TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {
