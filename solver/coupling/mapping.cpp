@@ -26,9 +26,26 @@ void Mapping::set_rotor_angle(double angle) {
     angle_ = angle;
     frames_ = ZoneFrames(axis_, angle);
     visibility_.set_frames(frames_);
+    has_turned_ = true;
+    last_.reset();
+}
+
+bool Mapping::Kept::are_of(const RockShapes& rocks) const {
+    const auto equal = [](const auto& kept, const auto& given) { return std::equal(kept.begin(), kept.end(), given.begin(), given.end()); };
+    return equal(id, rocks.id) && equal(position, rocks.position) && equal(diameter, rocks.diameter);
 }
 
 Stencils Mapping::build(const RockShapes& rocks) {
+    if (has_turned_) return build_anew(rocks);
+    if (!last_ || !last_->are_of(rocks))
+        last_ = Kept{{rocks.id.begin(), rocks.id.end()},
+                     {rocks.position.begin(), rocks.position.end()},
+                     {rocks.diameter.begin(), rocks.diameter.end()},
+                     build_anew(rocks)};
+    return last_->stencils;
+}
+
+Stencils Mapping::build_anew(const RockShapes& rocks) {
     Stencils stencils;
     stencils.first.push_back(0);
     std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
@@ -40,7 +57,7 @@ Stencils Mapping::build(const RockShapes& rocks) {
         stencils.width.push_back(width);
         stencils.in_rotor.push_back(sizes_.nearest(frames_, rocks.position[p]).zone == rotor ? 1 : 0);
         visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
-        add_entries(rocks.position[p], width, stencils);
+        add_entries(rocks.position[p], width, physics::quadratic_share(kernel_.gamma * rocks.diameter[p] / width), stencils);
         add_sums(stencils, p, sums);
     }
     communicator_.sum(sums);
@@ -60,7 +77,7 @@ Stencils Mapping::build(const RockShapes& rocks) {
 }
 
 /// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at.
-void Mapping::add_entries(const Vec3& position, double width, Stencils& stencils) {
+void Mapping::add_entries(const Vec3& position, double width, double quadratic_share, Stencils& stencils) {
     const double inverse_width2 = 1.0 / (width * width);
     for (const Zone zone : k_zones) {
         found_.clear();
@@ -71,7 +88,7 @@ void Mapping::add_entries(const Vec3& position, double width, Stencils& stencils
             const double q = n.squared_distance * inverse_width2;
             stencils.cell.push_back(n.index);
             stencils.deposit.push_back(visible * physics::gaussian_weight(q));
-            stencils.sample.push_back(visible * physics::quadratic_weight(q));
+            stencils.sample.push_back(visible * physics::sampling_weight(q, quadratic_share));
         }
     }
     stencils.first.push_back(stencils.cell.size());
@@ -101,7 +118,8 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
         if (next != hidden.end() && *next == p) {
             visibility_.look_from_point(sizes_.nearest(frames_, rocks.position[p]).centre,
                                         physics::k_kernel_reach * 2.0 * stencils.width[p]);
-            add_entries(rocks.position[p], stencils.width[p], replaced);
+            add_entries(rocks.position[p], stencils.width[p],
+                        physics::quadratic_share(kernel_.gamma * rocks.diameter[p] / stencils.width[p]), replaced);
             add_sums(replaced, p, new_sums);
             ++next;
             continue;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Mapping between rocks and the cells of this rank: one stencil per rock serves every field in both directions.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "solver/coupling/communicator.hpp"
@@ -40,7 +41,8 @@ public:
     /// The mesh stands at this rotor angle [rad] from now on.
     void set_rotor_angle(double angle);
 
-    /// Stencils of the rocks at their positions on the present mesh. Collective.
+    /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are kept: what is new in one
+    /// step is old in the next. Collective.
     /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
     Stencils build(const RockShapes& rocks);
 
@@ -51,7 +53,17 @@ public:
     const Visibility& visibility() const { return visibility_; }
 
 private:
-    void add_entries(const Vec3& position, double width, Stencils& stencils);
+    /// Stencils and the rocks that they belong to.
+    struct Kept {
+        std::vector<int> id;
+        std::vector<Vec3> position;
+        std::vector<double> diameter;
+        Stencils stencils;
+        bool are_of(const RockShapes& rocks) const;
+    };
+
+    Stencils build_anew(const RockShapes& rocks);
+    void add_entries(const Vec3& position, double width, double quadratic_share, Stencils& stencils);
     void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
     void add_sums(const Stencils& stencils, std::size_t rock, std::vector<double>& sums) const;
 
@@ -63,6 +75,8 @@ private:
     Communicator& communicator_;
     ZoneFrames frames_;
     double angle_ = 0.0;
+    std::optional<Kept> last_;  // none once the mesh has turned
+    bool has_turned_ = false;
     std::size_t hidden_rocks_ = 0;
     std::vector<Neighbour> found_;
 };

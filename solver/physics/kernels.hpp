@@ -1,6 +1,7 @@
 #pragma once
 /// \file Weights of the mapping between rock and fluid, as functions of (distance / kernel width)^2. Unnormalised: the mapping divides by
 /// the volume-weighted sum over the cells that it finds. Both vanish with zero slope at the cut, so that no cell pops in or out.
+#include <algorithm>
 #include <cmath>
 
 namespace cutterflow::physics {
@@ -29,6 +30,26 @@ inline double quadratic_weight(double q) {
     if (q >= k_kernel_reach2) return 0.0;
     const double s = (k_kernel_reach2 - q) / (k_kernel_reach2 - fade);
     return q * s * s * (3.0 - 2.0 * s);
+}
+
+/// Integrals of the two weights over space, in units of sigma^3: what they are compared by.
+inline constexpr double k_gaussian_integral = 11.770376;
+inline constexpr double k_quadratic_integral = 285.71962;
+
+/// Share of the quadratic weight in what rock sees of the fluid: 1 for rock as large as cells and above (the reference's weight), 0 for
+/// rock below half a cell, smooth between. The quadratic weight is a shell: waves in the fluid about 3 sigma long it shows with the wrong
+/// sign (-0.14 of their height), so that drag feeds them. Rock that is small beside its kernel hardly disturbs the fluid that it
+/// sees and may look with the weight by which it pushes, under which drag can only take energy out.
+/// \param own_width_share  gamma d / sigma, in (0, 1]
+inline double quadratic_share(double own_width_share) {
+    // sigma = 1.5 dx there, so 1/3 is a rock of half a cell and 2/3 one of a cell.
+    const double s = std::min(1.0, std::max(0.0, 3.0 * own_width_share - 1.0));
+    return s * s * (3.0 - 2.0 * s);
+}
+
+/// Weight from fluid to rock: the quadratic and the Gaussian weight mixed.
+inline double sampling_weight(double q, double share) {
+    return share * quadratic_weight(q) / k_quadratic_integral + (1.0 - share) * gaussian_weight(q) / k_gaussian_integral;
 }
 
 }  // namespace cutterflow::physics

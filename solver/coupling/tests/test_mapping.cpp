@@ -110,6 +110,27 @@ TEST(Mapping, samples_a_linear_field_at_the_rock) {
     EXPECT_LE((mean - rocks.position[0]).norm(), 0.02 * dx);
 }
 
+TEST(Mapping, gives_the_same_stencils_again_and_new_ones_to_rock_that_moved) {
+    const double dx = 0.01, d = 0.02;
+    TestRocks rocks = one_rock(Vec3(0.0123, -0.0071, 0.0049), d);
+    rocks.add(Vec3(-0.05, 0.02, 0.0), d);
+    Bench bench(cube(0.2, dx));
+    const Stencils first = bench.build(rocks);
+    const Stencils again = bench.build(rocks);
+    EXPECT_EQ(again.cell, first.cell);
+    EXPECT_EQ(again.deposit, first.deposit);
+    EXPECT_EQ(again.sample, first.sample);
+
+    rocks.position[1].x() += 0.3 * dx;
+    const Stencils moved = bench.build(rocks);
+    const Stencils expected = Bench(cube(0.2, dx)).build(rocks);
+    EXPECT_NE(moved.deposit, first.deposit);
+    EXPECT_EQ(moved.cell, expected.cell);
+    EXPECT_EQ(moved.deposit, expected.deposit);
+    EXPECT_EQ(moved.sample, expected.sample);
+    EXPECT_EQ(bench.build(TestRocks()).size(), 0u);
+}
+
 TEST(Mapping, refuses_rock_outside_the_mesh) {
     Bench bench(cube(0.2, 0.01));
     EXPECT_THROW(bench.build(one_rock(Vec3(0.5, 0, 0), 0.02)), CheckFailure);
