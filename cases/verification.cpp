@@ -145,6 +145,8 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     }
     for (const nlohmann::json& quantity : nlohmann::json::parse(read_file(written)))
         result.quantities.push_back(postproc::quantity_from_json(quantity, written.string()));
+    const fs::path shown = work / "exhibits.json";
+    if (fs::exists(shown)) result.exhibits = postproc::exhibits_from_json(nlohmann::json::parse(read_file(shown)));
     return result;
 }
 

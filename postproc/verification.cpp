@@ -112,7 +112,7 @@ nlohmann::json quantity_json(const VerifiedQuantity& quantity) {
 nlohmann::json case_json(const VerifiedCase& result) {
     nlohmann::json quantities = nlohmann::json::array();
     for (const VerifiedQuantity& quantity : result.quantities) quantities.push_back(quantity_json(quantity));
-    return {{"case", result.name},
+    nlohmann::json json = {{"case", result.name},
             {"title", result.title},
             {"class", result.effort},
             {"verdict", verdict_text(result.verdict())},
@@ -123,6 +123,8 @@ nlohmann::json case_json(const VerifiedCase& result) {
             {"date", result.date},
             {"machine", result.machine},
             {"programs", result.programs}};
+    if (!result.exhibits.empty()) json["exhibits"] = exhibits_json(result.exhibits);
+    return json;
 }
 
 VerifiedQuantity quantity_from_json(const nlohmann::json& json, const std::string& where) {
@@ -142,6 +144,7 @@ VerifiedCase case_from_json(const std::string& text, const std::string& where) {
         result.effort = json.at("class");
         result.reason = json.at("reason");
         for (const nlohmann::json& quantity : json.at("quantities")) result.quantities.push_back(read_quantity(quantity));
+        if (json.contains("exhibits")) result.exhibits = exhibits_from_json(json.at("exhibits"));
         result.failed_as_a_whole = json.at("verdict") == verdict_text(Verdict::fail) && !result.reason.empty();
         result.core_s = json.at("core_s");
         result.wall_s = json.at("wall_s");

@@ -1,11 +1,14 @@
 #pragma once
 /// \file What a verification case found: quantities held against a reference, as JSON and on pages.
 /// docs/design/009-verification.md says what stands in the files.
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "postproc/exhibits.hpp"
 
 namespace cutterflow::postproc {
 
@@ -48,6 +51,7 @@ struct VerifiedCase {
     std::string name, title;
     std::string effort;  ///< fast, standard or long: how much of the case was run
     std::vector<VerifiedQuantity> quantities;
+    Exhibits exhibits;
     std::string reason;             ///< why the case as a whole was skipped or failed; empty otherwise
     bool failed_as_a_whole = false;
     double core_s = 0.0, wall_s = 0.0;
@@ -72,8 +76,8 @@ std::string quantity_text(const VerifiedQuantity& quantity);
 std::string verification_text(const VerifiedCase& result);
 
 /// The same content as Markdown (docs/validation.md) and as an HTML page. `link` goes in front of a case's name to make the path of its
-/// README.
+/// README. Charts are drawn with the help of files in `scratch`; without gnuplot they stand as tables.
 std::string verification_markdown(const std::vector<VerifiedCase>& results, const std::string& link);
-std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link);
+std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link, const std::filesystem::path& scratch);
 
 }  // namespace cutterflow::postproc

@@ -144,6 +144,37 @@ std::string html_list(const std::vector<std::string>& lines) {
     return lines.empty() ? "" : fmt::format("<ul><li>{}</li></ul>\n", fmt::join(lines, "</li><li>"));
 }
 
+/// Tables, and charts as tables.
+std::vector<ExhibitTable> tables_of(const Exhibits& exhibits) {
+    std::vector<ExhibitTable> tables = exhibits.tables;
+    for (const Chart& chart : exhibits.charts) tables.push_back(chart_table(chart));
+    return tables;
+}
+
+std::string exhibits_markdown(const Exhibits& exhibits, const Markup& markup) {
+    std::string text;
+    for (ExhibitTable table : tables_of(exhibits)) {
+        for (auto& row : table.rows) std::transform(row.begin(), row.end(), row.begin(), markup.escape);
+        text += fmt::format("### {}\n\n{}", table.title, markdown_table(table.columns, table.rows));
+    }
+    return text;
+}
+
+std::string exhibits_html(const VerifiedCase& result, const std::filesystem::path& scratch) {
+    std::string text;
+    const bool draws = gnuplot_is_installed();
+    for (ExhibitTable table : draws ? result.exhibits.tables : tables_of(result.exhibits)) {
+        for (auto& row : table.rows) std::transform(row.begin(), row.end(), row.begin(), html::escape);
+        text += fmt::format("<h3>{}</h3>\n{}", html::escape(table.title), html::table(table.columns, table.rows, true));
+    }
+    std::string figures;
+    for (std::size_t i = 0; draws && i < result.exhibits.charts.size(); ++i) {
+        const Chart& chart = result.exhibits.charts[i];
+        figures += html::figure(draw_svg(chart_plot(chart, fmt::format("{}_{}", result.name, i)), scratch), html::escape(chart.title));
+    }
+    return figures.empty() ? text : text + "<div class=\"figures\">" + figures + "</div>\n";
+}
+
 std::string without_backticks(std::string text) {
     text.erase(std::remove(text.begin(), text.end(), '`'), text.end());
     return text;
@@ -185,13 +216,14 @@ std::string verification_markdown(const std::vector<VerifiedCase>& results, cons
         text += fmt::format("## {}\n\n{}. [How it is set up]({}{}/README.md). {}\n\n", result.name, result.title, link, result.name,
                             run_text(result));
         if (!result.quantities.empty()) text += markdown_table(k_quantity_header, quantity_rows(result, markup));
+        text += exhibits_markdown(result.exhibits, markup);
         text += markdown_list(notes(result, markup));
     }
     text.pop_back();
     return text;
 }
 
-std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link) {
+std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link, const std::filesystem::path& scratch) {
     const Markup markup{html::escape,
                         [](Verdict verdict) {
                             const char* css = verdict == Verdict::pass                                              ? "passed"
@@ -212,6 +244,7 @@ std::string verification_page(const std::vector<VerifiedCase>& results, const st
                                           markup.link("How it is set up", link + result.name + "/README.md"),
                                           html::escape(run_text(result)));
         if (!result.quantities.empty()) content += html::table(k_quantity_header, quantity_rows(result, markup), true);
+        content += exhibits_html(result, scratch);
         content += html_list(notes(result, markup));
         body += html::section(result.name, content);
     }

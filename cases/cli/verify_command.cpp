@@ -22,9 +22,10 @@ using postproc::VerifiedCase;
 
 constexpr const char* k_docs = CUTTERFLOW_SOURCE_DIR "/docs";
 constexpr const char* k_kept = "results/validation";
+constexpr const char* k_charts = "charts";  // what they are drawn from, in the folder of results
 
 struct VerifyOptions {
-    std::vector<std::string> names;
+    std::vector<std::string> names, pareto;
     std::string output = "runs/verification";
     bool list = false, all = false, fast = false, longest = false, json = false, resume = false, publish = false;
 };
@@ -67,12 +68,12 @@ std::string link_to_cases(const fs::path& from) {
 }
 
 /// Results of the folder join those kept in the repository, and its pages are made from all.
-void publish(const std::vector<VerifiedCase>& results) {
+void publish(const std::vector<VerifiedCase>& results, const fs::path& scratch) {
     const fs::path docs = k_docs, kept = docs / k_kept;
     const std::vector<VerifiedCase> all = cases::merged_verification(cases::read_verification(kept), results);
     for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), postproc::case_json(result).dump(2) + "\n");
     write_file(docs / "validation.md", postproc::verification_markdown(all, link_to_cases(docs)));
-    write_file(kept / "index.html", postproc::verification_page(all, link_to_cases(kept)));
+    write_file(kept / "index.html", postproc::verification_page(all, link_to_cases(kept), scratch));
     say(fmt::format("published: {} and {}", (docs / "validation.md").string(), (kept / "index.html").string()));
 }
 
@@ -80,7 +81,7 @@ void write_pages(const fs::path& folder, const cases::VerificationPlaces& where)
     const std::vector<VerifiedCase> all =
         cases::merged_verification(cases::read_verification(where.kept), cases::read_verification(folder));
     write_file(folder / "validation.md", postproc::verification_markdown(all, link_to_cases(folder)));
-    write_file(folder / "index.html", postproc::verification_page(all, link_to_cases(folder)));
+    write_file(folder / "index.html", postproc::verification_page(all, link_to_cases(folder), folder / k_charts));
     say(fmt::format("the page, with earlier results of other cases: {}", (folder / "index.html").string()));
 }
 
@@ -105,7 +106,7 @@ void verify(const VerifyOptions& options) {
     }
     if (options.json) std::cout << rows.dump(2) << std::endl;
     write_pages(options.output, where);
-    if (options.publish) publish(cases::read_verification(options.output));
+    if (options.publish) publish(cases::read_verification(options.output), fs::path(options.output) / k_charts);
     if (!failed.empty())
         throw CheckFailure({"", fmt::format("{} of {} cases did not pass: {}", failed.size(), results.size(), fmt::join(failed, ", ")), "",
                             fmt::format("Their logs and files are in {}", options.output)});
@@ -118,6 +119,8 @@ void add_verify(CLI::App& app) {
     const auto options = std::make_shared<VerifyOptions>();
     command->add_option("cases", options->names, "Cases by name");
     auto* const fast = command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
+    command->add_option("--pareto", options->pareto,
+                        "Error against cost, one chart an option, defaults marked: the cases pareto_<name> (an hour or so)");
     command->add_flag("--all", options->all, "All cases, in full");
     command->add_flag("--long", options->longest, "What takes hours too")->excludes(fast);
     command->add_flag("--list", options->list, "List the cases");
@@ -125,7 +128,11 @@ void add_verify(CLI::App& app) {
     command->add_flag("--resume", options->resume, "Keep the cases of the folder that were finished with the same programs");
     command->add_flag("--publish", options->publish, "Keep the folder's results in docs/results/validation and make docs/validation.md anew");
     command->add_flag("--json", options->json, "Print the results as JSON");
-    command->callback([options] { verify(*options); });
+    command->callback([options] {
+        for (const std::string& name : options->pareto) options->names.push_back("pareto_" + name);
+        options->longest = options->longest || !options->pareto.empty();
+        verify(*options);
+    });
 }
 
 }  // namespace cutterflow::cli

@@ -154,9 +154,28 @@ TEST_F(VerificationRun, pages_name_every_shortfall_with_its_cause) {
     EXPECT_THAT(markdown, HasSubstr("[bad](#bad), speed [m/s], **fail**: 10 % where ≤ 20 % is asked. a cause"));
     EXPECT_THAT(markdown, HasSubstr("[unbuilt](#unbuilt), skipped: its program"));
     EXPECT_THAT(markdown, HasSubstr("(../cases/good/README.md)"));
-    const std::string page = postproc::verification_page(results, "../cases/");
+    const std::string page = postproc::verification_page(results, "../cases/", root_ / "charts");
     EXPECT_THAT(page, HasSubstr("<span class=\"failed\">fail</span>: 10 % where ≤ 20 % is asked. a cause"));
     EXPECT_THAT(page, HasSubstr("not built"));
+}
+
+TEST_F(VerificationRun, shows_tables_and_charts_and_keeps_them_with_the_result) {
+    postproc::Exhibits exhibits;
+    exhibits.tables = {{"Matrix", {"what", "outcome"}, {{"d/dx 0.2", "stable | slow"}}}};
+    exhibits.charts = {{"kernel width", "core seconds", "error, %", {{"0.5", 10.0, 2.5, false}, {"1", 20.0, 0.0, true}}}};
+    add_case("shows", fmt::format("echo '[{}]' > $2/quantities.json\necho '{}' > $2/exhibits.json", quantity("pass"),
+                                  postproc::exhibits_json(exhibits).dump()));
+    run();
+    const auto results = read_verification(settings_.folder);
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(postproc::exhibits_json(results[0].exhibits), postproc::exhibits_json(exhibits));
+    const std::string markdown = postproc::verification_markdown(results, "../cases/");
+    EXPECT_THAT(markdown, HasSubstr("### Matrix"));
+    EXPECT_THAT(markdown, HasSubstr("| d/dx 0.2 | stable \\| slow |"));
+    EXPECT_THAT(markdown, HasSubstr("| 1 (default) | 20 | 0 |"));
+    const std::string page = postproc::verification_page(results, "../cases/", root_ / "charts");
+    EXPECT_THAT(page, HasSubstr("stable | slow"));
+    if (postproc::gnuplot_is_installed()) EXPECT_THAT(page, HasSubstr("1 (default)</text>"));
 }
 
 }  // namespace

@@ -98,6 +98,25 @@ void Verification::not_converged(const std::string& name, const std::string& uni
     add(std::move(q));
 }
 
+void Verification::table(const postproc::ExhibitTable& table) {
+    auto& tables = exhibits_.tables;
+    const auto same = std::find_if(tables.begin(), tables.end(), [&](const auto& other) { return other.title == table.title; });
+    if (same == tables.end())
+        tables.push_back(table);
+    else
+        *same = table;
+    write_exhibits();
+}
+
+void Verification::chart(const postproc::Chart& chart) {
+    exhibits_.charts.push_back(chart);
+    write_exhibits();
+}
+
+void Verification::write_exhibits() const {
+    write_file(folder_ / "exhibits.json", postproc::exhibits_json(exhibits_).dump(2) + "\n");
+}
+
 bool Verification::failed() const {
     return std::any_of(quantities_.begin(), quantities_.end(), [](const VerifiedQuantity& q) {
         return q.verdict == Verdict::fail || q.verdict == Verdict::not_converged;

@@ -40,6 +40,10 @@ public:
     /// A quantity that does not settle; the note says how it moves.
     void not_converged(const std::string& name, const std::string& unit, const About& about);
 
+    /// Shown on the page beside the quantities. A table of the same title replaces the one before.
+    void table(const postproc::ExhibitTable& table);
+    void chart(const postproc::Chart& chart);
+
     /// A folder of this name for one of the case's runs; not yet there.
     std::filesystem::path folder(const std::string& name) const { return folder_ / name; }
 
@@ -47,10 +51,12 @@ public:
 
 private:
     void add(postproc::VerifiedQuantity quantity);
+    void write_exhibits() const;
 
     Effort effort_;
     std::filesystem::path folder_;
     std::vector<postproc::VerifiedQuantity> quantities_;
+    postproc::Exhibits exhibits_;
 };
 
 /// The main function of a case: `<program> fast|standard|long FOLDER`, which writes FOLDER/quantities.json.
