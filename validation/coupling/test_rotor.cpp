@@ -14,11 +14,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/case_builder.hpp"
 #include "cases/tests/tiny_rotor_mesh.hpp"
 #include "geometry/base/run_names.hpp"
 #include "meshing/foam_command.hpp"
 #include "validation/support/box_case.hpp"
+#include "validation/support/rotor_case.hpp"
 
 namespace cutterflow::validation {
 namespace {
@@ -44,23 +44,12 @@ std::string feed_table() {
 
 fs::path rotor_case(const std::string& name) {
     const fs::path folder = scratch_folder(name);
-    fs::create_directories(folder / "geometry");
     cases::CaseInputs inputs = cases::test::tiny_inputs();
     inputs.times.end = k_end;
     inputs.times.checkpoint_interval = 0.05;
     inputs.times.write_interval = 0.1;
-    cases::write_case(folder, inputs);
-    cases::test::write_tiny_block_mesh(folder);
-    run_in_case(folder, {"blockMesh"});
-    for (const auto& [patch, surface] :
-         {std::pair(names::cutter_patch, names::cutter_surface), std::pair(names::backplate_patch, names::backplate_surface),
-          std::pair(names::tank_top_patch, names::suction_pipe_surface)})
-        run_in_case(folder, {"surfaceMeshExtract", "-patches", fmt::format("({})", patch), surface});
     inputs.rock.emplace();
-    inputs.rock->walls = cases::standard_walls();
-    cases::fill_scaled_defaults(inputs);
-    cases::write_case(folder, inputs);
-    std::ofstream(folder / names::rock_feed) << feed_table();
+    write_rotor_case(folder, inputs, feed_table());
     return folder;
 }
 

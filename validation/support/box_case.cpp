@@ -60,12 +60,12 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
     const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
     write_foam_dictionary(
         folder, "constant/couplingProperties", "dictionary",
-        fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ();\n"
-                    "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall true; }}\n}}\n"
+        fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ({});\n"
+                    "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall {}; }}\n}}\n"
                     "kernel {{ {} }}\nclosures {{ {} }}\n"
                     "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
                     "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
-                    box.contact, radius, box.lower.z(), box.upper.z(), box.kernel, box.closures, box.extra));
+                    box.contact, box.walls, radius, box.lower.z(), box.upper.z(), !box.rock_leaves_at_top, box.kernel, box.closures, box.extra));
     // There is no head in the box: its volume is a pin below the floor.
     std::ofstream(folder / "constant/contour.csv") << "z_m,r_m\n-0.02,0.001\n0,0.001\n";
     std::ofstream feed(folder / "constant/rockFeed.csv");
@@ -86,10 +86,11 @@ void write_system(const fs::path& folder, const BoxCase& box) {
                     "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;",
                     box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time)));
     write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
-                     "ddtSchemes { default Euler; }\ngradSchemes { default Gauss linear; }\ndivSchemes\n{\n    default Gauss upwind;\n"
-                     "    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}\n"
-                     "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\nsnGradSchemes { "
-                     "default corrected; }");
+                     fmt::format("ddtSchemes {{ default Euler; }}\ngradSchemes {{ default Gauss linear; }}\ndivSchemes\n{{\n    default Gauss "
+                                 "upwind;\n    div(phi,U) Gauss {};\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n"
+                                 "    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}}\nlaplacianSchemes {{ default Gauss linear "
+                                 "corrected; }}\ninterpolationSchemes {{ default linear; }}\nsnGradSchemes {{ default corrected; }}",
+                                 box.convection));
     write_foam_dictionary(folder, "system/fvSolution", "dictionary",
                      "solvers\n{\n    \"p.*\" { solver GAMG; smoother DICGaussSeidel; tolerance 1e-9; relTol 0; }\n"
                      "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
@@ -131,14 +132,15 @@ void write_box_case(const fs::path& folder, const BoxCase& box) {
     run_in_case(folder, {"blockMesh"});
 }
 
+void decompose(const fs::path& folder, const std::array<int, 3>& parts) {
+    write_foam_dictionary(folder, "system/decomposeParDict", "dictionary",
+                     fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n ({} {} {}); delta 0.001; order xyz; }}",
+                                 parts[0] * parts[1] * parts[2], parts[0], parts[1], parts[2]));
+    run_in_case(folder, {"decomposePar"});
+}
+
 void run_cutter_foam(const fs::path& folder, int ranks) {
-    if (ranks > 1 && !fs::exists(folder / "processor0")) {
-        write_foam_dictionary(
-            folder, "system/decomposeParDict", "dictionary",
-            fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n (1 1 {}); delta 0.001; order xyz; }}", ranks,
-                        ranks));
-        run_in_case(folder, {"decomposePar"});
-    }
+    if (ranks > 1 && !fs::exists(folder / "processor0")) decompose(folder, {1, 1, ranks});
     require_child(foam_command(folder, cutter_foam(), {}, ranks));
 }
 
@@ -181,20 +183,21 @@ std::vector<Vec3> read_vectors(const std::string& text, const std::string& name)
 
 }  // namespace
 
-RockPicture last_rocks(const fs::path& folder) {
-    fs::path last;
-    double last_time = -1.0;
+std::vector<RockPicture> all_rocks(const fs::path& folder) {
+    std::vector<RockPicture> pictures;
     for (const auto& entry : fs::directory_iterator(folder / "postProcessing/rock/vtk")) {
+        std::ifstream stream(entry.path());
+        const std::string text((std::istreambuf_iterator<char>(stream)), {});
         const std::string stem = entry.path().stem().string();
-        const double time = std::stod(stem.substr(stem.find('_') + 1));
-        if (time > last_time) {
-            last_time = time;
-            last = entry.path();
-        }
+        pictures.push_back({std::stod(stem.substr(stem.find('_') + 1)), read_vectors(text, "Points"), read_vectors(text, "velocity")});
     }
-    std::ifstream stream(last);
-    const std::string text((std::istreambuf_iterator<char>(stream)), {});
-    return {read_vectors(text, "Points"), read_vectors(text, "velocity")};
+    if (pictures.empty()) throw std::runtime_error("no picture of rock in " + folder.string());
+    std::sort(pictures.begin(), pictures.end(), [](const RockPicture& a, const RockPicture& b) { return a.time < b.time; });
+    return pictures;
+}
+
+RockPicture last_rocks(const fs::path& folder) {
+    return all_rocks(folder).back();
 }
 
 namespace {

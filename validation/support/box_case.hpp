@@ -38,10 +38,13 @@ struct BoxCase {
     double time_step = 1e-3;
     double write_interval = 1e9;     ///< [s]
     std::vector<FeedRock> rocks;
+    std::string convection = "upwind";  ///< scheme of div(phi,U)
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
     std::string closures = "drag brown_lawler; hindrance di_felice; addedMass 0.5;";
     std::string contact = "youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; "
                           "timeStepFraction 0.1; maxSpeed 1.5;";
+    std::string walls;               ///< entries of rock.walls; their surfaces must be put into the folder afterwards
+    bool rock_leaves_at_top = false; ///< the upper side is no wall to rock: it leaves there
     std::string extra;               ///< further sections of couplingProperties
 
     double cell_size() const { return (upper.x() - lower.x()) / cells[0]; }
@@ -54,9 +57,12 @@ void write_foam_dictionary(const std::filesystem::path& case_folder, const std::
 /// Writes the case into `folder` (created; must be empty or absent) and makes its mesh with blockMesh.
 void write_box_case(const std::filesystem::path& folder, const BoxCase& box);
 
-/// Runs cutterFoam (from the build) on a case; with ranks > 1 it is decomposed along its longest side first. Throws ToolError with the end
-/// of the log when it fails.
+/// Runs cutterFoam (from the build) on a case; with ranks > 1 it is cut into layers along z first, unless that was done. Throws ToolError
+/// with the end of the log when it fails.
 void run_cutter_foam(const std::filesystem::path& folder, int ranks = 1);
+
+/// Cuts a case into this many parts along x, y and z.
+void decompose(const std::filesystem::path& folder, const std::array<int, 3>& parts);
 
 /// Runs any program in a case folder, its output in log.<program>.
 void run_in_case(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
@@ -64,13 +70,15 @@ void run_in_case(const std::filesystem::path& folder, const std::vector<std::str
 /// Columns of a CSV file with one header line, by name; not-a-number where a field is no number.
 std::map<std::string, std::vector<double>> read_columns(const std::filesystem::path& file);
 
-/// Rocks of a particle picture (postProcessing/rock/vtk).
+/// Rocks of a particle picture (postProcessing/rock/vtk), in the order of their ids.
 struct RockPicture {
+    double time = 0.0;           ///< [s]
     std::vector<Vec3> position;  ///< [m]
     std::vector<Vec3> velocity;  ///< [m/s]
 };
 
-/// The last picture that a run wrote.
+/// All pictures that a run wrote, in the order of time, and the last one.
+std::vector<RockPicture> all_rocks(const std::filesystem::path& folder);
 RockPicture last_rocks(const std::filesystem::path& folder);
 
 /// Values of an ascii OpenFOAM scalar field, one per cell (a uniform field is spread over `cells` values).

@@ -1,0 +1,83 @@
+#pragma once
+/// \file Error against cost, one option at a time, the others at the program's defaults: what the pareto cases share.
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "validation/support/verification.hpp"
+
+namespace cutterflow::validation {
+
+/// One run.
+struct Trial {
+    double core_s = 0.0;
+    double error = 0.0;
+};
+
+/// A value of an option, as a change of the defaults; one without a change is the default itself.
+template <class Options>
+struct OptionValue {
+    std::string label;
+    std::function<void(Options&)> change;
+};
+
+/// One chart: the default first.
+template <class Options>
+struct Sweep {
+    std::string title;
+    std::vector<OptionValue<Options>> values;
+};
+
+template <class Options>
+std::vector<OptionValue<Options>> number_values(double Options::*member, const std::vector<double>& values) {
+    std::vector<OptionValue<Options>> result = {{fmt::format("{:g}", Options().*member), {}}};
+    for (const double value : values)
+        result.push_back({fmt::format("{:g}", value), [member, value](Options& options) { options.*member = value; }});
+    return result;
+}
+
+/// Of Options::convection.
+template <class Options>
+std::vector<OptionValue<Options>> scheme_values(const std::vector<std::string>& schemes) {
+    std::vector<OptionValue<Options>> result = {{Options().convection, {}}};
+    for (const std::string& scheme : schemes) result.push_back({scheme, [scheme](Options& options) { options.convection = scheme; }});
+    return result;
+}
+
+/// Section rock.contact of couplingProperties.
+inline std::string pareto_contact(double youngs_modulus, double dem_step) {
+    return fmt::format(
+        "youngsModulus {:g}; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; timeStepFraction {}; maxSpeed "
+        "1.5;",
+        youngs_modulus, dem_step);
+}
+
+/// Runs every value of every sweep, the default once, and shows one chart a sweep.
+/// \param run  runs the case in a folder that is not yet there
+/// \return the default's
+template <class Options>
+Trial run_pareto(Verification& verification, const std::vector<Sweep<Options>>& sweeps, const std::string& error_axis,
+                 const std::function<Trial(const std::filesystem::path&, const Options&)>& run) {
+    const Trial standard = run(verification.folder("default"), Options());
+    for (std::size_t s = 0; s < sweeps.size(); ++s) {
+        postproc::Chart chart{sweeps[s].title, "core seconds", error_axis, {}};
+        for (std::size_t v = 0; v < sweeps[s].values.size(); ++v) {
+            const OptionValue<Options>& value = sweeps[s].values[v];
+            Trial trial = standard;
+            if (value.change) {
+                Options options;
+                value.change(options);
+                trial = run(verification.folder(fmt::format("run_{}_{}", s, v)), options);
+            }
+            chart.points.push_back({value.label, trial.core_s, trial.error, !value.change});
+        }
+        verification.chart(chart);
+    }
+    return standard;
+}
+
+}  // namespace cutterflow::validation
