@@ -93,6 +93,18 @@ std::vector<QuantityRule> operating_rules() {
             {"cells", "cells", "-", false, [](const ComparedRun& r) { return plain(as_number(r.results.cost.cells)); }}};
 }
 
+/// Ratios when `since_feed` [s] have passed since the first rock.
+std::vector<QuantityRule> equal_rules(const std::string& key, const std::string& when,
+                                      const std::function<double(const ComparedRun&)>& since_feed) {
+    const auto at = [=](const ComparedRun& r) { return ratios_after(r.run.rock->fates, r.results.spillage->feed_start, since_feed(r)); };
+    return {{"ratio_at_" + key, "spillage " + when, "-", true, [=](const ComparedRun& r) { return spillage_of(at(r).ratios); }},
+            {"spilled_at_" + key, "spilled / placed " + when, "-", true, [=](const ComparedRun& r) { return plain(at(r).ratios.ratio_min); }},
+            {"sucked_up_at_" + key, "sucked up / placed " + when, "-", true,
+             [=](const ComparedRun& r) { return plain(1.0 - at(r).ratios.ratio_max.value_or(1.0)); }},
+            {"undecided_at_" + key, "undecided " + when, "-", false,
+             [=](const ComparedRun& r) { return plain(at(r).ratios.undecided); }}};
+}
+
 std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
     std::vector<QuantityRule> rules{
         {"placed", "rocks placed", "-", false, [](const ComparedRun& r) { return plain(r.results.spillage->fates.placed.count); }},
@@ -104,21 +116,15 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
         {"revolutions_since_feed", "revolutions since the first rock", "-", false, [](const ComparedRun& r) {
              return plain((r.results.spillage->fates.time - r.results.spillage->feed_start) / r.run.operating_point.revolution_s());
          }}};
-    const auto at = [](const ComparedRun& r, double since_feed) {
-        return ratios_after(r.run.rock->fates, r.results.spillage->feed_start, since_feed);
-    };
+    const auto append = [&](std::vector<QuantityRule> more) { rules.insert(rules.end(), more.begin(), more.end()); };
     if (comparison.equal_time) {
         const double time = *comparison.equal_time;
-        rules.push_back({"spilled_at_equal_time", fmt::format("spilled / placed after {:.3g} s", time), "-", true,
-                         [=](const ComparedRun& r) { return plain(at(r, time).ratios.ratio_min); }});
-        rules.push_back({"sucked_up_at_equal_time", fmt::format("sucked up / placed after {:.3g} s", time), "-", true,
-                         [=](const ComparedRun& r) { return plain(1.0 - at(r, time).ratios.ratio_max.value_or(1.0)); }});
+        append(equal_rules("equal_time", fmt::format("after {:.3g} s", time), [=](const ComparedRun&) { return time; }));
     }
     if (comparison.equal_revolutions) {
         const double turns = *comparison.equal_revolutions;
-        rules.push_back(
-            {"spilled_at_equal_revolutions", fmt::format("spilled / placed after {:.3g} revolutions", turns), "-", true,
-             [=](const ComparedRun& r) { return plain(at(r, turns * r.run.operating_point.revolution_s()).ratios.ratio_min); }});
+        append(equal_rules("equal_revolutions", fmt::format("after {:.3g} revolutions", turns),
+                           [=](const ComparedRun& r) { return turns * r.run.operating_point.revolution_s(); }));
     }
     return rules;
 }
@@ -137,18 +143,42 @@ std::vector<QuantityRule> load_rules(bool with_rock) {
     return rules;
 }
 
-/// Outflow of every bin that all runs have.
+template <typename Bins>
+auto find_bin(const Bins& bins, const std::string& name) {
+    return std::find_if(bins.begin(), bins.end(), [&](const auto& item) { return item.bin.name == name; });
+}
+
+/// Bins that `bins_of` finds in every run, in the order of the first one.
+template <typename BinsOf>
+std::vector<std::string> common_bins(const std::vector<ComparedRun>& runs, BinsOf bins_of) {
+    std::vector<std::string> names;
+    for (const auto& item : bins_of(runs.front())) {
+        const std::string& name = item.bin.name;
+        const bool in_all = std::all_of(runs.begin(), runs.end(),
+                                        [&](const ComparedRun& r) { return find_bin(bins_of(r), name) != bins_of(r).end(); });
+        if (in_all) names.push_back(name);
+    }
+    return names;
+}
+
 std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
     std::vector<QuantityRule> rules;
-    const auto find = [](const ComparedRun& r, const std::string& name) {
-        return std::find_if(r.results.outflow.begin(), r.results.outflow.end(), [&](const BinOutflow& o) { return o.bin.name == name; });
-    };
-    for (const BinOutflow& bin : runs.front().results.outflow) {
-        const std::string name = bin.bin.name;
-        if (!std::all_of(runs.begin(), runs.end(), [&](const ComparedRun& r) { return find(r, name) != r.results.outflow.end(); }))
-            continue;
-        rules.push_back({fmt::format("outflow_{}_m_s", name), fmt::format("radial outflow, {}", name), "m/s", false,
-                         [=](const ComparedRun& r) { return of_average(find(r, name)->radial_velocity); }});
+    for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.outflow; })) {
+        rules.push_back({bin_key("outflow", name, "m_s"), fmt::format("radial outflow, {}", name), "m/s", false,
+                         [=](const ComparedRun& r) { return of_average(find_bin(r.results.outflow, name)->radial_velocity); }});
+    }
+    return rules;
+}
+
+std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
+    std::vector<QuantityRule> rules;
+    for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.spillage->bins; })) {
+        rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / placed, {}", name), "-", true,
+                         [=](const ComparedRun& r) {
+                             const Spillage& spillage = *r.results.spillage;
+                             if (!(spillage.fates.placed.mass > 0.0)) return Estimate{};
+                             return plain(find_bin(spillage.bins, name)->spilled.mass / spillage.fates.placed.mass);
+                         }});
     }
     return rules;
 }
@@ -197,6 +227,7 @@ std::vector<QuantityRule> rules_of(const Comparison& comparison) {
     if (with_rock) append(rock_rules(comparison));
     append(load_rules(with_rock));
     append(outflow_rules(comparison.runs));
+    if (with_rock) append(spilled_rules(comparison.runs));
     append(cost_rules());
     return rules;
 }
@@ -221,6 +252,14 @@ std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
         if (setting.runs.size() > 1) setting.label += fmt::format(" ({} repeats)", setting.runs.size());
     }
     return settings;
+}
+
+/// What stands behind "rocks" of a setting: sizes, densities and how many were asked for.
+std::string batch_text(const RunData& run) {
+    if (!run.feed) return "no rock";
+    std::vector<std::string> classes;
+    for (const RockClass& rock : run.feed->classes) classes.push_back(fmt::format("{:.3g} mm, {:.0f} kg/m³", 1e3 * rock.diameter, rock.density));
+    return fmt::format("{} rocks asked for: {}", run.feed->requested, fmt::join(classes, "; "));
 }
 
 /// What all runs have reached since their first rock.
@@ -336,6 +375,10 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
     return difference;
 }
 
+std::string bin_key(const std::string& what, const std::string& bin, const std::string& unit) {
+    return fmt::format("{}_{}_{}", what, bin, unit);
+}
+
 const char* verdict_text(Verdict verdict) {
     switch (verdict) {
         case Verdict::differs:
@@ -348,6 +391,20 @@ const char* verdict_text(Verdict verdict) {
             break;
     }
     return "no replicate";
+}
+
+std::vector<std::string> differing_batches(const Comparison& comparison) {
+    std::vector<std::string> texts;
+    std::set<std::string> feeds;
+    std::set<std::vector<int>> seeds;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
+        const Setting& setting = comparison.settings[i];
+        feeds.insert(batch_text(comparison.runs[setting.runs.front()].run));
+        seeds.insert(seeds_of(comparison, setting));
+        texts.push_back(fmt::format("{}; seed {}", batch_text(comparison.runs[setting.runs.front()].run),
+                                    fmt::join(seeds_of(comparison, setting), ", ")));
+    }
+    return feeds.size() > 1 || seeds.size() > 1 ? texts : std::vector<std::string>{};
 }
 
 json comparison_json(const Comparison& comparison) {
@@ -372,6 +429,7 @@ json comparison_json(const Comparison& comparison) {
         }
         document["quantities"].push_back(item);
     }
+    document["differing_batches"] = differing_batches(comparison);
     document["equal_time_s"] = or_null(comparison.equal_time);
     document["equal_revolutions"] = or_null(comparison.equal_revolutions);
     document["not_modelled"] = json::array();

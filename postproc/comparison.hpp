@@ -69,6 +69,13 @@ Comparison compare_runs(const std::vector<std::filesystem::path>& directories);
 /// (Welch).
 Difference difference_of(const Comparison& comparison, const Quantity& quantity, std::size_t index);
 
+/// The batch of every setting in words (rocks asked for, sizes, densities, seeds) when they are not all the same; else
+/// nothing. Settings with different batches are compared, but a difference may then be that of the batches.
+std::vector<std::string> differing_batches(const Comparison& comparison);
+
+/// Key of a quantity of an axial bin, such as "outflow_0-30mm_m_s" or "spilled_gap_share".
+std::string bin_key(const std::string& what, const std::string& bin, const std::string& unit);
+
 /// "differs", "not significant", ...
 const char* verdict_text(Verdict verdict);
 

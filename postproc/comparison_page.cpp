@@ -7,11 +7,11 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/comparison_figures.hpp"
 #include "postproc/gnuplot.hpp"
 #include "postproc/head_picture.hpp"
 #include "postproc/html.hpp"
 #include "postproc/not_modelled.hpp"
-#include "postproc/palette.hpp"
 #include "postproc/text.hpp"
 
 namespace cutterflow::postproc {
@@ -20,99 +20,17 @@ namespace {
 namespace fs = std::filesystem;
 using html::escape;
 
-/// Colours of settings, in order; told apart with any colour vision.
-constexpr const char* k_colours[] = {"#0072b2", "#d55e00", "#00795c", "#a34b86", "#8a6d00", "#26303a", "#56b4e9", "#9aa3ab"};
-constexpr int k_width = 540;
-
-const char* colour_of(std::size_t setting) {
-    return k_colours[setting % std::size(k_colours)];
-}
-
-const Quantity* find(const Comparison& comparison, const std::string& key) {
-    const auto found =
-        std::find_if(comparison.quantities.begin(), comparison.quantities.end(), [&](const Quantity& q) { return q.key == key; });
-    return found == comparison.quantities.end() ? nullptr : &*found;
-}
-
-std::string number(double value) {
-    return fmt::format("{:.6g}", value);
-}
-
-/// Bounds when there are some, else the interval, else the value itself.
-std::pair<double, double> range_of(const Estimate& estimate) {
-    if (estimate.low) return {*estimate.low, *estimate.high};
-    const double half = estimate.half_width.value_or(0.0);
-    return {*estimate.value - half, *estimate.value + half};
-}
-
-/// Shares by setting, with their bounds.
-PlotScript shares_plot(const Comparison& comparison) {
-    const Quantity* const shares[] = {find(comparison, "ratio"), find(comparison, "production")};
-    const char* const colours[] = {palette::spilled, palette::sucked_up};
-    PlotScript plot{"shares", k_width, 330, ""};
-    std::vector<std::string> tics, curves;
-    for (std::size_t i = 0; i < comparison.settings.size(); ++i) tics.push_back(fmt::format("\"{}\" {}", i + 1, i + 1));
-    for (std::size_t s = 0; s < 2; ++s) {
-        std::vector<std::vector<std::string>> rows;
-        for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
-            const Estimate& estimate = shares[s]->settings[i];
-            if (!estimate.value) continue;
-            const auto [low, high] = range_of(estimate);
-            rows.push_back({number(static_cast<double>(i) + 0.92 + 0.16 * static_cast<double>(s)), number(100.0 * *estimate.value),
-                            number(100.0 * low), number(100.0 * high)});
-        }
-        if (rows.empty()) continue;
-        const std::string block = fmt::format("share{}", s);
-        plot.commands += data_block(block, rows);
-        curves.push_back(fmt::format("${} using 1:2:3:4 with yerrorbars pt 7 ps 0.8 lw 1.6 lc rgb \"{}\" title \"{}\"", block, colours[s],
-                                     s == 0 ? "spillage ratio" : "production"));
-    }
-    plot.commands += fmt::format(
-        "set xrange [0.5:{}.5]\nset yrange [0:100]\nset xtics ({})\nset xlabel \"setting\"\nset ylabel \"% by mass\"\n"
-        "set key outside top center horizontal\n",
-        comparison.settings.size(), fmt::join(tics, ", "));
-    plot.commands += curves.empty() ? "plot NaN notitle\n" : fmt::format("plot {}\n", fmt::join(curves, ", "));
-    return plot;
-}
-
-/// Radial outflow of the bins, one curve a setting.
-PlotScript outflow_plot(const Comparison& comparison) {
-    std::vector<const Quantity*> bins;
-    for (const Quantity& quantity : comparison.quantities)
-        if (quantity.key.rfind("outflow_", 0) == 0) bins.push_back(&quantity);
-    PlotScript plot{"outflow", k_width, 90 + 22 * static_cast<int>(bins.size()), ""};
-    std::vector<std::string> tics, curves;
-    for (std::size_t b = 0; b < bins.size(); ++b) {
-        const std::string name = bins[b]->key.substr(8, bins[b]->key.size() - 8 - 4);
-        tics.push_back(fmt::format("{} {}", quoted(name == "below_hub" ? "below hub" : name), -static_cast<int>(b)));
-    }
-    for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
-        std::vector<std::vector<std::string>> rows;
-        for (std::size_t b = 0; b < bins.size(); ++b) {
-            const Estimate& estimate = bins[b]->settings[i];
-            if (estimate.value)
-                rows.push_back({number(*estimate.value), number(-static_cast<double>(b)), number(estimate.half_width.value_or(0.0))});
-        }
-        if (rows.empty()) continue;
-        plot.commands += data_block(fmt::format("bins{}", i), rows);
-        curves.push_back(
-            fmt::format("$bins{} using 1:2:3 with xerrorlines pt 7 ps 0.5 lw 1.4 lc rgb \"{}\" title \"{}\"", i, colour_of(i), i + 1));
-    }
-    plot.commands += fmt::format(
-        "set ytics ({}) scale 0\nset yrange [{}:0.6]\nset xlabel \"mean radial velocity just outside the contour, m/s (outwards "
-        "positive)\"\n"
-        "set arrow 1 from 0,graph 0 to 0,graph 1 nohead lc rgb \"{}\" lw 1\nset key outside top center horizontal title \"setting\"\n",
-        fmt::join(tics, ", "), 0.4 - static_cast<double>(bins.size()), palette::faint);
-    plot.commands += curves.empty() ? "plot NaN notitle\n" : fmt::format("plot {}\n", fmt::join(curves, ", "));
-    return plot;
-}
-
 std::string estimate_markup(const Estimate& estimate) {
     if (!estimate.value) return text::k_dash;
     std::string markup = text::digits_of(*estimate.value, 4);
     if (estimate.half_width) markup += " ± " + text::digits_of(*estimate.half_width, 2);
     if (estimate.low) markup += fmt::format("<br>{:.3f} … {:.3f}", *estimate.low, *estimate.high);
     return markup;
+}
+
+/// A table with a column a setting may be wider than the window: it scrolls by itself.
+std::string scrolling(const std::string& table) {
+    return "<div class=\"scroll\">" + table + "</div>\n";
 }
 
 std::string quantities_table(const Comparison& comparison) {
@@ -123,7 +41,7 @@ std::string quantities_table(const Comparison& comparison) {
         rows.push_back({escape(quantity.name) + (quantity.unit == "-" ? "" : " [" + quantity.unit + "]")});
         for (const Estimate& estimate : quantity.settings) rows.back().push_back(estimate_markup(estimate));
     }
-    return html::table(header, rows, true);
+    return scrolling(html::table(header, rows, true));
 }
 
 std::string differences_table(const Comparison& comparison) {
@@ -143,7 +61,7 @@ std::string differences_table(const Comparison& comparison) {
                                       : std::string(text::k_dash));
         }
     }
-    return html::table(header, rows, true);
+    return scrolling(html::table(header, rows, true));
 }
 
 std::string settings_table(const Comparison& comparison) {
@@ -153,7 +71,7 @@ std::string settings_table(const Comparison& comparison) {
         const RunData& run = comparison.runs[setting.runs.front()].run;
         const bool finished =
             std::all_of(setting.runs.begin(), setting.runs.end(), [&](std::size_t r) { return comparison.runs[r].results.finished; });
-        rows.push_back({fmt::format("<i style=\"background: {}\"></i>{}", colour_of(i), i + 1), escape(setting.label),
+        rows.push_back({fmt::format("<i style=\"background: {}\"></i>{}", setting_colour(i), i + 1), escape(setting.label),
                         escape(fs::path(run.geometry.value("file", std::string())).filename().string()),
                         escape(run.operating_point.mesh_preset), fmt::format("{}", setting.runs.size()),
                         finished ? "yes" : "<span class=\"failed\">no</span>"});
@@ -174,14 +92,19 @@ std::string heads(const Comparison& comparison) {
 std::string plots(const Comparison& comparison, const fs::path& scratch) {
     if (!gnuplot_is_installed()) return "<p class=\"notice\">Plots are missing: the program gnuplot was not found.</p>";
     std::string content;
-    if (find(comparison, "ratio"))
-        content += html::figure(draw_svg(shares_plot(comparison), scratch),
-                                "Spillage ratio and production; the bars are bounds: what the undecided rock could still do.");
-    content += html::figure(
-        draw_svg(outflow_plot(comparison), scratch),
-        "Radial velocity just outside the contour by axial bin, averaged over azimuth and time; bars: 95 % interval by batch means.");
+    for (const CaptionedPlot& item : comparison_plots(comparison)) content += html::figure(draw_plot(item.plot, scratch), item.caption);
     fs::remove_all(scratch);
     return "<div class=\"figures\">" + content + "</div>";
+}
+
+/// Said on top when settings had different rock: then a difference may be that of the rock.
+std::string batches_notice(const Comparison& comparison) {
+    const std::vector<std::string> batches = differing_batches(comparison);
+    if (batches.empty()) return "";
+    std::string items;
+    for (std::size_t i = 0; i < batches.size(); ++i) items += fmt::format("<br>Setting {}: {}.", i + 1, escape(batches[i]));
+    return fmt::format(
+        "<p class=\"notice\"><b>Different batches of rock.</b> A difference between these settings may be one of their rock.{}</p>\n", items);
 }
 
 bool has_repeats(const Comparison& comparison) {
@@ -197,9 +120,9 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder) 
         throw UserError(fmt::format("{} holds files that are not of a comparison", folder.string()), "Nothing is overwritten",
                         "Name another folder");
     fs::create_directories(folder);
-    const bool with_rock = find(comparison, "ratio") != nullptr;
+    const bool with_rock = find_quantity(comparison, "ratio") != nullptr;
     const std::string title = fmt::format("Comparison of {} settings", comparison.settings.size());
-    std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + settings_table(comparison);
+    std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + batches_notice(comparison) + settings_table(comparison);
     body += fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(with_rock)));
     if (with_rock && !has_repeats(comparison))
         body +=

@@ -1,33 +1,33 @@
 #pragma once
-/// \file The plots of the report as gnuplot scripts.
+/// \file The plots of the report of one run.
 #include <string>
 #include <vector>
 
-#include "postproc/gnuplot.hpp"
+#include "postproc/plot.hpp"
 #include "postproc/results.hpp"
 
 namespace cutterflow::postproc {
 
 /// Production, undecided and spillage as one bar of the placed mass, with the ratio between its bounds.
-PlotScript outcome_plot(const Spillage& spillage);
+Plot outcome_plot(const Spillage& spillage);
 
 /// Spilled share of the placed mass per bin (with rock) and radial outflow on the twin axis, in the bins' order along the axis.
-PlotScript bins_plot(const Results& results);
+Plot bins_plot(const Results& results);
 
 /// Mass of the placed rock by fate over revolutions since the first rock.
-PlotScript fates_plot(const Table& fates, const Spillage& spillage, double revolution);
+Plot fates_plot(const Table& fates, const Spillage& spillage, double revolution);
 
 /// Spillage ratio between its bounds over revolutions since the first rock.
-PlotScript ratio_plot(const Table& fates, const Spillage& spillage, double revolution);
+Plot ratio_plot(const Table& fates, const Spillage& spillage, double revolution);
 
 /// Rocks by azimuth of their first exit, in sectors of 15 degrees, seen from the hub, lowest side down.
-PlotScript first_exit_plot(const std::vector<double>& azimuths);
+Plot first_exit_plot(const std::vector<double>& azimuths);
 
 /// Torque of flow and rock over revolutions of the run, averaged over 1/100 revolution.
-PlotScript torque_plot(const Table& loads, const RotorLoads& rotor, double revolution, bool with_rock);
+Plot torque_plot(const Table& loads, const RotorLoads& rotor, double revolution, bool with_rock);
 
 /// Balance errors over revolutions of the run, on a logarithmic axis.
-PlotScript balance_plot(const Table& balance, double revolution, bool with_rock);
+Plot balance_plot(const Table& balance, double revolution, bool with_rock);
 
 /// A part of the cost as plot and legend show it.
 struct CostPart {
@@ -39,6 +39,6 @@ struct CostPart {
 const std::vector<CostPart>& cost_parts();
 
 /// Shares of the wall time as one bar.
-PlotScript cost_plot(const Cost& cost);
+Plot cost_plot(const Cost& cost);
 
 }  // namespace cutterflow::postproc

@@ -8,6 +8,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/run_names.hpp"
+#include "postproc/head_view.hpp"
 #include "postproc/palette.hpp"
 #include "postproc/rendering.hpp"
 
@@ -122,7 +123,9 @@ HeadPicture draw_head(const RunData& run) {
     from_hub.ghosts.clear();  // behind the head
     return {picture(scene, side, run, "Cutter head from the side with rock coloured by fate"),
             picture(from_hub, axial_view(run), run, "Cutter head from the hub with rock coloured by fate"),
-            static_cast<int>(scene.rocks.size()), count_outside(scene.rocks, side)};
+            head_view(scene, side),
+            static_cast<int>(scene.rocks.size()),
+            count_outside(scene.rocks, side)};
 }
 
 }  // namespace cutterflow::postproc

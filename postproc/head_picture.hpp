@@ -2,6 +2,8 @@
 /// \file Pictures of the head with its rock coloured by fate.
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "postproc/run_reader.hpp"
 
 namespace cutterflow::postproc {
@@ -10,6 +12,7 @@ namespace cutterflow::postproc {
 struct HeadPicture {
     std::string side_view;   ///< from the side, gravity down
     std::string axial_view;  ///< from the hub along the axis, lowest side down
+    nlohmann::json view;     ///< the same from the side, to be turned (head_view.hpp)
     int rocks_shown = 0;
     int rocks_outside_view = 0;  ///< of the side view: they lie farther away
 };

@@ -6,6 +6,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "postproc/scripts.hpp"
+
 namespace cutterflow::postproc::html {
 namespace {
 
@@ -35,15 +37,20 @@ figure { margin: 0; break-inside: avoid; min-width: 0; }
 figure.wide { grid-column: 1 / -1; }
 figure.head { display: grid; grid-template-columns: 13fr 10fr; gap: 10px; align-items: center; }
 figure.head figcaption { grid-column: 1 / -1; }
-figure.rose svg { max-width: 430px; margin: 0 auto; }
+figure.rose .replaceable { max-width: 430px; margin: 0 auto; }
 .views { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 18px; }
-figure svg { display: block; width: 100%; height: auto; }
-svg text { font-family: inherit; }
+figure > svg, .views svg, .static svg { display: block; width: 100%; height: auto; }
+.static svg text { font-family: inherit; }
 figure + table { margin-top: 18px; }
 figcaption { font-size: 0.86rem; color: var(--soft); margin-top: 6px; }
+.replaceable.drawn .static { display: none; }
+.replaceable .live { position: relative; width: 100%; }
+.replaceable .live canvas { display: block; width: 100%; height: 100%; cursor: grab; }
+.hint { display: none; }
+figure:has(.drawn) .hint { display: inline; }
 .legend { list-style: none; margin: 4px 0 0; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 0.9rem; }
 .legend i { display: inline-block; width: 0.8em; height: 0.8em; border-radius: 50%; margin-right: 0.45em; vertical-align: -0.05em; }
-.tables > div { min-width: 0; overflow-x: auto; }
+.tables > div, .scroll { min-width: 0; overflow-x: auto; }
 .tables { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 18px 34px; align-items: start; }
 table { border-collapse: collapse; width: 100%; font-size: 0.9rem; break-inside: auto; }
 th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
@@ -66,6 +73,7 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px;
   .figures, .tables { grid-template-columns: minmax(0, 1fr); }
   .figures figure:not(.wide) { max-width: 640px; }
   .trust li { grid-template-columns: 8.5em 1fr; }
+  table.numbers tbody th { white-space: normal; }
 }
 @media print {
   @page { size: A4; margin: 14mm; }
@@ -78,9 +86,22 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px;
   .answers { grid-template-columns: repeat(4, minmax(0, 1fr)); }
   .figures, .tables { grid-template-columns: repeat(2, minmax(0, 1fr)); }
   h2 { break-after: avoid; }
+  .replaceable.drawn .static { display: block; }
+  .replaceable .live, figure:has(.drawn) .hint { display: none; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
 )css";
+
+constexpr const char* k_kind = "data-kind=\"{}\"";
+
+/// The scripts that the replaceable pieces of a page need.
+std::string scripts_for(const std::string& body) {
+    const auto holds = [&](const char* kind) { return body.find(fmt::format(k_kind, kind)) != std::string::npos; };
+    std::string scripts;
+    if (holds("plot")) scripts += fmt::format("<script>{}</script>\n", scripts::plotly());
+    if (holds("head")) scripts += fmt::format("<script>{}</script>\n", scripts::three());
+    return scripts.empty() ? "" : scripts + fmt::format("<script>{}</script>\n", scripts::page());
+}
 
 }  // namespace
 
@@ -133,6 +154,14 @@ std::string figure(const std::string& content, const std::string& caption, const
                        css_class.empty() ? "" : fmt::format(" class=\"{}\"", css_class), content, caption);
 }
 
+std::string replaceable(const std::string& content, const std::string& kind, const nlohmann::json& data) {
+    std::string text = data.dump();
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
+    return fmt::format(
+        "<div class=\"replaceable\" {}><div class=\"static\">{}</div><script type=\"application/json\">{}</script></div>",
+        fmt::format(k_kind, kind), content, text);
+}
+
 std::string section(const std::string& title, const std::string& content) {
     return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, content);
 }
@@ -148,10 +177,13 @@ std::string document(const std::string& title, const std::string& body, const st
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+        "img-src data: blob:\">"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
         "<title>{} – Cutterflow</title><style>{}</style></head><body>\n{}"
-        "<footer>Written by Cutterflow on {:%Y-%m-%d %H:%M} UTC. {}</footer>\n</body></html>\n",
-        title, k_style_sheet, body, fmt::gmtime(now), footer);
+        "<footer>Written by Cutterflow on {:%Y-%m-%d %H:%M} UTC. {}</footer>\n"
+        "{}</body></html>\n",
+        title, k_style_sheet, body, fmt::gmtime(now), footer, scripts_for(body));
 }
 
 }  // namespace cutterflow::postproc::html

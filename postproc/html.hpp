@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace cutterflow::postproc::html {
 
 /// Text with the characters that HTML reads as markup replaced.
@@ -11,6 +13,10 @@ std::string escape(const std::string& text);
 /// A table; cells are markup (escape text first). The first column of every row is its heading; `numeric` aligns the others right.
 std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows, bool numeric);
 
+/// Static content that page.js replaces on screen by what it makes of `data`; without scripts, and in print, the content stays.
+/// \param kind  how page.js draws it: "plot" (plotly's data and layout) or "head" (head_view.hpp)
+std::string replaceable(const std::string& content, const std::string& kind, const nlohmann::json& data);
+
 std::string figure(const std::string& content, const std::string& caption, const std::string& css_class = "");
 
 std::string section(const std::string& title, const std::string& content);
@@ -18,7 +24,7 @@ std::string section(const std::string& title, const std::string& content);
 /// A box with one number: its label, the value in large letters, a detail; all markup. \param colour  of its upper edge
 std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail);
 
-/// A whole page with the project's style, time of writing and footer. All three are markup.
+/// A whole page with the project's style, scripts, time of writing and footer. All three are markup. The page forbids itself any request.
 std::string document(const std::string& title, const std::string& body, const std::string& footer);
 
 }  // namespace cutterflow::postproc::html

@@ -10,6 +10,7 @@
 #include "postproc/not_modelled.hpp"
 #include "postproc/palette.hpp"
 #include "postproc/text.hpp"
+#include "postproc/velocity_figures.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -200,17 +201,34 @@ std::string answer_section(const Results& results, const RunData& run, const Pag
 std::string head_figure(const Results& results, const PageFigures& figures) {
     if (figures.head.side_view.empty()) return "";
     std::string caption =
-        "Left: from the side, gravity downwards; backplate and suction pipe transparent. Right: from the hub along the axis, "
+        "Left: from the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two fingers to zoom</span>. Right: from the hub along the axis, "
         "lowest side down. The arrow shows the sense of rotation.";
     if (results.spillage && figures.head.rocks_shown > 0) {
         caption += fmt::format(" Rocks in true size at the last checkpoint or the end; {} of {} lie outside the left picture.",
                                figures.head.rocks_outside_view, figures.head.rocks_shown);
         caption = fate_legend(results.spillage->fates) + caption;
     }
-    return html::figure(figures.head.side_view + figures.head.axial_view, caption, "head wide");
+    return html::figure(html::replaceable(figures.head.side_view, "head", figures.head.view) + figures.head.axial_view, caption, "head wide");
 }
 
-std::string figure_section(const Results& results, const PageFigures& figures) {
+std::string velocity_figures(const RunData& run, const PageFigures& figures) {
+    if (run.plane_axial.empty() && run.plane_under_ring.empty()) return "";
+    const std::string colours = " Colour: speed in the plane; arrows: its direction; white: steel; orange: contour of revolution; ";
+    std::string content;
+    if (!run.plane_axial.empty()) {
+        content += plot(figures, "plane_axial",
+                        "Velocity of the water on the plane through the axis and the suction mouth’s centre." + colours +
+                            averaging_text(run.plane_axial) + ".");
+    }
+    if (!run.plane_under_ring.empty()) {
+        content += plot(figures, "plane_under_ring",
+                        fmt::format("The same on a plane {:.3g} m below the ring, seen from the hub, the lowest side down.",
+                                    -run.plane_under_ring.number("z_m").front()));
+    }
+    return content;
+}
+
+std::string figure_section(const Results& results, const RunData& run, const PageFigures& figures) {
     std::string content = head_figure(results, figures);
     content +=
         plot(figures, "bins",
@@ -220,6 +238,7 @@ std::string figure_section(const Results& results, const PageFigures& figures) {
                    "backplate."
                  : "Radial velocity just outside the contour of revolution, averaged over azimuth and time (whiskers: standard error by "
                    "batch means). “gap” lies between ring and backplate.");
+    content += velocity_figures(run, figures);
     content += plot(figures, "first_exit",
                     "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock "
                     "left out). Seen from the hub, the lowest side down.",
@@ -415,7 +434,7 @@ std::string report_page(const Results& results, const RunData& run, const PageFi
     page += unfinished_notice(results);
     page += answer_section(results, run, figures);
     if (!figures.note.empty()) page += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
-    page += figure_section(results, figures) + rock_section(results, run) + operation_section(results, run);
+    page += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
     page += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
     page += version_section(results_json(results, run).at("versions"));
     return html::document(title, page, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));

@@ -1,5 +1,5 @@
 #pragma once
-/// \file The report's page: one HTML file that needs no network and no scripts.
+/// \file The report's page: one HTML file that needs no network and can be read without scripts.
 #include <map>
 #include <string>
 
@@ -10,7 +10,7 @@ namespace cutterflow::postproc {
 
 /// What the page shows besides numbers. A plot that is absent is left out.
 struct PageFigures {
-    std::map<std::string, std::string> plots;  ///< <svg> elements by the plot's name
+    std::map<std::string, std::string> plots;  ///< as draw_plot gives them, by the plot's name
     HeadPicture head;
     std::string note;  ///< why plots are missing; empty when none are
 };

@@ -3,17 +3,19 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_names.hpp"
 #include "postproc/figures.hpp"
+#include "postproc/head_series.hpp"
 #include "postproc/page.hpp"
+#include "postproc/velocity_figures.hpp"
 
 namespace cutterflow::postproc {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<PlotScript> plots_of(const Results& results, const RunData& run) {
+std::vector<Plot> plots_of(const Results& results, const RunData& run) {
     const double revolution = run.operating_point.revolution_s();
     const bool with_rock = results.spillage.has_value();
-    std::vector<PlotScript> plots;
+    std::vector<Plot> plots;
     if (with_rock) {
         plots.push_back(outcome_plot(*results.spillage));
         plots.push_back(fates_plot(run.rock->fates, *results.spillage, revolution));
@@ -21,6 +23,9 @@ std::vector<PlotScript> plots_of(const Results& results, const RunData& run) {
         if (!results.spillage->first_exit_azimuths.empty()) plots.push_back(first_exit_plot(results.spillage->first_exit_azimuths));
     }
     if (with_rock || !results.outflow.empty()) plots.push_back(bins_plot(results));
+    for (const auto& plane : {axial_plane_plot(run), under_ring_plot(run)}) {
+        if (plane) plots.push_back(*plane);
+    }
     plots.push_back(torque_plot(run.loads, results.rotor, revolution, with_rock));
     plots.push_back(balance_plot(run.balance, revolution, with_rock));
     plots.push_back(cost_plot(results.cost));
@@ -36,7 +41,7 @@ PageFigures draw_figures(const Results& results, const RunData& run, const fs::p
             "report again; the tables below hold the same numbers.";
         return figures;
     }
-    for (const PlotScript& script : plots_of(results, run)) figures.plots[script.name] = draw_svg(script, scratch);
+    for (const Plot& plot : plots_of(results, run)) figures.plots[plot.script.name] = draw_plot(plot, scratch);
     fs::remove_all(scratch);
     return figures;
 }
@@ -50,6 +55,7 @@ ReportSummary write_report(const fs::path& run_directory) {
     const PageFigures figures = draw_figures(summary.results, run, summary.page_file.parent_path() / "plots.part");
     summary.note = figures.note;
     write_file(summary.page_file, report_page(summary.results, run, figures));
+    write_head_series(run_directory);
     return summary;
 }
 

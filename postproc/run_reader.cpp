@@ -192,6 +192,14 @@ Table read_newest_table(const fs::path& directory, const std::string& what, cons
     return newest;
 }
 
+Table read_plane(const fs::path& directory, const std::string& file) {
+    const std::vector<std::string> in_water{"u_radial_m_s",  "u_tangential_m_s",  "u_axial_m_s",
+                                            "se_radial_m_s", "se_tangential_m_s", "se_axial_m_s"};
+    TableRules rules{{"x_m", "y_m", "z_m", "revolutions", "from_s", "to_s"}, {}, in_water, k_rerun};
+    rules.numbers.insert(rules.numbers.end(), in_water.begin(), in_water.end());
+    return read_newest_table(directory, "velocity", file, rules);
+}
+
 std::optional<RockTables> read_rock(const fs::path& directory) {
     RockTables rock;
     rock.fates = read_joined_table(directory, "rock", "fates.csv", fate_rules());
@@ -229,6 +237,8 @@ RunData read_run(const fs::path& directory) {
                 {},
                 {},
                 {},
+                read_plane(directory, "plane_axial.csv"),
+                read_plane(directory, "plane_under_ring.csv"),
                 geometry,
                 read_json(directory / names::mesh_report),
                 read_json(directory / names::manifest),

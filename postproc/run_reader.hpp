@@ -67,6 +67,7 @@ struct RunData {
     Table loads;
     Table balance;
     Table cost;
+    Table plane_axial, plane_under_ring;  ///< mean velocity on planes; empty when the run did not sample them
     nlohmann::json geometry, mesh, manifest, cost_summary;  ///< objects, empty when the file is absent
     int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
     bool finished = false;                                  ///< the run came to its end

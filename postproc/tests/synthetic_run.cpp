@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <random>
@@ -198,14 +199,14 @@ std::string quoted_toml(const std::string& text) {
     return nlohmann::json(text).dump();
 }
 
-std::string study_toml(const std::string& name, double length_ratio) {
+std::string study_toml(const std::string& name, double length_ratio, double speed_rpm) {
     return fmt::format(
-        "name = {}\n[rotor]\nspeed_rpm = 60\ndirection = \"right_handed\"\n[suction]\ndischarge_m3_s = 0.12\nmouth_radius_m = 0.1\ngap_m = "
+        "name = {}\n[rotor]\nspeed_rpm = {}\ndirection = \"right_handed\"\n[suction]\ndischarge_m3_s = 0.12\nmouth_radius_m = 0.1\ngap_m = "
         "0.03\n"
         "mouth_offset_m = 0.22\nmouth_azimuth_deg = 0\n[ladder]\ninclination_deg = 45\n[swing]\ndirection = \"over_cut\"\n"
         "[mesh]\npreset = \"draft\"\n[fluid]\ndensity_kg_m3 = 998.2\n[report]\nbin_width_m = 0.03\noutflow_start_s = 1.0\n"
         "[scale]\nlength_ratio = {}\n",
-        quoted_toml(name), length_ratio);
+        quoted_toml(name), speed_rpm, length_ratio);
 }
 
 nlohmann::json feed_report(int requested, int placed, double settling_velocity) {
@@ -269,8 +270,8 @@ nlohmann::json manifest() {
             {"versions", {{"cutterflow", "0.1.0"}, {"gnuplot", "5.4"}}}};
 }
 
-void write_static_files(const fs::path& directory, const std::string& name, double length_ratio) {
-    write_text(directory / "study.resolved.toml", study_toml(name, length_ratio));
+void write_static_files(const fs::path& directory, const std::string& name, double length_ratio, double speed_rpm) {
+    write_text(directory / "study.resolved.toml", study_toml(name, length_ratio, speed_rpm));
     write_text(directory / "geometry/contour.csv", contour_table());
     write_text(directory / "geometry/geometry.json",
                R"({"file": "/data/Cutter <rev B>.STL", "head": {"ring_radius_m": 0.4, "lowest_z_m": -0.44, "blades": 6},
@@ -365,17 +366,41 @@ void SmallRun::write_tables(const std::string& start_folder, double from, double
 }
 
 void SmallRun::write() const {
-    write_static_files(directory, study_name, length_ratio);
+    write_static_files(directory, study_name, length_ratio, speed_rpm);
     if (with_rock) write_text(directory / "feed.json", feed_report(11, 9, 1.036).dump());
     write_tables("0", 0.0, end_time);
+}
+
+void write_velocity_planes(const fs::path& directory, PlaneFlow flow) {
+    const auto table = [&](int columns, int rows, const std::function<Vec3(int, int)>& place) {
+        std::string text =
+            "point,x_m,y_m,z_m,rotating,u_radial_m_s,u_tangential_m_s,u_axial_m_s,se_radial_m_s,se_tangential_m_s,se_axial_m_s,samples,"
+            "dry_samples,revolutions,from_s,to_s\n";
+        for (int i = 0; i < columns * rows; ++i) {
+            const Vec3 at = place(i % columns, i / columns), u = flow(std::hypot(at.x(), at.y()), at.z());
+            const bool steel = i >= 7 * columns && i < 7 * columns + k_plane_points_in_steel;
+            const std::string velocity = steel ? ",,,,," : fmt::format("{:.6g},{:.6g},{:.6g},0.01,0.01,0.01", u.x(), u.y(), u.z());
+            text += fmt::format("{},{:.9g},{:.9g},{:.9g},0,{},120,{},1,1,2\n", i + 1, at.x(), at.y(), at.z(), velocity, steel ? 120 : 0);
+        }
+        return text;
+    };
+    const auto between = [](double low, double high, int i, int n) { return low + (high - low) * (i + 0.5) / n; };
+    const fs::path folder = directory / "postProcessing/velocity/0";
+    write_text(folder / "plane_axial.csv",
+               table(60, 40, [&](int i, int j) { return Vec3(between(-0.7, 0.7, i, 60), 0.0, between(-0.6, 0.1, j, 40)); }));
+    write_text(folder / "plane_under_ring.csv",
+               table(50, 50, [&](int i, int j) { return Vec3(between(-0.6, 0.6, i, 50), between(-0.6, 0.6, j, 50), -0.137); }));
 }
 
 void write_realistic_run(const fs::path& directory) {
     std::mt19937 random(20231);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     std::normal_distribution<double> normal;
-    write_static_files(directory, "Model cutter 1:4, 60 rpm, batch of 368 rocks", 4.0);
+    write_static_files(directory, "Model cutter 1:4, 60 rpm, batch of 368 rocks", 4.0, 60.0);
     write_text(directory / "feed.json", feed_report(368, 361, 1.036).dump());
+    write_velocity_planes(directory, [](double r, double z) {
+        return Vec3(0.6 * std::sin(9.0 * r) * std::cos(6.0 * z), 2.4 * r * std::exp(-4.0 * r), 0.5 * std::cos(5.0 * r) * std::exp(3.0 * z));
+    });
 
     constexpr int rocks = 361;
     const Contour contour = head_contour();

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/vec3.hpp"
+
 namespace cutterflow::postproc::testing {
 
 /// A directory of its own under the test's temporary folder, empty at the start.
@@ -34,6 +36,7 @@ struct SmallRun {
     double end_time = 2.0;
     std::string study_name = "small run";
     double length_ratio = 1.0;
+    double speed_rpm = 60.0;  ///< of the study alone: the story's times stay
     std::vector<Event> events;  ///< filled with the story above by the constructor
 
     explicit SmallRun(const std::string& name);
@@ -44,6 +47,14 @@ struct SmallRun {
 
 /// Mass of a 20 mm rock of the small run [kg].
 double small_rock_mass();
+
+/// Mean velocity (radial, tangential, axial) at radius r and axial z.
+using PlaneFlow = Vec3 (*)(double r, double z);
+
+inline constexpr int k_plane_points_in_steel = 24;  ///< of each plane
+
+/// Writes the tables plane_axial and plane_under_ring of a run of the small run's head.
+void write_velocity_planes(const std::filesystem::path& directory, PlaneFlow flow);
 
 /// Writes a run like the demo's: 368 rocks of 20 mm, 60 rpm, a six-blade crown, two revolutions, noisy loads, spillage under the ring.
 /// Deterministic.

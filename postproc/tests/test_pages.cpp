@@ -1,0 +1,138 @@
+/// The pages in a real browser: nothing on the console, every plot drawn, no text clipped, no request, no markup from names.
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "postproc/comparison.hpp"
+#include "postproc/comparison_page.hpp"
+#include "postproc/report.hpp"
+#include "postproc/tests/chromium.hpp"
+#include "postproc/tests/synthetic_run.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Chromium;
+
+constexpr const char* k_evil = "<script>alert(1)</script> <img src=x onerror=alert(2)> & \"rev\" <b>B</b>";
+
+/// Names of pieces that are not drawn: no lines, bars or areas of plotly, no canvas.
+constexpr const char* k_not_drawn = R"js(
+[...document.querySelectorAll('.replaceable')].filter((piece) => {
+  const marks = piece.querySelectorAll('.live .mlayer :is(path, image)').length, canvas = piece.querySelector('.live canvas');
+  const drawn = piece.dataset.kind === 'plot' ? marks > 0 : canvas !== null;
+  return !drawn || !piece.classList.contains('drawn') || getComputedStyle(piece.querySelector('.static')).display !== 'none';
+}).map((piece) => piece.closest('figure').innerText.slice(0, 80)))js";
+
+/// Colours in the head's view.
+constexpr const char* k_colours_of_head = R"js((() => {
+  const view = document.querySelector('.live canvas'), copy = document.createElement('canvas');
+  copy.width = view.width;
+  copy.height = view.height;
+  copy.getContext('2d').drawImage(view, 0, 0);
+  return new Set(new Uint32Array(copy.getContext('2d').getImageData(0, 0, view.width, view.height).data.buffer)).size;
+})())js";
+
+/// Text that does not fit: wider than its element, outside the window, or (in a plot) outside its plot.
+constexpr const char* k_clipped_text = R"js((() => {
+  const clipped = [], width = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth > width) clipped.push('the page is wider than the window');
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const element = node.parentElement, range = document.createRange();
+    if (!node.textContent.trim() || ['SCRIPT', 'STYLE'].includes(element.tagName)) continue;
+    range.selectNodeContents(node);
+    const box = range.getBoundingClientRect();
+    if (box.width === 0 || getComputedStyle(element).visibility === 'hidden') continue;
+    const plot = element.closest('.live, .static'), frame = plot ? plot.getBoundingClientRect() : {left: 0, right: width};
+    const vertical = plot && (box.top < frame.top - 1 || box.bottom > frame.bottom + 1);
+    const tooWide = element instanceof HTMLElement && element.clientWidth > 0 && element.scrollWidth > element.clientWidth;
+    if (box.left < frame.left - 1 || box.right > frame.right + 1 || vertical || tooWide) clipped.push(node.textContent.slice(0, 60));
+  }
+  return clipped;
+})())js";
+
+void wait_until_drawn(Chromium& browser) {
+    for (int attempt = 0; attempt < 200 && !browser.evaluate(k_not_drawn).empty(); ++attempt) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
+
+void expect_sound_page(Chromium& browser, const fs::path& page, std::size_t plots, std::size_t heads) {
+    for (const int width : {1280, 800}) {
+        SCOPED_TRACE(fmt::format("{} at {} px", page.string(), width));
+        browser.open(page, width, 1000);
+        wait_until_drawn(browser);
+        EXPECT_EQ(browser.evaluate(k_not_drawn).dump(), "[]");
+        EXPECT_EQ(browser.evaluate("document.querySelectorAll('.js-plotly-plot').length"), plots);
+        EXPECT_EQ(browser.evaluate("document.querySelectorAll('.live canvas').length"), heads);
+        EXPECT_EQ(browser.evaluate(k_clipped_text).dump(), "[]");
+        EXPECT_EQ(browser.evaluate("document.querySelectorAll('body img').length"), 0);
+        EXPECT_EQ(nlohmann::json(browser.complaints()).dump(), "[]");
+        if (heads > 0) EXPECT_GT(browser.evaluate(k_colours_of_head), 100);  // last: reading the picture back is slow, and Chromium says so
+    }
+}
+
+class Pages : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!Chromium::is_installed()) GTEST_SKIP() << "chromium is not installed (Debian: apt-get install chromium): the pages were not opened";
+    }
+};
+
+TEST_F(Pages, a_report_is_drawn_and_fits) {
+    const fs::path directory = testing::fresh_directory("page_realistic");
+    testing::write_realistic_run(directory);
+    Chromium browser;
+    expect_sound_page(browser, write_report(directory).page_file, 10, 1);
+}
+
+TEST_F(Pages, a_report_of_flow_alone_with_an_evil_name_is_drawn_and_fits) {
+    testing::SmallRun run("page_evil");
+    run.with_rock = false;
+    run.study_name = k_evil;
+    run.write();
+    Chromium browser;
+    const fs::path page = write_report(run.directory).page_file;
+    expect_sound_page(browser, page, 4, 1);
+    EXPECT_EQ(browser.evaluate("document.querySelector('h1').textContent"), k_evil);
+}
+
+TEST_F(Pages, a_comparison_with_evil_names_is_drawn_and_fits) {
+    testing::SmallRun first("page_compared_1"), second("page_compared_2"), third("page_compared_3");
+    first.study_name = k_evil;
+    second.length_ratio = 2.0;
+    third.length_ratio = 4.0;
+    third.speed_rpm = 30.0;
+    for (const auto* run : {&first, &second, &third}) run->write();
+    const fs::path folder = testing::fresh_directory("page_comparison") / "page";
+    Chromium browser;
+    expect_sound_page(browser, write_comparison(compare_runs({first.directory, second.directory, third.directory}), folder), 6, 0);
+    // The plots' tool tips carry names: they must be there as text.
+    EXPECT_GT(browser.evaluate("document.body.textContent.split('<img src=x').length"), 1);
+}
+
+TEST_F(Pages, print_and_readers_without_scripts_get_the_pictures) {
+    testing::SmallRun run("page_print");
+    run.write();
+    const fs::path page = write_report(run.directory).page_file;
+    Chromium browser;
+    browser.open(page, 1280, 1000);
+    wait_until_drawn(browser);
+    const std::string hidden = "[...document.querySelectorAll('.static')].filter((picture) => picture.clientHeight === 0).length";
+    const std::string live = "[...document.querySelectorAll('.live')].filter((plot) => plot.clientHeight > 0).length";
+    EXPECT_EQ(browser.evaluate(hidden), 9);
+    browser.show_as_print(true);
+    EXPECT_EQ(browser.evaluate(hidden), 0);
+    EXPECT_EQ(browser.evaluate(live), 0);
+    browser.show_as_print(false);
+    browser.allow_scripts(false);
+    browser.open(page, 1280, 1000);
+    EXPECT_EQ(browser.evaluate(hidden), 0);
+    EXPECT_EQ(browser.evaluate(live), 0);
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
