@@ -31,7 +31,7 @@ const std::vector<Layer> k_layers = {
     {"postproc/", {"geometry/base/", "postproc/"}},
     {"cases/", {"geometry/", "meshing/", "solver/physics/", "solver/coupling/", "postproc/", "cases/"}},
     {"validation/", {"geometry/", "meshing/", "cases/", "postproc/", "validation/"}},
-    {"validation/support/", {"geometry/", "meshing/", "postproc/", "solver/coupling/", "solver/liggghts/", "validation/"}},
+    {"validation/support/", {"geometry/", "meshing/", "cases/", "postproc/", "solver/coupling/", "solver/liggghts/", "validation/"}},
     {"validation/cases/", {"geometry/", "meshing/", "cases/", "postproc/", "solver/physics/", "solver/coupling/", "validation/"}},
 };
 
