@@ -13,6 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A twentieth of a passing of one of six blades: the trapezoidal rule in angle errs by 0.8 % of what passes once a blade, and by nothing
+// after a whole revolution.
+constexpr double k_degrees_between_samples = 3.0;
+
 /// A surface of geometry/ and the copy that the DEM reads.
 struct DemSurface {
     Wall wall;
@@ -91,6 +95,29 @@ std::string contour_csv(const Contour& contour) {
     return text;
 }
 
+std::string sample_points_csv(const VelocitySet& set) {
+    std::string text = "x_m,y_m,z_m,rotating\n";
+    for (const VelocityPoint& point : set.points)
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{}\n", point.place[0], point.place[1], point.place[2], point.rotating ? 1 : 0);
+    return text;
+}
+
+std::string sample_file(const VelocitySet& set) {
+    return fmt::format("{}/{}.csv", names::sample_points, set.name);
+}
+
+FoamDictionary velocity_section(const CaseInputs& inputs) {
+    std::vector<FoamValue> sets;
+    for (const VelocitySet& set : inputs.velocity_sets)
+        sets.emplace_back(
+            FoamDictionary().add("name", set.name).add("file", FoamValue::quoted(sample_file(set))).add("phases", set.phases));
+    return FoamDictionary()
+        .add("startTime", inputs.times.outflow_from)
+        .add("interval", k_degrees_between_samples)
+        .add("blades", inputs.blades)
+        .add("sets", FoamValue::list(sets));
+}
+
 std::vector<FoamFile> case_files(const CaseInputs& inputs) {
     std::vector<FoamFile> files = field_files(inputs);
     for (const auto& more : {property_files(inputs), run_system_files(inputs)}) files.insert(files.end(), more.begin(), more.end());
@@ -124,6 +151,7 @@ FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
     }
     coupling.add("fates", fates_section(inputs));
     coupling.add("outflow", FoamDictionary().add("offset", inputs.fates.outflow_offset).add("startTime", inputs.times.outflow_from));
+    if (!inputs.velocity_sets.empty()) coupling.add("velocity", velocity_section(inputs));
     if (inputs.fates.stop_undecided) coupling.add("stop", FoamDictionary().add("undecided", *inputs.fates.stop_undecided));
     coupling.add("checkpoint",
                  FoamDictionary().add("interval", inputs.times.checkpoint_interval).add("keep", inputs.times.checkpoints_kept));
@@ -147,6 +175,10 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
     }
     write_text(run_directory / names::contour_for_solver, contour_csv(inputs.contour));
     written.emplace_back(names::contour_for_solver);
+    for (const VelocitySet& set : inputs.velocity_sets) {
+        write_text(run_directory / sample_file(set), sample_points_csv(set));
+        written.emplace_back(sample_file(set));
+    }
     if (inputs.rock) {
         for (const DemSurface& surface : dem_surfaces()) {
             copy_surface(run_directory, surface);

@@ -15,7 +15,7 @@ FoamDictionary coupling_dictionary(const CaseInputs& inputs);
 /// The steel surfaces of a run directory as DEM walls: cutter (rotating), backplate, suction pipe.
 std::vector<Wall> standard_walls();
 
-/// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, the DEM's surfaces (copies of geometry/*.stl, with rock
+/// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of geometry/*.stl, with rock
 /// only) and the empty file by which ParaView opens the case.
 /// \param run_directory  exists; with rock it holds geometry/cutter.stl, backplate.stl, suction_pipe.stl
 /// \return the files that were written, relative to the run directory

@@ -98,6 +98,18 @@ struct Fates {
     std::optional<double> stop_undecided;  ///< ends the run when the undecided share is at most this
 };
 
+/// A point at which the run averages the velocity.
+struct VelocityPoint {
+    Vec3 place = Vec3::Zero();  ///< [m]; of a rotating point where it stands at rotor angle 0
+    bool rotating = false;      ///< turns with the head
+};
+
+struct VelocitySet {
+    std::string name;
+    int phases = 0;  ///< bins of rotor angle; 0: the mean alone
+    std::vector<VelocityPoint> points;
+};
+
 /// Everything the case builder needs. The contour carries ring radius and backplate.
 struct CaseInputs {
     explicit CaseInputs(Contour head) : contour(std::move(head)) {}
@@ -112,6 +124,8 @@ struct CaseInputs {
     FlowNumerics numerics;
     RunTimes times;
     Fates fates;
+    int blades = 1;
+    std::vector<VelocitySet> velocity_sets;  ///< averaged from times.outflow_from on
     int ranks = 1;
     std::optional<Rock> rock;  ///< none: pure flow
 };

@@ -8,12 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/case_builder.hpp"
+#include "cases/disk_space.hpp"
 #include "cases/flow_dictionaries.hpp"
-#include "cases/prediction.hpp"
 #include "cases/rock_feed.hpp"
 #include "cases/run_progress.hpp"
 #include "cases/start_flow.hpp"
 #include "cases/study_case.hpp"
+#include "cases/velocity_points.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
@@ -23,6 +24,7 @@
 #include "geometry/revolution_contour.hpp"
 #include "meshing/build_mesh.hpp"
 #include "meshing/foam_command.hpp"
+#include "postproc/adv_page.hpp"
 #include "postproc/report.hpp"
 
 namespace cutterflow::cases {
@@ -103,6 +105,13 @@ bool has_checkpoint(const fs::path& directory) {
                        [](const fs::directory_entry& entry) { return entry.path().extension() != ".part"; });
 }
 
+bool start_is_done(const fs::path& run) {
+    if (run.empty() || !fs::exists(run / names::manifest)) return false;
+    const Manifest manifest(run / names::manifest);
+    const StageRecord* start = manifest.find("start");
+    return start != nullptr && start->state == StageState::done;
+}
+
 /// What a run left that was stopped before its first checkpoint: there is nothing to go on from.
 void remove_unfinished_run(const fs::path& directory) {
     std::vector<fs::path> left;
@@ -125,6 +134,8 @@ std::map<std::string, std::string> stage_inputs(const ParameterValues& values, c
             inputs[parameter.key] = toml_text(*values.find(parameter.key));
     if (stage == "geometry") inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
     if (stage == "case") add_table_inputs(values, "feed", "feed", inputs);
+    if (stage == "case" && values.has("report.adv_points"))
+        inputs["report.adv_points"] = adv_places_hash(study_folder / values.text("report.adv_points"));
     return inputs;
 }
 
@@ -134,6 +145,7 @@ RunHead read_run_head(const RunDirectory& directory) {
         const nlohmann::json head = nlohmann::json::parse(read_file(file)).at("head");
         HeadSize size;
         size.ring_radius = head.at("ring_radius_m").get<double>();
+        size.blades = std::max(1, head.at("blades").get<int>());
         if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m").get<double>();
         RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
         size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
@@ -195,8 +207,13 @@ StageOutcome Pipeline::make_geometry() {
     say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
                      head.ring_radius, size.depth));
 
+    const Prediction prediction = predict(study, size, head.surface);
+    require_free_bytes(directory_.path(), prediction.mesh_disk + prediction.run_disk);
+
     // A region without a free place is refused here, before the mesh costs anything.
     place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
+
+    if (study.report.adv_points) require_adv_points(study, size, head.surface);
 
     const StationarySteel steel = generate_stationary_steel(stationary_steel_of(study, size));
     fs::create_directories(directory_.file("geometry"));
@@ -278,6 +295,12 @@ StageOutcome Pipeline::make_start() {
     const RunHead head = read_run_head(directory_);
     const Study study = resolved_study(head.size);
     const CaseInputs inputs = case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks);
+    if (start_is_done(settings_.start_from)) {
+        if (const auto taken = take_start_flow(directory_.path(), settings_.start_from, inputs)) {
+            say_(fmt::format("the same as that of {}, and taken from there", settings_.start_from.string()));
+            return {files_below(directory_.path(), "0"), 0.0};
+        }
+    }
     Progress progress("  frozen rotor");
     const StartFlowReport report = run_start_flow(directory_.path(), inputs, k_start_iterations, [&](int iteration, int iterations) {
         progress.update(static_cast<double>(iteration) / iterations, fmt::format("iteration {} of {}", iteration, iterations));
@@ -287,8 +310,23 @@ StageOutcome Pipeline::make_start() {
     return {files_below(directory_.path(), "0"), report.core_s};
 }
 
+Prediction Pipeline::predicted(const Study& study, const HeadSize& head) const {
+    return predict(study, head, welded(read_surface(directory_.file(names::cutter_surface))));
+}
+
+std::optional<Mistake> Pipeline::full_disk() const {
+    if (!is_disk_full(directory_.path())) return std::nullopt;
+    try {
+        const RunHead head = read_run_head(directory_);
+        const Prediction prediction = predicted(resolved_study(head.size), head.size);
+        return cases::full_disk(directory_.path(), prediction.mesh_disk + prediction.run_disk);
+    } catch (const Failure&) {
+        return cases::full_disk(directory_.path(), 0.0);  // the disk was full before there was a geometry
+    }
+}
+
 void Pipeline::say_cost(const Study& study, const HeadSize& head, double core_s) const {
-    const Prediction prediction = predict(study, head, welded(read_surface(directory_.file(names::cutter_surface))));
+    const Prediction prediction = predicted(study, head);
     say_(fmt::format("took {:.3g} core hours; {:.3g} were predicted for {:g} revolutions", core_s / 3600.0, prediction.core_hours,
                      prediction.revolutions));
 }
@@ -303,6 +341,7 @@ StageOutcome Pipeline::run_solver(bool resume) {
         say_("going on from the last checkpoint");
     } else {
         remove_unfinished_run(directory_.path());
+        require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
         core_s += decompose();
     }
     const ChildCommand command = foam_command(directory_.path(), settings_.solver.string(), {}, settings_.ranks);
@@ -331,10 +370,23 @@ void Pipeline::require_same_ranks() const {
 }
 
 StageOutcome Pipeline::make_report() {
-    write_resolved_study(read_run_head(directory_).size);
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    write_resolved_study(head.size);
     const postproc::ReportSummary summary = postproc::write_report(directory_.path());
     if (!summary.note.empty()) say_(summary.note);
+    if (study.report.adv_points) make_adv_report(*study.report.adv_points);
     return {{names::resolved_study}, 0.0};  // the report itself is made anew at any time
+}
+
+void Pipeline::make_adv_report(const fs::path& points) const {
+    try {
+        const postproc::AdvComparison comparison = postproc::compare_with_measurement(directory_.path(), points);
+        say_(fmt::format("measured velocities beside the model's: {}", postproc::write_adv_report(comparison, directory_.path()).string()));
+    } catch (const UserError& error) {
+        // A run that ended before a whole revolution was averaged has its report all the same.
+        say_(fmt::format("no comparison with measured velocities: {}", error.what()));
+    }
 }
 
 }  // namespace cutterflow::cases

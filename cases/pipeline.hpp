@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/prediction.hpp"
 #include "cases/run_directory.hpp"
 #include "cases/stages.hpp"
 #include "cases/study.hpp"
@@ -19,7 +20,8 @@ namespace cutterflow::cases {
 struct PipelineSettings {
     std::filesystem::path study_file;
     int ranks = 1;
-    std::filesystem::path solver;  ///< cutterFoam
+    std::filesystem::path solver;      ///< cutterFoam
+    std::filesystem::path start_from;  ///< a run directory whose frozen-rotor flow is taken if it is the same; empty: none
 };
 
 /// What a run directory's geometry stage left behind.
@@ -44,6 +46,9 @@ public:
     /// geometry, mesh, case, start, run, report. They refer to this object.
     std::vector<Stage> stages();
 
+    /// What to tell of a stage that failed because the disk is full; none when it is not.
+    std::optional<Mistake> full_disk() const;
+
 private:
     StageOutcome make_geometry();
     StageOutcome make_mesh();
@@ -53,10 +58,12 @@ private:
     StageOutcome make_start();
     StageOutcome run_solver(bool resume);
     StageOutcome make_report();
+    void make_adv_report(const std::filesystem::path& points) const;
 
     Study resolved_study(const HeadSize& head) const;
     void write_resolved_study(const HeadSize& head) const;
     void require_same_ranks() const;
+    Prediction predicted(const Study& study, const HeadSize& head) const;
     void say_cost(const Study& study, const HeadSize& head, double core_s) const;  ///< actual beside predicted
     double decompose() const;  ///< \return core seconds
 

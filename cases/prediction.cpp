@@ -23,6 +23,18 @@ constexpr double k_rock_share = 1.5;
 constexpr double k_travel_share = 0.25;
 constexpr double k_cell_at_rock = 0.387;
 
+// Text files of the demo (61,000 cells, two ranks): mesh in both forms, fields at the start, logs; fields with face fluxes and moved points
+// at each write; momentum carried in a checkpoint. All a little above what was measured.
+constexpr double k_mesh_bytes_per_cell = 700.0, k_mesh_bytes = 2e7;
+constexpr double k_field_bytes_per_cell = 280.0, k_carry_bytes_per_cell = 40.0, k_table_bytes_per_step = 2500.0;
+
+/// How often the run writes its fields: at write times, at checkpoints (often the same times) and at the end.
+double writes_of_fields(const Study& study) {
+    const auto [often, seldom] = std::minmax(study.run.write_interval, study.run.checkpoint_interval);
+    const bool same_times = std::abs(std::remainder(seldom, often)) < 1e-6 * often;
+    return std::floor(study.end_time() / often) + (same_times ? 0.0 : std::floor(study.end_time() / seldom)) + 1.0;
+}
+
 double first_release(const Study& study) {
     double first = study.end_time();
     for (const FeedRequest& feed : study.feeds) first = std::min(first, feed.start);
@@ -64,6 +76,9 @@ Prediction predict(const Study& study, const HeadSize& head, const TriangleSurfa
     prediction.steps = flow_steps + rock_steps;
     const double core_hours_per_step = plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
     prediction.core_hours = core_hours_per_step * (flow_steps + k_rock_share * rock_steps);
+    prediction.mesh_disk = k_mesh_bytes + k_mesh_bytes_per_cell * plan.prediction.cells;
+    prediction.run_disk =
+        (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells + prediction.steps * k_table_bytes_per_step;
     const double mouth = study.suction.mouth_radius;
     prediction.tip_speed = omega * head.tip_radius;
     prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
@@ -83,6 +98,7 @@ std::string to_text(const Prediction& p, int ranks) {
                         p.steps, p.revolutions);
     text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
                         1e-9 * p.mesh.run_memory);
+    text += fmt::format("disk         about {:.2g} GB\n", 1e-9 * (p.mesh_disk + p.run_disk));
     text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s)\n", p.core_hours,
                         duration_text(3600.0 * p.core_hours / ranks), ranks);
     text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
@@ -99,6 +115,7 @@ nlohmann::json to_json(const Prediction& p) {
             {"time_step_with_rock_s", p.rock_step},
             {"mesh_memory_bytes", p.mesh.mesh_memory},
             {"run_memory_bytes", p.mesh.run_memory},
+            {"disk_bytes", p.mesh_disk + p.run_disk},
             {"steps", p.steps},
             {"core_hours", p.core_hours},
             {"revolutions", p.revolutions},

@@ -20,6 +20,8 @@ struct Prediction {
     double rock_step = 0.0;  ///< from then on [s]; that of the flow without rock
     double steps = 0.0;
     double core_hours = 0.0;  ///< of the whole run
+    double mesh_disk = 0.0;   ///< written by the stages before the run [bytes]
+    double run_disk = 0.0;    ///< written by the run: fields, checkpoints kept, tables [bytes]
     double revolutions = 0.0;
     std::size_t rocks = 0;
     double tip_speed = 0.0;               ///< [m/s]

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "cases/flow_dictionaries.hpp"
+#include "geometry/base/file_content.hpp"
 #include "meshing/foam_command.hpp"
 
 namespace cutterflow::cases {
@@ -85,6 +87,20 @@ StartFlowReport read_report(const fs::path& start, const CaseInputs& inputs, int
     return report;
 }
 
+bool same_file(const fs::path& a, const fs::path& b) {
+    return fs::is_regular_file(a) && fs::is_regular_file(b) && fs::file_size(a) == fs::file_size(b) && read_file(a) == read_file(b);
+}
+
+/// Do two folders hold the same files, byte by byte? Links to folders do not count.
+bool same_files(const fs::path& a, const fs::path& b) {
+    if (!fs::is_directory(a) || !fs::is_directory(b)) return false;
+    std::set<std::string> files;
+    for (const fs::path& folder : {a, b})
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+            if (!entry.is_directory()) files.insert(entry.path().filename().string());
+    return std::all_of(files.begin(), files.end(), [&](const std::string& file) { return same_file(a / file, b / file); });
+}
+
 double percent(const Monitor& monitor) {
     return 100.0 * monitor.drift / std::abs(monitor.last);
 }
@@ -103,6 +119,19 @@ std::string StartFlowReport::text() const {
         "flow imbalance {:.1e} of the discharge",
         iterations, std::min(iterations, k_convergence_window), percent(outlet_pressure), outlet_pressure.last, percent(torque),
         torque.last, flow_imbalance);
+}
+
+std::optional<StartFlowReport> take_start_flow(const fs::path& run_directory, const fs::path& donor, const CaseInputs& inputs, int iterations) {
+    const fs::path start = run_directory / "start";
+    write_start_case(run_directory, start, inputs, iterations);
+    for (const char* folder : {"start/0", "start/system", "start/constant", "constant/polyMesh"})
+        if (!same_files(run_directory / folder, donor / folder)) return std::nullopt;
+    const fs::path results = donor / "start" / std::to_string(iterations);
+    for (const char* field : k_fields)
+        if (!fs::is_regular_file(results / field)) return std::nullopt;
+    StartFlowReport report = read_report(donor / "start", inputs, iterations);
+    for (const char* field : k_fields) fs::copy_file(results / field, run_directory / "0" / field, fs::copy_options::overwrite_existing);
+    return report;
 }
 
 StartFlowReport run_start_flow(const fs::path& run_directory, const CaseInputs& inputs, int iterations, const StartProgress& progress) {

@@ -2,6 +2,7 @@
 /// \file The frozen-rotor start: a steady flow past the rotor at rest in its turning frame, from which the transient run begins.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,11 @@ using StartProgress = std::function<void(int iteration, int iterations)>;
 /// \throws CheckFailure  the flow diverged
 StartFlowReport run_start_flow(const std::filesystem::path& run_directory, const CaseInputs& inputs, int iterations = k_start_iterations,
                                const StartProgress& progress = {});
+
+/// Takes the flow that `donor`, another run directory whose start is done, computed from the same mesh, fields, properties and settings:
+/// files that are the same byte by byte, so that running them again would give the same flow. As run_start_flow, an older start/ is
+/// replaced. \return none when something differs; the start has to be run then
+std::optional<StartFlowReport> take_start_flow(const std::filesystem::path& run_directory, const std::filesystem::path& donor,
+                                               const CaseInputs& inputs, int iterations = k_start_iterations);
 
 }  // namespace cutterflow::cases

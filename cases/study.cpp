@@ -219,6 +219,11 @@ ParameterValues resolve_study(const ParameterValues& values, const HeadSize& hea
     fill(resolved, "report.bin_width_m", 0.075 * ring);
     fill(resolved, "report.outflow_offset_m", 0.0375 * ring);
     fill(resolved, "report.outflow_start_s", derived_outflow_start(values));
+    if (values.has("report.adv_points")) {
+        fill(resolved, "report.adv_probe_diameter_m", 0.006);
+        fill(resolved, "report.adv_probe_length_m", 0.009);
+        fill(resolved, "report.adv_position_error_m", 0.025 * ring);
+    }
     if (!values.tables("feed").empty())
         for (ParameterValues& feed : resolved.tables_for_writing("feed")) resolve_feed(feed, values, head);
     return resolved;
@@ -254,7 +259,11 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.length_ratio = number("scale.length_ratio");
     study.run = {number("run.flow_revolutions"), number("run.max_revolutions"),       number("run.stop_undecided"),
                  number("run.max_courant"),      number("run.checkpoint_interval_s"), number("run.write_interval_s")};
-    study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s")};
+    study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s"), {}, {}};
+    if (resolved.has("report.adv_points")) {
+        study.report.adv_points = std::filesystem::absolute(folder / resolved.text("report.adv_points"));
+        study.report.adv_probe = {number("report.adv_probe_diameter_m"), number("report.adv_probe_length_m"), number("report.adv_position_error_m")};
+    }
     for (const ParameterValues& feed : resolved.tables("feed")) study.feeds.push_back(make_feed(feed, study.period()));
     return study;
 }

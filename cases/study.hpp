@@ -8,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
+#include "postproc/adv_points.hpp"
 
 namespace cutterflow::cases {
 
@@ -17,6 +18,7 @@ struct HeadSize {
     double tip_radius = 0.0;          ///< largest radius of the head [m]
     double depth = 0.0;               ///< from the ring plane to the head's lowest point [m], > 0
     std::optional<double> passage{};  ///< diameter of the largest sphere that passes between the blades [m]; none without blades
+    int blades = 1;
 };
 
 struct RockClass {
@@ -88,6 +90,8 @@ struct Study {
     } run;
     struct Report {
         double bin_width = 0.0, outflow_offset = 0.0, outflow_start = 0.0;  ///< [m], [m], [s]
+        std::optional<std::filesystem::path> adv_points;                    ///< absolute
+        postproc::AdvProbe adv_probe;
     } report;
 
     double period() const;                           ///< of one revolution [s]

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cases/case_builder.hpp"
+#include "cases/velocity_points.hpp"
 #include "geometry/io/read_surface.hpp"
 
 namespace cutterflow::cases {
@@ -62,7 +63,7 @@ GeometryInspection import_study_cutter(const ParameterValues& values, const std:
 
 HeadSize head_size(const Head& head) {
     const double tip = *std::max_element(head.contour.radius.begin(), head.contour.radius.end());
-    return {head.ring_radius, tip, -head.lowest_z, head.passage};
+    return {head.ring_radius, tip, -head.lowest_z, head.passage, std::max(1, head.symmetry.blade_count)};
 }
 
 Contour head_contour(const Head& head, double z_backplate) {
@@ -114,6 +115,9 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const Contou
     inputs.fates.bin_width = study.report.bin_width;
     inputs.fates.outflow_offset = study.report.outflow_offset;
     inputs.fates.stop_undecided = study.run.stop_undecided;
+    inputs.blades = head.blades;
+    inputs.velocity_sets = {axial_plane(study, head), plane_under_ring(study, head)};
+    if (study.report.adv_points) inputs.velocity_sets.push_back(adv_set(study));
     inputs.ranks = ranks;
     if (!study.feeds.empty()) inputs.rock = rock_of(study);
     fill_scaled_defaults(inputs);

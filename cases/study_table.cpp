@@ -181,9 +181,20 @@ ParameterTable run_rows() {
         number("report.outflow_offset_m", "m", "Distance outside the contour at which the radial outflow is sampled.")
             .above(0.0)
             .derived("0.0375 ring radius"),
-        number("report.outflow_start_s", "s", "Time from which the radial outflow is averaged.")
+        number("report.outflow_start_s", "s", "Time from which the radial outflow, and the velocity at points, is averaged.")
             .at_least(0.0)
             .derived("the end of run.flow_revolutions, or half the run when that is not before its end"),
+        Row("report.adv_points", ParameterKind::path, "-",
+            "CSV file of points at which velocities were measured; the run averages the velocity there. `cutterflow report --adv-template` "
+            "prints one.")
+            .derived("no points"),
+        number("report.adv_probe_diameter_m", "m", "Diameter of the volume, a cylinder along the axis, in which the instrument measures.")
+            .above(0.0)
+            .derived("0.006 m"),
+        number("report.adv_probe_length_m", "m", "Length of that volume.").above(0.0).derived("0.009 m"),
+        number("report.adv_position_error_m", "m", "How far the instrument may have been from where it is said to have been.")
+            .above(0.0)
+            .derived("0.025 ring radius"),
     };
 }
 

@@ -4,13 +4,16 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "cases/manifest.hpp"
 #include "cases/run_directory.hpp"
+#include "cases/slurm.hpp"
 #include "cases/study.hpp"
 #include "cases/study_case.hpp"
 #include "geometry/base/child_process.hpp"
@@ -175,13 +178,82 @@ std::optional<double> share_of(const std::string& line) {
     return std::strtod(line.c_str() + start.size(), nullptr) / 100.0;
 }
 
-class Runs {
+/// `cutterflow mesh` or `cutterflow run` of a point.
+ChildCommand command_of(const SweepSettings& settings, const SweepPoint& point, const std::string& what) {
+    ChildCommand command;
+    command.arguments = {settings.program.string(),
+                         what,
+                         (settings.folder / k_studies / (point.name + ".toml")).string(),
+                         "-o",
+                         (settings.folder / point.name).string(),
+                         "--ranks",
+                         std::to_string(settings.ranks)};
+    if (what == "run") command.arguments.emplace_back("--resume");
+    if (what == "run" && !point.start_donor.empty())
+        command.arguments.insert(command.arguments.end(), {"--start-from", (settings.folder / point.start_donor).string()});
+    command.log = settings.folder / k_logs / fmt::format("{}.{}.log", point.name, what);
+    return command;
+}
+
+/// The first point of each design makes the mesh; the others get a copy.
+std::map<std::string, std::string> mesh_donors(const std::vector<SweepPoint>& points) {
+    std::map<std::string, std::string> donors;
+    for (const SweepPoint& point : points) donors.emplace(point.design, point.name);
+    return donors;
+}
+
+/// Points that have to make a mesh for others.
+std::vector<SweepPoint> points_to_mesh(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    const auto donors = mesh_donors(points);
+    std::vector<SweepPoint> to_mesh;
+    for (const SweepPoint& point : points)
+        if (donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name)) to_mesh.push_back(point);
+    return to_mesh;
+}
+
+void share_meshes(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    const auto donors = mesh_donors(points);
+    for (const SweepPoint& point : points) {
+        const std::string& donor = donors.at(point.design);
+        if (donor != point.name) share_stages(settings.folder / donor, settings.folder / point.name, {"geometry", "mesh"});
+    }
+}
+
+/// How far the points of a sweep are, all together.
+class SweepProgress {
 public:
-    Runs(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::function<void(const std::string&)>& say)
-        : points_(points), settings_(settings), say_(say), shares_(points.size(), 0.0) {}
+    explicit SweepProgress(std::size_t points) : shares_(points, 0.0) {}
+    void note(std::size_t point, std::optional<double> share) {
+        if (!share) return;
+        shares_[point] = *share;
+        double sum = 0.0;
+        for (const double value : shares_) sum += value;
+        const auto done = std::count(shares_.begin(), shares_.end(), 1.0);
+        progress_.update(sum / static_cast<double>(shares_.size()), fmt::format("{} of {} points", done, shares_.size()));
+    }
+    void finish() { progress_.finish(); }
+
+private:
+    std::vector<double> shares_;
+    Progress progress_{"sweep"};
+};
+
+/// The points on this machine's cores.
+class LocalRuns {
+public:
+    LocalRuns(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::function<void(const std::string&)>& say)
+        : points_(points), settings_(settings), say_(say), order_(points.size()), progress_(points.size()) {
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        // First repeats first: the others find their start done.
+        std::stable_partition(order_.begin(), order_.end(), [&](std::size_t i) { return points_[i].start_donor.empty(); });
+    }
 
     SweepOutcome take_all() {
-        make_meshes();
+        for (const SweepPoint& point : points_to_mesh(points_, settings_)) {
+            say_(fmt::format("{}: mesh", point.name));
+            run_child(command_of(settings_, point, "mesh"));  // when it fails, the point's own run will say why
+        }
+        share_meshes(points_, settings_);
         std::vector<std::thread> workers;
         for (int job = 0; job < settings_.jobs; ++job) workers.emplace_back([this] { work(); });
         for (std::thread& worker : workers) worker.join();
@@ -195,38 +267,9 @@ public:
     }
 
 private:
-    /// The first point of each design makes the mesh; the others get a copy.
-    void make_meshes() {
-        std::map<std::string, std::string> donors;
-        for (const SweepPoint& point : points_) {
-            const auto [donor, first] = donors.emplace(point.design, point.name);
-            if (first && !fs::exists(settings_.folder / point.name)) {
-                say_(fmt::format("{}: mesh", point.name));
-                const ChildCommand command = command_of(point, "mesh");
-                run_child(command);  // when it fails, the point's own run will say why
-            } else if (!first) {
-                share_stages(settings_.folder / donor->second, settings_.folder / point.name, {"geometry", "mesh"});
-            }
-        }
-    }
-
-    ChildCommand command_of(const SweepPoint& point, const std::string& what) const {
-        const fs::path run = settings_.folder / point.name;
-        ChildCommand command;
-        command.arguments = {settings_.program.string(),
-                             what,
-                             (settings_.folder / k_studies / (point.name + ".toml")).string(),
-                             "-o",
-                             run.string(),
-                             "--ranks",
-                             std::to_string(settings_.ranks)};
-        if (what == "run") command.arguments.emplace_back("--resume");
-        command.log = settings_.folder / k_logs / fmt::format("{}.{}.log", point.name, what);
-        return command;
-    }
-
     void work() {
-        for (std::size_t i = next_++; i < points_.size(); i = next_++) {
+        for (std::size_t n = next_++; n < points_.size(); n = next_++) {
+            const std::size_t i = order_[n];
             {
                 const std::lock_guard<std::mutex> lock(mutex_);
                 if (interrupted_) return;
@@ -237,7 +280,7 @@ private:
     }
 
     void take(std::size_t i) {
-        const ChildCommand command = command_of(points_[i], "run");
+        const ChildCommand command = command_of(settings_, points_[i], "run");
         try {
             const ChildResult result = run_child(command, [&](const std::string& line) { note(i, share_of(line)); });
             const std::lock_guard<std::mutex> lock(mutex_);
@@ -258,24 +301,129 @@ private:
     }
 
     void note(std::size_t i, std::optional<double> share) {
-        if (!share) return;
         const std::lock_guard<std::mutex> lock(mutex_);
-        shares_[i] = *share;
-        double sum = 0.0;
-        for (const double value : shares_) sum += value;
-        const auto done = std::count(shares_.begin(), shares_.end(), 1.0);
-        progress_.update(sum / static_cast<double>(points_.size()), fmt::format("{} of {} points", done, points_.size()));
+        progress_.note(i, share);
     }
 
     const std::vector<SweepPoint>& points_;
     const SweepSettings& settings_;
     const std::function<void(const std::string&)>& say_;
+    std::vector<std::size_t> order_;  // in which points are taken
     std::atomic<std::size_t> next_{0};
     std::mutex mutex_;
-    std::vector<double> shares_;
     std::map<std::size_t, std::string> failures_;
     std::optional<std::string> interrupted_;
-    Progress progress_{"sweep"};
+    SweepProgress progress_;
+};
+
+/// Its last stage is done. What became of a job is told by its run directory: a scheduler forgets.
+bool has_report(const fs::path& run) {
+    if (!fs::exists(run / names::manifest)) return false;
+    const Manifest manifest(run / names::manifest);
+    const StageRecord* report = manifest.find("report");
+    return report != nullptr && report->state == StageState::done;
+}
+
+std::vector<SweepPoint> without_report(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    std::vector<SweepPoint> missing;
+    for (const SweepPoint& point : points)
+        if (!has_report(settings.folder / point.name)) missing.push_back(point);
+    return missing;
+}
+
+/// Writes the job array that takes `points` through `what`. \return the script
+fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::string& what) {
+    SweepSettings absolute = settings;  // a job begins where its user was when it was handed in, or elsewhere
+    absolute.folder = fs::absolute(settings.folder).lexically_normal();
+    std::vector<SlurmTask> tasks;
+    for (const SweepPoint& point : points) {
+        const ChildCommand command = command_of(absolute, point, what);
+        tasks.push_back({command.arguments, command.log});
+    }
+    fs::create_directories(absolute.folder / k_logs);
+    const fs::path script = settings.folder / (what == "run" ? "sweep.slurm" : "mesh.slurm");
+    write_file(script, slurm_script(fmt::format("cutterflow_{}", safe(absolute.folder.filename().string())), tasks, settings.ranks));
+    return script;
+}
+
+/// The points as elements of a job array.
+class SlurmRuns {
+public:
+    SlurmRuns(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::function<void(const std::string&)>& say)
+        : points_(points), settings_(settings), say_(say), progress_(points.size()) {}
+
+    SweepOutcome take_all() {
+        require_programs({"sbatch", "squeue"});
+        wait_for_earlier_job();
+        take(points_to_mesh(points_, settings_), "mesh");
+        share_meshes(points_, settings_);
+        take(without_report(points_, settings_), "run");
+        progress_.finish();
+        SweepOutcome outcome;
+        for (const SweepPoint& point : points_) {
+            if (has_report(settings_.folder / point.name))
+                outcome.done.push_back(settings_.folder / point.name);
+            else
+                outcome.failed.push_back(failure_text(point));
+        }
+        return outcome;
+    }
+
+private:
+    fs::path job_file() const { return settings_.folder / "slurm.job"; }
+
+    /// The process that handed in a job may be gone, and the job still under way.
+    void wait_for_earlier_job() {
+        if (!fs::exists(job_file())) return;
+        const std::string job = read_file(job_file());
+        say_(fmt::format("waiting for job {}, handed in before, should it still be under way", job));
+        wait(job);
+    }
+
+    void take(const std::vector<SweepPoint>& points, const std::string& what) {
+        if (points.empty()) return;
+        const std::string job = submit_to_slurm(write_slurm_script(points, settings_, what));
+        write_file(job_file(), job);
+        say_(fmt::format("job {}: {} of {} point(s); scancel {} ends it", job, what, points.size(), job));
+        wait(job);
+    }
+
+    void wait(const std::string& job) {
+        try {
+            wait_for_slurm(job, [this] { look(); });
+        } catch (const Interrupted&) {
+            throw Interrupted(fmt::format("the waiting for job {} was stopped, the job goes on (scancel {} ends it)", job, job));
+        }
+    }
+
+    void look() {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const fs::path log = command_of(settings_, points_[i], "run").log;
+            if (has_report(settings_.folder / points_[i].name))
+                progress_.note(i, 1.0);
+            else if (fs::exists(log))
+                progress_.note(i, last_share(read_file(log)));
+        }
+    }
+
+    static std::optional<double> last_share(const std::string& log) {
+        std::istringstream lines(log);
+        std::optional<double> share;
+        for (std::string line; std::getline(lines, line);)
+            if (const auto found = share_of(line)) share = std::min(*found, 0.999);
+        return share;
+    }
+
+    std::string failure_text(const SweepPoint& point) const {
+        const fs::path log = command_of(settings_, point, "run").log;
+        if (!fs::exists(log)) return fmt::format("{}: its job ended before it began", point.name);
+        return fmt::format("{}: its job ended without a report (cancelled, out of time or memory, or failed); see {}", point.name, log.string());
+    }
+
+    const std::vector<SweepPoint>& points_;
+    const SweepSettings& settings_;
+    const std::function<void(const std::string&)>& say_;
+    SweepProgress progress_;
 };
 
 }  // namespace
@@ -289,14 +437,17 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
         std::string name = setting_name(combination, study.stem().string());
         ParameterValues values = values_of(combination, base, name);
+        const std::string first = name + "_repeat1";
         if (axes.repeats > 1) name += fmt::format("_repeat{}", combination.repeat + 1);
         try {
             const Head& head = designs.head_of(values, cutter);
             vary_release(values, combination.repeat, axes.repeats, head.symmetry.blade_count);
             values.set("cutter.file", from_studies(cutter, folder));
+            if (values.has("report.adv_points"))
+                values.set("report.adv_points", from_studies(study.parent_path() / base.text("report.adv_points"), folder));
             const std::string text = commented_toml(study_table(), &values);
             parse_parameters(study_table(), text, name);  // bounds of what the axes set
-            points.push_back({name, text, cutter.lexically_normal().string()});
+            points.push_back({name, text, cutter.lexically_normal().string(), combination.repeat > 0 ? first : std::string()});
             for (Mistake mistake : check_study(resolve_study(values, head_size(head)), head_size(head))) {
                 mistake.where = name;
                 add_once(mistake, mistakes);
@@ -313,7 +464,14 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say) {
     write_studies(points, settings);
-    return Runs(points, settings, say).take_all();
+    if (settings.launcher == Launcher::slurm) return SlurmRuns(points, settings, say).take_all();
+    return LocalRuns(points, settings, say).take_all();
+}
+
+fs::path emit_slurm(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    write_studies(points, settings);
+    const std::vector<SweepPoint> missing = without_report(points, settings);
+    return missing.empty() ? fs::path() : write_slurm_script(missing, settings, "run");
 }
 
 }  // namespace cutterflow::cases

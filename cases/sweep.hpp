@@ -19,7 +19,8 @@ struct SweepAxes {
 struct SweepPoint {
     std::string name;    ///< also of its run directory
     std::string text;    ///< of its study file, which stands in the sweep's folder
-    std::string design;  ///< points of one design share geometry and mesh
+    std::string design;         ///< points of one design share geometry and mesh
+    std::string start_donor{};  ///< of a repeat: the first one of its setting, whose frozen-rotor flow it takes if that is done; else empty
 };
 
 /// The points of a sweep. Repeats differ in the seed of the placement and in the rotor's angle at the release, both the same for the same
@@ -28,12 +29,16 @@ struct SweepPoint {
 /// \throws UserError  with every mistake of all points that can be seen without running them
 std::vector<SweepPoint> sweep_points(const std::filesystem::path& study, const SweepAxes& axes, const std::filesystem::path& folder);
 
+/// Who runs the points: this process, as many at a time as the cores carry, or the scheduler Slurm, each as an element of a job array.
+enum class Launcher { local, slurm };
+
 struct SweepSettings {
     std::filesystem::path folder;
     std::filesystem::path program;  ///< cutterflow
     int ranks = 1;                  ///< of each run
     int jobs = 1;                   ///< runs at a time
     bool resume = false;
+    Launcher launcher = Launcher::local;
 };
 
 struct SweepOutcome {
@@ -43,8 +48,12 @@ struct SweepOutcome {
 
 /// Takes every point to its report. A point that fails is told of and the others go on. Lines for the user go to `say`.
 /// \throws UserError    when the folder holds another sweep, or this one and `resume` is false
-/// \throws Interrupted  when the user stops it; what is done is kept
+/// \throws Interrupted  when the user stops it; what is done is kept, jobs that Slurm has go on
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say);
+
+/// Writes the studies and `<folder>/sweep.slurm`, the job array of all points that have no report yet, and starts nothing. Each point makes
+/// its own mesh. \return the script; empty when nothing is missing
+std::filesystem::path emit_slurm(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
 }  // namespace cutterflow::cases

@@ -7,6 +7,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/adv_trend.hpp"
 #include "postproc/comparison_figures.hpp"
 #include "postproc/gnuplot.hpp"
 #include "postproc/head_picture.hpp"
@@ -134,8 +135,13 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder) 
                               "<p>± half the 95 % interval: Student’s t over repeats for what rock does, batch means in time for the flow. "
                               "Second line: bounds, whatever the undecided rock does.</p>");
     body += html::section("Differences from setting 1", differences_table(comparison));
-    body += heads(comparison);
-    write_file(document, comparison_json(comparison).dump(2) + "\n");
+    std::vector<fs::path> directories;
+    for (const ComparedRun& compared : comparison.runs) directories.push_back(compared.run.directory);
+    const std::vector<AdvTrend> velocities = read_adv_trends(directories);
+    body += adv_trend_section(velocities, folder / "plots.part") + heads(comparison);
+    nlohmann::json numbers = comparison_json(comparison);
+    if (!velocities.empty()) numbers["velocities_at_points"] = adv_trend_json(velocities);
+    write_file(document, numbers.dump(2) + "\n");
     write_file(page, html::document(title, body, fmt::format("The same numbers for programs: comparison.json ({}).", k_comparison_schema)));
     return page;
 }

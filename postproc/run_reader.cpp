@@ -48,6 +48,7 @@ public:
         if (!(value > 0.0)) miss(key, fmt::format("= {} is not positive", value));
         return value;
     }
+    double number_or(const std::string& key, double standard) const { return root_.at_path(key).value<double>().value_or(standard); }
     std::string text(const std::string& key, bool required) {
         const std::optional<std::string> value = root_.at_path(key).value<std::string>();
         if (!value && required) miss(key, "is missing or not a text");
@@ -101,6 +102,12 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.swing_direction = study.text("swing.direction", false);
     point.mesh_preset = study.text("mesh.preset", false);
     return point;
+}
+
+AdvProbe read_adv_probe(const StudyReader& study) {
+    const AdvProbe standard;
+    return {study.number_or("report.adv_probe_diameter_m", standard.diameter), study.number_or("report.adv_probe_length_m", standard.length),
+            study.number_or("report.adv_position_error_m", standard.position_error)};
 }
 
 double required_number(const json& object, const char* key, const fs::path& file) {
@@ -242,7 +249,9 @@ RunData read_run(const fs::path& directory) {
                 geometry,
                 read_json(directory / names::mesh_report),
                 read_json(directory / names::manifest),
-                {}};
+                {},
+                read_blades(geometry),
+                read_adv_probe(study)};
     run.setting = study.setting();
     run.seed = study.seed();
     std::vector<std::string> bin_names;
@@ -259,7 +268,6 @@ RunData read_run(const fs::path& directory) {
     require_computed(run);
     const auto cost_folders = start_folders(directory, "cost");
     run.cost_summary = read_json(cost_folders.back().second / "cost.json");
-    run.blades = read_blades(geometry);
     run.finished = !run.cost_summary.empty();
     return run;
 }

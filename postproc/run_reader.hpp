@@ -9,6 +9,7 @@
 
 #include "geometry/base/axial_bins.hpp"
 #include "geometry/base/contour.hpp"
+#include "postproc/adv_points.hpp"
 #include "postproc/run_table.hpp"
 
 namespace cutterflow::postproc {
@@ -70,6 +71,7 @@ struct RunData {
     Table plane_axial, plane_under_ring;  ///< mean velocity on planes; empty when the run did not sample them
     nlohmann::json geometry, mesh, manifest, cost_summary;  ///< objects, empty when the file is absent
     int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
+    AdvProbe adv_probe;  ///< with which the run sampled its places of measurement, if it has any
     bool finished = false;                                  ///< the run came to its end
     std::string setting{};  ///< the study without its name and what repeats vary (seed and time of release); equal for repeats
     int seed = 0;         ///< of the first feed

@@ -14,6 +14,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_names.hpp"
+#include "postproc/adv_page.hpp"
 #include "postproc/report.hpp"
 
 namespace cutterflow::cli {
@@ -25,6 +26,7 @@ struct RunOptions {
     std::string study;
     std::optional<std::string> output;
     int ranks = 1;
+    std::string start_from;
     bool resume = false;
     bool json = false;
 };
@@ -72,13 +74,17 @@ cases::StageObserver stage_lines(std::size_t count) {
 void go_through_stages(const RunOptions& options, const cases::RunDirectory& directory, const std::string& until, std::size_t count) {
     cases::Manifest manifest(directory.file(names::manifest));
     manifest.set_versions({{"cutterflow", CUTTERFLOW_VERSION}, {"openfoam", "1912"}});
-    cases::Pipeline pipeline(directory, {fs::absolute(options.study), options.ranks, solver_path()}, say);
+    cases::Pipeline pipeline(directory, {fs::absolute(options.study), options.ranks, solver_path(), options.start_from}, say);
     try {
         cases::run_stages(directory, manifest, pipeline.stages(), until, options.resume, stage_lines(count));
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. What is done is kept in {}; go on with: cutterflow {} {} -o {} --ranks {}{}", interrupted.what(),
                                       directory.path().string(), until == "mesh" ? "mesh" : "run", options.study,
                                       run_folder(options).string(), options.ranks, until == "mesh" ? "" : " --resume"));
+    } catch (const std::exception&) {
+        // Whatever failed first on a full disk, what to do is the same.
+        if (const std::optional<Mistake> full = pipeline.full_disk()) throw ToolError(*full);
+        throw;
     }
 }
 
@@ -103,10 +109,33 @@ void run(const RunOptions& options) {
     }
 }
 
-void report(const std::string& folder, bool json) {
-    const postproc::ReportSummary summary = postproc::write_report(folder);
+struct ReportOptions {
+    std::string folder;
+    std::optional<std::string> adv_points;
+    std::optional<int> revolutions;
+    bool adv_template = false;
+    bool json = false;
+};
+
+void adv_report(const ReportOptions& options) {
+    const postproc::AdvComparison comparison = postproc::compare_with_measurement(options.folder, *options.adv_points, options.revolutions);
+    const fs::path page = postproc::write_adv_report(comparison, options.folder);
+    std::cout << (options.json ? read_file(fs::path(options.folder) / names::adv_json)
+                               : fmt::format("{}the page: {}\n", postproc::adv_text(comparison), page.string()))
+              << std::flush;
+}
+
+void report(const ReportOptions& options) {
+    if (options.adv_template) {
+        std::cout << postproc::adv_template() << std::flush;
+        return;
+    }
+    if (options.folder.empty())
+        throw UserError("report without a run directory", "A report is made of a run", "Give the directory: cutterflow report DIR");
+    if (options.adv_points) return adv_report(options);
+    const postproc::ReportSummary summary = postproc::write_report(options.folder);
     if (!summary.note.empty()) say(summary.note);
-    std::cout << (json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string())) << std::flush;
+    std::cout << (options.json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string())) << std::flush;
 }
 
 void add_run_options(CLI::App& command, RunOptions& options) {
@@ -129,6 +158,8 @@ void add_run(CLI::App& app) {
     auto* command = app.add_subcommand("run", "Go through every stage that is not done yet: geometry, mesh, case, start, run, report.");
     const auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
+    command->add_option("--start-from", options->start_from,
+                        "Run directory whose frozen-rotor flow is taken when it is the same to the byte, as that of a repeat is");
     command->add_flag("--resume", options->resume, "Go on with an interrupted run from its last checkpoint");
     command->add_flag("--json", options->json, "Print results.json");
     command->callback([options] { run(*options); });
@@ -136,11 +167,15 @@ void add_run(CLI::App& app) {
 
 void add_report(CLI::App& app) {
     auto* command = app.add_subcommand("report", "Make the report of a run directory anew, finished or not.");
-    const auto folder = std::make_shared<std::string>();
-    const auto json = std::make_shared<bool>(false);
-    command->add_option("run_directory", *folder, "The run directory")->required();
-    command->add_flag("--json", *json, "Print results.json");
-    command->callback([folder, json] { report(*folder, *json); });
+    const auto options = std::make_shared<ReportOptions>();
+    command->add_option("run_directory", options->folder, "The run directory");
+    auto* points = command->add_option("--adv", options->adv_points,
+                                       "Compare with velocities measured at the points of this CSV file, which the run sampled (report.adv_points)");
+    command->add_option("--revolutions", options->revolutions, "Average over the last so many revolutions of the run; without it all whole ones")
+        ->needs(points);
+    command->add_flag("--adv-template", options->adv_template, "Print a CSV file of points to fill in");
+    command->add_flag("--json", options->json, "Print results.json, or adv.json");
+    command->callback([options] { report(*options); });
 }
 
 }  // namespace cutterflow::cli

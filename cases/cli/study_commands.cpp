@@ -11,6 +11,7 @@
 #include "cases/rock_feed.hpp"
 #include "cases/study.hpp"
 #include "cases/study_case.hpp"
+#include "cases/velocity_points.hpp"
 #include "geometry/base/file_content.hpp"
 
 namespace cutterflow::cli {
@@ -80,6 +81,7 @@ void check_study_file(const CheckOptions& options) {
     const cases::Study study = cases::make_study(resolved, folder);
     const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface);
     const Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
+    if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
     const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
     std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);

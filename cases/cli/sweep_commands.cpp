@@ -12,6 +12,7 @@
 #include "cases/sweep.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/parameter.hpp"
 #include "postproc/comparison_page.hpp"
 
 namespace cutterflow::cli {
@@ -29,16 +30,49 @@ struct SweepOptions {
     cases::SweepAxes axes;
     int ranks = 1;
     bool resume = false;
+    std::string launcher = "local";
+    bool emit = false;
 };
 
+/// What CLI11 did not know: most likely a key that a sweep does not vary.
+void require_known_axes(const std::vector<std::string>& words) {
+    const std::vector<std::string> known{"--rpm", "--discharge", "--design", "--repeats"};
+    std::vector<Mistake> mistakes;
+    for (const std::string& word : words) {
+        if (word.empty() || word.front() != '-') continue;
+        const std::string axis = word.substr(0, word.find('='));
+        const std::string nearest = nearest_word(axis, known);
+        mistakes.push_back({"", fmt::format("a sweep over {}", axis), fmt::format("A sweep varies {}", fmt::join(known, ", ")),
+                            nearest.empty() ? "Write other changes into studies of their own, and compare the runs with cutterflow compare"
+                                            : fmt::format("Did you mean {}?", nearest)});
+    }
+    if (mistakes.empty() && !words.empty())
+        mistakes.push_back({"", fmt::format("\"{}\" belongs to no option", words.front()), "A sweep takes one study, and options", "Remove it"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 void sweep(const SweepOptions& options) {
-    cases::require_machine(options.ranks, {});
+    // Slurm's nodes may have more cores than the machine that hands the jobs in.
+    const bool local = options.launcher == "local" && !options.emit;
+    cases::require_machine(local ? options.ranks : 1, {});
     const fs::path folder =
         options.output ? fs::path(*options.output) : fs::path("runs") / (fs::path(options.study).stem().string() + "_sweep");
     const std::vector<cases::SweepPoint> points = cases::sweep_points(options.study, options.axes, folder);
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
-    say(fmt::format("{} points, {} at a time on {} rank(s) each, in {}", points.size(), jobs, options.ranks, folder.string()));
-    const cases::SweepSettings settings{folder, fs::read_symlink("/proc/self/exe"), options.ranks, jobs, options.resume};
+    const cases::SweepSettings settings{folder,         fs::read_symlink("/proc/self/exe"),
+                                        options.ranks,  jobs,
+                                        options.resume, local ? cases::Launcher::local : cases::Launcher::slurm};
+    if (options.emit) {
+        const fs::path script = cases::emit_slurm(points, settings);
+        std::cout << (script.empty() ? std::string("no point is missing\n")
+                                     : fmt::format("the job array: {0}\nnext: sbatch {0}; then this command with --launcher slurm --resume collects and compares\n",
+                                                   script.string()));
+        return;
+    }
+    if (local)
+        say(fmt::format("{} points, {} at a time on {} rank(s) each, in {}", points.size(), jobs, options.ranks, folder.string()));
+    else
+        say(fmt::format("{} points by Slurm, on {} core(s) each, in {}", points.size(), options.ranks, folder.string()));
     cases::SweepOutcome outcome;
     try {
         outcome = cases::run_sweep(points, settings, say);
@@ -88,7 +122,17 @@ void add_sweep(CLI::App& app) {
     command->add_option("--ranks", options->ranks, "Processes of each run; as many runs go on at a time as the cores carry")
         ->capture_default_str();
     command->add_flag("--resume", options->resume, "Go on with a sweep that was stopped or killed, or add points to it");
-    command->callback([options] { sweep(*options); });
+    command->add_option("--launcher", options->launcher, "Who runs the points: this machine, or Slurm as a job array")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str();
+    command->add_option_function<std::string>("--emit", [options](const std::string&) { options->emit = true; },
+                                              "Only write the job array (slurm) of the points that have no report yet")
+        ->check(CLI::IsMember({"slurm"}));
+    command->allow_extras();
+    command->callback([options, command] {
+        require_known_axes(command->remaining());
+        sweep(*options);
+    });
 }
 
 void add_compare(CLI::App& app) {

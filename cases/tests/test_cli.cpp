@@ -329,6 +329,29 @@ TEST_F(Cli, warns_of_a_rotor_that_carries_rock_away_and_of_rock_that_may_block) 
                     "third of the smallest passage");
 }
 
+TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
+    const std::string header = call({"report", "--adv-template"}).text;
+    write_file(folder_ / "points.csv", header);
+    EXPECT_EQ(call({"check", study("[report]\nadv_points = \"points.csv\"\n")}).code, 0);
+    // The tank's radius is 2.5 m; the hub turns about the axis; a blade's tip passes a still point and leaves water behind it.
+    write_file(folder_ / "points.csv", header + "C1,2600,0,-60,still,,,\nC2,100,0,900,still,,,\nC3,5,0,-440,still,,,\nC4,5,0,-440,rotating,,,\n"
+                                                "C5,250,0,-150,still,,,\nC6,300,180,40,still,,,\n");
+    const Outcome outcome = call({"check", "study.toml"});
+    expect_refused(outcome, 2, "point C1 (r = 2.6 m, theta = 0 deg, z = -0.06 m) lies outside the water");
+    for (const char* part : {"point C2 (r = 0.1 m", "point C3", "point C4", "point C6", "lies inside steel"}) expect_contains(outcome.text, part);
+    EXPECT_EQ(outcome.text.find("point A1 ("), std::string::npos) << outcome.text;
+    EXPECT_EQ(outcome.text.find("point C5 ("), std::string::npos) << outcome.text;
+    expect_refused(call({"report"}), 2, "report without a run directory");
+    expect_refused(call({"check", study("[report]\nadv_points = \"nowhere.csv\"\n")}), 2, "nowhere.csv");
+}
+
+TEST_F(Cli, refuses_a_sweep_over_what_it_does_not_vary) {
+    const Outcome outcome = call({"sweep", study(), "--speed", "30,60", "--discharges", "0.1"});
+    expect_refused(outcome, 2, "a sweep over --speed. A sweep varies --rpm, --discharge, --design, --repeats");
+    expect_contains(outcome.text, "Did you mean --discharge?");
+    EXPECT_FALSE(fs::exists(folder_ / "runs"));
+}
+
 TEST_F(Cli, refuses_machines_that_cannot_run_it) {
     study();
     const std::string too_many = std::to_string(cases::available_cores() + 1);

@@ -29,8 +29,16 @@ inline constexpr const char* feed_report = "feed.json";
 inline constexpr const char* rock_feed = "constant/rockFeed.csv";
 inline constexpr const char* coupling_properties = "constant/couplingProperties";
 inline constexpr const char* contour_for_solver = "constant/contour.csv";
+inline constexpr const char* sample_points = "constant/samples";           ///< folder of <set>.csv, points at which velocity is averaged
 inline constexpr const char* checkpoints = "checkpoints";
 inline constexpr const char* results_json = "report/results.json";
 inline constexpr const char* report_page = "report/index.html";
+inline constexpr const char* adv_json = "report/adv.json";  ///< measured velocities beside the model's
+inline constexpr const char* adv_page = "report/adv.html";
+
+// Sets of points at which a run averages the velocity.
+inline constexpr const char* axial_plane = "plane_axial";            ///< through the axis and the mouth's centre
+inline constexpr const char* plane_under_ring = "plane_under_ring";
+inline constexpr const char* adv_set = "adv";  ///< places of measurement
 
 }  // namespace cutterflow::names

@@ -16,6 +16,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* k_state_file = "state.json";
+constexpr const char* k_velocity_file = "velocity.sums";
 constexpr const char* k_schema = "cutterflow.state/1";
 
 json to_json(const Vec3& v) {
@@ -147,6 +148,20 @@ std::vector<Vec3> read_carry(const fs::path& folder, int rank, std::size_t cells
     stream.read(reinterpret_cast<char*>(carry.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
     if (!stream) refuse(file, "the file is cut short", "The file is one that cutterFoam wrote");
     return carry;
+}
+
+void write_velocity(const fs::path& folder, const VelocitySets& sets) {
+    std::ofstream stream(folder / k_velocity_file, std::ios::binary);
+    sets.write(stream);
+    stream.close();
+    if (!stream) throw std::runtime_error((folder / k_velocity_file).string() + ": the checkpoint cannot be written");
+}
+
+void read_velocity(const fs::path& folder, VelocitySets& sets) {
+    const fs::path file = folder / k_velocity_file;
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || !sets.restore(stream))
+        refuse(file, "it does not hold the sums of this run's velocity sets", "A run resumes with the points that it began with");
 }
 
 fs::path newest_checkpoint(const fs::path& case_folder) {

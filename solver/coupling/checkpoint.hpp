@@ -8,6 +8,7 @@
 #include "solver/coupling/communicator.hpp"
 #include "solver/coupling/fate_tracker.hpp"
 #include "solver/coupling/rock_coupling.hpp"
+#include "solver/coupling/velocity_sets.hpp"
 
 namespace cutterflow::coupling {
 
@@ -29,6 +30,11 @@ RunState read_state(const std::filesystem::path& folder);
 void write_carry(const std::filesystem::path& folder, int rank, gsl::span<const Vec3> carry);
 /// \throws UserError  when the file is not there or holds another number of cells: the mesh is split otherwise than it was
 std::vector<Vec3> read_carry(const std::filesystem::path& folder, int rank, std::size_t cells);
+
+/// velocity.sums: what the velocity averages hold so far.
+void write_velocity(const std::filesystem::path& folder, const VelocitySets& sets);
+/// \throws UserError  when the file is not there or holds sums of other points
+void read_velocity(const std::filesystem::path& folder, VelocitySets& sets);
 
 /// Newest complete checkpoint of a case (`checkpoints/<time>`), or an empty path.
 std::filesystem::path newest_checkpoint(const std::filesystem::path& case_folder);

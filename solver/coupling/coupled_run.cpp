@@ -60,6 +60,13 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
             append(mistakes, error);
         }
     }
+    if (settings.velocity && mistakes.empty()) {
+        try {
+            velocity_.emplace(*settings.velocity, fluid);
+        } catch (const UserError& error) {
+            append(mistakes, error);
+        }
+    }
     if (!mistakes.empty()) throw UserError(mistakes);
     if (settings.has_rock) rock_ = std::make_unique<RockCoupling>(settings, properties, fluid, *dem, communicator);
 
@@ -177,6 +184,7 @@ void CoupledRun::report() {
     const Timer timer(cost_.output);
     report_loads_and_balance();
     if (outflow_) recorder_.outflow(fluid_.time(), outflow_->sample(fluid_));
+    if (velocity_) velocity_->sample_if_due(fluid_);
     if (has_rock()) recorder_.fates(fluid_.time(), fates_->totals());
     if (fluid_.write_if_due() && has_rock()) record_picture();
     // Half a step of slack, so that checkpoints do not fall behind their interval by a step each time.
@@ -243,8 +251,13 @@ bool CoupledRun::finished() const {
 void CoupledRun::finish() {
     if (settings_.checkpoint && fluid_.time() > last_checkpoint_) write_checkpoint();
     if (has_rock()) recorder_.outcomes(fates_->outcomes());
+    report_velocity();
     recorder_.finished(run_cost_);
     recorder_.flush();
+}
+
+void CoupledRun::report_velocity() {
+    if (velocity_) recorder_.velocity(*velocity_, fluid_.time());
 }
 
 void CoupledRun::wait_for_all() {
@@ -264,6 +277,7 @@ void CoupledRun::write_checkpoint() {
     }
     wait_for_all();
     write_state_files(part);
+    report_velocity();
     recorder_.flush();
     wait_for_all();
     if (writes) {
@@ -287,7 +301,9 @@ void CoupledRun::write_state_files(const fs::path& folder) {
         write_carry(folder, communicator_.rank(), rock_->carry());
         recorder_.outcomes(fates_->outcomes());
     }
-    if (communicator_.rank() == 0) write_state(folder, state);
+    if (communicator_.rank() != 0) return;
+    write_state(folder, state);
+    if (velocity_) write_velocity(folder, *velocity_);
 }
 
 void CoupledRun::resume(const fs::path& checkpoint) {
@@ -303,6 +319,8 @@ void CoupledRun::resume(const fs::path& checkpoint) {
                "A run resumes on the mesh and the number of ranks that it had", fmt::format("Start it on {} ranks", state.ranks));
     handled_feed_ = state.handled_feed;
     last_checkpoint_ = fluid_.time();
+    // Every rank holds the same sums and reads the same file.
+    if (velocity_) read_velocity(checkpoint, *velocity_);
     if (!has_rock()) return;
     const std::set<int> handled(handled_feed_.begin(), handled_feed_.end());
     feed_.erase(std::remove_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return handled.count(rock.id) > 0; }), feed_.end());

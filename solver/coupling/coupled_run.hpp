@@ -15,6 +15,7 @@
 #include "solver/coupling/rock_coupling.hpp"
 #include "solver/coupling/run_recorder.hpp"
 #include "solver/coupling/settings.hpp"
+#include "solver/coupling/velocity_sets.hpp"
 
 namespace cutterflow::coupling {
 
@@ -73,6 +74,7 @@ private:
     void report_cost(double step_seconds);
     void record_picture();
     void write_state_files(const std::filesystem::path& folder);
+    void report_velocity();
     void wait_for_all();
 
     CouplingSettings settings_;
@@ -85,6 +87,7 @@ private:
     std::unique_ptr<RockCoupling> rock_;
     std::optional<FateTracker> fates_;
     std::optional<OutflowSampler> outflow_;
+    std::optional<VelocitySets> velocity_;
     std::vector<FeedRock> feed_;  // not yet handled, sorted by time
     std::vector<int> handled_feed_;
 

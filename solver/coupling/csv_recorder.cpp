@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/axial_bins.hpp"
+#include "solver/coupling/velocity_tables.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -164,6 +165,11 @@ void CsvRecorder::outcomes(gsl::span<const RockOutcome> outcomes) {
     if (!stream) fail_to_write(folder(k_rock) / "final.csv");
 }
 
+void CsvRecorder::velocity(const VelocitySets& sets, double time) {
+    std::filesystem::create_directories(folder("velocity"));
+    write_velocity_tables(folder("velocity"), sets, time);
+}
+
 void CsvRecorder::finished(const RunCost& cost) {
     nlohmann::json json;
     json["ranks"] = cost.ranks;
@@ -193,7 +199,10 @@ void CsvRecorder::warning(double time, const std::string& text) {
 }
 
 void CsvRecorder::flush() {
-    for (std::ofstream* stream : {&events_, &rejected_, &fates_, &outflow_, &loads_, &balance_, &cost_}) stream->flush();
+    for (std::ofstream* stream : {&events_, &rejected_, &fates_, &outflow_, &loads_, &balance_, &cost_}) {
+        stream->flush();
+        if (!*stream) fail_to_write(root_);
+    }
 }
 
 }  // namespace cutterflow::coupling

@@ -30,6 +30,7 @@ public:
     void cost(const CostRow& row) override;
     void picture(const RockPicture& picture) override;
     void outcomes(gsl::span<const RockOutcome> outcomes) override;
+    void velocity(const VelocitySets& sets, double time) override;
     void finished(const RunCost& cost) override;
     /// Goes to standard error at once and into cost.json.
     void warning(double time, const std::string& text) override;

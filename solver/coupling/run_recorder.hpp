@@ -119,6 +119,8 @@ struct RunCost {
     CostRow totals;
 };
 
+class VelocitySets;
+
 class RunRecorder {
 public:
     virtual ~RunRecorder() = default;
@@ -133,6 +135,8 @@ public:
     virtual void picture(const RockPicture& picture) = 0;
     /// Rewrites the table of outcomes.
     virtual void outcomes(gsl::span<const RockOutcome> outcomes) = 0;
+    /// Rewrites the tables of averaged velocities. \param time  up to which they go [s]
+    virtual void velocity(const VelocitySets& sets, double time) = 0;
     virtual void finished(const RunCost& cost) = 0;
     /// Something that the reader of results should know; told once.
     virtual void warning(double time, const std::string& text) = 0;
@@ -152,6 +156,7 @@ public:
     void cost(const CostRow&) override {}
     void picture(const RockPicture&) override {}
     void outcomes(gsl::span<const RockOutcome>) override {}
+    void velocity(const VelocitySets&, double) override {}
     void finished(const RunCost&) override {}
     void warning(double, const std::string&) override {}
     void flush() override {}

@@ -1,6 +1,8 @@
 #include "solver/coupling/settings.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -75,6 +77,22 @@ void check_fates(Checker& check, const FateSettings& fates) {
                   "It is a direction into the pipe", "Use (0 0 1)");
 }
 
+void check_velocity(Checker& check, const VelocitySettings& velocity) {
+    check.require(velocity.interval > 0.0 && velocity.interval <= 30.0, "velocity.interval", velocity.interval,
+                  "It is an angle in degrees, above 0 and at most 30", "Use 3");
+    check.require(velocity.blades >= 1, "velocity.blades", velocity.blades, "It must be 1 or more", "Correct the value");
+    std::set<std::string> names;
+    for (const VelocitySetSettings& set : velocity.sets) {
+        const std::string key = "velocity.sets." + set.name;
+        const bool plain = !set.name.empty() && std::all_of(set.name.begin(), set.name.end(), [](unsigned char c) {
+            return std::isalnum(c) != 0 || c == '_' || c == '-';
+        });
+        if (!plain) check.add(fmt::format("velocity.sets: the name '{}'", set.name), "Results are called by it", "Use letters, digits, - and _");
+        if (!names.insert(set.name).second) check.add(key + " stands twice", "Results are called by the name", "Rename one of them");
+        check.require(set.phases >= 0 && set.phases <= 360, key + ".phases", set.phases, "It must lie between 0 and 360", "Use 12");
+    }
+}
+
 }  // namespace
 
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where) {
@@ -93,6 +111,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         check.require(settings.outflow->offset >= 0.0, "outflow.offset", settings.outflow->offset, "It must not be negative",
                       "Use 0.015 for a ring radius of 0.4 m");
     }
+    if (settings.velocity) check_velocity(check, *settings.velocity);
     if (settings.stop)
         check.require(settings.stop->undecided >= 0.0 && settings.stop->undecided < 1.0, "stop.undecided", settings.stop->undecided,
                       "It is a share of the placed mass, from 0 to below 1", "Use 0.05");

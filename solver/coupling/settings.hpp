@@ -56,6 +56,21 @@ struct OutflowSettings {
     double start_time = 0.0;  ///< [s], from which the report averages
 };
 
+/// A set of points at which the velocity is averaged.
+struct VelocitySetSettings {
+    std::string name;            ///< of the result's file; letters, digits, '-' and '_'
+    std::filesystem::path file;  ///< CSV x_m,y_m,z_m,rotating
+    int phases = 0;              ///< bins of rotor angle for phase averages; 0: none, and nothing by revolution either
+};
+
+/// Averages of the velocity at points, over whole revolutions.
+struct VelocitySettings {
+    double start_time = 0.0;  ///< [s], averaged from here on
+    double interval = 3.0;    ///< of rotor angle between samples [deg]
+    int blades = 1;           ///< phases at still points repeat with every blade
+    std::vector<VelocitySetSettings> sets;
+};
+
 /// The run ends when the undecided share of the placed mass is this small and every feed has been inserted.
 struct StopSettings {
     double undecided = 0.0;  ///< [-]
@@ -66,8 +81,8 @@ struct CheckpointSettings {
     int keep = 2;           ///< newest ones that stay
 };
 
-/// Everything that couplingProperties says to the coupled algorithm. Without rock only `outflow`, `checkpoint` and, for the
-/// outflow's bins, `fates` count.
+/// Everything that couplingProperties says to the coupled algorithm. Without rock only `outflow`, `velocity`, `checkpoint` and,
+/// for the outflow's bins, `fates` count.
 struct CouplingSettings {
     bool has_rock = false;
     std::filesystem::path rock_feed;  ///< CSV, with rock
@@ -75,6 +90,7 @@ struct CouplingSettings {
     ClosureSettings closures;
     std::optional<FateSettings> fates;  ///< needed with rock and with outflow
     std::optional<OutflowSettings> outflow;
+    std::optional<VelocitySettings> velocity;
     std::optional<StopSettings> stop;
     std::optional<CheckpointSettings> checkpoint;
 };

@@ -12,6 +12,8 @@ constexpr std::size_t k_leaf_size = 4;
 constexpr double k_edge_slack = 1e-9;
 // Halving bounds the depth by the logarithm of the count; a depth-first walk keeps one entry per level and one more.
 constexpr int k_stack_size = 64;
+// Of the rays that tell inside from outside: along no line that meshes of heads have, and nearly level.
+const Vec3 k_ray_direction = Vec3(0.6471, 0.7624, 1e-3).normalized();
 
 }  // namespace
 
@@ -69,31 +71,31 @@ void SteelTree::build(std::vector<Item>& items, std::size_t begin, std::size_t e
     build(items, half, end);
 }
 
-bool SteelTree::meets(const Triangle& triangle, const Vec3& origin, const Vec3& direction) {
+bool SteelTree::meets(const Triangle& triangle, const Vec3& origin, const Vec3& direction, double edge_slack) {
     const Vec3 p = direction.cross(triangle.edge2);
     const double determinant = triangle.edge1.dot(p);
     if (determinant == 0.0) return false;
     const double inverse = 1.0 / determinant;
     const Vec3 s = origin - triangle.corner;
     const double u = s.dot(p) * inverse;
-    if (!(u >= -k_edge_slack && u <= 1.0 + k_edge_slack)) return false;
+    if (!(u >= -edge_slack && u <= 1.0 + edge_slack)) return false;
     const Vec3 q = s.cross(triangle.edge1);
     const double v = direction.dot(q) * inverse;
-    if (!(v >= -k_edge_slack && u + v <= 1.0 + k_edge_slack)) return false;
+    if (!(v >= -edge_slack && u + v <= 1.0 + edge_slack)) return false;
     const double t = triangle.edge2.dot(q) * inverse;
     return t >= 0.0 && t <= 1.0;
 }
 
-bool SteelTree::blocks(const Vec3& a, const Vec3& b) const {
+template <class Each>
+bool SteelTree::along(const Vec3& origin, const Vec3& direction, const Each& each) const {
     if (nodes_.empty()) return false;
-    const Vec3 direction = b - a;
     // A component of zero would give 0 * infinity where the segment lies in the plane of a box face.
     const Vec3 inverse = direction.unaryExpr([](double d) { return 1.0 / (d == 0.0 ? 1e-300 : d); });
     const auto meets_box = [&](const Box& box) {
         double enter = 0.0, leave = 1.0;
         for (int i = 0; i < 3; ++i) {
-            const double t0 = (box.lower[i] - a[i]) * inverse[i];
-            const double t1 = (box.upper[i] - a[i]) * inverse[i];
+            const double t0 = (box.lower[i] - origin[i]) * inverse[i];
+            const double t1 = (box.upper[i] - origin[i]) * inverse[i];
             enter = std::max(enter, std::min(t0, t1));
             leave = std::min(leave, std::max(t0, t1));
         }
@@ -108,13 +110,31 @@ bool SteelTree::blocks(const Vec3& a, const Vec3& b) const {
         if (!meets_box(node.box)) continue;
         if (node.count > 0) {
             for (std::int32_t i = node.first; i < node.first + node.count; ++i)
-                if (meets(triangles_[static_cast<std::size_t>(i)], a, direction)) return true;
+                if (each(triangles_[static_cast<std::size_t>(i)])) return true;
         } else {
             stack[top++] = node.first;
             stack[top++] = index + 1;
         }
     }
     return false;
+}
+
+bool SteelTree::blocks(const Vec3& a, const Vec3& b) const {
+    const Vec3 direction = b - a;
+    return along(a, direction, [&](const Triangle& triangle) { return meets(triangle, a, direction, k_edge_slack); });
+}
+
+bool SteelTree::contains(const Vec3& point) const {
+    if (nodes_.empty()) return false;
+    const Box& all = nodes_[0].box;
+    if ((point - all.lower).minCoeff() < 0.0 || (all.upper - point).minCoeff() < 0.0) return false;
+    const Vec3 ray = 2.0 * (all.upper - all.lower).norm() * k_ray_direction;
+    int crossings = 0;
+    along(point, ray, [&](const Triangle& triangle) {
+        crossings += meets(triangle, point, ray, 0.0) ? 1 : 0;
+        return false;
+    });
+    return crossings % 2 == 1;
 }
 
 double SteelTree::squared_distance(const Triangle& triangle, const Vec3& point) {

@@ -20,6 +20,11 @@ public:
     /// True when a triangle meets the segment from a to b [m]. Edges count, so that no segment slips between two triangles that share one.
     bool blocks(const Vec3& a, const Vec3& b) const;
 
+    /// True when the point [m] lies inside the solid that the triangles bound: a ray from it crosses them an odd number of times. The ray
+    /// rises by a thousandth, so that floor and cover of a tank, which may be among the triangles, do not meet it.
+    /// \pre  the triangles close their solids, but for openings above or below
+    bool contains(const Vec3& point) const;
+
     /// Distance [m] from a point to the nearest triangle, or `limit` when none is nearer.
     double distance(const Vec3& point, double limit) const;
 
@@ -38,7 +43,10 @@ private:
     struct Item;  // a triangle while the tree is built
 
     void build(std::vector<Item>& items, std::size_t begin, std::size_t end);
-    static bool meets(const Triangle& triangle, const Vec3& origin, const Vec3& direction);
+    static bool meets(const Triangle& triangle, const Vec3& origin, const Vec3& direction, double edge_slack);
+    /// Calls `each(triangle)` for the triangles whose boxes the segment passes, until it returns true. \return whether it did
+    template <class Each>
+    bool along(const Vec3& origin, const Vec3& direction, const Each& each) const;
     static double squared_distance(const Triangle& triangle, const Vec3& point);
 
     std::vector<Node> nodes_;

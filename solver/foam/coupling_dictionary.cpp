@@ -108,6 +108,21 @@ void read_fates(DictionarySection& section, const std::filesystem::path& folder,
     section.read("binWidth", fates.bin_width, k_required);
 }
 
+void read_velocity(DictionarySection& section, const std::filesystem::path& folder, coupling::VelocitySettings& velocity) {
+    section.read("startTime", velocity.start_time, k_required);
+    section.read("interval", velocity.interval, k_optional);
+    section.read("blades", velocity.blades, k_optional);
+    for (const Foam::dictionary& dict : section.sections("sets", k_required)) {
+        DictionarySection entry = section.below(dict, "sets");
+        coupling::VelocitySetSettings set;
+        entry.read("name", set.name, k_required);
+        entry.read("file", set.file, folder, k_required);
+        entry.read("phases", set.phases, k_optional);
+        entry.finish();
+        velocity.sets.push_back(set);
+    }
+}
+
 /// Gravity and the fluid; the other keys of these files are OpenFOAM's.
 void read_surroundings(const Foam::Time& time, coupling::DemSettings& dem, std::vector<Mistake>& mistakes) {
     const Foam::uniformDimensionedVectorField gravity(in_constant("g", time));
@@ -129,6 +144,8 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
         section.read("offset", outflow.offset, k_required);
         section.read("startTime", outflow.start_time, k_required);
     });
+    read_optional(file, "velocity", settings.velocity,
+                  [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
     read_optional(file, "stop", settings.stop, [](DictionarySection& section, coupling::StopSettings& stop) {
         section.read("undecided", stop.undecided, k_required);
     });

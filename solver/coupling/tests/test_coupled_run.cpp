@@ -33,6 +33,11 @@ public:
     void cost(const CostRow& row) override { cost_rows.push_back(row); }
     void picture(const RockPicture& p) override { pictures.emplace_back(p.id.begin(), p.id.end()); }
     void outcomes(gsl::span<const RockOutcome> o) override { last_outcomes.assign(o.begin(), o.end()); }
+    void velocity(const VelocitySets& sets, double) override {
+        last_velocity.clear();
+        for (const VelocitySet& set : sets.sets())
+            for (std::size_t i = 0; i < set.points.size(); ++i) last_velocity.push_back(set.statistics.average(i).sum);
+    }
     void finished(const RunCost& c) override { run_cost = c; }
     void warning(double, const std::string& text) override { warnings.push_back(text); }
     void flush() override { ++flushes; }
@@ -46,6 +51,7 @@ public:
     std::vector<CostRow> cost_rows;
     std::vector<std::vector<int>> pictures;
     std::vector<RockOutcome> last_outcomes;
+    std::vector<Vec3> last_velocity;
     std::optional<RunCost> run_cost;
     std::vector<std::string> warnings;
     int flushes = 0;
@@ -313,6 +319,43 @@ TEST(Checkpoint, resumes_to_the_bit) {
     EXPECT_EQ(after.fate_rows.back().second.placed.count, 4);
 }
 
+TEST(Checkpoint, carries_the_sums_of_velocity) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "");
+    settings.has_rock = false;
+    settings.velocity = VelocitySettings{0.01, 3.0, 6, {{"adv", folder.write("adv.csv", "x_m,y_m,z_m,rotating\n0.1,0,-0.1,0\n0,0.1,-0.1,1\n"), 4}}};
+    settings.checkpoint = CheckpointSettings{0.1, 100};
+    const auto flow = [](const Vec3& x, double time) -> Vec3 { return {std::sin(20.0 * time) * x[1], 1.0 + time, x[0]}; };
+    MemoryRecorder whole_recorder, recorder;
+    Rig whole(settings, folder.path(), whole_recorder, Vec3::Zero());
+    whole.fluid.flow = flow;
+    std::filesystem::path checkpoint;
+    double saved_time = 0.0;
+    while (whole.fluid.time() < 1.3) {
+        whole.run->step();
+        if (saved_time > 0.5 || newest_checkpoint(folder.path()).empty()) continue;
+        checkpoint = newest_checkpoint(folder.path());
+        saved_time = std::stod(checkpoint.filename());
+    }
+    whole.run->finish();
+    Rig resumed(settings, folder.path(), recorder, Vec3::Zero());
+    resumed.fluid.flow = flow;
+    resumed.fluid.restart_at(saved_time);
+    ASSERT_TRUE(std::filesystem::exists(checkpoint / "velocity.sums"));
+    resumed.run->resume(checkpoint);
+    while (resumed.fluid.time() < 1.3) resumed.run->step();
+    resumed.run->finish();
+    ASSERT_EQ(whole_recorder.last_velocity.size(), 2u);
+    // The times of both runs are sums of the same steps but for the name of the checkpoint, which has six digits.
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR((whole_recorder.last_velocity[i] - recorder.last_velocity[i]).norm(), 0.0, 1e-5);
+    EXPECT_GT(whole_recorder.last_velocity[0].norm(), 1.0);
+
+    std::filesystem::remove(checkpoint / "velocity.sums");
+    Rig without(settings, folder.path(), recorder, Vec3::Zero());
+    without.fluid.restart_at(saved_time);
+    EXPECT_THROW(without.run->resume(checkpoint), UserError);
+}
+
 TEST(Checkpoint, keeps_the_newest_and_leaves_no_part_behind) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
@@ -387,6 +430,7 @@ TEST(CsvRecorder, writes_the_files_of_the_contract) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n");
     settings.outflow = OutflowSettings{0.015, 0.0};
+    settings.velocity = VelocitySettings{0.0, 1.0, 6, {{"adv", folder.write("adv.csv", "x_m,y_m,z_m,rotating\n0.1,0,-0.1,0\n"), 2}}};
     {
         CsvRecorder recorder(folder.path(), settings, 0.0);
         recorder.describe({{"brown_lawler", "rock"}}, {{"cutterflow", "0.1"}});
@@ -406,6 +450,8 @@ TEST(CsvRecorder, writes_the_files_of_the_contract) {
     EXPECT_EQ(lines("rock/0/rejected.csv"), 2);
     EXPECT_EQ(lines("rock/0/final.csv"), 2);
     EXPECT_EQ(lines("outflow/0/contour_velocity.csv"), 6);
+    EXPECT_EQ(lines("velocity/0/adv.csv"), 2);
+    EXPECT_EQ(lines("velocity/0/adv_phases.csv"), 3);
     EXPECT_EQ(lines("loads/0/loads.csv"), 6);
     EXPECT_EQ(lines("balance/0/balance.csv"), 6);
     EXPECT_EQ(lines("cost/0/cost.csv"), 6);

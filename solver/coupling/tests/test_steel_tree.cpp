@@ -28,6 +28,44 @@ bool passes_through(const SteelTriangle& t, const Vec3& a, const Vec3& b) {
     return ab == bc && bc == ca;
 }
 
+/// Triangles of a sphere about a centre.
+void add_sphere(const Vec3& centre, double radius, int n, std::vector<SteelTriangle>& triangles) {
+    const auto point = [&](int i, int j) -> Vec3 {
+        const double polar = k_pi * i / n, azimuth = k_pi * j / n;
+        return centre + radius * Vec3(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+    };
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < 2 * n; ++j) {
+            if (i > 0) triangles.push_back({point(i, j), point(i + 1, j), point(i, j + 1)});
+            if (i + 1 < n) triangles.push_back({point(i, j + 1), point(i + 1, j), point(i + 1, j + 1)});
+        }
+}
+
+TEST(SteelTree, tells_inside_from_outside_of_solids_above_a_tanks_floor) {
+    std::vector<SteelTriangle> triangles;
+    const Vec3 first(0.2, 0.0, 0.0), second(-0.5, 0.4, 0.1);
+    add_sphere(first, 0.3, 40, triangles);
+    add_sphere(second, 0.2, 40, triangles);
+    for (const double z : {-1.0, 1.0}) {  // floor and cover
+        triangles.push_back({Vec3(-2, -2, z), Vec3(2, -2, z), Vec3(2, 2, z)});
+        triangles.push_back({Vec3(-2, -2, z), Vec3(2, 2, z), Vec3(-2, 2, z)});
+    }
+    const SteelTree tree(triangles);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-0.9, 0.9);
+    int inside = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 x(place(random), place(random), place(random));
+        const double depth = std::max(0.3 - (x - first).norm(), 0.2 - (x - second).norm());
+        if (std::abs(depth) < 1e-3) continue;  // between the sphere and its triangles
+        EXPECT_EQ(tree.contains(x), depth > 0.0) << x.transpose();
+        inside += depth > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(inside, 300);
+    EXPECT_FALSE(tree.contains(Vec3(0, 0, 5)));
+    EXPECT_FALSE(SteelTree({}).contains(Vec3::Zero()));
+}
+
 TEST(SteelTree, finds_what_a_test_of_every_triangle_finds) {
     std::mt19937 random(3);
     const auto triangles = random_triangles(2000, random);

@@ -49,6 +49,7 @@ fates
     binWidth 0.03;
 }
 outflow { offset 0.015; startTime 1; }
+velocity { startTime 1.5; interval 2; blades 6; sets ( { name adv; file "constant/samples/adv.csv"; phases 12; } ); }
 stop { undecided 0.05; }
 checkpoint { interval 0.25; keep 3; }
 )";
@@ -73,6 +74,14 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_EQ(c.fates->mouth.centre, Vec3(0.22, 0.0, 0.05));
     EXPECT_DOUBLE_EQ(c.fates->mouth.depth, 0.2);
     EXPECT_DOUBLE_EQ(c.outflow->start_time, 1.0);
+    ASSERT_TRUE(c.velocity);
+    EXPECT_DOUBLE_EQ(c.velocity->start_time, 1.5);
+    EXPECT_DOUBLE_EQ(c.velocity->interval, 2.0);
+    EXPECT_EQ(c.velocity->blades, 6);
+    ASSERT_EQ(c.velocity->sets.size(), 1u);
+    EXPECT_EQ(c.velocity->sets[0].name, "adv");
+    EXPECT_EQ(c.velocity->sets[0].file.filename(), "adv.csv");
+    EXPECT_EQ(c.velocity->sets[0].phases, 12);
     EXPECT_DOUBLE_EQ(c.stop->undecided, 0.05);
     EXPECT_EQ(c.checkpoint->keep, 3);
 
