@@ -146,7 +146,10 @@ FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
         closures.add("drag", rock.drag)
             .add("hindrance", rock.hindrance)
             .add("addedMass", rock.added_mass)
-            .add("dragModifier", rock.drag_modifier);
+            .add("dragModifier", rock.drag_modifier)
+            .add("sphericity", rock.sphericity)
+            .add("lift", rock.lift)
+            .add("viscousForce", rock.viscous_force);
         coupling.add("rock", rock_section(inputs)).add("kernel", kernel).add("closures", closures);
     }
     coupling.add("fates", fates_section(inputs));

@@ -88,6 +88,9 @@ struct Rock {
     std::string hindrance = "di_felice";
     double added_mass = 0.5;
     double drag_modifier = 1.0;
+    double sphericity = 1.0;
+    std::string lift = "none";
+    bool viscous_force = true;
 };
 
 /// How fates are told and outflow is sampled.

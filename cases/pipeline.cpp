@@ -10,6 +10,8 @@
 #include "cases/case_builder.hpp"
 #include "cases/disk_space.hpp"
 #include "cases/flow_dictionaries.hpp"
+#include "cases/prediction.hpp"
+#include "cases/rank_change.hpp"
 #include "cases/rock_feed.hpp"
 #include "cases/run_progress.hpp"
 #include "cases/start_flow.hpp"
@@ -72,13 +74,6 @@ RevolutionContour read_contour_csv(const fs::path& file) {
     }
     if (contour.z.empty()) throw UserError(file.string() + " holds no contour", "It must have lines of two numbers", "Begin anew");
     return contour;
-}
-
-/// Ranks for which the case is decomposed; 0 when it is not.
-int decomposed_ranks(const fs::path& directory) {
-    int ranks = 0;
-    while (fs::is_directory(directory / fmt::format("processor{}", ranks))) ++ranks;
-    return ranks;
 }
 
 bool is_of_the_mesh(const std::string& file) {
@@ -337,12 +332,14 @@ StageOutcome Pipeline::run_solver(bool resume) {
     const bool goes_on = resume && has_checkpoint(directory_.path());
     double core_s = 0.0;
     if (goes_on) {
-        require_same_ranks();
+        const RankChange change = move_checkpoint_to_ranks(directory_.path(), settings_.ranks);
+        core_s += change.core_s;
+        if (change.from != settings_.ranks) say_(fmt::format("the checkpoint goes from {} ranks to {}", change.from, settings_.ranks));
         say_("going on from the last checkpoint");
     } else {
         remove_unfinished_run(directory_.path());
         require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
-        core_s += decompose();
+        core_s += decompose(directory_.path(), settings_.ranks);
     }
     const ChildCommand command = foam_command(directory_.path(), settings_.solver.string(), {}, settings_.ranks);
     keep_older_log(command.log);
@@ -353,20 +350,6 @@ StageOutcome Pipeline::run_solver(bool resume) {
     progress.finish();
     if (!goes_on) say_cost(study, head.size, result.core_s);
     return {{}, core_s + result.core_s};
-}
-
-double Pipeline::decompose() const {
-    const FoamFile dictionary = decompose_file(settings_.ranks);
-    write_foam_file(directory_.file(dictionary.path), dictionary.foam_class, dictionary.contents);
-    if (settings_.ranks == 1) return 0.0;
-    return require_child(foam_command(directory_.path(), "decomposePar", {"-force"})).core_s;
-}
-
-void Pipeline::require_same_ranks() const {
-    const int begun = std::max(1, decomposed_ranks(directory_.path()));
-    if (begun == settings_.ranks) return;
-    throw UserError(fmt::format("--ranks {}, and {} was begun on {}", settings_.ranks, directory_.path().string(), begun),
-                    "A run is resumed on as many ranks as it was begun on", fmt::format("Use --ranks {}", begun));
 }
 
 StageOutcome Pipeline::make_report() {

@@ -62,10 +62,8 @@ private:
 
     Study resolved_study(const HeadSize& head) const;
     void write_resolved_study(const HeadSize& head) const;
-    void require_same_ranks() const;
     Prediction predicted(const Study& study, const HeadSize& head) const;
     void say_cost(const Study& study, const HeadSize& head, double core_s) const;  ///< actual beside predicted
-    double decompose() const;  ///< \return core seconds
 
     const RunDirectory& directory_;
     PipelineSettings settings_;

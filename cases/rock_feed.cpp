@@ -159,7 +159,7 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
 
 double settling_speed(const Study& study, const RockClass& rock) {
     physics::SettlingRock settling;
-    settling.rock = {rock.diameter, study.fluid.density, study.fluid.kinematic_viscosity, 1.0};
+    settling.rock = {rock.diameter, study.fluid.density, study.fluid.kinematic_viscosity, 1.0, study.closures.sphericity};
     settling.density = rock.density;
     settling.drag = physics::find_drag_law(study.closures.drag);
     settling.hindrance = physics::find_hindrance_law(study.closures.hindrance);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::cases {
@@ -253,8 +254,9 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.rock = {number("rock.youngs_modulus_pa"), number("rock.poisson_rock"), number("rock.poisson_steel"),
                   number("rock.friction"),          number("rock.restitution"),  resolved.boolean("rock.wet_restitution"),
                   number("rock.time_step_fraction")};
-    study.closures = {resolved.text("closures.drag"), resolved.text("closures.hindrance"), number("closures.added_mass"),
-                      number("closures.drag_modifier")};
+    study.closures = {resolved.text("closures.drag"),  resolved.text("closures.hindrance"), number("closures.added_mass"),
+                      number("closures.drag_modifier"), number("closures.sphericity"),       resolved.text("closures.lift"),
+                      resolved.boolean("closures.viscous_force")};
     study.kernel = {number("kernel.gamma"), number("kernel.min_width_in_cells"), number("kernel.max_solid_fraction")};
     study.length_ratio = number("scale.length_ratio");
     study.run = {number("run.flow_revolutions"), number("run.max_revolutions"),       number("run.stop_undecided"),
@@ -273,6 +275,12 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
     check_suction(resolved, head, rules);
     check_tank(resolved, head, rules);
     check_feed_region(resolved, head, rules);
+    rules.require(!physics::drag_law_holds_void_fraction(resolved.text("closures.drag")) ||
+                      resolved.text("closures.hindrance") == physics::k_no_closure,
+                  "closures.hindrance",
+                  fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice",
+                              resolved.text("closures.drag")),
+                  "Set closures.hindrance = \"none\"");
     rules.require(resolved.number("report.outflow_start_s") < end_time_of(resolved), "report.outflow_start_s",
                   fmt::format("The run ends at {:.4g} s", end_time_of(resolved)), "Start the average earlier");
     return rules.mistakes;

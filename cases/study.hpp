@@ -76,7 +76,9 @@ struct Study {
     std::vector<FeedRequest> feeds;  ///< none: pure flow
     struct Closures {
         std::string drag, hindrance;
-        double added_mass = 0.0, drag_modifier = 0.0;
+        double added_mass = 0.0, drag_modifier = 0.0, sphericity = 1.0;
+        std::string lift;
+        bool viscous_force = true;
     } closures;
     struct Kernel {
         double gamma = 0.0, min_width_in_cells = 0.0, max_solid_fraction = 0.0;

@@ -37,6 +37,9 @@ Rock rock_of(const Study& study) {
     rock.hindrance = study.closures.hindrance;
     rock.added_mass = study.closures.added_mass;
     rock.drag_modifier = study.closures.drag_modifier;
+    rock.sphericity = study.closures.sphericity;
+    rock.lift = study.closures.lift;
+    rock.viscous_force = study.closures.viscous_force;
     return rock;
 }
 

@@ -137,12 +137,25 @@ ParameterTable rock_rows() {
             .at_least(1e-3)
             .at_most(0.3)
             .standard(0.1),
-        choice("closures.drag", physics::closure_names(physics::ClosureKind::drag), "Drag law of a single rock.")
+        choice("closures.drag", physics::closure_choices(physics::ClosureKind::drag),
+               "Drag law of a rock. gidaspow and koch_hill hold the effect of other rocks themselves: they need closures.hindrance = \"none\".")
             .standard(std::string("brown_lawler")),
-        choice("closures.hindrance", physics::closure_names(physics::ClosureKind::hindrance), "How other rocks raise the drag.")
+        choice("closures.hindrance", physics::closure_choices(physics::ClosureKind::hindrance), "How other rocks raise the drag.")
             .standard(std::string("di_felice")),
         number("closures.added_mass", "-", "Added-mass coefficient.").at_least(0.0).at_most(2.0).standard(0.5),
         number("closures.drag_modifier", "-", "Factor on the drag force.").above(0.0).at_most(10.0).standard(1.0),
+        number("closures.sphericity", "-",
+               "Surface of the sphere of equal volume over that of the rock; haider_levenspiel asks for it, the other drag laws do not.")
+            .above(0.0)
+            .at_most(1.0)
+            .standard(1.0),
+        choice("closures.lift", physics::closure_choices(physics::ClosureKind::lift),
+               "Lift on rock in sheared flow. The source of mei holds for grains with Reynolds numbers up to 1.")
+            .standard(std::string("none")),
+        Row("closures.viscous_force", ParameterKind::boolean, "-",
+            "Whether the undisturbed flow's stress on rock counts its viscous part (rho V Du/Dt), or the pressure gradient alone.")
+            .standard(true)
+            .source("NieuwboerVanRheeKeetels2023"),
         number("kernel.gamma", "-", "Width of the Gaussian kernel over the rock's diameter.").above(0.0).at_most(5.0).standard(1.0),
         number("kernel.min_width_in_cells", "-", "Smallest width of the kernel over the local cell size.")
             .at_least(0.5)

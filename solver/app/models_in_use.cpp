@@ -21,7 +21,9 @@ void add_coupling_models(const coupling::CouplingSettings& settings, std::vector
     notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)), "closures.drag"});
     if (closures.hindrance != "none") notes.push_back({"hindrance: " + closures.hindrance, "neighbouring rock raises the drag"});
     if (closures.added_mass > 0.0) notes.push_back({fmt::format("added mass {:.3g}", closures.added_mass), "rock is only a few times denser than the fluid"});
-    notes.push_back({"fluid acceleration force rho V Du/Dt", "the fluid's pressure gradient acts on rock"});
+    if (closures.lift != "none") notes.push_back({"lift: " + closures.lift, "closures.lift"});
+    notes.push_back({"fluid acceleration force rho V Du/Dt", "the stress of the undisturbed flow acts on rock"});
+    if (!closures.viscous_force) notes.push_back({"less its viscous part", "closures.viscousForce no"});
 }
 
 void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <unordered_map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -127,26 +128,43 @@ RunState read_state(const fs::path& folder) {
     }
 }
 
-void write_carry(const fs::path& folder, int rank, gsl::span<const Vec3> carry) {
+void write_carry(const fs::path& folder, int rank, gsl::span<const std::int64_t> cell_ids, gsl::span<const Vec3> carry) {
     std::ofstream stream(folder / carry_file(rank), std::ios::binary);
     const auto count = static_cast<std::uint64_t>(carry.size());
     stream.write(reinterpret_cast<const char*>(&count), sizeof count);
+    stream.write(reinterpret_cast<const char*>(cell_ids.data()), static_cast<std::streamsize>(count * sizeof(std::int64_t)));
     stream.write(reinterpret_cast<const char*>(carry.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
     stream.close();
     if (!stream) throw std::runtime_error((folder / carry_file(rank)).string() + ": the checkpoint cannot be written");
 }
 
-std::vector<Vec3> read_carry(const fs::path& folder, int rank, std::size_t cells) {
-    const fs::path file = folder / carry_file(rank);
-    std::ifstream stream(file, std::ios::binary);
-    std::uint64_t count = 0;
-    stream.read(reinterpret_cast<char*>(&count), sizeof count);
-    if (!stream || count != cells)
-        refuse(file, fmt::format("the carried momentum of {} cells is needed, {} are there", cells, count),
-               "A run resumes on the mesh and the number of ranks that it had");
-    std::vector<Vec3> carry(cells);
-    stream.read(reinterpret_cast<char*>(carry.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
-    if (!stream) refuse(file, "the file is cut short", "The file is one that cutterFoam wrote");
+std::vector<Vec3> read_carry(const fs::path& folder, int written_by, gsl::span<const std::int64_t> cell_ids) {
+    std::unordered_map<std::int64_t, std::size_t> place;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(cell_ids.size()); ++c) place[cell_ids[c]] = c;
+    std::vector<Vec3> carry(static_cast<std::size_t>(cell_ids.size()));
+    std::size_t found = 0;
+    for (int rank = 0; rank < written_by; ++rank) {
+        const fs::path file = folder / carry_file(rank);
+        std::ifstream stream(file, std::ios::binary);
+        std::uint64_t count = 0;
+        stream.read(reinterpret_cast<char*>(&count), sizeof count);
+        std::error_code missing;
+        if (!stream || fs::file_size(file, missing) != sizeof count + count * (sizeof(std::int64_t) + sizeof(Vec3)))
+            refuse(file, "the file is missing or cut short", "The file is one that cutterFoam wrote");
+        std::vector<std::int64_t> ids(count);
+        std::vector<Vec3> values(count);
+        stream.read(reinterpret_cast<char*>(ids.data()), static_cast<std::streamsize>(count * sizeof(std::int64_t)));
+        stream.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto cell = place.find(ids[i]);
+            if (cell == place.end()) continue;
+            carry[cell->second] = values[i];
+            ++found;
+        }
+    }
+    if (found != carry.size())
+        refuse(folder, fmt::format("the carried momentum of {} cells is needed, that of {} is there", carry.size(), found),
+               "A run resumes on the mesh that it had");
     return carry;
 }
 

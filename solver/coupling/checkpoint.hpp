@@ -1,5 +1,6 @@
 #pragma once
 /// \file The coupled algorithm's own state in a checkpoint folder, and the folders themselves.
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -16,7 +17,7 @@ namespace cutterflow::coupling {
 struct RunState {
     double time = 0.0;
     double rotor_angle = 0.0;
-    int ranks = 1;
+    int ranks = 1;  ///< that wrote it
     std::vector<int> handled_feed;  ///< ids of the feed that are placed or rejected
     std::map<int, TrackedRock> rocks;
     BookedExchange booked;
@@ -26,10 +27,11 @@ struct RunState {
 void write_state(const std::filesystem::path& folder, const RunState& state);
 RunState read_state(const std::filesystem::path& folder);
 
-/// carry.<rank>: the momentum that this rank's cells have yet to receive.
-void write_carry(const std::filesystem::path& folder, int rank, gsl::span<const Vec3> carry);
-/// \throws UserError  when the file is not there or holds another number of cells: the mesh is split otherwise than it was
-std::vector<Vec3> read_carry(const std::filesystem::path& folder, int rank, std::size_t cells);
+/// carry.<rank>: the momentum that this rank's cells have yet to receive, with their numbers in the whole mesh.
+void write_carry(const std::filesystem::path& folder, int rank, gsl::span<const std::int64_t> cell_ids, gsl::span<const Vec3> carry);
+/// The same for the cells of this rank, from the files of all `written_by` ranks of the run that wrote them.
+/// \throws UserError  when a file is not there or cut short, or holds nothing for one of the cells
+std::vector<Vec3> read_carry(const std::filesystem::path& folder, int written_by, gsl::span<const std::int64_t> cell_ids);
 
 /// velocity.sums: what the velocity averages hold so far.
 void write_velocity(const std::filesystem::path& folder, const VelocitySets& sets);

@@ -298,7 +298,7 @@ void CoupledRun::write_state_files(const fs::path& folder) {
         state.rocks = fates_->rocks();
         state.booked = rock_->booked();
         dem_->write_checkpoint(folder);
-        write_carry(folder, communicator_.rank(), rock_->carry());
+        write_carry(folder, communicator_.rank(), fluid_.cells().ids, rock_->carry());
         recorder_.outcomes(fates_->outcomes());
     }
     if (communicator_.rank() != 0) return;
@@ -314,9 +314,6 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     if (std::abs(state.time - fluid_.time()) > 1e-9 * std::max(1.0, std::abs(state.time)))
         refuse(fmt::format("the checkpoint is of time {:.9g} s, the run starts at {:.9g} s", state.time, fluid_.time()),
                "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start anew");
-    if (state.ranks != communicator_.size())
-        refuse(fmt::format("the checkpoint was written on {} ranks, this run has {}", state.ranks, communicator_.size()),
-               "A run resumes on the mesh and the number of ranks that it had", fmt::format("Start it on {} ranks", state.ranks));
     handled_feed_ = state.handled_feed;
     last_checkpoint_ = fluid_.time();
     // Every rank holds the same sums and reads the same file.
@@ -329,7 +326,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     double failed = 0.0;
     std::string reason;
     try {
-        carry = read_carry(checkpoint, communicator_.rank(), fluid_.cells().centres.size());
+        carry = read_carry(checkpoint, state.ranks, fluid_.cells().ids);
     } catch (const UserError& error) {
         failed = 1.0;
         reason = error.what();

@@ -26,6 +26,7 @@ struct Cells {
     gsl::span<const double> volumes;         ///< [m3]
     gsl::span<const double> sizes;           ///< cell size dx [m], smooth in space
     gsl::span<const std::uint8_t> in_rotor;  ///< 1 for rotor cells
+    gsl::span<const std::int64_t> ids;       ///< number in the whole mesh, whatever the number of ranks
 };
 
 /// A triangle of steel, in its zone's frame (as Cells).
@@ -76,6 +77,11 @@ public:
     virtual Steel steel() const = 0;
     virtual RotorMotion rotor() const = 0;
     virtual FluidFields fields() const = 0;
+
+    /// Curl of the velocity of fields() [1/s], per cell; computed when asked. Collective.
+    virtual gsl::span<const Vec3> vorticity() = 0;
+    /// div(tau), tau the laminar and turbulent stress of the velocity of fields() over density [m/s2], per cell; as vorticity().
+    virtual gsl::span<const Vec3> stress_divergence() = 0;
 
     virtual double time() const = 0;            ///< of fields() [s]
     virtual std::string time_name() const = 0;  ///< of fields(), as the engine's own folders are called

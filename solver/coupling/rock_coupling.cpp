@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "solver/physics/catalogue.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -74,6 +73,7 @@ RockCoupling::RockCoupling(const CouplingSettings& settings, const FluidProperti
       communicator_(communicator),
       drag_(physics::find_drag_law(settings.closures.drag)),
       hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
+      lift_(physics::find_lift_law(settings.closures.lift)),
       mapping_(fluid.cells(), fluid.steel(), fluid.rotor().axis, settings.kernel, communicator),
       interface_passage_time_(mapping_.sizes().interface_passage_time(fluid.rotor())),
       carry_(fluid.cells().centres.size(), Vec3::Zero()) {
@@ -129,26 +129,30 @@ std::vector<int> RockCoupling::insert(const std::vector<FeedRock>& due) {
 void RockCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const {
     const FluidFields fields = fluid_.fields();
     const gsl::span<const double> volumes = mapping_.cells().volumes;
-    constexpr std::size_t n = 7;
+    std::vector<std::pair<gsl::span<const Vec3>, Vec3 FlowAtRock::*>> vectors{{fields.velocity, &FlowAtRock::velocity},
+                                                                              {fields.material_acceleration, &FlowAtRock::acceleration}};
+    if (lift_ != nullptr) vectors.emplace_back(fluid_.vorticity(), &FlowAtRock::vorticity);
+    if (!settings_.closures.viscous_force) vectors.emplace_back(fluid_.stress_divergence(), &FlowAtRock::stress_divergence);
+    const std::size_t n = 3 * vectors.size() + 1;
     std::vector<double> sums(n * stencils.size(), 0.0);
     for (std::size_t p = 0; p < stencils.size(); ++p) {
-        Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero();
-        double void_fraction = 0.0;
+        FlowAtRock sum;
+        sum.void_fraction = 0.0;
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(stencils.cell[i]);
             const double weight = stencils.sample[i] * volumes[c];
-            velocity += weight * fields.velocity[c];
-            acceleration += weight * fields.material_acceleration[c];
-            void_fraction += weight * fields.void_fraction[c];
+            for (const auto& [field, member] : vectors) sum.*member += weight * field[c];
+            sum.void_fraction += weight * fields.void_fraction[c];
         }
-        std::copy_n(velocity.data(), 3, &sums[n * p]);
-        std::copy_n(acceleration.data(), 3, &sums[n * p + 3]);
-        sums[n * p + 6] = void_fraction;
+        for (std::size_t k = 0; k < vectors.size(); ++k) std::copy_n((sum.*vectors[k].second).data(), 3, &sums[n * p + 3 * k]);
+        sums[n * p + n - 1] = sum.void_fraction;
     }
     communicator_.sum(sums);
-    flow.clear();
-    for (std::size_t p = 0; p < stencils.size(); ++p)
-        flow.push_back({Eigen::Map<const Vec3>(&sums[n * p]), Eigen::Map<const Vec3>(&sums[n * p + 3]), sums[n * p + 6]});
+    flow.assign(stencils.size(), {});
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        for (std::size_t k = 0; k < vectors.size(); ++k) flow[p].*vectors[k].second = Eigen::Map<const Vec3>(&sums[n * p + 3 * k]);
+        flow[p].void_fraction = sums[n * p + n - 1];
+    }
 }
 
 void RockCoupling::sample() {
@@ -171,19 +175,27 @@ double RockCoupling::travel_limit() const {
     return limit;
 }
 
+/// The part of the force that does not follow the rock's velocity.
+Vec3 RockCoupling::steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const {
+    const double volume = physics::sphere_volume(rock.diameter);
+    Vec3 force = physics::fluid_acceleration_force(volume, properties_.density, settings_.closures.added_mass, flow.acceleration);
+    if (!settings_.closures.viscous_force) force -= physics::viscous_force(volume, properties_.density, flow.stress_divergence);
+    return force;
+}
+
 const DemStep& RockCoupling::move() {
     before_ = dem_.rocks();
     std::vector<physics::RockInFluid> rock(before_.size());
-    std::vector<Vec3> acceleration_force(before_.size());
+    std::vector<Vec3> steady(before_.size());
     for (std::size_t p = 0; p < before_.size(); ++p) {
-        rock[p] = {before_.diameter[p], properties_.density, properties_.kinematic_viscosity, flow_[p].void_fraction};
-        acceleration_force[p] = physics::fluid_acceleration_force(physics::sphere_volume(before_.diameter[p]), properties_.density,
-                                                                  settings_.closures.added_mass, flow_[p].acceleration);
+        rock[p] = rock_in_fluid(before_.diameter[p], flow_[p]);
+        steady[p] = steady_force(rock[p], flow_[p]);
     }
     const HydrodynamicForce force = [&](std::size_t p, const Vec3& velocity) -> Vec3 {
         const Vec3 slip = flow_[p].velocity - velocity;
-        return physics::drag_coefficient_per_slip(rock[p], slip.norm(), drag_, hindrance_, settings_.closures.drag_modifier) * slip +
-               acceleration_force[p];
+        Vec3 total = drag_per_slip(rock[p], slip.norm()) * slip + steady[p];
+        if (lift_ != nullptr) total += physics::lift_force(rock[p], slip, flow_[p].vorticity, lift_);
+        return total;
     };
     step_ = dem_.advance(fluid_.time_step(), force);
 
@@ -223,10 +235,7 @@ void RockCoupling::map() {
     std::vector<double> drag(rocks.size());
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         const FlowAtRock& flow = flow_[index_before_[p]];
-        drag[p] = physics::drag_coefficient_per_slip(
-                      {rocks.diameter[p], properties_.density, properties_.kinematic_viscosity, flow.void_fraction},
-                      (flow.velocity - rocks.velocity[p]).norm(), drag_, hindrance_, settings_.closures.drag_modifier) /
-                  properties_.density;
+        drag[p] = drag_per_slip(rock_in_fluid(rocks.diameter[p], flow), (flow.velocity - rocks.velocity[p]).norm()) / properties_.density;
     }
     drag_rate_.assign(carry_.size(), 0.0);
     deposit(present_, drag, drag_rate_);
@@ -258,29 +267,46 @@ std::vector<double> RockCoupling::void_fraction_before(const Stencils& old, std:
     return void_fraction_of(solid_fraction);
 }
 
+physics::RockInFluid RockCoupling::rock_in_fluid(double diameter, const FlowAtRock& flow) const {
+    return {diameter, properties_.density, properties_.kinematic_viscosity, flow.void_fraction, settings_.closures.sphericity};
+}
+
+double RockCoupling::drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const {
+    return physics::drag_coefficient_per_slip(rock, slip_speed, drag_, hindrance_, settings_.closures.drag_modifier);
+}
+
 void RockCoupling::check_ranges() {
     const Rocks& rocks = dem_.rocks();
-    const physics::Closure& drag = physics::find_closure(physics::ClosureKind::drag, settings_.closures.drag);
-    const physics::Closure& hindrance = physics::find_closure(physics::ClosureKind::hindrance, settings_.closures.hindrance);
-    const auto warn = [&](const physics::Closure& closure, const physics::ClosureRange& range, std::size_t p, double value) {
-        warn_once(std::string(closure.name) + std::string(range.argument),
-                  fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
-                              range.argument, value, rocks.id[p], range.minimum, range.maximum, closure.citation));
-    };
+    std::vector<const physics::Closure*> in_use{&physics::find_closure(physics::ClosureKind::drag, settings_.closures.drag)};
+    if (settings_.closures.hindrance != physics::k_no_closure)
+        in_use.push_back(&physics::find_closure(physics::ClosureKind::hindrance, settings_.closures.hindrance));
+    if (lift_ != nullptr) in_use.push_back(&physics::find_closure(physics::ClosureKind::lift, settings_.closures.lift));
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         const FlowAtRock& flow = flow_[index_before_[p]];
-        const double reynolds = (flow.velocity - rocks.velocity[p]).norm() * rocks.diameter[p] / properties_.kinematic_viscosity;
-        const double particle_reynolds = flow.void_fraction * reynolds;
-        // Below its range a law of drag tends to Stokes' and hindrance to a constant: only the upper ends mislead.
-        if (const auto* range = drag.outside({reynolds}); range != nullptr && reynolds > range->maximum) warn(drag, *range, p, reynolds);
-        if (const auto* range = hindrance.outside({flow.void_fraction, particle_reynolds}); range != nullptr) {
-            const double value = range == &hindrance.ranges[0] ? flow.void_fraction : particle_reynolds;
-            if (range == &hindrance.ranges[0] || value > range->maximum) warn(hindrance, *range, p, value);
-        }
+        const double d_over_nu = rocks.diameter[p] / properties_.kinematic_viscosity;
+        physics::RockNumbers numbers;
+        numbers.reynolds = (flow.velocity - rocks.velocity[p]).norm() * d_over_nu;
+        numbers.particle_reynolds = flow.void_fraction * numbers.reynolds;
+        numbers.shear_reynolds = flow.vorticity.norm() * rocks.diameter[p] * d_over_nu;
+        numbers.void_fraction = flow.void_fraction;
+        numbers.sphericity = settings_.closures.sphericity;
+        for (const physics::Closure* closure : in_use) check_range(*closure, numbers, rocks.id[p]);
     }
     if (mapping_.hidden_rocks() > 0)
         warn_once("hidden",
                   "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ)");
+}
+
+void RockCoupling::check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id) {
+    for (const physics::ClosureRange& range : closure.ranges) {
+        const double value = numbers.named(range.argument);
+        // Below their range Reynolds numbers lead to Stokes' drag and constant hindrance: only the upper ends mislead.
+        const bool below = value < range.minimum && range.argument.substr(0, 2) != "Re";
+        if (below || value > range.maximum)
+            warn_once(std::string(closure.name) + std::string(range.argument),
+                      fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
+                                  range.argument, value, id, range.minimum, range.maximum, closure.citation));
+    }
 }
 
 void RockCoupling::warn_once(const std::string& subject, const std::string& text) {

@@ -11,7 +11,7 @@
 #include "solver/coupling/mapping.hpp"
 #include "solver/coupling/rock_feed.hpp"
 #include "solver/coupling/settings.hpp"
-#include "solver/physics/drag.hpp"
+#include "solver/physics/catalogue.hpp"
 
 namespace cutterflow::coupling {
 
@@ -20,6 +20,8 @@ struct FlowAtRock {
     Vec3 velocity = Vec3::Zero();      ///< u [m/s]
     Vec3 acceleration = Vec3::Zero();  ///< Du/Dt [m/s2]
     double void_fraction = 1.0;        ///< [-]
+    Vec3 vorticity = Vec3::Zero();          ///< [1/s], with lift only
+    Vec3 stress_divergence = Vec3::Zero();  ///< div(tau) [m/s2], without viscous force only
 };
 
 /// How well one step conserved, and what it held.
@@ -91,7 +93,11 @@ private:
     void add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
                       gsl::span<const double> volume);
     std::vector<double> void_fraction_before(const Stencils& old, std::vector<double> volume) const;
+    physics::RockInFluid rock_in_fluid(double diameter, const FlowAtRock& flow) const;
+    double drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const;
+    Vec3 steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const;
     void check_ranges();
+    void check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id);
     void warn_once(const std::string& subject, const std::string& text);
     double volume_error(const std::vector<double>& solid_fraction, const std::vector<double>& rock_volume) const;
     RockShapes shapes(const std::vector<Vec3>& position) const;
@@ -103,6 +109,7 @@ private:
     Communicator& communicator_;
     physics::DragLaw drag_;
     physics::HindranceLaw hindrance_;
+    physics::LiftLaw lift_;  // null: none
     Mapping mapping_;
     double interface_passage_time_;
 

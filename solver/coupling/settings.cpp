@@ -27,7 +27,7 @@ public:
         require(value > 0.0, key, value, "It must be above 0", "Correct the value");
     }
     void require_closure(ClosureKind kind, const std::string& key, const std::string& name) {
-        const std::vector<std::string> known = physics::closure_names(kind);
+        const std::vector<std::string> known = physics::closure_choices(kind);
         if (std::find(known.begin(), known.end(), name) == known.end())
             mistakes_.push_back({where_, fmt::format("{} = {} is not known", key, name),
                                  fmt::format("Known are {}", fmt::join(known, ", ")), "Choose one of them"});
@@ -61,6 +61,12 @@ void check_closures(Checker& check, const ClosureSettings& closures) {
     check.require_closure(ClosureKind::hindrance, "closures.hindrance", closures.hindrance);
     check.require(closures.added_mass >= 0.0, "closures.addedMass", closures.added_mass, "It must not be negative", "Use 0.5, a sphere's");
     check.require_positive("closures.dragModifier", closures.drag_modifier);
+    check.require(closures.sphericity > 0.0 && closures.sphericity <= 1.0, "closures.sphericity", closures.sphericity,
+                  "It is above 0 and at most 1, a sphere's", "Correct the value");
+    check.require_closure(ClosureKind::lift, "closures.lift", closures.lift);
+    if (physics::drag_law_holds_void_fraction(closures.drag) && closures.hindrance != physics::k_no_closure)
+        check.add(fmt::format("closures.drag = {} with closures.hindrance = {}", closures.drag, closures.hindrance),
+                  "This drag law holds the void fraction itself: hindrance would count it twice", "Set: hindrance none;");
 }
 
 void check_fates(Checker& check, const FateSettings& fates) {

@@ -30,6 +30,9 @@ struct ClosureSettings {
     std::string hindrance = "di_felice";
     double added_mass = 0.5;     ///< C_AM [-]
     double drag_modifier = 1.0;  ///< factor on the drag of every rock [-]
+    double sphericity = 1.0;     ///< of every rock [-], for drag laws that ask for it
+    std::string lift = "none";
+    bool viscous_force = true;   ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
 };
 
 /// The suction mouth: rock is sucked up for good once it is `depth` beyond the centre along `direction`, within `radius` of the mouth's

@@ -90,6 +90,9 @@ void read_closures(DictionarySection& section, coupling::ClosureSettings& closur
     section.read("hindrance", closures.hindrance, k_optional);
     section.read("addedMass", closures.added_mass, k_optional);
     section.read("dragModifier", closures.drag_modifier, k_optional);
+    section.read("sphericity", closures.sphericity, k_optional);
+    section.read("lift", closures.lift, k_optional);
+    section.read("viscousForce", closures.viscous_force, k_optional);
 }
 
 void read_mouth(DictionarySection& section, coupling::MouthSettings& mouth) {

@@ -408,6 +408,15 @@ void CutterFluid::update_received() {
                 inertia_.primitiveField() * (DuDt_.primitiveField() - DuDt_.oldTime().primitiveField());
 }
 
+tmp<vectorField> CutterFluid::vorticity() const {
+    return tmp<vectorField>::New(fvc::curl(U_)().primitiveField());
+}
+
+tmp<vectorField> CutterFluid::stress_divergence() const {
+    const volScalarField nuEff("nuEff", turbulence_->nuEff());
+    return fvc::div(nuEff * dev2(T(fvc::grad(U_))))().primitiveField() + fvc::laplacian(nuEff, U_)().primitiveField();
+}
+
 tmp<scalarField> CutterFluid::continuity_residual() const {
     surfaceScalarField absolute(alphaPhi_);
     if (mesh_.moving()) absolute += alphaf_ * mesh_.phi();

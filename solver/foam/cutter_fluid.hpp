@@ -62,6 +62,8 @@ public:
     const Foam::volVectorField& material_acceleration() const { return DuDt_; }
     const Foam::vectorField& received() const { return received_; }
     Foam::tmp<Foam::volScalarField> effective_viscosity() const { return turbulence_->nuEff(); }
+    Foam::tmp<Foam::vectorField> vorticity() const;          ///< curl u [1/s]
+    Foam::tmp<Foam::vectorField> stress_divergence() const;  ///< div(tau) [m/s2]
     /// As turbulenceProperties selects it: "realizableKE", "laminar" ...
     std::string turbulence_model() const;
     double density() const { return density_; }      ///< [kg/m3]

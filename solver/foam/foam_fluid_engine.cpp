@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "geometry/base/error.hpp"
@@ -18,6 +19,7 @@
 
 #include "cyclicAMIFvPatch.H"
 #include "fvcAverage.H"
+#include "labelIOList.H"
 #include "surfaceInterpolate.H"
 #include "wallFvPatch.H"
 #include "zeroGradientFvPatchFields.H"
@@ -63,6 +65,19 @@ std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
     return std::vector<double>(size.begin(), size.end());
 }
 
+/// As decomposePar numbered the cells; one after the other on one rank.
+std::vector<std::int64_t> numbers_in_whole_mesh(const Foam::fvMesh& mesh) {
+    std::vector<std::int64_t> ids(static_cast<std::size_t>(mesh.nCells()));
+    if (!Foam::UPstream::parRun()) {
+        std::iota(ids.begin(), ids.end(), std::int64_t{0});
+        return ids;
+    }
+    const Foam::labelIOList addressing(Foam::IOobject("cellProcAddressing", mesh.facesInstance(), Foam::polyMesh::meshSubDir, mesh,
+                                                      Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false));
+    std::copy(addressing.begin(), addressing.end(), ids.begin());
+    return ids;
+}
+
 /// Volume rate swept by the wall faces of each cell, positive out of the cell [m3/s].
 void add_up_wall_motion(const Foam::fvMesh& mesh, std::vector<double>& of_cells) {
     std::fill(of_cells.begin(), of_cells.end(), 0.0);
@@ -86,9 +101,10 @@ struct FoamFluidEngine::Parts {
           centres(centres_in_zone_frame(session.mesh(), in_rotor, motion.axis, motion.angle(session.time().value()))),
           volumes(session.mesh().V().begin(), session.mesh().V().end()),
           sizes(smooth_cell_sizes(session.mesh())),
+          ids(numbers_in_whole_mesh(session.mesh())),
           wall_retreat(volumes.size(), 0.0) {}
 
-    coupling::Cells cells() const { return {centres, volumes, sizes, in_rotor}; }
+    coupling::Cells cells() const { return {centres, volumes, sizes, in_rotor, ids}; }
 
     const Foam::Time& time;
     coupling::RotorMotion motion;
@@ -97,7 +113,9 @@ struct FoamFluidEngine::Parts {
     std::vector<Vec3> centres;
     std::vector<double> volumes;
     std::vector<double> sizes;
+    std::vector<std::int64_t> ids;
     std::vector<double> wall_retreat;
+    Foam::vectorField vorticity, stress_divergence;
     PstreamCommunicator communicator;
     SteelFaces steel;
     std::unique_ptr<VelocitySampler> sampler;
@@ -124,6 +142,15 @@ coupling::RotorMotion FoamFluidEngine::rotor() const {
 coupling::FluidFields FoamFluidEngine::fields() const {
     const CutterFluid& fluid = parts_->fluid;
     return {view(fluid.velocity()), view(fluid.material_acceleration()), view(fluid.void_fraction())};
+}
+
+gsl::span<const Vec3> FoamFluidEngine::vorticity() {
+    parts_->vorticity = parts_->fluid.vorticity();
+    return view(parts_->vorticity);
+}
+gsl::span<const Vec3> FoamFluidEngine::stress_divergence() {
+    parts_->stress_divergence = parts_->fluid.stress_divergence();
+    return view(parts_->stress_divergence);
 }
 
 double FoamFluidEngine::time() const {

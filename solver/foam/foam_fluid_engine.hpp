@@ -22,6 +22,8 @@ public:
     coupling::Steel steel() const override;
     coupling::RotorMotion rotor() const override;
     coupling::FluidFields fields() const override;
+    gsl::span<const Vec3> vorticity() override;
+    gsl::span<const Vec3> stress_divergence() override;
     double time() const override;
     std::string time_name() const override;
     double time_step() const override;

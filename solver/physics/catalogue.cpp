@@ -1,5 +1,6 @@
 #include "solver/physics/catalogue.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,12 +17,44 @@ const std::vector<Closure>& catalogue() {
          brown_lawler_drag_coefficient,
          {{"Re", 1e-3, 2e5}},
          "BrownLawler2003"},
+        {"schiller_naumann",
+         ClosureKind::drag,
+         "Cd = 24/Re (1 + 0.15 Re^0.687), 0.44 from Re = 1000 on",
+         schiller_naumann_drag_coefficient,
+         {{"Re", 1e-3, 2e5}},
+         "SchillerNaumann1935"},
+        {"haider_levenspiel",
+         ClosureKind::drag,
+         "Cd = 24/Re (1 + A Re^B) + C/(1 + D/Re), A = 8.1716 e^(-4.0655 psi), B = 0.0964 + 0.5565 psi, C = 73.69 e^(-5.0748 psi), "
+         "D = 5.378 e^(6.2122 psi)",
+         haider_levenspiel_drag_coefficient,
+         {{"Re", 1e-3, 2.5e4}, {"sphericity", 0.6, 1.0}},
+         "HaiderLevenspiel1989"},
+        {"gidaspow",
+         ClosureKind::drag,
+         "Cd = 4/3 (150 (1 - a)/(a^2 Re) + 1.75/a) up to a = 0.8, Cd0(a Re) a^-2.65 above, Cd0 of Schiller and Naumann",
+         gidaspow_drag_coefficient,
+         {{"Re", 1e-3, 2e5}, {"void_fraction", 0.3, 1.0}},
+         "Gidaspow1994"},
+        {"koch_hill",
+         ClosureKind::drag,
+         "Cd = 24/Re a (F0 + F3 a Re/2), F3 = 0.0673 + 0.212 s + 0.0232/a^5, s = 1 - a, F0 = [1 + 3 sqrt(s/2) + 135/64 s ln s + 16.14 s]/"
+         "[1 + 0.681 s - 8.48 s^2 + 8.16 s^3], 10 s/a^3 from s = 0.4 on",
+         koch_hill_drag_coefficient,
+         {{"Re", 1e-3, 150.0}, {"void_fraction", 0.35, 1.0}},
+         "KochHill2001"},
         {"di_felice",
          ClosureKind::hindrance,
          "void_fraction^(1 - beta), beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_p)^2/2)",
          di_felice_factor,
          {{"void_fraction", 0.3, 1.0}, {"Re_p", 1e-2, 2e5}},
          "DiFelice1994"},
+        {"mei",
+         ClosureKind::lift,
+         "C_L = 4.11 eps J(eps), eps = sqrt(Re_G)/Re_p",
+         mei_lift_coefficient,
+         {{"Re_p", 1e-2, 1.0}, {"Re_G", 1e-4, 1.0}},
+         "Mei1992"},
         {"sphere", ClosureKind::added_mass, "C_AM = 1/2", k_sphere_added_mass, {}, "NieuwboerVanRheeKeetels2023"},
         {"legendre",
          ClosureKind::restitution,
@@ -33,15 +66,32 @@ const std::vector<Closure>& catalogue() {
     return table;
 }
 
+double RockNumbers::named(std::string_view argument) const {
+    if (argument == "Re") return reynolds;
+    if (argument == "Re_p") return particle_reynolds;
+    if (argument == "Re_G") return shear_reynolds;
+    if (argument == "void_fraction") return void_fraction;
+    if (argument == "sphericity") return sphericity;
+    throw std::out_of_range(fmt::format("{} is no number of a rock", argument));
+}
+
 double Closure::evaluate(const std::vector<double>& arguments) const {
     if (arguments.size() != ranges.size()) throw std::invalid_argument("a closure needs one number per argument");
     struct Call {
+        const Closure& closure;
         const std::vector<double>& arguments;
         double operator()(double constant) const { return constant; }
-        double operator()(double (*function)(double)) const { return function(arguments[0]); }
         double operator()(double (*function)(double, double)) const { return function(arguments[0], arguments[1]); }
+        double operator()(DragLaw drag) const {
+            DragState state;
+            for (std::size_t i = 0; i < arguments.size(); ++i) {
+                const std::string_view name = closure.ranges[i].argument;
+                (name == "Re" ? state.reynolds : name == "sphericity" ? state.sphericity : state.void_fraction) = arguments[i];
+            }
+            return drag(state);
+        }
     };
-    return std::visit(Call{arguments}, function);
+    return std::visit(Call{*this, arguments}, function);
 }
 
 const ClosureRange* Closure::outside(const std::vector<double>& arguments) const {
@@ -61,7 +111,13 @@ DragLaw find_drag_law(std::string_view name) {
 }
 
 HindranceLaw find_hindrance_law(std::string_view name) {
+    if (name == k_no_closure) return no_hindrance;
     return std::get<HindranceLaw>(find_closure(ClosureKind::hindrance, name).function);
+}
+
+LiftLaw find_lift_law(std::string_view name) {
+    if (name == k_no_closure) return nullptr;
+    return std::get<LiftLaw>(find_closure(ClosureKind::lift, name).function);
 }
 
 std::vector<std::string> closure_names(ClosureKind kind) {
@@ -69,6 +125,20 @@ std::vector<std::string> closure_names(ClosureKind kind) {
     for (const Closure& closure : catalogue())
         if (closure.kind == kind) names.emplace_back(closure.name);
     return names;
+}
+
+std::vector<std::string> closure_choices(ClosureKind kind) {
+    std::vector<std::string> choices = closure_names(kind);
+    if (kind == ClosureKind::hindrance || kind == ClosureKind::lift) choices.emplace_back(k_no_closure);
+    return choices;
+}
+
+bool drag_law_holds_void_fraction(std::string_view name) {
+    for (const Closure& closure : catalogue())
+        if (closure.kind == ClosureKind::drag && closure.name == name)
+            return std::any_of(closure.ranges.begin(), closure.ranges.end(),
+                               [](const ClosureRange& range) { return range.argument == "void_fraction"; });
+    return false;
 }
 
 }  // namespace cutterflow::physics

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cases/rank_change.hpp"
 #include "cases/tests/tiny_rotor_mesh.hpp"
 #include "geometry/base/run_names.hpp"
 #include "meshing/foam_command.hpp"
@@ -42,14 +43,14 @@ std::string feed_table() {
     return text;
 }
 
-fs::path rotor_case(const std::string& name) {
+fs::path rotor_case(const std::string& name, const std::string& feed = feed_table(), double end = k_end) {
     const fs::path folder = scratch_folder(name);
     cases::CaseInputs inputs = cases::test::tiny_inputs();
-    inputs.times.end = k_end;
+    inputs.times.end = end;
     inputs.times.checkpoint_interval = 0.05;
     inputs.times.write_interval = 0.1;
     inputs.rock.emplace();
-    write_rotor_case(folder, inputs, feed_table());
+    write_rotor_case(folder, inputs, feed);
     return folder;
 }
 
@@ -191,6 +192,35 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
         apart = std::max(apart, (resumed.position[p] - uninterrupted.position[p]).norm());
     fmt::print("resumed and uninterrupted run end {:.1e} m apart\n", apart);
     EXPECT_LE(apart, 1e-3 * k_rock_diameter);
+}
+
+/// The run as it was at its checkpoint of 0.1 s, gone on with from there on another number of ranks.
+RockPicture gone_on_with(const fs::path& whole, int ranks) {
+    const fs::path folder = scratch_folder(fmt::format("rotor_on_{}_ranks", ranks));
+    fs::copy(whole, folder, fs::copy_options::recursive);
+    fs::remove_all(folder / names::checkpoints / "0.14");
+    EXPECT_EQ(cases::move_checkpoint_to_ranks(folder, ranks).from, 2);
+    run_cutter_foam(folder, ranks);
+    EXPECT_TRUE(fs::exists(folder / "postProcessing/rock/0.1/fates.csv"));
+    return last_rocks(folder);
+}
+
+TEST(Restart, goes_on_on_another_number_of_ranks) {
+    // Two rocks that touch nothing.
+    const std::string feed = fmt::format(
+        "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,{0},0,0.18,-0.1,0.02,2650\n2,{0},-0.05,0.23,0,0.02,2650\n", k_release);
+    const fs::path whole = rotor_case("rotor_two_rocks", feed, 0.14);
+    run_cutter_foam(whole, 2);
+    const RockPicture uninterrupted = last_rocks(whole);
+    ASSERT_EQ(uninterrupted.position.size(), 2u);
+    for (const int ranks : {1, 2, 3}) {
+        const RockPicture resumed = gone_on_with(whole, ranks);
+        ASSERT_EQ(resumed.position.size(), 2u);
+        double apart = 0.0;
+        for (std::size_t p = 0; p < 2; ++p) apart = std::max(apart, (resumed.position[p] - uninterrupted.position[p]).norm());
+        fmt::print("begun on 2 ranks, resumed on {}: rock ends {:.1e} m apart\n", ranks, apart);
+        EXPECT_LE(apart, 1e-10 * 2.0 * cases::test::k_tiny_tank_radius);
+    }
 }
 
 }  // namespace

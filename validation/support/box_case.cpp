@@ -24,28 +24,33 @@ std::string vector_text(const Vec3& v) {
 std::string block_mesh(const BoxCase& box) {
     const Vec3& a = box.lower;
     const Vec3& b = box.upper;
-    const char* top = box.sides == BoxSides::open_top ? "patch" : "wall";
+    const char* top = box.sides == BoxSides::closed ? "wall" : "patch";
+    const char* bottom = box.sides == BoxSides::duct ? "patch" : "wall";
     return fmt::format(
         "scale 1;\nvertices (({0} {1} {2}) ({3} {1} {2}) ({3} {4} {2}) ({0} {4} {2}) ({0} {1} {5}) ({3} {1} {5}) ({3} {4} {5}) ({0} {4} "
         "{5}));\n"
         "blocks ( hex (0 1 2 3 4 5 6 7) ({6} {7} {8}) simpleGrading (1 1 1) );\nedges ();\n"
         "boundary\n(\n    sides {{ type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }}\n"
-        "    bottom {{ type wall; faces ((0 3 2 1)); }}\n    top {{ type {9}; faces ((4 5 6 7)); }}\n);\nmergePatchPairs ();",
-        a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), box.cells[0], box.cells[1], box.cells[2], top);
+        "    bottom {{ type {10}; faces ((0 3 2 1)); }}\n    top {{ type {9}; faces ((4 5 6 7)); }}\n);\nmergePatchPairs ();",
+        a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), box.cells[0], box.cells[1], box.cells[2], top, bottom);
+}
+
+/// The patches of the case: the box's, or those of another mesh.
+std::string boundary(const BoxCase& box, const std::string& wall, const std::string& bottom, const std::string& top) {
+    if (!box.mesh.empty()) return fmt::format("#includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\" {{ {} }}\n    rim {{ {} }}", wall, top);
+    return fmt::format("sides {{ {} }}\n    bottom {{ {} }}\n    top {{ {} }}", wall, bottom, top);
 }
 
 void write_fields(const fs::path& folder, const BoxCase& box) {
-    const bool open = box.sides == BoxSides::open_top;
-    write_foam_dictionary(
-        folder, "0/U", "volVectorField",
-        fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type slip; "
-                    "}}\n    top {{ {} }}\n}}",
-                    open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : "type slip;"));
-    write_foam_dictionary(
-        folder, "0/p", "volScalarField",
-        fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    \"(sides|bottom)\" {{ type "
-                    "fixedFluxPressure; value uniform 0; }}\n    top {{ {} }}\n}}",
-                    open ? "type fixedValue; value uniform 0;" : "type fixedFluxPressure; value uniform 0;"));
+    const std::string slip = "type slip;", balance = "type fixedFluxPressure; value uniform 0;";
+    const bool open = box.sides != BoxSides::closed, duct = box.sides == BoxSides::duct;
+    write_foam_dictionary(folder, "0/U", "volVectorField",
+                          fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 {:.17g});\nboundaryField\n{{\n    {}\n}}", box.inflow,
+                                      boundary(box, slip, duct ? "type fixedValue; value $internalField;" : slip,
+                                               open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : slip)));
+    write_foam_dictionary(folder, "0/p", "volScalarField",
+                          fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    {}\n}}",
+                                      boundary(box, balance, balance, open ? "type fixedValue; value uniform 0;" : balance)));
 }
 
 void write_constant(const fs::path& folder, const BoxCase& box) {
@@ -54,7 +59,7 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
     write_foam_dictionary(folder, "constant/transportProperties", "dictionary",
                      fmt::format("transportModel Newtonian;\nnu {:.17g};\nrho {:.17g};", box.viscosity, box.density));
     write_foam_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
-    write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;");
+    write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary", box.motion.empty() ? "dynamicFvMesh staticFvMesh;" : box.motion);
     if (box.rocks.empty()) return;
     // The DEM's room is the box; its corners lie on the cylinder about the z axis through the origin.
     const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
@@ -78,13 +83,13 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
 }
 
 void write_system(const fs::path& folder, const BoxCase& box) {
-    write_foam_dictionary(folder, "system/blockMeshDict", "dictionary", block_mesh(box));
+    write_foam_dictionary(folder, "system/blockMeshDict", "dictionary", box.mesh.empty() ? block_mesh(box) : box.mesh);
     write_foam_dictionary(
         folder, "system/controlDict", "dictionary",
         fmt::format("application cutterFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime {:.17g};\ndeltaT {:.17g};\n"
                     "adjustTimeStep no;\nmaxCo 0.9;\nmaxDeltaT {:.17g};\nwriteControl adjustable;\nwriteInterval {:.17g};\n"
-                    "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;",
-                    box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time)));
+                    "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;\nfunctions\n{{\n{}\n}}",
+                    box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time), box.functions));
     write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
                      fmt::format("ddtSchemes {{ default Euler; }}\ngradSchemes {{ default Gauss linear; }}\ndivSchemes\n{{\n    default Gauss "
                                  "upwind;\n    div(phi,U) Gauss {};\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n"
@@ -198,6 +203,27 @@ std::vector<RockPicture> all_rocks(const fs::path& folder) {
 
 RockPicture last_rocks(const fs::path& folder) {
     return all_rocks(folder).back();
+}
+
+std::vector<std::vector<double>> read_function_object(const fs::path& folder, const std::string& name) {
+    std::map<double, fs::path> starts;
+    for (const auto& entry : fs::directory_iterator(folder / "postProcessing" / name))
+        starts[std::stod(entry.path().filename())] = fs::directory_iterator(entry.path())->path();
+    std::vector<std::vector<double>> rows;
+    for (const auto& [start, file] : starts) {
+        std::ifstream stream(file);
+        for (std::string line; std::getline(stream, line);) {
+            if (line.empty() || line[0] == '#') continue;
+            std::istringstream fields(line);
+            rows.emplace_back();
+            for (std::string field; fields >> field;) {
+                char* end = nullptr;
+                const double value = std::strtod(field.c_str(), &end);
+                if (end != field.c_str() && *end == '\0') rows.back().push_back(value);
+            }
+        }
+    }
+    return rows;
 }
 
 namespace {

@@ -24,6 +24,7 @@ struct FeedRock {
 enum class BoxSides {
     closed,    ///< slip walls all round: nothing gets in or out
     open_top,  ///< slip walls, the upper side at p* = 0
+    duct,      ///< slip walls along z, inflow at the bottom, the top at p* = 0
 };
 
 /// A box of water with uniform hexahedra and rock, laminar, seeds' water unless told otherwise.
@@ -31,6 +32,10 @@ struct BoxCase {
     Vec3 lower, upper;           ///< corners [m]
     std::array<int, 3> cells{};  ///< number along x, y, z
     BoxSides sides = BoxSides::closed;
+    double inflow = 0.0;         ///< along z, of a duct [m/s]
+    std::string mesh;            ///< another blockMeshDict than the box's; lower and upper then bound it, its patch rim is what top is
+    std::string motion;          ///< constant/dynamicMeshDict; empty: a still mesh
+    std::string functions;       ///< function objects of controlDict
     Vec3 gravity{0.0, 0.0, -9.81};
     double density = 998.2;          ///< [kg/m3]
     double viscosity = 1.0034e-6;    ///< kinematic [m2/s]
@@ -80,6 +85,10 @@ struct RockPicture {
 /// All pictures that a run wrote, in the order of time, and the last one.
 std::vector<RockPicture> all_rocks(const std::filesystem::path& folder);
 RockPicture last_rocks(const std::filesystem::path& folder);
+
+/// Numbers of a table that a function object wrote (postProcessing/<name>/<start>/<file>): rows, first column time; other fields than
+/// numbers are left out. Rows of all starts, in order.
+std::vector<std::vector<double>> read_function_object(const std::filesystem::path& folder, const std::string& name);
 
 /// Values of an ascii OpenFOAM scalar field, one per cell (a uniform field is spread over `cells` values).
 std::vector<double> read_scalar_field(const std::filesystem::path& file, std::size_t cells);

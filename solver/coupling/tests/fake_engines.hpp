@@ -19,6 +19,8 @@ public:
         acceleration.assign(mesh.size(), Vec3::Zero());
         void_fraction.assign(mesh.size(), 1.0);
         retreat.assign(mesh.size(), 0.0);
+        curl.assign(mesh.size(), Vec3::Zero());
+        stress.assign(mesh.size(), Vec3::Zero());
         received_.assign(mesh.size(), Vec3::Zero());
     }
 
@@ -26,6 +28,8 @@ public:
     Steel steel() const override { return mesh.steel(); }
     RotorMotion rotor() const override { return motion; }
     FluidFields fields() const override { return {velocity, acceleration, void_fraction}; }
+    gsl::span<const Vec3> vorticity() override { return curl; }
+    gsl::span<const Vec3> stress_divergence() override { return stress; }
     double time() const override { return time_; }
     std::string time_name() const override {
         std::ostringstream name;
@@ -85,6 +89,7 @@ public:
     std::function<Vec3(const Vec3& position, double time)> flow;
     std::vector<Vec3> velocity, acceleration;
     std::vector<double> void_fraction, void_fraction_old;
+    std::vector<Vec3> curl, stress;  // of the flow, as a test wants them
     std::vector<double> retreat;  // of walls, as a test wants it
     std::vector<double> travel_limits;
     FluidLoads given_loads;

@@ -14,9 +14,10 @@ struct SyntheticMesh {
     std::vector<Vec3> centres;
     std::vector<double> volumes, sizes;
     std::vector<std::uint8_t> in_rotor;
+    std::vector<std::int64_t> ids;
     std::vector<SteelTriangle> rotor_steel, stator_steel;
 
-    Cells cells() const { return {centres, volumes, sizes, in_rotor}; }
+    Cells cells() const { return {centres, volumes, sizes, in_rotor, ids}; }
     Steel steel() const { return {rotor_steel, stator_steel}; }
     std::size_t size() const { return centres.size(); }
 
@@ -25,6 +26,7 @@ struct SyntheticMesh {
         volumes.push_back(volume);
         sizes.push_back(cell_size);
         in_rotor.push_back(rotor ? 1 : 0);
+        ids.push_back(static_cast<std::int64_t>(ids.size()));
     }
 
     /// Cubes of edge dx that fill a box; `keep` (may be empty) says which centres stay.
@@ -71,8 +73,11 @@ struct SyntheticMesh {
         SyntheticMesh share;
         share.rotor_steel = rotor_steel;
         share.stator_steel = stator_steel;
-        for (std::size_t c = 0; c < size(); ++c)
-            if (mine(c)) share.add_cell(centres[c], volumes[c], sizes[c], in_rotor[c] != 0);
+        for (std::size_t c = 0; c < size(); ++c) {
+            if (!mine(c)) continue;
+            share.add_cell(centres[c], volumes[c], sizes[c], in_rotor[c] != 0);
+            share.ids.back() = ids[c];
+        }
         return share;
     }
 };

@@ -419,6 +419,42 @@ TEST(Checkpoint, is_written_and_read_by_every_rank) {
     });
 }
 
+TEST(Checkpoint, is_read_on_another_number_of_ranks) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    settings.checkpoint = CheckpointSettings{0.01, 1};
+    const SyntheticMesh whole = head_mesh();
+    double stopped_at = 0.0;
+    testing::ThreadedRanks(2).run([&](Communicator& communicator) {
+        const auto mine = [&](std::size_t c) { return static_cast<int>(c % 2) == communicator.rank(); };
+        SilentRecorder recorder;
+        FakeFluid fluid(whole.part(mine), turning(), 4e-3);
+        FakeDem dem(turning(), 0.5, k_water.density);
+        dem.gravity = Vec3(0, 0, -9.81);
+        CoupledRun run(settings, k_water, fluid, &dem, communicator, recorder, folder.path());
+        for (int n = 0; n < 4; ++n) run.step();
+        run.finish();
+        if (communicator.rank() == 0) stopped_at = fluid.time();
+    });
+    const auto checkpoint = newest_checkpoint(folder.path());
+    const std::vector<Vec3> alone = read_carry(checkpoint, 2, whole.ids);
+    double largest = 0.0;
+    for (const Vec3& momentum : alone) largest = std::max(largest, momentum.norm());
+    EXPECT_GT(largest, 0.0);
+    testing::ThreadedRanks(3).run([&](Communicator& communicator) {
+        const SyntheticMesh part = whole.part([&](std::size_t c) { return static_cast<int>(c / 7 % 3) == communicator.rank(); });
+        const std::vector<Vec3> mine = read_carry(checkpoint, 2, part.ids);
+        for (std::size_t c = 0; c < part.size(); ++c) EXPECT_EQ(mine[c], alone[static_cast<std::size_t>(part.ids[c])]);
+        SilentRecorder recorder;
+        FakeFluid fluid(part, turning(), 4e-3);
+        FakeDem dem(turning(), 0.5, k_water.density);
+        fluid.restart_at(stopped_at);
+        CoupledRun resumed(settings, k_water, fluid, &dem, communicator, recorder, folder.path());
+        resumed.resume(checkpoint);
+        EXPECT_EQ(dem.rocks().id, std::vector<int>{1});
+    });
+}
+
 std::string text_of(const std::filesystem::path& file) {
     std::ifstream stream(file);
     std::stringstream text;

@@ -5,6 +5,7 @@
 #include "solver/coupling/rock_coupling.hpp"
 #include "solver/coupling/tests/fake_engines.hpp"
 #include "solver/coupling/tests/threaded_ranks.hpp"
+#include "solver/physics/lift.hpp"
 #include "solver/physics/settling.hpp"
 
 namespace cutterflow::coupling {
@@ -34,10 +35,8 @@ FeedRock rock(int id, const Vec3& x, double d, std::optional<Vec3> v = std::null
 
 /// Engines and coupling on one rank.
 struct Rig {
-    Rig(SyntheticMesh mesh, RotorMotion motion, double step)
-        : fluid(std::move(mesh), motion, step),
-          dem(motion, 0.5, k_water.density),
-          coupling(settings_with_rock(), k_water, fluid, dem, serial) {}
+    Rig(SyntheticMesh mesh, RotorMotion motion, double step, const CouplingSettings& settings = settings_with_rock())
+        : fluid(std::move(mesh), motion, step), dem(motion, 0.5, k_water.density), coupling(settings, k_water, fluid, dem, serial) {}
     FakeFluid fluid;
     FakeDem dem;
     SerialCommunicator serial;
@@ -95,6 +94,32 @@ TEST(Exchange, hands_what_rock_loses_to_the_fluid) {
     EXPECT_GT(lost, 1e-3);
     EXPECT_NEAR(gained + carried, lost, 1e-10 * lost);
     EXPECT_LE(std::abs(carried), 0.1 * lost);
+}
+
+TEST(Exchange, gives_back_to_the_fluid_what_lift_and_viscous_stress_do_to_rock) {
+    CouplingSettings settings = settings_with_rock();
+    settings.closures.lift = "mei";
+    settings.closures.viscous_force = false;
+    Rig rig(box(0.15, 0.01), {}, 1e-5, settings);
+    rig.fluid.curl.assign(rig.fluid.mesh.size(), Vec3(0.0, 0.0, 4000.0));
+    rig.fluid.stress.assign(rig.fluid.mesh.size(), Vec3(0.0, 0.0, 0.3));
+    rig.coupling.insert({rock(1, Vec3::Zero(), 0.02, Vec3(-0.05, 0.0, 0.0))});
+    const double volume = physics::sphere_volume(0.02), inertia = (2650.0 + 0.5 * k_water.density) * volume;
+    const physics::RockInFluid in_water{0.02, k_water.density, k_water.kinematic_viscosity};
+    const Vec3 lift = physics::lift_force(in_water, Vec3(0.05, 0.0, 0.0), Vec3(0.0, 0.0, 4000.0), physics::mei_lift_coefficient);
+    ASSERT_GT(lift.norm(), 1e-4);
+    ExchangeBalance balance = rig.step();
+    EXPECT_LE(balance.momentum_exchange_error, 1e-10);
+    // Drag acts along x alone. In so short a step the slip stays what it was.
+    const Vec3 gained = inertia * rig.dem.rocks().velocity[0] / 1e-5;
+    EXPECT_NEAR(gained[1], lift[1], 1e-4 * lift.norm());
+    EXPECT_NEAR(gained[2], -k_water.density * volume * 0.3, 1e-9);
+    for (int n = 0; n < 20; ++n) EXPECT_LE(rig.step().momentum_exchange_error, 1e-10);
+    // What the fluid got and has yet to get across the slip is what the rock got, but for the rock's own added mass.
+    double got = 0.0;
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
+        got += k_water.density * rig.fluid.mesh.volumes[c] * (rig.fluid.velocity[c][1] * rig.fluid.void_fraction[c] + rig.coupling.carry()[c][1]);
+    EXPECT_NEAR(got, -2650.0 * volume * rig.dem.rocks().velocity[0][1], 0.02 * std::abs(got));
 }
 
 TEST(Insertion, makes_no_source) {

@@ -58,6 +58,18 @@ TEST(Settings, name_every_mistake) {
     EXPECT_TRUE(names("checkpoint.keep = 0"));
 }
 
+TEST(Settings, count_the_void_fraction_once) {
+    CouplingSettings settings = good_settings();
+    settings.closures.drag = "gidaspow";
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
+    settings.closures.hindrance = "none";
+    settings.closures.lift = "mei";
+    EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
+    settings.closures.sphericity = 1.2;
+    settings.closures.lift = "magnus";
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 2u);
+}
+
 TEST(Settings, outflow_and_rock_need_the_contour) {
     CouplingSettings settings;
     settings.outflow = OutflowSettings{0.015, 0.0};

@@ -41,7 +41,7 @@ rock
     domain { radius 2.5; zMin -0.875; zMinWall true; zMax 0.435; }
 }
 kernel { gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
-closures { drag brown_lawler; hindrance di_felice; addedMass 0.4; dragModifier 1.1; }
+closures { drag brown_lawler; hindrance di_felice; addedMass 0.4; dragModifier 1.1; sphericity 0.8; lift mei; viscousForce no; }
 fates
 {
     contour "constant/contour.csv"; ringRadius 0.4; zBackplate 0.03; hysteresis 0.2;
@@ -68,6 +68,9 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_EQ(c.closures.hindrance, "di_felice");
     EXPECT_DOUBLE_EQ(c.closures.added_mass, 0.4);
     EXPECT_DOUBLE_EQ(c.closures.drag_modifier, 1.1);
+    EXPECT_DOUBLE_EQ(c.closures.sphericity, 0.8);
+    EXPECT_EQ(c.closures.lift, "mei");
+    EXPECT_FALSE(c.closures.viscous_force);
     ASSERT_TRUE(c.fates && c.outflow && c.stop && c.checkpoint);
     EXPECT_EQ(c.fates->contour.filename(), "contour.csv");
     EXPECT_DOUBLE_EQ(c.fates->hysteresis, 0.2);

@@ -18,7 +18,7 @@ coupling::HydrodynamicForce sphere_drag(double diameter) {
         const double speed = velocity.norm();
         if (speed == 0.0) return Vec3(0, 0, 0);
         const double area = k_pi / 4.0 * diameter * diameter;
-        const double coefficient = physics::brown_lawler_drag_coefficient(speed * diameter / k_water_viscosity);
+        const double coefficient = physics::brown_lawler_drag_coefficient({speed * diameter / k_water_viscosity});
         return Vec3(-0.5 * coefficient * area * k_water_density * speed * velocity);
     };
 }

@@ -12,7 +12,7 @@ namespace {
 
 class EveryClosure : public ::testing::TestWithParam<Closure> {};
 
-TEST_P(EveryClosure, is_finite_and_positive_over_its_range) {
+TEST_P(EveryClosure, is_finite_and_but_for_lift_positive_over_its_range) {
     const Closure& closure = GetParam();
     constexpr int n = 7;
     int points = 1;
@@ -26,7 +26,7 @@ TEST_P(EveryClosure, is_finite_and_positive_over_its_range) {
         }
         const double value = closure.evaluate(arguments);
         EXPECT_TRUE(std::isfinite(value)) << closure.name;
-        EXPECT_GE(value, 0.0) << closure.name;
+        if (closure.kind != ClosureKind::lift) EXPECT_GE(value, 0.0) << closure.name;
     }
 }
 
@@ -64,6 +64,34 @@ TEST(Catalogue, knows_what_lies_outside_a_range) {
 TEST(Catalogue, hands_out_the_functions_themselves) {
     EXPECT_EQ(find_drag_law("brown_lawler"), &brown_lawler_drag_coefficient);
     EXPECT_EQ(find_hindrance_law("di_felice"), &di_felice_factor);
+    EXPECT_EQ(find_hindrance_law("none"), &no_hindrance);
+    EXPECT_EQ(find_lift_law("mei"), &mei_lift_coefficient);
+    EXPECT_EQ(find_lift_law("none"), nullptr);
+}
+
+TEST(Catalogue, hands_a_drag_law_its_numbers_by_name) {
+    EXPECT_DOUBLE_EQ(find_closure(ClosureKind::drag, "gidaspow").evaluate({50.0, 0.6}), gidaspow_drag_coefficient({50.0, 0.6}));
+    EXPECT_DOUBLE_EQ(find_closure(ClosureKind::drag, "haider_levenspiel").evaluate({50.0, 0.8}),
+                     haider_levenspiel_drag_coefficient({50.0, 1.0, 0.8}));
+}
+
+TEST(Catalogue, offers_none_where_a_closure_may_be_left_out) {
+    EXPECT_EQ(closure_choices(ClosureKind::lift), (std::vector<std::string>{"mei", "none"}));
+    EXPECT_EQ(closure_choices(ClosureKind::drag), closure_names(ClosureKind::drag));
+}
+
+TEST(Catalogue, knows_which_drag_laws_hold_the_void_fraction) {
+    EXPECT_TRUE(drag_law_holds_void_fraction("gidaspow"));
+    EXPECT_TRUE(drag_law_holds_void_fraction("koch_hill"));
+    for (const char* name : {"brown_lawler", "schiller_naumann", "haider_levenspiel", "unknown"})
+        EXPECT_FALSE(drag_law_holds_void_fraction(name)) << name;
+}
+
+TEST(Catalogue, names_every_number_that_a_law_of_rock_asks_for) {
+    for (const Closure& closure : catalogue())
+        if (closure.kind == ClosureKind::drag || closure.kind == ClosureKind::hindrance || closure.kind == ClosureKind::lift)
+            for (const ClosureRange& range : closure.ranges) EXPECT_NO_THROW(RockNumbers{}.named(range.argument)) << range.argument;
+    EXPECT_THROW(RockNumbers{}.named("St"), std::out_of_range);
 }
 
 }  // namespace

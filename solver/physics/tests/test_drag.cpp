@@ -16,7 +16,7 @@ struct DragPoint {
 class BrownLawler : public ::testing::TestWithParam<DragPoint> {};
 
 TEST_P(BrownLawler, has_the_published_value) {
-    EXPECT_NEAR(brown_lawler_drag_coefficient(GetParam().reynolds), GetParam().cd, GetParam().tolerance);
+    EXPECT_NEAR(brown_lawler_drag_coefficient({GetParam().reynolds}), GetParam().cd, GetParam().tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(FourDecimals, BrownLawler,
@@ -45,7 +45,7 @@ TEST(Drag, tends_to_stokes_law_without_slip) {
 TEST(Drag, is_half_rho_cd_area_speed_in_pure_fluid) {
     const RockInFluid rock{0.02, 998.2, 1.0034e-6, 1.0};
     const double speed = 0.7;
-    const double cd = brown_lawler_drag_coefficient(speed * 0.02 / 1.0034e-6);
+    const double cd = brown_lawler_drag_coefficient({speed * 0.02 / 1.0034e-6});
     const double expected = 0.5 * 998.2 * cd * k_pi / 4.0 * 4e-4 * speed;
     EXPECT_NEAR(drag_coefficient_per_slip(rock, speed, brown_lawler_drag_coefficient, di_felice_factor), expected, 1e-12 * expected);
     EXPECT_NEAR(drag_coefficient_per_slip(rock, speed, brown_lawler_drag_coefficient, di_felice_factor, 3.0), 3.0 * expected,
@@ -60,6 +60,83 @@ TEST(Drag, hindrance_sees_the_void_fraction_in_its_reynolds_number) {
     const double ratio = drag_coefficient_per_slip(rock, speed, brown_lawler_drag_coefficient, di_felice_factor) /
                          drag_coefficient_per_slip(free, speed, brown_lawler_drag_coefficient, di_felice_factor);
     EXPECT_NEAR(ratio, di_felice_factor(0.7, 0.7 * speed * 0.02 / 1.0034e-6), 1e-12);
+}
+
+TEST(SchillerNaumann, has_the_published_values) {
+    for (const auto& [re, cd] : {std::pair(0.1, 247.4012061), std::pair(100.0, 1.091731091), std::pair(500.0, 0.5626653016), std::pair(5e3, 0.44)})
+        EXPECT_NEAR(schiller_naumann_drag_coefficient({re}), cd, 1e-9 * cd);
+}
+
+TEST(HaiderLevenspiel, has_the_published_values) {
+    struct Point {
+        double reynolds, sphericity, cd;
+    };
+    for (const Point& p : {Point{0.1, 1.0, 247.481611}, Point{100, 1.0, 0.936848167}, Point{1e4, 1.0, 0.503243506},
+                           Point{100, 0.8, 1.304186524}, Point{1e4, 0.67, 2.476264965}})
+        EXPECT_NEAR(haider_levenspiel_drag_coefficient({p.reynolds, 1.0, p.sphericity}), p.cd, 1e-8 * p.cd);
+}
+
+TEST(HaiderLevenspiel, takes_the_drag_modifier) {
+    const RockInFluid gravel{0.02, 998.2, 1.0034e-6, 1.0, 0.8};
+    const double cd = haider_levenspiel_drag_coefficient({0.5 * 0.02 / 1.0034e-6, 1.0, 0.8});
+    EXPECT_NEAR(drag_coefficient_per_slip(gravel, 0.5, haider_levenspiel_drag_coefficient, no_hindrance, 3.0),
+                3.0 * 0.5 * 998.2 * cd * k_pi / 4.0 * 4e-4 * 0.5, 1e-12);
+}
+
+/// Force [N] on one rock of 2 mm in water from the published exchange coefficients beta of model A, V beta w / (1 - a).
+struct ModelAForce {
+    double void_fraction, slip, force;
+};
+
+void expect_model_b_form(DragLaw drag, const ModelAForce& published) {
+    const RockInFluid rock{0.002, 998.2, 1.0034e-6, published.void_fraction};
+    const double expected = published.force / published.void_fraction;
+    EXPECT_NEAR(drag_coefficient_per_slip(rock, published.slip, drag, no_hindrance) * published.slip, expected, 1e-8 * expected);
+}
+
+TEST(Gidaspow, is_the_published_force_over_the_void_fraction) {
+    for (const ModelAForce& f : {ModelAForce{0.45, 0.01, 2.288781616e-06}, ModelAForce{0.45, 0.3, 0.0003869611338},
+                                 ModelAForce{0.8, 0.1, 4.051919082e-05}, ModelAForce{0.9, 0.1, 1.573032966e-05},
+                                 ModelAForce{0.9, 0.8, 0.0005253756647}})
+        expect_model_b_form(gidaspow_drag_coefficient, f);
+}
+
+TEST(Gidaspow, gives_a_fixed_bed_the_pressure_drop_of_ergun) {
+    // The solver's fluid feels the full pressure gradient: dp/dz = number of rocks per volume times force on each.
+    const double a = 0.45, d = 0.002, mu = 998.2 * 1.0034e-6, superficial = 0.02, slip = superficial / a;
+    const double ergun = 150.0 * mu * (1 - a) * (1 - a) / (a * a * a * d * d) * superficial +
+                         1.75 * 998.2 * (1 - a) / (a * a * a * d) * superficial * superficial;
+    const double force = drag_coefficient_per_slip({d, 998.2, 1.0034e-6, a}, slip, gidaspow_drag_coefficient, no_hindrance) * slip;
+    EXPECT_NEAR((1.0 - a) / sphere_volume(d) * force, ergun, 1e-12 * ergun);
+}
+
+TEST(Gidaspow, jumps_where_ergun_and_wen_yu_meet) {
+    const auto ratio = [](double re) { return gidaspow_drag_coefficient({re, 0.8}) / gidaspow_drag_coefficient({re, 0.8 + 1e-12}); };
+    EXPECT_NEAR(ratio(1e-6), 62.5 / (24.0 * std::pow(0.8, -3.65)), 1e-4);
+    EXPECT_NEAR(ratio(1e7), 4.0 / 3.0 * 1.75 / 0.8 / (0.44 * std::pow(0.8, -2.65)), 1e-4);
+}
+
+TEST(KochHill, is_the_published_force_over_the_void_fraction) {
+    for (const ModelAForce& f : {ModelAForce{0.45, 0.01, 2.554604351e-06}, ModelAForce{0.6, 0.05, 1.087000916e-05},
+                                 ModelAForce{0.7, 0.02, 2.440350152e-06}, ModelAForce{0.95, 0.05, 6.002408262e-06}})
+        expect_model_b_form(koch_hill_drag_coefficient, f);
+}
+
+TEST(KochHill, tends_to_stokes_for_a_rock_alone) {
+    EXPECT_NEAR(koch_hill_drag_coefficient({1e-6, 1.0}) * 1e-6, 24.0, 1e-5);
+}
+
+// A decaying vortex array of Taylor and Green, u = e^(-2 nu k^2 t) (sin kx cos ky, -cos kx sin ky, 0), with pressure
+// p/rho = e^(-4 nu k^2 t)/4 (cos 2kx + cos 2ky), solves Navier-Stokes.
+TEST(ViscousForce, is_the_fluid_acceleration_force_less_that_of_the_pressure_gradient) {
+    const double nu = 0.1, k = 2.0, x = 0.3, y = 0.7, t = 0.2, e = std::exp(-2.0 * nu * k * k * t), volume = 1e-6, rho = 1000.0;
+    const Vec3 u = e * Vec3(std::sin(k * x) * std::cos(k * y), -std::cos(k * x) * std::sin(k * y), 0.0);
+    const Vec3 convection = 0.5 * k * e * e * Vec3(std::sin(2 * k * x), std::sin(2 * k * y), 0.0);
+    const Vec3 acceleration = -2.0 * nu * k * k * u + convection;
+    const Vec3 pressure_gradient = -0.5 * k * e * e * Vec3(std::sin(2 * k * x), std::sin(2 * k * y), 0.0);
+    const Vec3 stress_divergence = -2.0 * nu * k * k * u;
+    const Vec3 rest = fluid_acceleration_force(volume, rho, 0.0, acceleration) - viscous_force(volume, rho, stress_divergence);
+    EXPECT_LE((rest + volume * rho * pressure_gradient).norm(), 1e-12 * rest.norm());
 }
 
 TEST(FluidAcceleration, carries_the_displaced_fluid_and_its_added_mass) {

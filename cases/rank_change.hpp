@@ -1,0 +1,22 @@
+#pragma once
+/// \file Splitting a run's case over ranks, at its start and when it goes on with another number of them.
+#include <filesystem>
+
+namespace cutterflow::cases {
+
+/// Writes system/decomposeParDict and splits the case as it stands. \return core seconds
+double decompose(const std::filesystem::path& run_directory, int ranks);
+
+struct RankChange {
+    int from = 0;         ///< ranks on which the checkpoint's fields were found
+    double core_s = 0.0;  ///< 0 when nothing had to be done
+};
+
+/// Brings the fields of the newest checkpoint to `ranks` ranks, by way of the undecomposed case (reconstructPar, decomposePar), which then
+/// holds all times that the processor folders held. Interrupted anywhere, it can be done once more: processor folders go only when the
+/// whole case holds what they did.
+/// \pre there is a checkpoint
+/// \throws UserError  when the fields of the checkpoint are nowhere \throws ToolError  when a program failed
+RankChange move_checkpoint_to_ranks(const std::filesystem::path& run_directory, int ranks);
+
+}  // namespace cutterflow::cases
