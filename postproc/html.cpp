@@ -64,6 +64,8 @@ table.numbers td, table.numbers thead th:not(:first-child) { text-align: right; 
 table.numbers th, table.numbers td { overflow-wrap: normal; }
 table.numbers td, table.numbers tbody th { white-space: nowrap; }
 table.numbers td:last-child, table.numbers thead th:last-child { padding-right: 2px; }
+.verification th, .verification td { overflow-wrap: normal; }
+.verification table.numbers tbody th { white-space: normal; min-width: 16em; }
 h3 { font-size: 0.95rem; margin: 14px 0 6px; font-weight: 600; }
 .passed { color: #00795c; } .failed { color: #b3361b; font-weight: 650; }
 footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px; font-size: 0.82rem; color: var(--soft); }

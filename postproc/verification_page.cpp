@@ -93,6 +93,20 @@ std::vector<std::string> shortfalls(const std::vector<VerifiedCase>& results, co
     return lines;
 }
 
+/// What passed and is not as good as it was hoped to be.
+std::vector<std::string> missed_aims(const std::vector<VerifiedCase>& results, const Markup& markup) {
+    std::vector<std::string> lines;
+    for (const VerifiedCase& result : results)
+        for (const VerifiedQuantity& q : result.quantities) {
+            if (q.verdict != Verdict::pass || !q.aim || !q.error) continue;
+            if (q.rule == Rule::at_least ? *q.error >= *q.aim : *q.error <= *q.aim) continue;
+            const std::string found = q.rule == Rule::relative || q.rule == Rule::absolute ? error_text(q) : number(q.value);
+            lines.push_back(fmt::format("{}, {}: {} where {} is the aim", markup.link(result.name, "#" + result.name),
+                                        markup.escape(name_text(q)), found, limit_text(q, q.aim)));
+        }
+    return lines;
+}
+
 /// What a case's notes say, each once, with the quantities that they belong to.
 std::vector<std::string> notes(const VerifiedCase& result, const Markup& markup) {
     std::vector<std::string> lines;
@@ -212,6 +226,8 @@ std::string verification_markdown(const std::vector<VerifiedCase>& results, cons
     text += markdown_table(k_case_header, case_rows(results, markup));
     const std::vector<std::string> short_of = shortfalls(results, markup);
     text += "## What falls short\n\n" + (short_of.empty() ? std::string("Nothing of what is listed here.\n\n") : markdown_list(short_of));
+    const std::vector<std::string> aims = missed_aims(results, markup);
+    if (!aims.empty()) text += "Passed, but not as good as aimed at:\n\n" + markdown_list(aims);
     for (const VerifiedCase& result : results) {
         text += fmt::format("## {}\n\n{}. [How it is set up]({}{}/README.md). {}\n\n", result.name, result.title, link, result.name,
                             run_text(result));
@@ -238,7 +254,9 @@ std::string verification_page(const std::vector<VerifiedCase>& results, const st
                                    html::escape(count_text(results)), without_backticks(html::escape(k_intro)));
     body += html::table(k_case_header, case_rows(results, markup), false);
     const std::vector<std::string> short_of = shortfalls(results, markup);
-    body += html::section("What falls short", short_of.empty() ? "<p>Nothing of what is listed here.</p>" : html_list(short_of));
+    const std::vector<std::string> aims = missed_aims(results, markup);
+    body += html::section("What falls short", (short_of.empty() ? "<p>Nothing of what is listed here.</p>" : html_list(short_of)) +
+                                                  (aims.empty() ? "" : "<p>Passed, but not as good as aimed at:</p>" + html_list(aims)));
     for (const VerifiedCase& result : results) {
         std::string content = fmt::format("<p id=\"{}\">{}. {}. {}</p>", result.name, html::escape(result.title),
                                           markup.link("How it is set up", link + result.name + "/README.md"),
@@ -248,7 +266,7 @@ std::string verification_page(const std::vector<VerifiedCase>& results, const st
         content += html_list(notes(result, markup));
         body += html::section(result.name, content);
     }
-    return html::document("Validation", body, "");
+    return html::document("Validation", "<div class=\"verification\">" + body + "</div>", "");
 }
 
 }  // namespace cutterflow::postproc

@@ -17,7 +17,7 @@ using postproc::VerifiedCase;
 using ::testing::HasSubstr;
 
 std::string quantity(const std::string& verdict) {
-    return R"({"quantity":"speed","unit":"m/s","reference":1.0,"value":1.1,"error":0.1,"tolerance":0.2,"aim":null,)"
+    return R"({"quantity":"speed","unit":"m/s","reference":1.0,"value":1.1,"error":0.1,"tolerance":0.2,"aim":0.05,)"
            R"("rule":"relative","verdict":")" + verdict + R"(","source":"Legendre2006","note":"a cause"})";
 }
 
@@ -157,6 +157,8 @@ TEST_F(VerificationRun, pages_name_every_shortfall_with_its_cause) {
     const std::string page = postproc::verification_page(results, "../cases/", root_ / "charts");
     EXPECT_THAT(page, HasSubstr("<span class=\"failed\">fail</span>: 10 % where ≤ 20 % is asked. a cause"));
     EXPECT_THAT(page, HasSubstr("not built"));
+    EXPECT_THAT(page, HasSubstr("<a href=\"#good\">good</a>, speed [m/s]: 10 % where ≤ 5 % is the aim"));
+    EXPECT_THAT(markdown, HasSubstr("[good](#good), speed [m/s]: 10 % where ≤ 5 % is the aim"));
 }
 
 TEST_F(VerificationRun, shows_tables_and_charts_and_keeps_them_with_the_result) {
