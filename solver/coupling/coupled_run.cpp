@@ -226,7 +226,13 @@ void CoupledRun::record_picture() {
     const Rocks& rocks = dem_->rocks();
     std::vector<Fate> fates;
     for (const int id : rocks.id) fates.push_back(fates_->fate_of(id));
-    recorder_.picture({fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, fates});
+    const double duration = fluid_.time() - step_start_.time;
+    std::vector<Vec3> hydrodynamic, contact;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        hydrodynamic.push_back(moved_.impulse[p] / duration);
+        contact.push_back(moved_.contact_impulse[p] / duration);
+    }
+    recorder_.picture({fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, hydrodynamic, contact, fates});
 }
 
 void CoupledRun::report_cost(double step_seconds) {

@@ -141,6 +141,8 @@ void CsvRecorder::picture(const RockPicture& picture) {
     array("Int32", "id", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", picture.id[p]); });
     array("Float64", "diameter", 1, [&](std::size_t p) { fmt::print(stream, "{:.9g}\n", picture.diameter[p]); });
     array("Float64", "velocity", 3, [&](std::size_t p) { vector(picture.velocity[p]); });
+    array("Float64", "hydrodynamic_force", 3, [&](std::size_t p) { vector(picture.hydrodynamic_force[p]); });
+    array("Float64", "contact_force", 3, [&](std::size_t p) { vector(picture.contact_force[p]); });
     array("Int32", "fate", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", static_cast<int>(picture.fate[p])); });
     stream << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
     if (!stream) fail_to_write(root_ / k_rock / file);

@@ -30,6 +30,7 @@ using HydrodynamicForce = std::function<Vec3(std::size_t index, const Vec3& velo
 struct DemStep {
     std::vector<Vec3>
         impulse;  ///< of HydrodynamicForce on each rock of rocks() after the call [N s]: sum of force times DEM step, ends half
+    std::vector<Vec3> contact_impulse;  ///< of all contacts on each rock, in the order of `impulse` [N s]
     std::vector<int> left_domain;     ///< ids of rocks that left the DEM domain in the call; no longer in rocks()
     std::vector<Vec3> left_position;  ///< their last positions
     std::vector<Vec3> left_velocity;

@@ -508,8 +508,9 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     const std::vector<int> before = rocks_.id;
     gather();
     require_all_rocks(before);
-    std::vector<Vec3> impulse = motion_->impulse();
-    MPI_Allreduce(MPI_IN_PLACE, impulse.data(), static_cast<int>(3 * impulse.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+    std::vector<Vec3> impulse = motion_->impulse(), contact_impulse = motion_->contact_impulse();
+    for (std::vector<Vec3>* values : {&impulse, &contact_impulse})
+        MPI_Allreduce(MPI_IN_PLACE, values->data(), static_cast<int>(3 * values->size()), MPI_DOUBLE, MPI_SUM, communicator_);
 
     coupling::DemStep done;
     done.substeps = steps;
@@ -520,6 +521,7 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         if (in_domain(rocks_.position[k])) {
             done.impulse.push_back(impulse[k]);
+            done.contact_impulse.push_back(contact_impulse[k]);
         } else {
             done.left_domain.push_back(rocks_.id[k]);
             done.left_position.push_back(rocks_.position[k]);

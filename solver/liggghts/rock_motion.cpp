@@ -38,6 +38,7 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     rocks_ = &rocks;
     force_ = &law;
     impulse_.assign(rocks.size(), Vec3::Zero());
+    contact_impulse_.assign(rocks.size(), Vec3::Zero());
     angular_impulse_ = 0.0;
     for (int i = 0; i < atom->nlocal; ++i) states_[i].hydrodynamic = law(index_of(i), Vec3(atom->v[i]));
 }
@@ -72,7 +73,9 @@ void RockMotion::initial_integrate(int) {
         Eigen::Map<Vec3> position(atom->x[i]), velocity(atom->v[i]), spin(atom->omega[i]);
         state.acceleration = acceleration(i);
         state.spin_acceleration = spin_acceleration(i);
-        impulse_[index_of(i)] += 0.5 * step * state.hydrodynamic;
+        const std::size_t index = index_of(i);
+        impulse_[index] += 0.5 * step * state.hydrodynamic;
+        contact_impulse_[index] += 0.5 * step * Vec3(atom->f[i]);
         position += step * (velocity + 0.5 * step * state.acceleration);
         velocity += step * state.acceleration;
         spin += step * state.spin_acceleration;
@@ -88,6 +91,7 @@ void RockMotion::final_integrate() {
         const std::size_t index = index_of(i);
         state.hydrodynamic = (*force_)(index, velocity);
         impulse_[index] += 0.5 * step * state.hydrodynamic;
+        contact_impulse_[index] += 0.5 * step * Vec3(atom->f[i]);
         velocity += 0.5 * step * (acceleration(i) - state.acceleration);
         spin += 0.5 * step * (spin_acceleration(i) - state.spin_acceleration);
     }

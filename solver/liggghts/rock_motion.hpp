@@ -27,6 +27,8 @@ public:
 
     /// This rank's share of the impulse [N s] on each rock since begin().
     const std::vector<Vec3>& impulse() const { return impulse_; }
+    /// The same of contacts.
+    const std::vector<Vec3>& contact_impulse() const { return contact_impulse_; }
     /// This rank's share of the time integral [N m s] of the torque on rotating steel since begin().
     double angular_impulse() const { return angular_impulse_; }
 
@@ -61,7 +63,7 @@ private:
     const coupling::Rocks* rocks_ = nullptr;
     const coupling::HydrodynamicForce* force_ = nullptr;
     std::vector<State> states_;  // in LIGGGHTS' order
-    std::vector<Vec3> impulse_;  // per rock of rocks_
+    std::vector<Vec3> impulse_, contact_impulse_;  // per rock of rocks_
     double angular_impulse_ = 0.0;
 };
 

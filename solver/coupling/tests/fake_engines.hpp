@@ -151,6 +151,7 @@ public:
                 impulse += 0.5 * dt * (first + second);
             }
             step.impulse.push_back(impulse);
+            step.contact_impulse.push_back(Vec3::Zero());  // its rocks never touch
         }
         time_ += duration;
         for (std::size_t p = rocks_.size(); p-- > 0;) {
@@ -160,6 +161,7 @@ public:
             step.left_velocity.push_back(rocks_.velocity[p]);
             step.left_impulse.push_back(step.impulse[p]);
             step.impulse.erase(step.impulse.begin() + static_cast<std::ptrdiff_t>(p));
+            step.contact_impulse.pop_back();
             erase(p);
         }
         return step;

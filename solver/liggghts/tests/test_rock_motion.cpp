@@ -115,6 +115,30 @@ TEST(RockMotion, impulse_and_weight_make_up_the_change_of_momentum) {
     }
 }
 
+// The same with a collision: what is missing is the impulse of the contact, equal and opposite on both rocks.
+TEST(RockMotion, contact_impulse_is_the_rest_of_the_change_of_momentum) {
+    coupling::DemSettings settings = still_water();
+    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(0.0, 0.1, 0.3), Vec3(0.5, 0.0, 0.0), 0.02);
+    add_rock(rocks, 2, Vec3(0.0205, 0.104, 0.3), Vec3(-0.5, 0.0, 0.0), 0.02);
+    ASSERT_EQ(engine.insert(rocks), (std::vector<int>{1, 2}));
+    const Vec3 weight = (k_rock_density - k_water_density) * volume(0.02) * settings.gravity;
+    double largest = 0.0;
+    for (int call = 0; call < 20; ++call) {
+        const std::vector<Vec3> before = engine.rocks().velocity;
+        const coupling::DemStep step = engine.advance(2e-4, linear_drag(0.5));
+        ASSERT_EQ(step.contact_impulse.size(), 2u);
+        largest = std::max(largest, step.contact_impulse[0].norm());
+        EXPECT_NEAR((step.contact_impulse[0] + step.contact_impulse[1]).norm(), 0.0, 1e-14);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Vec3 change = mass_with_added_mass(0.02) * (engine.rocks().velocity[k] - before[k]);
+            EXPECT_NEAR((change - step.impulse[k] - step.contact_impulse[k] - 2e-4 * weight).norm(), 0.0, 1e-14);
+        }
+    }
+    EXPECT_GT(largest, 1e-3);  // they met: 13 g at 0.5 m/s
+}
+
 // The first half kick of a call uses the law of that call: with a law that is 0 in every second call, the velocity does not change in it.
 TEST(RockMotion, no_half_kick_uses_the_law_of_the_call_before) {
     coupling::DemSettings settings = still_water();
