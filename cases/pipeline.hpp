@@ -57,7 +57,7 @@ private:
     Study resolved_study(const HeadSize& head) const;
     void write_resolved_study(const HeadSize& head) const;
     void require_same_ranks() const;
-    void say_cost(const Study& study, const HeadSize& head, double core_s) const;  ///< actual beside predicted
+    void say_cost(double core_s) const;  ///< actual beside predicted
     double decompose() const;  ///< \return core seconds
 
     const RunDirectory& directory_;

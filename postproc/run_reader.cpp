@@ -233,6 +233,7 @@ RunData read_run(const fs::path& directory) {
                 read_json(directory / names::mesh_report),
                 read_json(directory / names::manifest),
                 {}};
+    run.prediction = read_json(directory / names::prediction);
     run.setting = study.setting();
     run.seed = study.seed();
     std::vector<std::string> bin_names;
