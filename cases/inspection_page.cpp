@@ -122,8 +122,11 @@ std::string contour_section(const Head& head, const fs::path& folder) {
 std::string answers(const GeometryInspection& inspection) {
     const SoundnessReport& report = inspection.soundness;
     const bool sound = report.sound();
+    const std::string comment = !sound            ? fmt::format("{} kind(s) of defect", defects_of(report, "").size())
+                                : inspection.head ? "ready for a study"
+                                                  : "but no cutter head";
     std::string boxes = html::answer(sound ? "#00795c" : k_mark_colour, "A sound solid: closed, outward, free of self-intersections?",
-                                     sound ? "yes" : "no", sound ? "ready for a study" : fmt::format("{} kind(s) of defect", defects_of(report, "").size()));
+                                     sound ? "yes" : "no", comment);
     if (inspection.head) {
         const Head& head = *inspection.head;
         boxes += html::answer(palette::flow_load, "Ring radius", fmt::format("{:.4g} m", head.ring_radius), fmt::format("head height {:.4g} m", -head.lowest_z));
@@ -148,6 +151,15 @@ std::string defect_section(const GeometryInspection& inspection) {
                                         fmt::format("<p>Red balls in the pictures mark the first places of each kind. To have it repaired: "
                                                     "<code>cutterflow repair {} -o repaired.stl</code></p>",
                                                     html::escape(fs::path(inspection.file).filename().string())));
+}
+
+/// Why a sound solid is no head.
+std::string no_head_section(const GeometryInspection& inspection) {
+    if (inspection.no_head.empty()) return "";
+    std::vector<std::vector<std::string>> rows;
+    for (const Mistake& mistake : inspection.no_head)
+        rows.push_back({html::escape(mistake.what), html::escape(mistake.rule), html::escape(mistake.remedy)});
+    return html::section("Not a cutter head", html::table({"what", "rule", "remedy"}, rows, false));
 }
 
 std::string vector_text(const Vec3& v) {
@@ -204,7 +216,7 @@ void write_inspection(const GeometryInspection& inspection, const TriangleSurfac
     write_file(folder / "inspection.json", to_json(inspection).dump(2) + "\n");
     const std::string title = html::escape(fs::path(inspection.file).filename().string());
     std::string body = fmt::format("<header><h1>{}</h1><p class=\"operating\">{}</p></header>\n", title, html::escape(inspection.unit.reason));
-    body += answers(inspection) + defect_section(inspection) + pictures(inspection, surface);
+    body += answers(inspection) + defect_section(inspection) + no_head_section(inspection) + pictures(inspection, surface);
     if (inspection.head) body += contour_section(*inspection.head, folder);
     body += numbers_section(inspection);
     write_file(folder / "index.html", html::document(title, body, "The same numbers for programs: inspection.json."));

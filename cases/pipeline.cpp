@@ -10,6 +10,7 @@
 #include "cases/case_builder.hpp"
 #include "cases/disk_space.hpp"
 #include "cases/flow_dictionaries.hpp"
+#include "cases/machine.hpp"
 #include "cases/prediction.hpp"
 #include "cases/rank_change.hpp"
 #include "cases/rock_feed.hpp"
@@ -142,6 +143,7 @@ RunHead read_run_head(const RunDirectory& directory) {
         size.ring_radius = head.at("ring_radius_m").get<double>();
         size.blades = std::max(1, head.at("blades").get<int>());
         if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m").get<double>();
+        size.thickness = head.at("thickness_m").get<double>();
         RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
         size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
         size.depth = -contour.z.front();
@@ -199,10 +201,11 @@ StageOutcome Pipeline::make_geometry() {
     const Study study = resolved_study(size);
     for (const Mistake& warning : study_warnings(resolve_study(values_, size), size)) say_("warning: " + warning.text());
     for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
+    for (const Mistake& warning : mesh_warnings(mesh_input_of(study, size, head.surface))) say_("warning: " + warning.text());
     say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
                      head.ring_radius, size.depth));
 
-    const Prediction prediction = predict(study, size, head.surface);
+    const Prediction prediction = predict(study, size, head.surface, {settings_.ranks, 1.0});  // the disk does not depend on the machine's speed
     require_free_bytes(directory_.path(), prediction.mesh_disk + prediction.run_disk);
 
     // A region without a free place is refused here, before the mesh costs anything.
@@ -269,9 +272,11 @@ StageOutcome Pipeline::make_case() {
          write_case(directory_.path(), case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks)))
         written.push_back(file.string());
     write_resolved_study(head.size);
-    written.emplace_back(names::resolved_study);
+    const TriangleSurface cutter = welded(read_surface(directory_.file(names::cutter_surface)));
+    const Prediction prediction = predict(study, head.size, cutter, {settings_.ranks, machine_slowness()});
+    write_file(directory_.file(names::prediction), to_json(prediction).dump(2) + "\n");
+    written.insert(written.end(), {names::resolved_study, names::prediction});
     if (!study.feeds.empty()) {
-        const TriangleSurface cutter = welded(read_surface(directory_.file(names::cutter_surface)));
         const std::vector<PlacedFeed> feeds =
             place_feeds(study, feed_scene(study, head.size, head.with_backplate(study.suction.gap), cutter));
         for (const std::string& line : feed_lines(feeds)) say_(line);
@@ -306,7 +311,7 @@ StageOutcome Pipeline::make_start() {
 }
 
 Prediction Pipeline::predicted(const Study& study, const HeadSize& head) const {
-    return predict(study, head, welded(read_surface(directory_.file(names::cutter_surface))));
+    return predict(study, head, welded(read_surface(directory_.file(names::cutter_surface))), {settings_.ranks, 1.0});
 }
 
 std::optional<Mistake> Pipeline::full_disk() const {
@@ -320,10 +325,12 @@ std::optional<Mistake> Pipeline::full_disk() const {
     }
 }
 
-void Pipeline::say_cost(const Study& study, const HeadSize& head, double core_s) const {
-    const Prediction prediction = predicted(study, head);
-    say_(fmt::format("took {:.3g} core hours; {:.3g} were predicted for {:g} revolutions", core_s / 3600.0, prediction.core_hours,
-                     prediction.revolutions));
+void Pipeline::say_cost(double core_s) const {
+    const fs::path file = directory_.file(names::prediction);
+    if (!fs::exists(file)) return;  // the case is of an older version
+    const nlohmann::json prediction = nlohmann::json::parse(read_file(file));
+    say_(fmt::format("took {:.3g} core hours; {:.3g} were predicted for {:g} revolutions", core_s / 3600.0,
+                     prediction.at("core_hours").get<double>(), prediction.at("revolutions").get<double>()));
 }
 
 StageOutcome Pipeline::run_solver(bool resume) {
@@ -348,7 +355,7 @@ StageOutcome Pipeline::run_solver(bool resume) {
     if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
     if (result.exit_code != 0) throw ToolError(failure_of(command, result));
     progress.finish();
-    if (!goes_on) say_cost(study, head.size, result.core_s);
+    if (!goes_on) say_cost(result.core_s);
     return {{}, core_s + result.core_s};
 }
 

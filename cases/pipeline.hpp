@@ -63,7 +63,7 @@ private:
     Study resolved_study(const HeadSize& head) const;
     void write_resolved_study(const HeadSize& head) const;
     Prediction predicted(const Study& study, const HeadSize& head) const;
-    void say_cost(const Study& study, const HeadSize& head, double core_s) const;  ///< actual beside predicted
+    void say_cost(double core_s) const;  ///< actual beside predicted
 
     const RunDirectory& directory_;
     PipelineSettings settings_;

@@ -16,8 +16,11 @@ namespace cutterflow::cases {
 namespace {
 
 constexpr double k_gravity = 9.81;
-// A coupled step costs at most this much more than one of the flow alone; the run's own cost.json tells the actual share.
-constexpr double k_rock_share = 1.5;
+// Core time of a coupled step over that of the flow alone, and what each rank beyond the first adds to either: fastest steps of
+// docs/results/step_cost.md, on one and two ranks.
+constexpr double k_rock_share = 1.32;
+constexpr double k_flow_per_rank = 0.10;
+constexpr double k_rock_per_rank = 0.25;
 // Rock may travel this share of a cell in a step; the smallest cells that it meets at the cutter measure this share of
 // the background's (docs/design/003-meshing.md).
 constexpr double k_travel_share = 0.25;
@@ -53,6 +56,7 @@ MeshInput mesh_input_of(const Study& study, const HeadSize& head, const Triangle
     input.ring_radius = head.ring_radius;
     input.cutter = extent_of_cutter(cutter);
     input.cutter.passage = head.passage;
+    input.cutter.thickness = head.thickness;
     input.steel = stationary_steel_of(study, head);
     input.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
     input.resolution = mesh_preset(study.mesh_preset);
@@ -62,8 +66,9 @@ MeshInput mesh_input_of(const Study& study, const HeadSize& head, const Triangle
     return input;
 }
 
-Prediction predict(const Study& study, const HeadSize& head, const TriangleSurface& cutter) {
+Prediction predict(const Study& study, const HeadSize& head, const TriangleSurface& cutter, const RunMachine& machine) {
     Prediction prediction;
+    prediction.machine = machine;
     const MeshPlan plan = plan_mesh(mesh_input_of(study, head, cutter));
     const double omega = std::abs(study.rotation_speed);
     prediction.mesh = plan.prediction;
@@ -71,11 +76,17 @@ Prediction predict(const Study& study, const HeadSize& head, const TriangleSurfa
     prediction.flow_step = std::min(plan.prediction.time_step, largest_time_step(omega));
     prediction.rock_step = prediction.flow_step;
     if (!study.feeds.empty()) prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size));
-    const double flow_steps = first_release(study) / prediction.flow_step;
-    const double rock_steps = (study.end_time() - first_release(study)) / prediction.rock_step;
-    prediction.steps = flow_steps + rock_steps;
-    const double core_hours_per_step = plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
-    prediction.core_hours = core_hours_per_step * (flow_steps + k_rock_share * rock_steps);
+    prediction.first_release = first_release(study);
+    const double flow_revolutions = prediction.first_release / study.period();
+    const double rock_revolutions = prediction.revolutions - flow_revolutions;
+    const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
+    prediction.steps = flow_revolutions * flow_steps + rock_revolutions * rock_steps;
+    const double core_hours_per_step = machine.slowness * plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
+    prediction.core_hours_per_revolution = core_hours_per_step * (1.0 + k_flow_per_rank * (machine.ranks - 1)) * flow_steps;
+    prediction.core_hours_per_revolution_with_rock =
+        core_hours_per_step * k_rock_share * (1.0 + k_rock_per_rank * (machine.ranks - 1)) * rock_steps;
+    prediction.core_hours =
+        flow_revolutions * prediction.core_hours_per_revolution + rock_revolutions * prediction.core_hours_per_revolution_with_rock;
     prediction.mesh_disk = k_mesh_bytes + k_mesh_bytes_per_cell * plan.prediction.cells;
     prediction.run_disk =
         (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells + prediction.steps * k_table_bytes_per_step;
@@ -92,15 +103,15 @@ Prediction predict(const Study& study, const HeadSize& head, const TriangleSurfa
     return prediction;
 }
 
-std::string to_text(const Prediction& p, int ranks) {
+std::string to_text(const Prediction& p) {
     std::string text = fmt::format("cells        about {:.0f}\n", p.mesh.cells);
     text += fmt::format("time step    about {:.2g} s, with rock {:.2g} s; {:.0f} steps for {:g} revolutions\n", p.flow_step, p.rock_step,
                         p.steps, p.revolutions);
     text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
                         1e-9 * p.mesh.run_memory);
     text += fmt::format("disk         about {:.2g} GB\n", 1e-9 * (p.mesh_disk + p.run_disk));
-    text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s)\n", p.core_hours,
-                        duration_text(3600.0 * p.core_hours / ranks), ranks);
+    text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s); this machine now takes {:.2f} times the reference's time\n",
+                        p.core_hours, duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
     text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
     text += fmt::format("numbers      Q/(omega R^3) = {:.3g}, omega^2 R/g = {:.3g}\n", p.flow_number, p.froude);
     text += fmt::format("rock         {} rocks", p.rocks);
@@ -118,6 +129,11 @@ nlohmann::json to_json(const Prediction& p) {
             {"disk_bytes", p.mesh_disk + p.run_disk},
             {"steps", p.steps},
             {"core_hours", p.core_hours},
+            {"ranks", p.machine.ranks},
+            {"machine_slowness", p.machine.slowness},
+            {"core_hours_per_revolution", p.core_hours_per_revolution},
+            {"core_hours_per_revolution_with_rock", p.core_hours_per_revolution_with_rock},
+            {"first_release_s", p.first_release},
             {"revolutions", p.revolutions},
             {"rocks", p.rocks},
             {"tip_speed_m_s", p.tip_speed},

@@ -60,13 +60,13 @@ GeometryInspection import_study_cutter(const ParameterValues& values, const std:
     std::optional<LengthUnit> unit;
     if (values.has("cutter.unit")) unit = length_unit_of(values.text("cutter.unit"));
     const GeometryInspection inspection = inspect_cutter(import_cutter(file, unit), file.string());
-    require_sound(inspection.soundness, file.string());
+    require_head(inspection);
     return inspection;
 }
 
 HeadSize head_size(const Head& head) {
     const double tip = *std::max_element(head.contour.radius.begin(), head.contour.radius.end());
-    return {head.ring_radius, tip, -head.lowest_z, head.passage, std::max(1, head.symmetry.blade_count)};
+    return {head.ring_radius, tip, -head.lowest_z, head.passage, head.thickness, std::max(1, head.symmetry.blade_count)};
 }
 
 Contour head_contour(const Head& head, double z_backplate) {

@@ -88,8 +88,21 @@ std::string head_text(const Head& head) {
 
 GeometryInspection inspect_cutter(const ImportedSurface& imported, const std::string& file) {
     GeometryInspection inspection{file, imported.unit, inspect_surface(imported.surface), std::nullopt};
-    if (inspection.soundness.sound()) inspection.head = understand_head(imported.surface);
+    if (!inspection.soundness.sound()) return inspection;
+    try {
+        inspection.head = understand_head(imported.surface);
+    } catch (const UserError& error) {
+        inspection.no_head = error.mistakes();
+    }
     return inspection;
+}
+
+void require_head(const GeometryInspection& inspection) {
+    require_sound(inspection.soundness, inspection.file);
+    if (inspection.head) return;
+    std::vector<Mistake> mistakes = inspection.no_head;
+    for (Mistake& mistake : mistakes) mistake.where = inspection.file;
+    throw UserError(std::move(mistakes));
 }
 
 json to_json(const GeometryInspection& inspection) {
@@ -100,6 +113,7 @@ json to_json(const GeometryInspection& inspection) {
         {"defects", defects_json(inspection.soundness)},
         {"sound", inspection.soundness.sound()}};
     if (inspection.head) result["head"] = head_json(*inspection.head);
+    for (const Mistake& mistake : inspection.no_head) result["no_head"].push_back(mistake.text());
     return result;
 }
 

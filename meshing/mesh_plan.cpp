@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/error.hpp"
 
 namespace cutterflow {
 namespace {
@@ -105,6 +104,11 @@ double needed_passage(double ring_radius, const MeshResolution& resolution) {
     return k_passage_cells_min * k_cutter_cell * resolution.cell_size * ring_radius;
 }
 
+/// One cell of the cutter's.
+double needed_thickness(double ring_radius, const MeshResolution& resolution) {
+    return k_cutter_cell * resolution.cell_size * ring_radius;
+}
+
 /// "Use preset standard or ", or nothing when none would do.
 template <class Enough>
 std::string finer_preset(const Enough& enough) {
@@ -125,8 +129,8 @@ void check_gap(const MeshInput& in, std::vector<Mistake>& mistakes) {
     const std::string finer = finer_preset(
         [&](const MeshResolution& r) { return r.cell_size < in.resolution.cell_size && gap >= needed_gap(in.ring_radius, r); });
     mistakes.push_back({"",
-                        fmt::format("The clearance between the cutter (up to z = {:.4g} m) and the backplate (z = {:.4g} m) is {:.4g} m",
-                                    in.cutter.z_max, in.steel.gap, gap),
+                        fmt::format("suction.gap_m = {:.4g} leaves {:.4g} m between the cutter (up to z = {:.4g} m) and the backplate",
+                                    in.steel.gap, gap, in.cutter.z_max),
                         fmt::format("The rotor zone must end between them with {} cells on each side, which takes {:.4g} m at preset {}",
                                     k_gap_cells_min, needed, in.resolution.preset),
                         sentence(finer, fmt::format("make suction.gap_m at least {:.4g}", top + needed))});
@@ -343,6 +347,18 @@ MeshPlan plan_mesh(const MeshInput& input) {
     divide_stator_height(plan);
     plan.prediction = predict(plan);
     return plan;
+}
+
+std::vector<Mistake> mesh_warnings(const MeshInput& in) {
+    const double needed = needed_thickness(in.ring_radius, in.resolution);
+    if (!in.cutter.thickness || *in.cutter.thickness >= needed) return {};
+    const double thickness = *in.cutter.thickness;
+    const std::string finer = finer_preset(
+        [&](const MeshResolution& r) { return r.cell_size < in.resolution.cell_size && thickness >= needed_thickness(in.ring_radius, r); });
+    return {{"", fmt::format("The thinnest steel of the cutter is {:.4g} m thick", thickness),
+             fmt::format("The mesh keeps steel thinner than the cutter's cells, {:.4g} m at preset {}, but not its thickness and its edges", needed,
+                         in.resolution.preset),
+             sentence(finer, "look at the steel's volume among the gates of mesh.json")}};
 }
 
 }  // namespace cutterflow

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/error.hpp"
 #include "geometry/stationary_steel.hpp"
 #include "geometry/surface.hpp"
 
@@ -31,9 +32,10 @@ struct CutterExtent {
     double volume = 0.0;  ///< of the steel [m3]
     /// Diameter of the largest sphere that passes between the blades [m] (passage_between_blades); none: not asked for.
     std::optional<double> passage{};
+    std::optional<double> thickness{};  ///< of the thinnest steel [m] (smallest_thickness); none: not asked for
 };
 
-/// All but the passage. \pre the surface is closed, outward oriented and in the run's frame
+/// All but passage and thickness. \pre the surface is closed, outward oriented and in the run's frame
 CutterExtent extent_of_cutter(const TriangleSurface& cutter);
 
 /// The water: a cylinder about the axis.
@@ -126,5 +128,9 @@ struct MeshPlan {
 ///                    is too small for the preset names the preset that would resolve it
 /// \throws std::invalid_argument  when a size that must be positive is not
 MeshPlan plan_mesh(const MeshInput& input);
+
+/// What the mesh will resolve poorly, with the preset that would resolve it: steel thinner than a cell of the
+/// cutter's (docs/design/003-meshing.md has what becomes of it).
+std::vector<Mistake> mesh_warnings(const MeshInput& input);
 
 }  // namespace cutterflow

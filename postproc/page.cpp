@@ -393,6 +393,19 @@ std::string model_section(const RunData& run) {
     return html::section("Models", content);
 }
 
+std::string prediction_table(const Cost& cost) {
+    if (!cost.predicted) return "";
+    const auto row = [](const char* name, const std::string& predicted, const std::string& actual, double error) {
+        return std::vector<std::string>{name, predicted, actual, fmt::format("{:+.0f} %", 100.0 * error)};
+    };
+    std::vector<std::vector<std::string>> rows;
+    const PredictedCost& p = *cost.predicted;
+    if (cost.cells) rows.push_back(row("cells", fmt::format("{:.0f}", p.cells), fmt::format("{}", *cost.cells), p.cells / static_cast<double>(*cost.cells) - 1.0));
+    rows.push_back(row("time steps", fmt::format("{:.0f}", p.steps), fmt::format("{}", cost.steps), p.steps / static_cast<double>(cost.steps) - 1.0));
+    if (cost.core_s) rows.push_back(row("core time of the steps", duration(p.core_s), duration(*cost.core_s), p.core_s / *cost.core_s - 1.0));
+    return html::table({"for the time that the run went through", "predicted", "actual", "error"}, rows, true);
+}
+
 std::string cost_section(const Results& results, const RunData& run, const PageFigures& figures) {
     std::string legend;
     double rest = 1.0;
@@ -404,6 +417,7 @@ std::string cost_section(const Results& results, const RunData& run, const PageF
     legend = fmt::format("<ul class=\"legend\">{}<li>not assigned ({})</li></ul>", legend, percent(std::max(0.0, rest)));
     std::string content = plot(figures, "cost", legend + "Share of the time steps’ wall time by part of the solver (slowest rank).");
     if (content.empty()) content = legend;
+    content += prediction_table(results.cost);
     std::vector<std::vector<std::string>> stages;
     const json recorded = run.manifest.value("stages", json::object());
     for (const char* name : {"geometry", "mesh", "case", "start", "run", "report"}) {

@@ -111,7 +111,20 @@ std::optional<int> whole_number(const json& object, const char* key) {
     return found->get<int>();
 }
 
-Cost sum_cost(const RunData& run, double revolutions) {
+/// prediction.json holds rates with and without rock: they are taken for the time that the run went through.
+std::optional<PredictedCost> predicted_cost(const json& prediction, double end_time, double revolutions) {
+    if (prediction.empty()) return std::nullopt;
+    const double flow_time = std::min(end_time, prediction.at("first_release_s").get<double>());
+    const double flow_share = end_time > 0.0 ? flow_time / end_time : 1.0;
+    const double core_hours = revolutions * (flow_share * prediction.at("core_hours_per_revolution").get<double>() +
+                                             (1.0 - flow_share) * prediction.at("core_hours_per_revolution_with_rock").get<double>());
+    return PredictedCost{prediction.at("cells").get<double>(),
+                         flow_time / prediction.at("time_step_s").get<double>() +
+                             (end_time - flow_time) / prediction.at("time_step_with_rock_s").get<double>(),
+                         3600.0 * core_hours};
+}
+
+Cost sum_cost(const RunData& run, double end_time, double revolutions) {
     Cost cost;
     cost.wall_s = sum(run.cost.number("step_s"));
     cost.steps = run.cost.rows();
@@ -119,6 +132,7 @@ Cost sum_cost(const RunData& run, double revolutions) {
     cost.cells = whole_number(run.mesh, "cells");
     if (!cost.cells) cost.cells = whole_number(run.cost_summary, "cells");
     if (cost.ranks) cost.core_s = cost.wall_s * *cost.ranks;
+    cost.predicted = predicted_cost(run.prediction, end_time, revolutions);
     if (cost.core_s && revolutions > 0.0) cost.core_s_per_revolution = *cost.core_s / revolutions;
     for (const char* part : {"fluid", "mesh_motion", "mapping", "dem", "output"}) {
         cost.share[part] = cost.wall_s > 0.0 ? sum(run.cost.number(std::string(part) + "_s")) / cost.wall_s : 0.0;
@@ -215,11 +229,28 @@ json outflow_json(const std::vector<BinOutflow>& outflow) {
     return object;
 }
 
+/// Predicted over actual, less 1.
+json prediction_error(double predicted, std::optional<double> actual) {
+    return actual && *actual > 0.0 ? json(predicted / *actual - 1.0) : json();
+}
+
+json predicted_json(const Cost& cost) {
+    if (!cost.predicted) return {};
+    const PredictedCost& predicted = *cost.predicted;
+    return {{"cells", predicted.cells},
+            {"steps", predicted.steps},
+            {"core_s", predicted.core_s},
+            {"error",
+             {{"cells", prediction_error(predicted.cells, cost.cells ? std::optional<double>(*cost.cells) : std::nullopt)},
+              {"steps", prediction_error(predicted.steps, static_cast<double>(cost.steps))},
+              {"core_s", prediction_error(predicted.core_s, cost.core_s)}}}};
+}
+
 json cost_json(const Cost& cost) {
     return {{"wall_s", cost.wall_s},        {"core_s", or_null(cost.core_s)},
             {"steps", cost.steps},          {"cells", or_null(cost.cells)},
             {"ranks", or_null(cost.ranks)}, {"core_s_per_revolution", or_null(cost.core_s_per_revolution)},
-            {"share", cost.share}};
+            {"share", cost.share},          {"predicted", predicted_json(cost)}};
 }
 
 json rotor_json(const Results& results, const RunData& run) {
@@ -262,7 +293,7 @@ Results compute_results(const RunData& run) {
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     results.scale = compute_scale(run);
     results.conservation = worst_balance(run.balance, results.spillage.has_value());
-    results.cost = sum_cost(run, results.rotor.revolutions);
+    results.cost = sum_cost(run, results.end_time, results.rotor.revolutions);
     return results;
 }
 

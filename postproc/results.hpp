@@ -53,6 +53,11 @@ struct Conservation {
     std::optional<double> solid_volume, momentum_exchange, flow_balance, interface_imbalance;
 };
 
+/// What was predicted before the run, for the time that it ran.
+struct PredictedCost {
+    double cells = 0.0, steps = 0.0, core_s = 0.0;
+};
+
 struct Cost {
     double wall_s = 0.0;           ///< sum over the steps
     std::optional<double> core_s;  ///< wall_s times ranks
@@ -60,6 +65,7 @@ struct Cost {
     std::optional<int> cells, ranks;
     std::optional<double> core_s_per_revolution;
     std::map<std::string, double> share;  ///< of wall_s: fluid, mesh_motion, mapping, dem, output
+    std::optional<PredictedCost> predicted;
 };
 
 struct Results {

@@ -252,6 +252,7 @@ RunData read_run(const fs::path& directory) {
                 {},
                 read_blades(geometry),
                 read_adv_probe(study)};
+    run.prediction = read_json(directory / names::prediction);
     run.setting = study.setting();
     run.seed = study.seed();
     std::vector<std::string> bin_names;

@@ -75,6 +75,7 @@ struct RunData {
     bool finished = false;                                  ///< the run came to its end
     std::string setting{};  ///< the study without its name and what repeats vary (seed and time of release); equal for repeats
     int seed = 0;         ///< of the first feed
+    nlohmann::json prediction{};  ///< of the run's cost, before it; empty when the file is absent
 };
 
 /// Reads a run directory, finished or not.

@@ -49,7 +49,7 @@ void inspect(const InspectOptions& options) {
     const GeometryInspection inspection = inspect_cutter(imported, options.cutter);
     if (options.output) cases::write_inspection(inspection, imported.surface, *options.output);
     std::cout << (options.json ? to_json(inspection).dump(2) + "\n" : to_text(inspection)) << std::flush;
-    require_sound(inspection.soundness, options.cutter);
+    require_head(inspection);
     if (options.contour) write_contour_csv(inspection.head->contour, *options.contour);
 }
 

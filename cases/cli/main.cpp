@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
     cli::add_new(app);
     cli::add_params(app);
     cli::add_generate_cutter(app);
+    cli::add_generate_solid(app);
     cli::add_inspect(app);
     cli::add_repair(app);
     cli::add_check(app);

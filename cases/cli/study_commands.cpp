@@ -79,12 +79,13 @@ void check_study_file(const CheckOptions& options) {
     if (!mistakes.empty()) throw UserError(mistakes);
 
     const cases::Study study = cases::make_study(resolved, folder);
-    const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface);
+    const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface, {options.ranks, cases::machine_slowness()});
     const Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
     const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
     std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
+    for (const Mistake& warning : mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface))) warnings.push_back(warning);
     if (options.json) {
         std::cout << nlohmann::json{{"cutter", to_json(inspection)},
                                     {"prediction", to_json(prediction)},
@@ -94,7 +95,7 @@ void check_study_file(const CheckOptions& options) {
                   << std::endl;
         return;
     }
-    std::cout << to_text(inspection) << "\n" << to_text(prediction, options.ranks);
+    std::cout << to_text(inspection) << "\n" << to_text(prediction);
     for (const std::string& line : cases::feed_lines(feeds)) std::cout << line << "\n";
     for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
     std::cout << fmt::format("{} is valid; next: cutterflow run {} --ranks {}\n", options.study, options.study, options.ranks);

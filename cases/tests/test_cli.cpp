@@ -114,7 +114,8 @@ const char* const k_feed = "[[feed]]\ncount = 20\n[[feed.class]]\ndiameter_m = 0
 TEST_F(Cli, explains_itself) {
     const Outcome help = call({"--help"});
     EXPECT_EQ(help.code, 0);
-    for (const char* command : {"new", "check", "verify", "inspect", "repair", "generate-cutter", "mesh", "run", "report", "params"}) {
+    for (const char* command :
+         {"new", "check", "verify", "inspect", "repair", "generate-cutter", "generate-solid", "mesh", "run", "report", "params"}) {
         expect_contains(help.text, command);
         const Outcome of_command = call({command, "--help"});
         EXPECT_EQ(of_command.code, 0) << command;
@@ -171,6 +172,27 @@ TEST_F(Cli, check_predicts_what_a_run_costs) {
     EXPECT_GT(hours, 0.02);
     EXPECT_LT(hours, 20.0);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "check writes nothing";
+}
+
+// Fastest steps of docs/results/step_cost.md, wall seconds times ranks: the draft mesh of this cutter on the machine undisturbed.
+TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
+    study(k_feed);
+    const std::map<int, std::pair<double, double>> measured{{1, {0.561, 0.741}}, {2, {2 * 0.310, 2 * 0.462}}};
+    for (const auto& [ranks, core_s] : measured) {
+        if (ranks > cases::available_cores()) continue;
+        const Outcome outcome = call({"check", "study.toml", "--json", "--ranks", std::to_string(ranks)});
+        ASSERT_EQ(outcome.code, 0) << outcome.text;
+        const nlohmann::json p = nlohmann::json::parse(outcome.text).at("prediction");
+        const double per_step = 3600.0 / p.at("machine_slowness").get<double>();  // core seconds of the reference machine; period 1 s
+        EXPECT_NEAR(per_step * p.at("core_hours_per_revolution").get<double>() * p.at("time_step_s").get<double>() / core_s.first, 1.0, 0.15);
+        EXPECT_NEAR(per_step * p.at("core_hours_per_revolution_with_rock").get<double>() * p.at("time_step_with_rock_s").get<double>() /
+                        core_s.second,
+                    1.0, 0.15);
+        const double first = p.at("first_release_s").get<double>();
+        EXPECT_NEAR(first * p.at("core_hours_per_revolution").get<double>() +
+                        (p.at("revolutions").get<double>() - first) * p.at("core_hours_per_revolution_with_rock").get<double>(),
+                    p.at("core_hours").get<double>(), 1e-9);
+    }
 }
 
 TEST_F(Cli, a_name_with_spaces_and_brackets_is_a_name_like_any_other) {
@@ -255,6 +277,43 @@ TEST_F(Cli, inspect_writes_a_page_with_pictures_for_heads_and_for_what_is_none) 
     write_stl(open, folder_ / "open.stl");
     expect_refused(call({"inspect", "open.stl", "-o", "open_page"}), 2, "open edge(s)");
     expect_contains(read_file(folder_ / "open_page/index.html"), "cutterflow repair open.stl");
+}
+
+TEST_F(Cli, generate_solid_writes_solids_of_known_volume_and_inspect_shows_them_as_no_heads) {
+    const std::map<std::string, std::vector<std::string>> sizes{
+        {"pipe", {"--inner-radius-m", "0.1", "--wall-m", "0.02", "--length-m", "0.5"}},
+        {"box", {"--x-m", "0.3", "--y-m", "0.2", "--z-m", "0.1"}},
+        {"funnel", {"--inlet-radius-m", "0.3", "--outlet-radius-m", "0.1", "--height-m", "0.3", "--wall-m", "0.02"}},
+        {"backplate",
+         {"--radius-m", "0.4", "--thickness-m", "0.02", "--gap-m", "0.03", "--mouth-radius-m", "0.1", "--mouth-offset-m", "0.22",
+          "--mouth-azimuth-deg", "90", "--pipe-wall-m", "0.01", "--pipe-length-m", "0.3"}}};
+    // pi w (2 r + w) l; x y z; pi w (r + q + w) h; plate without the mouth, and the pipe on it.
+    const std::map<std::string, double> volumes{{"pipe", M_PI * 0.02 * 0.22 * 0.5},
+                                                {"box", 0.006},
+                                                {"funnel", M_PI * 0.02 * 0.42 * 0.3},
+                                                {"backplate", M_PI * (0.15 * 0.02 + 0.0021 * 0.3)}};
+    for (const auto& [solid, options] : sizes) {
+        const std::string file = solid + ".stl";
+        std::vector<std::string> arguments{"generate-solid", solid, "--edge-m", "0.05", "-o", file};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome made = call(arguments);
+        ASSERT_EQ(made.code, 0) << made.text;
+        expect_refused(call(arguments), 2, "Nothing is overwritten");
+        // A funnel is as round as a head without blades; the others lack an axis, or a hub's end.
+        const bool round = solid == "funnel";
+        const Outcome inspected = call({"inspect", file, "-o", solid});
+        expect_refused(inspected, round ? 0 : 2, round ? "blades       0" : file + ": ");
+        const nlohmann::json report = nlohmann::json::parse(read_file(folder_ / solid / "inspection.json"));
+        EXPECT_TRUE(report.at("sound").get<bool>()) << solid;
+        EXPECT_NEAR(report.at("surface").at("volume_m3").get<double>() / volumes.at(solid), 1.0, 0.005) << solid;
+        const std::string page = read_file(folder_ / solid / "index.html");
+        EXPECT_EQ(page.find("Not a cutter head") == std::string::npos, round) << solid;
+        expect_contains(page, "data:image/png");
+    }
+    expect_refused(call({"generate-solid", "box", "--x-m", "0", "--y-m", "1", "--z-m", "1", "--edge-m", "1", "-o", "flat.stl"}), 2,
+                   "length along x = 0 m. It must be above 0");
+    write_file(folder_ / "study.toml", "[cutter]\nfile = \"box.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
+    expect_refused(call({"check", "study.toml"}), 2, "box.stl: ");
 }
 
 TEST_F(Cli, refuses_millimetres_taken_as_metres_and_tells_them_when_not_said) {

@@ -25,6 +25,7 @@ inline constexpr const char* backplate_surface = "geometry/backplate.stl";
 inline constexpr const char* suction_pipe_surface = "geometry/suction_pipe.stl";
 inline constexpr const char* contour_table = "geometry/contour.csv";
 inline constexpr const char* mesh_report = "mesh.json";
+inline constexpr const char* prediction = "prediction.json";
 inline constexpr const char* feed_report = "feed.json";
 inline constexpr const char* rock_feed = "constant/rockFeed.csv";
 inline constexpr const char* coupling_properties = "constant/couplingProperties";

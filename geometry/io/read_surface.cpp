@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_formats = "Cutterflow reads STL (ASCII or binary), OBJ and PLY";
+constexpr std::uintmax_t k_largest_file = 500'000'000;  // bytes: ten million triangles of a binary STL
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule, const std::string& remedy) {
     throw UserError(std::vector<Mistake>{{file.string(), what, rule, remedy}});
@@ -35,6 +37,11 @@ std::string extension_of(const fs::path& file) {
 std::string bytes_of(const fs::path& file) {
     if (!fs::exists(file)) refuse(file, "the file does not exist", k_formats, "Check the path");
     if (!fs::is_regular_file(file)) refuse(file, "this is not a file", k_formats, "Name the surface file itself");
+    const std::uintmax_t size = fs::file_size(file);
+    if (size > k_largest_file)
+        refuse(file, fmt::format("the file has {:.3g} GB", 1e-9 * static_cast<double>(size)),
+               fmt::format("At most {:.3g} GB are read, ten million triangles; a mesh resolves far fewer", 1e-9 * k_largest_file),
+               "Export the surface with a coarser tolerance");
     std::ifstream in(file, std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     if (!in && !in.eof()) refuse(file, "the file cannot be read", k_formats, "Check its permissions");

@@ -147,6 +147,9 @@ TEST_F(Files, what_is_no_surface_is_refused_by_name_and_reason) {
 }
 
 TEST_F(Files, truncated_files_are_refused) {
+    const std::filesystem::path huge = write("huge.stl", "solid");
+    std::filesystem::resize_file(huge, 20'000'000'000);  // no block of it is stored
+    expect_refusal(huge, "the file has 20 GB. At most 0.5 GB are read");
     const std::string binary = binary_cube();
     expect_refusal(write("half.stl", binary.substr(0, binary.size() / 2)), "announces 12 triangles, which need 684 bytes");
     const std::string ascii = ascii_stl(unit_cube());

@@ -152,6 +152,22 @@ TEST(MeshPlan, refuses_passages_below_two_cells_and_names_the_preset_that_resolv
     EXPECT_FALSE(contains(refusals(input).at(0).remedy, "preset")) << "no preset resolves it";
 }
 
+TEST(MeshPlan, warns_of_steel_thinner_than_its_cells_and_names_the_preset_that_resolves_it) {
+    MeshInput input = model_mesh_input();  // cells of the cutter's: 15 mm at draft, 7.5 mm at standard, 4.5 mm at paper
+    EXPECT_TRUE(mesh_warnings(input).empty()) << "thickness not asked for";
+    input.cutter.thickness = 0.016;
+    EXPECT_TRUE(mesh_warnings(input).empty());
+    input.cutter.thickness = 0.012;
+    const std::vector<Mistake> warnings = mesh_warnings(input);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(contains(warnings[0].what, "0.012 m")) << warnings[0].what;
+    EXPECT_TRUE(contains(warnings[0].rule, "cells, 0.015 m at preset draft")) << warnings[0].rule;
+    EXPECT_TRUE(contains(warnings[0].remedy, "Use mesh.preset = \"standard\"")) << warnings[0].remedy;
+    input.cutter.thickness = 0.004;
+    EXPECT_FALSE(contains(mesh_warnings(input).at(0).remedy, "preset")) << "no preset resolves it";
+    EXPECT_NO_THROW(plan_mesh(input)) << "the gate on the steel's volume judges the mesh";
+}
+
 TEST(MeshPlan, refuses_a_gap_that_cannot_hold_the_interface_and_names_the_preset_that_resolves_it) {
     MeshInput input = model_mesh_input();
     input.steel.gap = 0.02;

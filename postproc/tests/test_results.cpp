@@ -1,5 +1,7 @@
 #include "postproc/results.hpp"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
@@ -158,6 +160,24 @@ TEST(ResultsJson, cost_sums_the_steps) {
     EXPECT_NEAR(cost.at("core_s_per_revolution").get<double>(), 400.0, 1e-6);
     EXPECT_NEAR(cost.at("share").at("fluid").get<double>(), 0.6, 1e-12);
     EXPECT_NEAR(cost.at("share").at("dem").get<double>(), 0.03, 1e-12);
+    EXPECT_TRUE(cost.at("predicted").is_null()) << "no prediction.json";
+}
+
+TEST(ResultsJson, predicted_cost_is_that_of_the_time_that_the_run_went_through) {
+    SmallRun run("predicted");
+    run.write();  // two revolutions of 1 s in 200 steps, rock from 1 s on
+    std::ofstream(run.directory / "prediction.json") << json{{"cells", 50000.0},
+                                                             {"time_step_s", 0.01},
+                                                             {"time_step_with_rock_s", 0.005},
+                                                             {"first_release_s", 1.0},
+                                                             {"core_hours_per_revolution", 0.1},
+                                                             {"core_hours_per_revolution_with_rock", 0.2},
+                                                             {"revolutions", 10.0}};
+    const json predicted = document_of(run).at("cost").at("predicted");
+    EXPECT_NEAR(predicted.at("core_s").get<double>(), 360.0 + 720.0, 1e-9);
+    EXPECT_NEAR(predicted.at("steps").get<double>(), 100.0 + 200.0, 1e-9);
+    EXPECT_NEAR(predicted.at("error").at("core_s").get<double>(), 1080.0 / 800.0 - 1.0, 1e-9);
+    EXPECT_NEAR(predicted.at("error").at("steps").get<double>(), 0.5, 1e-9);
 }
 
 TEST(ResultsJson, a_resumed_run_gives_the_numbers_of_an_uninterrupted_one) {

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/simple_solids.hpp"
+#include "geometry/soundness.hpp"
+
+namespace cutterflow {
+namespace {
+
+constexpr double k_accepted = 0.005;
+
+void expect_solid(const TriangleSurface& surface, double volume, const char* name) {
+    const SoundnessReport report = inspect_surface(surface);
+    EXPECT_TRUE(report.sound()) << name;
+    EXPECT_EQ(report.components.size(), 1u) << name;
+    EXPECT_NEAR(report.volume / volume, 1.0, k_accepted) << name;
+}
+
+double longest_side(const TriangleSurface& surface) {
+    double longest = 0.0;
+    for (const Triangle& t : surface.triangles)
+        for (int k = 0; k < 3; ++k) longest = std::max(longest, (surface.points[t[k]] - surface.points[t[(k + 1) % 3]]).norm());
+    return longest;
+}
+
+TEST(SimpleSolids, pipes_have_the_volume_of_their_wall) {
+    // Edges much longer than the circles, and much shorter.
+    for (const double edge : {1.0, 0.01}) {
+        const PipeParameters pipe{0.1, 0.02, 0.5, edge};
+        EXPECT_DOUBLE_EQ(pipe.volume(), k_pi * (0.12 * 0.12 - 0.1 * 0.1) * 0.5);
+        expect_solid(generate_pipe(pipe), pipe.volume(), "pipe");
+    }
+    const PipeParameters rod{0.0, 0.1, 0.5, 0.05};
+    EXPECT_DOUBLE_EQ(rod.volume(), k_pi * 0.1 * 0.1 * 0.5);
+    expect_solid(generate_pipe(rod), rod.volume(), "rod");
+}
+
+TEST(SimpleSolids, funnels_have_the_volume_between_their_cones) {
+    // Frusta of the outer and the inner radii, from the textbook formula.
+    const auto frustum = [](double r, double q, double h) { return k_pi * h / 3.0 * (r * r + r * q + q * q); };
+    const FunnelParameters funnel{0.3, 0.05, 0.4, 0.1, 0.02, 0.02};
+    const double volume = frustum(0.32, 0.07, 0.4) - frustum(0.3, 0.05, 0.4) + k_pi * (0.07 * 0.07 - 0.05 * 0.05) * 0.1;
+    EXPECT_NEAR(funnel.volume(), volume, 1e-12);
+    expect_solid(generate_funnel(funnel), volume, "funnel");
+    FunnelParameters without_spout = funnel;
+    without_spout.spout_length = 0.0;
+    expect_solid(generate_funnel(without_spout), frustum(0.32, 0.07, 0.4) - frustum(0.3, 0.05, 0.4), "funnel without spout");
+}
+
+TEST(SimpleSolids, boxes_are_exact_and_divided) {
+    const TriangleSurface box = generate_box({0.4, 0.3, 0.2}, 0.06);
+    expect_solid(box, 0.024, "box");
+    EXPECT_NEAR(volume_of(box), 0.024, 1e-15);
+    EXPECT_LE(longest_side(box), 0.06 * std::sqrt(2.0));
+    const Bounds bounds = bounds_of(box);
+    EXPECT_TRUE(bounds.min.isApprox(Vec3(-0.2, -0.15, 0.0)) && bounds.max.isApprox(Vec3(0.2, 0.15, 0.2)));
+}
+
+TEST(SimpleSolids, every_size_without_meaning_is_named) {
+    try {
+        generate_funnel({0.3, -0.05, 0.0, 0.0, 0.02, 0.02});
+        FAIL();
+    } catch (const UserError& error) {
+        ASSERT_EQ(error.mistakes().size(), 2u);
+        EXPECT_EQ(error.mistakes()[0].text(), "outlet radius = -0.05 m. It must be above 0. Correct it.");
+        EXPECT_EQ(error.mistakes()[1].text(), "cone height = 0 m. It must be above 0. Correct it.");
+    }
+}
+
+}  // namespace
+}  // namespace cutterflow
