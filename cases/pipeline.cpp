@@ -235,14 +235,15 @@ StageOutcome Pipeline::make_mesh() {
 
 MeshReport Pipeline::make_mesh_of(const MeshPlan& plan, const std::vector<MeshRetry>& retries, std::vector<std::string>& outputs) {
     outputs.clear();
-    for (const fs::path& file : write_mesh_case(directory_.path(), plan)) outputs.push_back(file.string());
+    const int ranks = ranks_that_pay(plan, settings_.ranks);
+    for (const fs::path& file : write_mesh_case(directory_.path(), plan, ranks)) outputs.push_back(file.string());
     for (const std::string& file : directory_.apply_overrides(mesh_overrides(directory_))) {
         say_("override: " + file);
         if (std::find(outputs.begin(), outputs.end(), file) == outputs.end()) outputs.push_back(file);
     }
     Progress progress("  mesh");
     const MeshReport report = build_mesh(
-        directory_.path(), plan, settings_.solver.parent_path(),
+        directory_.path(), plan, settings_.solver.parent_path(), ranks,
         [&](double fraction, const std::string& program) { progress.update(fraction, program); }, retries);
     progress.finish(fmt::format("{} cells ({:.0f} were predicted), {:.2g} GB at most ({:.2g} predicted)", report.figures.cells,
                                 report.prediction.cells, 1e-9 * report.memory, 1e-9 * report.prediction.mesh_memory));
