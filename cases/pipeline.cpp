@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cases/case_builder.hpp"
+#include "cases/contact_surfaces.hpp"
 #include "cases/flow_dictionaries.hpp"
 #include "cases/prediction.hpp"
 #include "cases/rock_feed.hpp"
@@ -101,6 +103,14 @@ bool has_checkpoint(const fs::path& directory) {
     return fs::is_directory(checkpoints) &&
            std::any_of(fs::directory_iterator(checkpoints), fs::directory_iterator(),
                        [](const fs::directory_entry& entry) { return entry.path().extension() != ".part"; });
+}
+
+/// \pre the study has a feed
+double smallest_diameter(const Study& study) {
+    double smallest = std::numeric_limits<double>::max();
+    for (const FeedRequest& feed : study.feeds)
+        for (const RockClass& rock : feed.classes) smallest = std::min(smallest, rock.diameter);
+    return smallest;
 }
 
 /// What a run left that was stopped before its first checkpoint: there is nothing to go on from.
@@ -267,6 +277,9 @@ StageOutcome Pipeline::make_case() {
         write_file(directory_.file(names::rock_feed), rock_feed_csv(feeds));
         write_file(directory_.file(names::feed_report), feed_json(feeds, study));
         written.insert(written.end(), {names::rock_feed, names::feed_report});
+        for (const WallSurfaceReport& wall : write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius))
+            say_(wall.text());
+        written.emplace_back(k_contact_surface_report);
     }
     for (const std::string& file : directory_.apply_overrides(case_overrides(directory_))) {
         say_("override: " + file);
