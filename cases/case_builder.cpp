@@ -17,18 +17,6 @@ namespace fs = std::filesystem;
 // after a whole revolution.
 constexpr double k_degrees_between_samples = 3.0;
 
-/// A surface of geometry/ and the copy that the DEM reads.
-struct DemSurface {
-    Wall wall;
-    const char* source;
-};
-
-std::vector<DemSurface> dem_surfaces() {
-    return {{{"cutter", "constant/triSurface/cutter_dem.stl", true}, names::cutter_surface},
-            {{"backplate", "constant/triSurface/backplate_dem.stl", false}, names::backplate_surface},
-            {{"suction_pipe", "constant/triSurface/suction_pipe_dem.stl", false}, names::suction_pipe_surface}};
-}
-
 FoamDictionary contact_section(const Rock& rock) {
     return FoamDictionary()
         .add("youngsModulus", rock.youngs_modulus)
@@ -127,10 +115,10 @@ std::vector<FoamFile> case_files(const CaseInputs& inputs) {
     return files;
 }
 
-void copy_surface(const fs::path& run_directory, const DemSurface& surface) {
+void copy_surface(const fs::path& run_directory, const WallSource& surface) {
     const fs::path target = run_directory / surface.wall.file;
     fs::create_directories(target.parent_path());
-    fs::copy_file(run_directory / surface.source, target, fs::copy_options::overwrite_existing);
+    fs::copy_file(run_directory / surface.surface, target, fs::copy_options::overwrite_existing);
 }
 
 }  // namespace
@@ -161,9 +149,15 @@ FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
     return coupling;
 }
 
+std::vector<WallSource> wall_sources() {
+    return {{{"cutter", "constant/triSurface/cutter_dem.stl", true}, names::cutter_surface},
+            {{"backplate", "constant/triSurface/backplate_dem.stl", false}, names::backplate_surface},
+            {{"suction_pipe", "constant/triSurface/suction_pipe_dem.stl", false}, names::suction_pipe_surface}};
+}
+
 std::vector<Wall> standard_walls() {
     std::vector<Wall> walls;
-    for (const DemSurface& surface : dem_surfaces()) walls.push_back(surface.wall);
+    for (const WallSource& source : wall_sources()) walls.push_back(source.wall);
     return walls;
 }
 
@@ -183,7 +177,7 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
         written.emplace_back(sample_file(set));
     }
     if (inputs.rock) {
-        for (const DemSurface& surface : dem_surfaces()) {
+        for (const WallSource& surface : wall_sources()) {
             copy_surface(run_directory, surface);
             written.emplace_back(surface.wall.file);
         }

@@ -12,11 +12,18 @@ namespace cutterflow::cases {
 /// solves the flow alone.
 FoamDictionary coupling_dictionary(const CaseInputs& inputs);
 
-/// The steel surfaces of a run directory as DEM walls: cutter (rotating), backplate, suction pipe.
+/// A wall of the DEM and the surface in geometry/ of which its own is made.
+struct WallSource {
+    Wall wall;
+    const char* surface;
+};
+
+/// The steel of a run directory: cutter (rotating), backplate, suction pipe.
+std::vector<WallSource> wall_sources();
 std::vector<Wall> standard_walls();
 
 /// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of geometry/*.stl, with rock
-/// only) and the empty file by which ParaView opens the case.
+/// only; write_contact_surfaces puts better ones in their place) and the empty file by which ParaView opens the case.
 /// \param run_directory  exists; with rock it holds geometry/cutter.stl, backplate.stl, suction_pipe.stl
 /// \return the files that were written, relative to the run directory
 /// \throws UserError  with every rule that the inputs break (check_case_inputs); nothing is written then

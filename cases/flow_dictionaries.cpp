@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/base/run_names.hpp"
+#include "meshing/mesh_dictionaries.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -299,14 +300,7 @@ std::vector<FoamFile> start_system_files(const CaseInputs& inputs, int iteration
 }
 
 FoamFile decompose_file(int ranks) {
-    int across = 1;
-    for (int divisor = 1; divisor * divisor <= ranks; ++divisor)
-        if (ranks % divisor == 0) across = divisor;
-    FoamDictionary boxes;
-    boxes.add("n", FoamValue::list({ranks / across, across, 1})).add("delta", 0.001).add("order", "xyz");
-    FoamDictionary decompose;
-    decompose.add("numberOfSubdomains", ranks).add("method", "hierarchical").add("hierarchicalCoeffs", boxes);
-    return system_file("decomposeParDict", decompose);
+    return system_file("decomposeParDict", decomposition(ranks));
 }
 
 }  // namespace cutterflow::cases

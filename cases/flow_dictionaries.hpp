@@ -51,8 +51,7 @@ std::vector<FoamFile> run_system_files(const CaseInputs& inputs);
 /// The same for the frozen-rotor start with stock simpleFoam, with the monitors that start_flow reads: every `iterations` one write.
 std::vector<FoamFile> start_system_files(const CaseInputs& inputs, int iterations);
 
-/// system/decomposeParDict: `ranks` boxes in the plane normal to the axis, as square as the number allows (hierarchical: Debian's scotch is
-/// a stub). \pre ranks >= 1
+/// system/decomposeParDict. \pre ranks >= 1
 FoamFile decompose_file(int ranks);
 
 }  // namespace cutterflow::cases

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cases/case_builder.hpp"
+#include "cases/contact_surfaces.hpp"
 #include "cases/disk_space.hpp"
 #include "cases/flow_dictionaries.hpp"
 #include "cases/machine.hpp"
@@ -106,6 +108,14 @@ bool start_is_done(const fs::path& run) {
     const Manifest manifest(run / names::manifest);
     const StageRecord* start = manifest.find("start");
     return start != nullptr && start->state == StageState::done;
+}
+
+/// \pre the study has a feed
+double smallest_diameter(const Study& study) {
+    double smallest = std::numeric_limits<double>::max();
+    for (const FeedRequest& feed : study.feeds)
+        for (const RockClass& rock : feed.classes) smallest = std::min(smallest, rock.diameter);
+    return smallest;
 }
 
 /// What a run left that was stopped before its first checkpoint: there is nothing to go on from.
@@ -250,14 +260,15 @@ StageOutcome Pipeline::make_mesh() {
 
 MeshReport Pipeline::make_mesh_of(const MeshPlan& plan, const std::vector<MeshRetry>& retries, std::vector<std::string>& outputs) {
     outputs.clear();
-    for (const fs::path& file : write_mesh_case(directory_.path(), plan)) outputs.push_back(file.string());
+    const int ranks = ranks_that_pay(plan, settings_.ranks);
+    for (const fs::path& file : write_mesh_case(directory_.path(), plan, ranks)) outputs.push_back(file.string());
     for (const std::string& file : directory_.apply_overrides(mesh_overrides(directory_))) {
         say_("override: " + file);
         if (std::find(outputs.begin(), outputs.end(), file) == outputs.end()) outputs.push_back(file);
     }
     Progress progress("  mesh");
     const MeshReport report = build_mesh(
-        directory_.path(), plan, settings_.solver.parent_path(),
+        directory_.path(), plan, settings_.solver.parent_path(), ranks,
         [&](double fraction, const std::string& program) { progress.update(fraction, program); }, retries);
     progress.finish(fmt::format("{} cells ({:.0f} were predicted), {:.2g} GB at most ({:.2g} predicted)", report.figures.cells,
                                 report.prediction.cells, 1e-9 * report.memory, 1e-9 * report.prediction.mesh_memory));
@@ -283,6 +294,9 @@ StageOutcome Pipeline::make_case() {
         write_file(directory_.file(names::rock_feed), rock_feed_csv(feeds));
         write_file(directory_.file(names::feed_report), feed_json(feeds, study));
         written.insert(written.end(), {names::rock_feed, names::feed_report});
+        for (const WallSurfaceReport& wall : write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius))
+            say_(wall.text());
+        written.emplace_back(k_contact_surface_report);
     }
     for (const std::string& file : directory_.apply_overrides(case_overrides(directory_))) {
         say_("override: " + file);

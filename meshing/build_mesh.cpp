@@ -24,6 +24,7 @@ using nlohmann::json;
 constexpr const char* k_restore_report = "interface_restore.json";
 constexpr const char* k_probe_report = "mesh_probe.json";
 constexpr int k_angles_per_pitch = 8;
+constexpr double k_least_cells_to_share = 2e5;
 constexpr std::array<double, 3> k_attempts = {1.0, 0.93, 0.85};  // cells over those of the preset
 
 /// One program of the stage; `weight` is its usual share of the time.
@@ -31,6 +32,7 @@ struct Step {
     fs::path program;
     std::vector<std::string> arguments;
     double weight;
+    int ranks = 1;
 };
 
 std::string read_text(const fs::path& file) {
@@ -51,10 +53,10 @@ public:
 
     void run(const Step& step) {
         if (observer_) observer_(done_ / total_weight_, step.program.filename().string());
-        const ChildResult result = require_child(foam_command(directory_, step.program.string(), step.arguments));
+        const ChildResult result = require_child(foam_command(directory_, step.program.string(), step.arguments, step.ranks));
         wall_s += result.wall_s;
         core_s += result.core_s;
-        memory = std::max(memory, result.memory);
+        memory = std::max(memory, step.ranks * result.memory);  // the ranks' shares are alike
         program_core_s.emplace_back(step.program.filename().string(), result.core_s);
         done_ += step.weight;
     }
@@ -76,6 +78,18 @@ void keep_background(const fs::path& mesh_case) {
     fs::copy(mesh_case / "constant" / "polyMesh", mesh_case / "constant" / "background" / "polyMesh", fs::copy_options::recursive);
 }
 
+/// On several ranks the mesh is whole again afterwards.
+std::vector<Step> steel_cutting(int ranks) {
+    const Step cut = {"snappyHexMesh", {"-overwrite"}, 80.0, ranks};
+    if (ranks == 1) return {cut};
+    return {{"decomposePar", {"-force"}, 1.0}, cut, {"reconstructParMesh", {"-constant"}, 2.0}};
+}
+
+void remove_processors(const fs::path& mesh_case) {
+    for (int rank = 0; fs::remove_all(mesh_case / fmt::format("processor{}", rank)) > 0; ++rank) {
+    }
+}
+
 /// The mesh alone, without what snappyHexMesh and topoSet leave beside it.
 void move_mesh(const fs::path& mesh_case, const fs::path& run_directory) {
     const fs::path target = run_directory / "constant" / "polyMesh";
@@ -88,6 +102,10 @@ void move_mesh(const fs::path& mesh_case, const fs::path& run_directory) {
 }
 
 }  // namespace
+
+int ranks_that_pay(const MeshPlan& plan, int ranks) {
+    return plan.prediction.cells < k_least_cells_to_share ? 1 : ranks;
+}
 
 std::vector<double> probe_angles(const RotorZone& rotor) {
     std::vector<double> angles;
@@ -104,16 +122,16 @@ std::optional<MeshRetry> next_attempt(const MeshReport& failed, int attempts, Me
     return MeshRetry{gate->name, fmt::format("cells {:g} times as wide as the preset's", share)};
 }
 
-std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshPlan& plan) {
-    const std::array<std::pair<const char*, FoamDictionary>, 8> dictionaries = {
-        {{"controlDict", mesh_control()},
-         {"fvSchemes", mesh_schemes()},
-         {"fvSolution", FoamDictionary()},
-         {"blockMeshDict", background_mesh(plan)},
-         {"surfaceFeatureExtractDict", feature_extraction(steel_surfaces())},
-         {"snappyHexMeshDict", steel_cut(plan)},
-         {"topoSetDict", outlet_selection(plan)},
-         {"createPatchDict", final_patches()}}};
+std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshPlan& plan, int ranks) {
+    std::vector<std::pair<const char*, FoamDictionary>> dictionaries = {{"controlDict", mesh_control()},
+                                                                        {"fvSchemes", mesh_schemes()},
+                                                                        {"fvSolution", FoamDictionary()},
+                                                                        {"blockMeshDict", background_mesh(plan)},
+                                                                        {"surfaceFeatureExtractDict", feature_extraction(steel_surfaces())},
+                                                                        {"snappyHexMeshDict", steel_cut(plan)},
+                                                                        {"topoSetDict", outlet_selection(plan)},
+                                                                        {"createPatchDict", final_patches()}};
+    if (ranks > 1) dictionaries.emplace_back("decomposeParDict", decomposition(ranks));
     std::vector<fs::path> written;
     for (const auto& [name, dictionary] : dictionaries) {
         written.push_back(fs::path(k_mesh_case) / "system" / name);
@@ -128,14 +146,14 @@ std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshP
     return written;
 }
 
-MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const fs::path& programs, const MeshObserver& observer,
-                      const std::vector<MeshRetry>& retries) {
+MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const fs::path& programs, int ranks,
+                      const MeshObserver& observer, const std::vector<MeshRetry>& retries) {
     const fs::path mesh_case = run_directory / k_mesh_case;
     const fs::path own = fs::absolute(programs);  // the programs start in the mesh's folder
     const std::string sides = fmt::format("({} {})", k_rotor_side_patch, k_stator_side_patch);
-    const std::vector<Step> cut = {
-        {"surfaceFeatureExtract", {}, 1.0},
-        {"snappyHexMesh", {"-overwrite"}, 80.0},
+    std::vector<Step> steps = {{"surfaceFeatureExtract", {}, 1.0}};
+    for (const Step& step : steel_cutting(ranks)) steps.push_back(step);
+    const std::vector<Step> finish = {
         {own / "cutterInterfaceRestore", {"-patches", sides, "-output", k_restore_report}, 2.0},
         {"topoSet", {}, 1.0},
         {"createPatch", {"-overwrite"}, 2.0},
@@ -145,7 +163,9 @@ MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const
     StepRunner runner(mesh_case, 100.0, observer);
     runner.run({"blockMesh", {}, 1.0});
     keep_background(mesh_case);
-    for (const Step& step : cut) runner.run(step);
+    for (const Step& step : steps) runner.run(step);
+    remove_processors(mesh_case);
+    for (const Step& step : finish) runner.run(step);
 
     MeshReport report;
     report.preset = plan.input.resolution.preset;

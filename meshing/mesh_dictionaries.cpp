@@ -148,6 +148,15 @@ FoamDictionary final_patches() {
     return d;
 }
 
+FoamDictionary decomposition(int ranks) {
+    int across = 1;
+    for (int divisor = 1; divisor * divisor <= ranks; ++divisor)
+        if (ranks % divisor == 0) across = divisor;
+    FoamDictionary boxes;
+    boxes.add("n", FoamValue::list({ranks / across, across, 1})).add("delta", 0.001).add("order", "xyz");
+    return FoamDictionary().add("numberOfSubdomains", ranks).add("method", "hierarchical").add("hierarchicalCoeffs", boxes);
+}
+
 FoamDictionary mesh_control() {
     FoamDictionary d;
     d.add("application", "snappyHexMesh").add("startFrom", "startTime").add("startTime", 0).add("stopAt", "endTime").add("endTime", 1);

@@ -50,9 +50,10 @@ std::vector<std::string> programs_for(const RunOptions& options, const std::stri
                                       "checkMesh",
                                       (own / "cutterInterfaceRestore").string(),
                                       (own / "cutterMeshProbe").string()};
+    if (options.ranks > 1) programs.insert(programs.end(), {"mpirun", "decomposePar", "reconstructParMesh"});
     if (until == "mesh") return programs;
     programs.insert(programs.end(), {"simpleFoam", solver_path().string()});
-    if (options.ranks > 1) programs.insert(programs.end(), {"mpirun", "decomposePar", "reconstructPar"});
+    if (options.ranks > 1) programs.emplace_back("reconstructPar");
     return programs;
 }
 

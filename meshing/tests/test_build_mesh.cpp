@@ -77,9 +77,9 @@ protected:
         write_stl(steel.suction_pipe, run / names::suction_pipe_surface);
     }
 
-    MeshReport build() {
-        write_mesh_case(run, plan);
-        return build_mesh(run, plan, fs::path(CUTTERFLOW_BUILD_DIR) / "bin");
+    MeshReport build(int ranks = 1) {
+        write_mesh_case(run, plan, ranks);
+        return build_mesh(run, plan, fs::path(CUTTERFLOW_BUILD_DIR) / "bin", ranks);
     }
 
     const fs::path run =
@@ -103,6 +103,31 @@ TEST_F(BuildMesh, passes_every_gate) {
     const nlohmann::json json = nlohmann::json::parse(std::ifstream(run / names::mesh_report));
     EXPECT_EQ(json["cells"], report.figures.cells);
     EXPECT_EQ(json["gates"].size(), 11u);
+}
+
+TEST_F(BuildMesh, is_the_same_and_whole_on_two_ranks) {
+    const MeshReport one = build();
+    const MeshReport two = build(2);
+    EXPECT_NO_THROW(require_mesh_gates(two));
+    EXPECT_EQ(two.figures.cells, one.figures.cells);
+    EXPECT_EQ(two.figures.rotor_cells, one.figures.rotor_cells);
+    EXPECT_NEAR(two.figures.rotor_volume, one.figures.rotor_volume, 1e-6 * one.figures.rotor_volume);
+    EXPECT_NEAR(two.figures.weight_min, one.figures.weight_min, 1e-6);
+    EXPECT_NEAR(two.figures.weight_max, one.figures.weight_max, 1e-6);
+    ASSERT_EQ(two.figures.patches.size(), one.figures.patches.size());
+    for (std::size_t k = 0; k < one.figures.patches.size(); ++k) {
+        EXPECT_EQ(two.figures.patches[k].name, one.figures.patches[k].name);
+        EXPECT_NEAR(two.figures.patches[k].area, one.figures.patches[k].area, 1e-4 * one.figures.patches[k].area);
+    }
+    EXPECT_TRUE(fs::exists(run / k_mesh_case / "log.decomposePar"));
+    EXPECT_TRUE(fs::exists(run / k_mesh_case / "log.reconstructParMesh"));
+    EXPECT_FALSE(fs::exists(run / k_mesh_case / "processor0"));
+}
+
+TEST_F(BuildMesh, shares_only_meshes_that_are_large_enough) {
+    EXPECT_EQ(ranks_that_pay(plan, 2), 1);
+    plan.prediction.cells = 1e6;
+    EXPECT_EQ(ranks_that_pay(plan, 2), 2);
 }
 
 TEST_F(BuildMesh, sees_that_steel_got_lost) {
