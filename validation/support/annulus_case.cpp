@@ -152,10 +152,11 @@ void write_system(const fs::path& folder, const AnnulusCase& annulus) {
                           "    div(phi,U) Gauss linear;\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n}\n"
                           "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\n"
                           "snGradSchemes { default corrected; }");
+    // Two outer correctors: the first one convects by the flux of the turned faces, which lags by a step.
     write_foam_dictionary(folder, "system/fvSolution", "dictionary",
                           "solvers\n{\n    \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }\n"
                           "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }\n}\n"
-                          "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
+                          "PIMPLE { nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
 }
 
 }  // namespace
