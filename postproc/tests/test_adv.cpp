@@ -183,10 +183,10 @@ TEST_F(AdvRun, agreement_is_bias_scatter_slope_and_hits_apart_inside_and_outside
         result.velocity[0] = {measured_and_model[0], measured_and_model[1], bar, 0.0};
         comparison.points.push_back(result);
     };
-    add(true, {1.0, 1.2, 0.0}, 0.0);   // within a quarter
-    add(true, {-0.5, -0.8, 0.0}, 0.1); // neither
-    add(true, {0.1, 0.15, 0.0}, 0.06); // within the bar
-    add(false, {2.0, 1.0, 0.0}, 0.0);
+    add(true, {1.0, 1.2}, 0.0);   // within a quarter
+    add(true, {-0.5, -0.8}, 0.1);  // neither
+    add(true, {0.1, 0.15}, 0.06);  // within the bar
+    add(false, {2.0, 1.0}, 0.0);
     const AdvAgreement inside = agreement(comparison, true);
     EXPECT_EQ(inside.count, 3u);
     EXPECT_NEAR(inside.bias, (0.2 - 0.3 + 0.05) / 3.0, 1e-12);
