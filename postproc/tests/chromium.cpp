@@ -47,9 +47,9 @@ Chromium::Chromium() : profile_(fresh_directory("chromium_profile")) {
     pid_ = fork();
     if (pid_ == 0) {
         setpgid(0, 0);
-        const int nowhere = ::open("/dev/null", O_WRONLY);
         dup2(commands[0], 3);
         dup2(answers[1], 4);
+        const int nowhere = ::open("/dev/null", O_WRONLY);  // after 3 and 4 are taken, or it would be one of them
         dup2(nowhere, 1);
         dup2(nowhere, 2);
         execv(program.c_str(), const_cast<char* const*>(arguments));

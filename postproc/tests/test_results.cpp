@@ -174,7 +174,7 @@ TEST(ResultsJson, predicted_cost_is_that_of_the_time_that_the_run_went_through) 
                                                              {"core_hours_per_revolution_with_rock", 0.2},
                                                              {"revolutions", 10.0}};
     const json predicted = document_of(run).at("cost").at("predicted");
-    EXPECT_NEAR(predicted.at("core_s").get<double>(), 360.0 + 720.0, 1e-9);
+    EXPECT_NEAR(predicted.at("core_s").get<double>(), 360.0 + 720.0, 1e-6);
     EXPECT_NEAR(predicted.at("steps").get<double>(), 100.0 + 200.0, 1e-9);
     EXPECT_NEAR(predicted.at("error").at("core_s").get<double>(), 1080.0 / 800.0 - 1.0, 1e-9);
     EXPECT_NEAR(predicted.at("error").at("steps").get<double>(), 0.5, 1e-9);
