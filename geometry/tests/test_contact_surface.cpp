@@ -42,7 +42,7 @@ TEST(ContactSurface, has_few_good_triangles_where_cad_had_long_thin_ones) {
 }
 
 TEST(ContactSurface, is_coarser_where_rock_is_larger) {
-    const TriangleSurface drum = drum_of_strips(72);
+    const TriangleSurface drum = drum_of_strips(240);
     const std::size_t fine = contact_surface(drum, {2e-4, 0.1}).surface.triangles.size();
     const std::size_t coarse = contact_surface(drum, {8e-4, 0.1}).surface.triangles.size();
     EXPECT_LT(static_cast<double>(coarse), 0.7 * static_cast<double>(fine));
