@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "postproc/html.hpp"
+#include "postproc/onset_band.hpp"
 #include "postproc/palette.hpp"
 #include "postproc/text.hpp"
 
@@ -257,7 +258,14 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
     Plot plot = points_plot(comparison, "top_bin", all, "mean radial velocity in the bin below the ring, m/s",
                             "spilled there, % of the placed mass", "%{x:.3f} m/s, %{y:.2f} % of the placed mass");
     double highest = 1.0;  // [%]; where nothing is spilled the axis still shows what a little would be
-    for (const Series& series : all) highest = std::max(highest, 1.1 * series.points.front().y_high);
+    double slowest = 0.0, fastest = 0.0;
+    for (const Series& series : all) {
+        const Point& point = series.points.front();
+        highest = std::max(highest, 1.1 * point.y_high);
+        slowest = std::min(slowest, point.x - point.x_half);
+        fastest = std::max(fastest, point.x + point.x_half);
+    }
+    add_onset_band(plot, slowest, fastest);
     plot.script.commands = fmt::format("set yrange [0:{}]\n", plot_number(highest)) + plot.script.commands;
     plot.layout["yaxis"]["range"] = {0, highest};
     return plot;
@@ -289,8 +297,8 @@ std::vector<CaptionedPlot> rock_plots(const Comparison& comparison) {
     if (spilled && outflow) {
         plots.push_back({top_bin_plot(comparison, *spilled, *outflow),
                          fmt::format("Rock that left the head for the last time in the bin below the ring ({}) against the mean radial velocity "
-                                     "just outside it; a colour a setting; bars: 95 % intervals where they are known.",
-                                     text::bin_text(top))});
+                                     "just outside it; a colour a setting; bars: 95 % intervals where they are known. {}",
+                                     text::bin_text(top), onset_band_text())});
     }
     plots.push_back({bins_plot(comparison, "spilled", "share", 100.0, "spilled, % of the placed mass", "%{x:.2f} %"),
                      "Spilled mass by the axial bin of the last exit (distance below the ring; “gap” lies between ring and backplate)."});

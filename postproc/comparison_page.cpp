@@ -13,6 +13,7 @@
 #include "postproc/head_picture.hpp"
 #include "postproc/html.hpp"
 #include "postproc/not_modelled.hpp"
+#include "postproc/palette.hpp"
 #include "postproc/text.hpp"
 
 namespace cutterflow::postproc {
@@ -82,12 +83,25 @@ std::string settings_table(const Comparison& comparison) {
 
 std::string heads(const Comparison& comparison) {
     std::string content;
+    ViewSurfaces surfaces;
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
         const RunData& run = comparison.runs[comparison.settings[i].runs.front()].run;
-        content += html::figure(draw_head(run).side_view,
-                                fmt::format("Setting {}: {}. Rock by fate at the end.", i + 1, escape(comparison.settings[i].label)));
+        const HeadPicture head = draw_head(run, surfaces);
+        const std::string rock = head.rocks_shown > 0 ? fmt::format(" Rock by fate at the end, in true size; {} of {} lie outside the picture.",
+                                                                    head.rocks_outside_view, head.rocks_shown)
+                                                      : "";
+        content += html::figure(html::replaceable(head.side_view, "head", head.view),
+                                fmt::format("Setting {}: {}.{}", i + 1, escape(comparison.settings[i].label), rock));
     }
-    return html::section("The heads and their rock", "<div class=\"figures\">" + content + "</div>");
+    const std::string legend = find_quantity(comparison, "ratio") ? html::legend({{palette::spilled, "spilled"},
+                                                                                    {palette::in_cutter, "in cutter"},
+                                                                                    {palette::never_entered, "never entered"},
+                                                                                    {palette::sucked_up, "sucked up"}})
+                                                                    : "";
+    const std::string caption =
+        "<p>From the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two "
+        "fingers to zoom</span>.</p>";
+    return html::section("The heads and their rock", caption + legend + "<div class=\"figures\">" + content + "</div>") + surfaces.markup();
 }
 
 std::string plots(const Comparison& comparison, const fs::path& scratch) {

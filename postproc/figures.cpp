@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "postproc/onset_band.hpp"
 #include "postproc/palette.hpp"
+#include "postproc/text.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -316,6 +318,54 @@ Plot bins_plot(const Results& results) {
             fmt::format("$velocities using 1:2:3 axes x2y1 with xerrorbars pt 7 ps 0.55 lw 1.2 lc rgb \"{}\" notitle", palette::outflow));
     }
     commands += curves.empty() ? "plot NaN notitle\n" : fmt::format("plot {}\n", fmt::join(curves, ", "));
+    return plot;
+}
+
+Plot top_bin_plot(const Results& results) {
+    PlotRows others, top;  // velocity, share, standard error of the velocity
+    json names = json::array(), top_name = json::array();
+    double slowest = 0.0, fastest = 0.0, highest = 1.0;
+    for (std::size_t i = 0; i < results.outflow.size(); ++i) {
+        const BinOutflow& flow = results.outflow[i];
+        if (!flow.radial_velocity) continue;
+        const double velocity = flow.radial_velocity->mean, error = flow.radial_velocity->standard_error.value_or(0.0);
+        const double share = 100.0 * results.spillage->bins[i].spilled.mass / results.spillage->fates.placed.mass;
+        const bool below_ring = flow.bin.z_max == 0.0;
+        (below_ring ? top : others).push_back({velocity, share, error});
+        (below_ring ? top_name : names).push_back(text::bin_text(flow.bin.name));
+        slowest = std::min(slowest, velocity - error);
+        fastest = std::max(fastest, velocity + error);
+        highest = std::max(highest, 1.1 * share);
+    }
+    Plot plot{{"top_bin", k_half, k_height, ""},
+              json::array(),
+              {{"xaxis", axis("mean radial velocity, m/s (outwards positive)")},
+               {"yaxis", axis("spilled there, % of the placed mass")},
+               {"hovermode", "closest"}}};
+    plot.layout["yaxis"]["range"] = {0, highest};
+    add_onset_band(plot, slowest, fastest);
+    plot.script.commands += fmt::format(
+        "set xlabel \"mean radial velocity, m/s (outwards positive)\"\nset ylabel \"spilled there, % of the placed mass\"\nset yrange [0:{}]\n"
+        "set key outside top center horizontal\n",
+        num(highest));
+    std::vector<std::string> curves;
+    const auto add = [&](const PlotRows& rows, const json& bins, const char* name, const char* colour, const char* style, const json& marker) {
+        if (rows.empty()) return;
+        const std::string block = fmt::format("bins{}", curves.size());
+        plot.script.commands += data_block(block, rows);
+        curves.push_back(fmt::format("${} using 1:2:3 with xerrorbars {} lc rgb \"{}\" title \"{}\"", block, style, colour, name));
+        json trace = curve(rows, 0, 1, name, colour);
+        trace.update({{"mode", "markers"},
+                      {"marker", marker},
+                      {"text", bins},
+                      {"cliponaxis", false},
+                      {"error_x", {{"array", column(rows, 2)}, {"width", 0}, {"thickness", 1.2}}},
+                      {"hovertemplate", "%{text}<br>%{x:.3f} m/s, %{y:.2f} %<extra></extra>"}});
+        plot.traces.push_back(trace);
+    };
+    add(others, names, "other bins", palette::outflow, "pt 6 ps 0.8 lw 1.2", {{"symbol", "circle-open"}, {"size", 8}, {"color", palette::outflow}});
+    add(top, top_name, "bin below the ring", palette::spilled, "pt 7 ps 1.2 lw 1.6", {{"size", 11}, {"color", palette::spilled}});
+    plot.script.commands += curves.empty() ? "plot NaN notitle\n" : fmt::format("plot {}\n", fmt::join(curves, ", "));
     return plot;
 }
 

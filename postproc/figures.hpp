@@ -14,6 +14,9 @@ Plot outcome_plot(const Spillage& spillage);
 /// Spilled share of the placed mass per bin (with rock) and radial outflow on the twin axis, in the bins' order along the axis.
 Plot bins_plot(const Results& results);
 
+/// Spilled share of the placed mass against the radial velocity, a point a bin, that of the bin below the ring in front.
+Plot top_bin_plot(const Results& results);
+
 /// Mass of the placed rock by fate over revolutions since the first rock.
 Plot fates_plot(const Table& fates, const Spillage& spillage, double revolution);
 

@@ -8,7 +8,6 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/run_names.hpp"
-#include "postproc/head_view.hpp"
 #include "postproc/palette.hpp"
 #include "postproc/rendering.hpp"
 
@@ -16,13 +15,6 @@ namespace cutterflow::postproc {
 namespace {
 
 constexpr int k_height = 640;  ///< pixels
-
-TriangleSurface turned(TriangleSurface surface, double angle) {
-    for (Triangle& triangle : surface) {
-        for (Vec3& corner : triangle) corner = rotate_about({}, angle, corner);
-    }
-    return surface;
-}
 
 std::vector<Sphere> rocks_by_fate(const Table& rocks) {
     static const std::map<std::string, Colour> colours{{"sucked_up", colour_of(palette::sucked_up)},
@@ -41,9 +33,9 @@ std::vector<Sphere> rocks_by_fate(const Table& rocks) {
 }
 
 Scene scene_of(const RunData& run) {
-    const double angle = run.loads.number("rotor_angle_rad").back();
     Scene scene;
-    scene.steel = turned(read_binary_stl(run.directory / names::cutter_surface), angle);
+    scene.steel = read_binary_stl(run.directory / names::cutter_surface);
+    scene.steel_angle = run.loads.number("rotor_angle_rad").back();
     scene.ghosts = read_binary_stl(run.directory / names::backplate_surface);
     const TriangleSurface pipe = read_binary_stl(run.directory / names::suction_pipe_surface);
     scene.ghosts.insert(scene.ghosts.end(), pipe.begin(), pipe.end());
@@ -116,14 +108,14 @@ int count_outside(const std::vector<Sphere>& rocks, const View& view) {
 
 }  // namespace
 
-HeadPicture draw_head(const RunData& run) {
+HeadPicture draw_head(const RunData& run, ViewSurfaces& surfaces) {
     const Scene scene = scene_of(run);
     const View side = side_view(run);
     Scene from_hub = scene;
     from_hub.ghosts.clear();  // behind the head
     return {picture(scene, side, run, "Cutter head from the side with rock coloured by fate"),
             picture(from_hub, axial_view(run), run, "Cutter head from the hub with rock coloured by fate"),
-            head_view(scene, side),
+            head_view(scene, side, surfaces),
             static_cast<int>(scene.rocks.size()),
             count_outside(scene.rocks, side)};
 }

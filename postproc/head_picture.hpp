@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "postproc/head_view.hpp"
 #include "postproc/run_reader.hpp"
 
 namespace cutterflow::postproc {
@@ -19,7 +20,8 @@ struct HeadPicture {
 
 /// Draws the surfaces of the run (cutter turned to the run's last rotor angle; backplate and suction pipe transparent) and the rocks of
 /// final.csv, when there are any.
+/// \param surfaces  of the page that will show `view`; those of the run are added
 /// \throws UserError  when a surface of the run is missing or broken
-HeadPicture draw_head(const RunData& run);
+HeadPicture draw_head(const RunData& run, ViewSurfaces& surfaces);
 
 }  // namespace cutterflow::postproc

@@ -1,10 +1,12 @@
 #include "postproc/head_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "postproc/html.hpp"
 #include "postproc/indexed_surface.hpp"
 
 namespace cutterflow::postproc {
@@ -44,7 +46,19 @@ json surface_json(const TriangleSurface& surface) {
 
 }  // namespace
 
-json head_view(const Scene& scene, const View& view) {
+std::size_t ViewSurfaces::number_of(const TriangleSurface& surface) {
+    const json added = surface_json(surface);
+    const auto found = std::find(surfaces_.begin(), surfaces_.end(), added);
+    const auto number = static_cast<std::size_t>(found - surfaces_.begin());
+    if (found == surfaces_.end()) surfaces_.push_back(added);
+    return number;
+}
+
+std::string ViewSurfaces::markup() const {
+    return surfaces_.empty() ? "" : html::data("surfaces", surfaces_);
+}
+
+json head_view(const Scene& scene, const View& view, ViewSurfaces& surfaces) {
     std::map<std::string, json> rocks;
     for (const Sphere& rock : scene.rocks) {
         rocks[hex_of(rock.colour)].push_back({rounded(rock.centre.x()), rounded(rock.centre.y()), rounded(rock.centre.z()), rock.radius});
@@ -52,8 +66,9 @@ json head_view(const Scene& scene, const View& view) {
     json groups = json::array();
     for (const auto& [colour, spheres] : rocks) groups.push_back({{"colour", colour}, {"spheres", spheres}});
     json ghosts = json::array();
-    if (!scene.ghosts.empty()) ghosts.push_back(surface_json(scene.ghosts));
-    return {{"steel", surface_json(scene.steel)},
+    if (!scene.ghosts.empty()) ghosts.push_back(surfaces.number_of(scene.ghosts));
+    return {{"steel", surfaces.number_of(scene.steel)},
+            {"steel_angle", scene.steel_angle},
             {"ghosts", ghosts},
             {"rocks", groups},
             {"centre", triple(view.centre)},

@@ -47,7 +47,7 @@ figcaption { font-size: 0.86rem; color: var(--soft); margin-top: 6px; }
 .replaceable .live { position: relative; width: 100%; }
 .replaceable .live canvas { display: block; width: 100%; height: 100%; cursor: grab; }
 .hint { display: none; }
-figure:has(.drawn) .hint { display: inline; }
+section:has([data-kind=head].drawn) .hint { display: inline; }
 .legend { list-style: none; margin: 4px 0 0; padding: 0; display: flex; flex-wrap: wrap; gap: 4px 20px; font-size: 0.9rem; }
 .legend i { display: inline-block; width: 0.8em; height: 0.8em; border-radius: 50%; margin-right: 0.45em; vertical-align: -0.05em; }
 .tables > div, .scroll { min-width: 0; overflow-x: auto; }
@@ -89,10 +89,17 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px;
   .figures, .tables { grid-template-columns: repeat(2, minmax(0, 1fr)); }
   h2 { break-after: avoid; }
   .replaceable.drawn .static { display: block; }
-  .replaceable .live, figure:has(.drawn) .hint { display: none; }
+  .replaceable .live, section:has([data-kind=head].drawn) .hint { display: none; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
 )css";
+
+/// JSON that can stand in a script element: "<" would begin markup.
+std::string script_text(const nlohmann::json& data) {
+    std::string text = data.dump();
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
+    return text;
+}
 
 constexpr const char* k_kind = "data-kind=\"{}\"";
 
@@ -157,11 +164,19 @@ std::string figure(const std::string& content, const std::string& caption, const
 }
 
 std::string replaceable(const std::string& content, const std::string& kind, const nlohmann::json& data) {
-    std::string text = data.dump();
-    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
     return fmt::format(
         "<div class=\"replaceable\" {}><div class=\"static\">{}</div><script type=\"application/json\">{}</script></div>",
-        fmt::format(k_kind, kind), content, text);
+        fmt::format(k_kind, kind), content, script_text(data));
+}
+
+std::string data(const std::string& id, const nlohmann::json& data) {
+    return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id, script_text(data));
+}
+
+std::string legend(const std::vector<std::pair<std::string, std::string>>& entries) {
+    std::string items;
+    for (const auto& [colour, text] : entries) items += fmt::format("<li><i style=\"background: {}\"></i>{}</li>", colour, text);
+    return "<ul class=\"legend\">" + items + "</ul>";
 }
 
 std::string section(const std::string& title, const std::string& content) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Pieces of HTML. Text goes in through escape(); markup comes from the report alone.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -17,7 +18,13 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
 /// \param kind  how page.js draws it: "plot" (plotly's data and layout) or "head" (head_view.hpp)
 std::string replaceable(const std::string& content, const std::string& kind, const nlohmann::json& data);
 
+/// Data that the page's script finds by their id.
+std::string data(const std::string& id, const nlohmann::json& data);
+
 std::string figure(const std::string& content, const std::string& caption, const std::string& css_class = "");
+
+/// A list of colours and what they stand for (markup).
+std::string legend(const std::vector<std::pair<std::string, std::string>>& entries);
 
 std::string section(const std::string& title, const std::string& content);
 

@@ -8,6 +8,7 @@
 #include "postproc/figures.hpp"
 #include "postproc/html.hpp"
 #include "postproc/not_modelled.hpp"
+#include "postproc/onset_band.hpp"
 #include "postproc/palette.hpp"
 #include "postproc/text.hpp"
 #include "postproc/velocity_figures.hpp"
@@ -179,11 +180,11 @@ std::string trust_list(const Results& results) {
 
 std::string fate_legend(const Fates& fates) {
     const auto entry = [](const char* colour, const char* name, const RockAmount& amount) {
-        return fmt::format("<li><i style=\"background: {}\"></i>{} ({})</li>", colour, name, amount.count);
+        return std::pair<std::string, std::string>{colour, fmt::format("{} ({})", name, amount.count)};
     };
-    return "<ul class=\"legend\">" + entry(palette::spilled, "spilled", fates.spilled) +
-           entry(palette::in_cutter, "in cutter", fates.in_cutter) + entry(palette::never_entered, "never entered", fates.never_entered) +
-           entry(palette::sucked_up, "sucked up", fates.sucked_up) + "</ul>";
+    return html::legend({entry(palette::spilled, "spilled", fates.spilled), entry(palette::in_cutter, "in cutter", fates.in_cutter),
+                         entry(palette::never_entered, "never entered", fates.never_entered),
+                         entry(palette::sucked_up, "sucked up", fates.sucked_up)});
 }
 
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
@@ -238,6 +239,9 @@ std::string figure_section(const Results& results, const RunData& run, const Pag
                    "backplate."
                  : "Radial velocity just outside the contour of revolution, averaged over azimuth and time (whiskers: standard error by "
                    "batch means). “gap” lies between ring and backplate.");
+    content += plot(figures, "top_bin",
+                    "Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error by batch "
+                    "means). " + onset_band_text());
     content += velocity_figures(run, figures);
     content += plot(figures, "first_exit",
                     "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock "
@@ -407,14 +411,15 @@ std::string prediction_table(const Cost& cost) {
 }
 
 std::string cost_section(const Results& results, const RunData& run, const PageFigures& figures) {
-    std::string legend;
+    std::vector<std::pair<std::string, std::string>> shares;
     double rest = 1.0;
     for (const CostPart& part : cost_parts()) {
         const double share = results.cost.share.at(part.key);
         rest -= share;
-        legend += fmt::format("<li><i style=\"background: {}\"></i>{} ({})</li>", part.colour, part.title, percent(share));
+        shares.emplace_back(part.colour, fmt::format("{} ({})", part.title, percent(share)));
     }
-    legend = fmt::format("<ul class=\"legend\">{}<li>not assigned ({})</li></ul>", legend, percent(std::max(0.0, rest)));
+    shares.emplace_back("transparent", fmt::format("not assigned ({})", percent(std::max(0.0, rest))));
+    const std::string legend = html::legend(shares);
     std::string content = plot(figures, "cost", legend + "Share of the time steps’ wall time by part of the solver (slowest rank).");
     if (content.empty()) content = legend;
     content += prediction_table(results.cost);
@@ -450,7 +455,7 @@ std::string report_page(const Results& results, const RunData& run, const PageFi
     if (!figures.note.empty()) page += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
     page += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
     page += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
-    page += version_section(results_json(results, run).at("versions"));
+    page += version_section(results_json(results, run).at("versions")) + figures.surfaces.markup();
     return html::document(title, page, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));
 }
 

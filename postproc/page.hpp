@@ -12,6 +12,7 @@ namespace cutterflow::postproc {
 struct PageFigures {
     std::map<std::string, std::string> plots;  ///< as draw_plot gives them, by the plot's name
     HeadPicture head;
+    ViewSurfaces surfaces;  ///< of the head's view
     std::string note;  ///< why plots are missing; empty when none are
 };
 

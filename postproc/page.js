@@ -38,15 +38,25 @@ function bytesOf(base64) {
   return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer;
 }
 
+function once(make) {
+  let made;
+  return () => made ??= make();
+}
+
 /// Surface of head_view.hpp: corners on a grid of 16 bits over its box, triangles as their numbers.
-function steelMesh({low, step, points, triangles}, material) {
+function surfaceGeometry({low, step, points, triangles}) {
   const onGrid = new Uint16Array(bytesOf(points)), corners = new Float32Array(onGrid.length);
   for (let i = 0; i < onGrid.length; ++i) corners[i] = low[i % 3] + step * onGrid[i];
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
   geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytesOf(triangles)), 1));
-  return new THREE.Mesh(THREE.toCreasedNormals(geometry, 0.6), material);
+  return THREE.toCreasedNormals(geometry, 0.6);
 }
+
+const surfaces = once(() => JSON.parse(document.getElementById('surfaces').textContent).map(surfaceGeometry));
+
+/// Draws every head of the page, one after the other: browsers allow a page only a few WebGL contexts.
+const painter = once(() => new THREE.WebGLRenderer({antialias: true, alpha: true}));
 
 function rockMesh({colour, spheres}) {
   const mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(1, 20, 14), new THREE.MeshLambertMaterial({color: colour}), spheres.length);
@@ -58,7 +68,9 @@ function drawHead(place, head) {
   const scene = new THREE.Scene(), vector = (xyz) => new THREE.Vector3(...xyz);
   const steel = new THREE.MeshLambertMaterial({color: '#a9b4be', side: THREE.DoubleSide});
   const ghost = new THREE.MeshLambertMaterial({color: '#8a94a0', side: THREE.DoubleSide, transparent: true, opacity: 0.22, depthWrite: false});
-  scene.add(steelMesh(head.steel, steel), ...head.ghosts.map((surface) => steelMesh(surface, ghost)), ...head.rocks.map(rockMesh));
+  const cutter = new THREE.Mesh(surfaces()[head.steel], steel);
+  cutter.rotation.z = head.steel_angle;
+  scene.add(cutter, ...head.ghosts.map((surface) => new THREE.Mesh(surfaces()[surface], ghost)), ...head.rocks.map(rockMesh));
 
   const camera = new THREE.OrthographicCamera(), centre = vector(head.centre);
   camera.up = vector(head.up);
@@ -70,22 +82,27 @@ function drawHead(place, head) {
   lamp.target.position.set(0, 0, -1);
   scene.add(camera, new THREE.AmbientLight('white', 1.3));
 
-  // The buffer is kept so that "save image as" gives the view.
-  const renderer = new THREE.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
-  renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-  place.append(renderer.domElement);
-  const controls = new THREE.OrbitControls(camera, renderer.domElement);
+  const renderer = painter(), canvas = document.createElement('canvas'), picture = canvas.getContext('2d');
+  place.append(canvas);
+  const controls = new THREE.OrbitControls(camera, canvas);
   controls.target.copy(centre);
   // The wheel scrolls the page until the view was taken hold of.
   controls.enableZoom = false;
-  renderer.domElement.addEventListener('pointerdown', () => { controls.enableZoom = true; });
-  renderer.domElement.addEventListener('pointerleave', () => { controls.enableZoom = false; });
+  canvas.addEventListener('pointerdown', () => { controls.enableZoom = true; });
+  canvas.addEventListener('pointerleave', () => { controls.enableZoom = false; });
 
-  const render = () => renderer.render(scene, camera);
+  const render = () => {
+    const {width, height} = renderer.domElement;
+    if (width !== canvas.width || height !== canvas.height) renderer.setSize(canvas.width, canvas.height, false);
+    renderer.render(scene, camera);
+    picture.clearRect(0, 0, canvas.width, canvas.height);
+    picture.drawImage(renderer.domElement, 0, 0);
+  };
   const fit = () => {
-    const width = place.clientWidth, height = Math.round(width / head.aspect);
+    const width = place.clientWidth, density = Math.min(2, devicePixelRatio);
     if (width === 0) return;
-    renderer.setSize(width, height);
+    canvas.width = Math.round(density * width);
+    canvas.height = Math.round(canvas.width / head.aspect);
     camera.top = 0.5 * head.height_m;
     camera.right = camera.top * head.aspect;
     camera.bottom = -camera.top;

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/base/axis_frame.hpp"
+
 namespace cutterflow::postproc {
 namespace {
 
@@ -184,6 +186,13 @@ void draw_surface(Layer& layer, const TriangleSurface& surface, const Colour& co
     for (std::size_t i = 0; i < surface.size(); ++i) layer.draw(surface[i], normals[i], colour);
 }
 
+TriangleSurface turned(TriangleSurface surface, double angle) {
+    for (Triangle& triangle : surface) {
+        for (Vec3& corner : triangle) corner = rotate_about({}, angle, corner);
+    }
+    return surface;
+}
+
 std::uint8_t to_byte(double value) {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
@@ -201,7 +210,7 @@ Image render(const Scene& scene, const View& view) {
     fine.width *= k_supersampling;
     fine.height *= k_supersampling;
     Layer solids(fine), ghosts(fine);
-    draw_surface(solids, scene.steel, k_steel);
+    draw_surface(solids, turned(scene.steel, scene.steel_angle), k_steel);
     for (const Sphere& rock : scene.rocks) solids.draw(rock);
     draw_surface(ghosts, scene.ghosts, k_ghost);
     Image image{view.width, view.height, {}};

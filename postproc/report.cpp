@@ -1,5 +1,7 @@
 #include "postproc/report.hpp"
 
+#include <algorithm>
+
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_names.hpp"
 #include "postproc/figures.hpp"
@@ -12,6 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool has_outflow(const Results& results) {
+    return std::any_of(results.outflow.begin(), results.outflow.end(), [](const BinOutflow& bin) { return bin.radial_velocity.has_value(); });
+}
+
 std::vector<Plot> plots_of(const Results& results, const RunData& run) {
     const double revolution = run.operating_point.revolution_s();
     const bool with_rock = results.spillage.has_value();
@@ -23,6 +29,7 @@ std::vector<Plot> plots_of(const Results& results, const RunData& run) {
         if (!results.spillage->first_exit_azimuths.empty()) plots.push_back(first_exit_plot(results.spillage->first_exit_azimuths));
     }
     if (with_rock || !results.outflow.empty()) plots.push_back(bins_plot(results));
+    if (with_rock && has_outflow(results) && results.spillage->fates.placed.mass > 0.0) plots.push_back(top_bin_plot(results));
     for (const auto& plane : {axial_plane_plot(run), under_ring_plot(run)}) {
         if (plane) plots.push_back(*plane);
     }
@@ -34,7 +41,7 @@ std::vector<Plot> plots_of(const Results& results, const RunData& run) {
 
 PageFigures draw_figures(const Results& results, const RunData& run, const fs::path& scratch) {
     PageFigures figures;
-    figures.head = draw_head(run);
+    figures.head = draw_head(run, figures.surfaces);
     if (!gnuplot_is_installed()) {
         figures.note =
             "Plots are missing: the program gnuplot was not found. Install it (Debian: apt-get install gnuplot-nox) and make the "

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <random>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -34,6 +36,26 @@ constexpr const char* k_balance_header =
     "outlet_pressure_m2_s2,solid_fraction_max,courant_max,overlap_ratio_max,dem_substeps,rocks,contacts\n";
 constexpr const char* k_loads_header = "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w\n";
 constexpr const char* k_cost_header = "time_s,step_s,fluid_s,mesh_motion_s,mapping_s,dem_s,output_s\n";
+
+/// A temporary folder that goes with its owner.
+class ProcessFolder {
+public:
+    ProcessFolder() {
+        std::string name = (fs::temp_directory_path() / "cutterflow_postproc_XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        path_ = name;
+    }
+    ~ProcessFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ProcessFolder(const ProcessFolder&) = delete;
+    ProcessFolder& operator=(const ProcessFolder&) = delete;
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
 
 double mass_of(double diameter) {
     return k_density * k_pi / 6.0 * diameter * diameter * diameter;
@@ -290,7 +312,8 @@ std::string outflow_header() {
 }  // namespace
 
 fs::path fresh_directory(const std::string& name) {
-    const fs::path directory = fs::path(CUTTERFLOW_BUILD_DIR) / "tests" / "postproc_runs" / name;
+    static const ProcessFolder folder;
+    const fs::path directory = folder.path() / name;
     fs::remove_all(directory);
     fs::create_directories(directory);
     return directory;

@@ -8,7 +8,7 @@
 
 namespace cutterflow::postproc::testing {
 
-/// A directory of its own under the test's temporary folder, empty at the start.
+/// A directory of its own in a temporary folder of this process, empty at the start; the folder is removed when the process ends.
 std::filesystem::path fresh_directory(const std::string& name);
 
 void write_text(const std::filesystem::path& file, const std::string& text);

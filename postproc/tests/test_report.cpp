@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
+#include "postproc/figures.hpp"
 #include "postproc/not_modelled.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
@@ -68,12 +69,12 @@ TEST(WriteReport, page_stands_alone_and_holds_every_plot) {
     run.write();
     const std::string whole = read_text(write_report(run.directory).page_file), page = without_scripts(whole);
     EXPECT_TRUE(contains(whole, "Content-Security-Policy\" content=\"default-src 'none'"));
-    EXPECT_EQ(occurrences(page, "data-kind=\"plot\""), 8u);
+    EXPECT_EQ(occurrences(page, "data-kind=\"plot\""), 9u);
     EXPECT_EQ(occurrences(page, "data-kind=\"head\""), 1u);
     EXPECT_EQ(occurrences(page, "<svg"), occurrences(page, "</svg>"));
-    EXPECT_EQ(occurrences(page, "<svg"), 10u);  // eight plots and two pictures
+    EXPECT_EQ(occurrences(page, "<svg"), 11u);  // nine plots and two pictures
     EXPECT_EQ(occurrences(page, "data:image/png;base64,"), 2u);
-    EXPECT_EQ(occurrences(page, "<script"), occurrences(page, "<script type=\"application/json\">"));
+    EXPECT_EQ(occurrences(page, "<script"), occurrences(page, "<script type=\"application/json\""));
     EXPECT_FALSE(contains(whole, "<script src"));
     EXPECT_FALSE(contains(page, "src="));
     EXPECT_FALSE(contains(page, "@import"));
@@ -90,6 +91,24 @@ TEST(WriteReport, page_stands_alone_and_holds_every_plot) {
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     EXPECT_EQ(ids.size(), all);
+}
+
+TEST(TopBinPlot, puts_spilled_shares_against_outflow_and_shades_the_references_onset) {
+    SmallRun run("report_top_bin");
+    run.write();
+    const Plot plot = top_bin_plot(compute_results(read_run(run.directory)));
+    const nlohmann::json& top = plot.traces.back();
+    EXPECT_EQ(top["text"], nlohmann::json({"0–30 mm"}));
+    EXPECT_NEAR(top["x"][0].get<double>(), -0.2, 1e-6);
+    EXPECT_NEAR(top["y"][0].get<double>(), 100.0 / 16.0, 1e-3);  // one rock of eight and a ninth with eight times their mass
+    EXPECT_EQ(plot.traces.front()["x"].size() + 1, read_run(run.directory).bins.size());
+    EXPECT_EQ(plot.layout["shapes"][0]["x0"], 0.05);
+    EXPECT_EQ(plot.layout["shapes"][0]["x1"], 0.23);
+    EXPECT_LT(plot.layout["xaxis"]["range"][0].get<double>(), -0.2);
+    EXPECT_GT(plot.layout["xaxis"]["range"][1].get<double>(), 0.23);
+    EXPECT_TRUE(contains(plot.script.commands, "from 0.05,graph 0 to 0.23,graph 1"));
+    const std::string page = read_text(write_report(run.directory).page_file);
+    EXPECT_TRUE(contains(page, "It is the reference’s band, not a result of this program."));
 }
 
 TEST(WriteReport, names_of_the_user_cannot_become_markup) {
