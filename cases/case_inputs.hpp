@@ -149,8 +149,8 @@ Vec3 gravity_of(double inclination);
 /// \param speed  of the rotor [rad/s], either sign
 double largest_time_step(double speed);
 
-/// Young's modulus [Pa] with which a rock of inputs.rock that hits steel at the tip speed overlaps it by 5 % of its radius, within what
-/// LIGGGHTS accepts (5 MPa to 1 GPa). The wall is as soft as the rock, and added mass takes part in the impact. \pre inputs.rock
+/// Young's modulus [Pa] with which a rock of inputs.rock that hits steel at the tip speed overlaps it by 5 % of its radius. The wall is as
+/// soft as the rock, and added mass takes part in the impact. \pre inputs.rock
 double youngs_modulus_for(const CaseInputs& inputs);
 
 /// Fills what follows the head's size and speed and was left at 0: bin width 0.075 R, outflow offset 0.0375 R (30 mm and 15 mm at

@@ -12,8 +12,6 @@
 namespace cutterflow::cases {
 namespace {
 
-constexpr double k_softest_pa = 5e6;  // what LIGGGHTS accepts as Young's modulus
-constexpr double k_stiffest_pa = 1e9;
 constexpr double k_degree = k_pi / 180.0;
 
 double period_of(const ParameterValues& values) {
@@ -37,10 +35,6 @@ double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head
     const double steel = values.number("rock.poisson_steel");
     const double speed = rpm_to_rad_s(values.number("rotor.speed_rpm")) * head.tip_radius;
     return physics::youngs_modulus_for_overlap(inertia_density, speed, physics::k_largest_overlap_ratio, 2.0 - rock * rock - steel * steel);
-}
-
-double derived_youngs_modulus(const ParameterValues& values, const HeadSize& head) {
-    return std::clamp(needed_youngs_modulus(values, head), k_softest_pa, k_stiffest_pa);
 }
 
 double derived_outflow_start(const ParameterValues& values) {
@@ -214,7 +208,7 @@ ParameterValues resolve_study(const ParameterValues& values, const HeadSize& hea
     fill(resolved, "tank.radius_m", 6.25 * ring);
     fill(resolved, "tank.bed_clearance_m", 0.975 * ring);
     fill(resolved, "tank.height_m", resolved.number("tank.bed_clearance_m") + head.depth + 1.0875 * ring);
-    fill(resolved, "rock.youngs_modulus_pa", derived_youngs_modulus(values, head));
+    fill(resolved, "rock.youngs_modulus_pa", needed_youngs_modulus(values, head));
     fill(resolved, "run.checkpoint_interval_s", 0.25 * period_of(values));
     fill(resolved, "run.write_interval_s", 0.25 * period_of(values));
     fill(resolved, "report.bin_width_m", 0.075 * ring);
@@ -303,7 +297,7 @@ std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadS
         rules.require(softness <= 1.0 + 1e-9, "rock.youngs_modulus_pa",
                       fmt::format("At a tip speed of {:.3g} m/s rock overlaps steel by {:.0f} % of its radius; {:.0f} % is accepted", speed,
                                   100.0 * physics::k_largest_overlap_ratio * std::pow(softness, 0.4), 100.0 * physics::k_largest_overlap_ratio),
-                      "Raise it to at most what the DEM accepts, or look at overlap_ratio_max in the report");
+                      "Raise it, or look at overlap_ratio_max in the report");
     return rules.mistakes;
 }
 

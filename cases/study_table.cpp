@@ -123,8 +123,8 @@ ParameterTable rock_rows() {
     return {
         number("rock.youngs_modulus_pa", "Pa",
                "Young's modulus of rock and steel in contacts. Soft contacts allow longer steps of the DEM.")
-            .at_least(5e6)
-            .at_most(1e9)
+            .at_least(1e3)
+            .at_most(1e12)
             .derived("so that rock at tip speed overlaps steel by 5 % of its radius"),
         number("rock.poisson_rock", "-", "Poisson's ratio of rock.").at_least(0.0).at_most(0.49).standard(0.24),
         number("rock.poisson_steel", "-", "Poisson's ratio of steel.").at_least(0.0).at_most(0.49).standard(0.27),

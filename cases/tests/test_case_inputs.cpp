@@ -42,12 +42,14 @@ TEST(ScaledDefaults, make_steel_and_rock_stiff_enough_for_the_tip_speed) {
     EXPECT_NEAR(rock.youngs_modulus, 0.26e9, 0.005e9);
 }
 
-TEST(ScaledDefaults, keep_stiffness_within_what_the_dem_accepts) {
-    CaseInputs inputs = model_cutter();
-    inputs.rock->youngs_modulus = 0.0;
-    inputs.rotor.speed *= 10.0;
-    fill_scaled_defaults(inputs);
-    EXPECT_EQ(inputs.rock->youngs_modulus, 1e9);
+TEST(ScaledDefaults, make_stiffness_go_with_the_square_of_the_speed) {
+    for (const double factor : {0.1, 10.0}) {
+        CaseInputs inputs = model_cutter();
+        inputs.rock->youngs_modulus = 0.0;
+        inputs.rotor.speed *= factor;
+        fill_scaled_defaults(inputs);
+        EXPECT_NEAR(inputs.rock->youngs_modulus / model_cutter().rock->youngs_modulus, factor * factor, 1e-9 * factor * factor);
+    }
 }
 
 TEST(ScaledDefaults, keep_what_is_given) {

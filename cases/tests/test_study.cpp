@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -169,6 +170,37 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
     const std::string share = fmt::format("overlaps steel by {:.0f} %", 5.0 * std::pow(modulus / 1e7, 0.4));
     ASSERT_EQ(warnings("[rock]\nyoungs_modulus_pa = 1e7\n").size(), 1u);
     EXPECT_NE(warnings("[rock]\nyoungs_modulus_pa = 1e7\n")[0].text().find(share), std::string::npos) << share;
+}
+
+TEST(Study, of_a_larger_head_follows_froude) {
+    const double scale = 4.0;
+    // Length, time and stiffness of the default at the larger head over those at the model.
+    const std::map<std::string, double> factors = {{"m", scale}, {"s", std::sqrt(scale)}, {"m3/s", std::pow(scale, 2.5)},
+                                                   {"rpm", 1.0 / std::sqrt(scale)}, {"Pa", scale}};
+    const auto resolved = [](double rpm, double discharge, double diameter, const HeadSize& head) {
+        return resolve_study(parse(fmt::format("[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = {}\n[suction]\ndischarge_m3_s = {}\n"
+                                               "[[feed]]\ncount = 3\n[[feed.class]]\ndiameter_m = {}\n",
+                                               rpm, discharge, diameter)),
+                             head);
+    };
+    const ParameterValues small = resolved(60.0, 0.12, 0.02, k_model);
+    const ParameterValues large = resolved(60.0 / std::sqrt(scale), 0.12 * std::pow(scale, 2.5), 0.02 * scale,
+                                           {scale * k_model.ring_radius, scale * k_model.tip_radius, scale * k_model.depth});
+    int lengths = 0;
+    const auto compare = [&](const ParameterValues& a, const ParameterValues& b, bool repeated, const std::string& prefix) {
+        for (const Parameter& parameter : study_table()) {
+            if (parameter.kind != ParameterKind::number || parameter.repeated != repeated || parameter.key.rfind(prefix, 0) != 0 ||
+                !a.has(parameter.key))
+                continue;
+            const auto factor = factors.find(parameter.unit);
+            const double expected = (factor == factors.end() ? 1.0 : factor->second) * a.number(parameter.key);
+            EXPECT_NEAR(b.number(parameter.key), expected, 1e-12 * std::abs(expected)) << parameter.key;
+            lengths += parameter.unit == "m";
+        }
+    };
+    compare(small, large, false, "");
+    compare(small.tables("feed").at(0), large.tables("feed").at(0), true, "feed.");
+    EXPECT_GE(lengths, 12);
 }
 
 TEST(Study, refuses_sizes_that_contradict_each_other) {

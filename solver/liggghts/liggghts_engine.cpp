@@ -42,7 +42,7 @@ namespace {
 using coupling::Rocks;
 
 constexpr double k_skin_in_radii = 0.4;       // of the largest rock: neighbour lists hold until something moved half of it
-constexpr double k_skin_without_rock = 1e-3;  // [m]
+constexpr double k_skin_without_rock = 4e-4;  // of the domain's radius
 constexpr double k_margin_in_radii = 0.25;    // of the domain: room that a rock may use between leaving it and being removed
 constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at each rebuild
 constexpr const char* k_restart_file = "dem.restart";
@@ -301,7 +301,7 @@ void LiggghtsEngine::Implementation::declare_motion() {
 }
 
 void LiggghtsEngine::Implementation::set_neighbours() {
-    const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock;
+    const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock * settings_.domain.radius;
     const commands::Box extent = box();
     const double coarsest = std::cbrt((extent.high - extent.low).prod() / k_most_bins);
     commands(commands::neighbours(skin, std::max(largest_radius_ + 0.5 * skin, coarsest)));
