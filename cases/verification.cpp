@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 using postproc::VerifiedCase;
 
 constexpr const char* k_mark = "verification";  // marks a folder of results as ours
+constexpr const char* k_programs = "programs";  // in a case's folder: with which it was begun
 constexpr double k_unknown_cost = 20.0;         // core seconds of a case that was never run, for the ETA
 constexpr const char* k_words[] = {"fast", "standard", "long"};
 
@@ -54,7 +55,7 @@ VerificationCase read_case(const fs::path& folder, std::vector<Mistake>& mistake
         mistakes.push_back({readme.string(), "its head tells no title or no class",
                             "It begins with \"# <title>\" and has a line \"- class: fast\", standard or long", "Write them"});
     return {folder.filename().string(), text.substr(2, text.find('\n') - 2), static_cast<Effort>(effort - std::begin(k_words)),
-            words_of(head_value(text, "needs"))};
+            words_of(head_value(text, "needs")), head_value(text, "resumes") == "yes"};
 }
 
 /// Where a program that a case needs stands: beside cutterflow or on PATH; empty when it is not there.
@@ -120,14 +121,23 @@ void require_usable_folder(const fs::path& folder) {
     write_file(folder / k_mark, "Results of cutterflow verify.\n");
 }
 
+/// Makes the folder in which a case's program works. What an earlier start left there stays when the case can go on with it.
+void prepare_work(const VerificationCase& one, const VerificationSettings& settings, const std::string& programs) {
+    const fs::path work = settings.folder / one.name, mark = work / k_programs;
+    const bool goes_on = settings.resume && one.resumes && fs::exists(mark) && read_file(mark) == programs;
+    if (!goes_on) fs::remove_all(work);
+    write_file(mark, programs);
+}
+
 /// Runs one case's program. What it wrote is read back; how it ended is a reason when there is nothing to read.
 VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& places, const VerificationSettings& settings) {
     VerifiedCase result = begun(one, settings.effort);
     result.reason = obstacle(one, places);
     if (!result.reason.empty()) return result;
     const fs::path work = settings.folder / one.name, written = work / "quantities.json";
-    fs::remove_all(work);
-    fs::create_directories(work);
+    result.programs = programs_hash(one, places);
+    prepare_work(one, settings, result.programs);
+    fs::remove(written);
     const ChildCommand command{{fs::absolute(places.programs / one.name).string(), result.effort, fs::absolute(work).string()},
                                {},
                                settings.folder / (one.name + ".log"),
@@ -135,7 +145,6 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     const ChildResult ended = run_child(command);
     result.core_s = ended.core_s;
     result.wall_s = ended.wall_s;
-    result.programs = programs_hash(one, places);
     const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) ||
                         ended.exit_code == static_cast<int>(ExitCode::check_failed);
     if (!judged || !fs::exists(written)) {

@@ -21,6 +21,7 @@ struct VerificationCase {
     std::string title;               ///< the README's first line
     Effort effort = Effort::fast;    ///< the least effort at which it has something to check
     std::vector<std::string> needs;  ///< programs without which it is skipped
+    bool resumes = false;            ///< its program goes on with what it finds in its folder
 };
 
 /// Where things stand.
@@ -40,7 +41,7 @@ std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& 
 struct VerificationSettings {
     std::filesystem::path folder;  ///< receives <case>.json, <case>/ (what the case wrote), <case>.log, the pages
     Effort effort = Effort::standard;
-    bool resume = false;  ///< cases that were finished with the same programs and at least this effort are kept
+    bool resume = false;  ///< cases finished with the same programs and at least this effort are kept; begun ones that can go on do so
 };
 
 /// Runs cases one after the other; each finished one is kept in the folder at once. A case that fails is told of and the others go on.

@@ -158,6 +158,14 @@ std::string html_list(const std::vector<std::string>& lines) {
     return lines.empty() ? "" : fmt::format("<ul><li>{}</li></ul>\n", fmt::join(lines, "</li><li>"));
 }
 
+/// Sentences run over several lines, numbers do not.
+bool has_sentences(const ExhibitTable& table) {
+    constexpr std::size_t k_longest_label = 60;
+    return std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) {
+        return std::any_of(row.begin(), row.end(), [](const std::string& cell) { return cell.size() > k_longest_label; });
+    });
+}
+
 /// Tables, and charts as tables.
 std::vector<ExhibitTable> tables_of(const Exhibits& exhibits) {
     std::vector<ExhibitTable> tables = exhibits.tables;
@@ -179,7 +187,7 @@ std::string exhibits_html(const VerifiedCase& result, const std::filesystem::pat
     const bool draws = gnuplot_is_installed();
     for (ExhibitTable table : draws ? result.exhibits.tables : tables_of(result.exhibits)) {
         for (auto& row : table.rows) std::transform(row.begin(), row.end(), row.begin(), html::escape);
-        text += fmt::format("<h3>{}</h3>\n{}", html::escape(table.title), html::table(table.columns, table.rows, true));
+        text += fmt::format("<h3>{}</h3>\n{}", html::escape(table.title), html::table(table.columns, table.rows, !has_sentences(table)));
     }
     std::string figures;
     for (std::size_t i = 0; draws && i < result.exhibits.charts.size(); ++i) {

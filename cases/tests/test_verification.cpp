@@ -110,6 +110,33 @@ TEST_F(VerificationRun, resume_keeps_what_the_same_programs_finished) {
     EXPECT_EQ(times_run("two"), 4u);
 }
 
+TEST_F(VerificationRun, resume_leaves_the_begun_work_of_cases_that_go_on_with_it) {
+    // Each start finds one file more, as long as it may go on.
+    const std::string script = fmt::format("touch $2/part_$(ls $2 | grep -c part)\nls $2 | grep -c part > {}/$(basename $2).parts\nkill -9 $$",
+                                           root_.string());
+    add_case("goes_on", script, "- class: fast\n- resumes: yes\n");
+    add_case("begins_anew", script);
+    const auto parts = [&](const std::string& name) { return read_file(root_ / (name + ".parts")); };
+    // As if the suite itself had been killed: there are no results yet.
+    const auto start_again = [&] {
+        for (const char* name : {"goes_on", "begins_anew"}) fs::remove(settings_.folder / (std::string(name) + ".json"));
+        run();
+    };
+    run();
+    settings_.resume = true;
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "2\n");
+    EXPECT_EQ(parts("begins_anew"), "1\n");
+    write_file(places_.tools / "cutterFoam", "another solver");
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "1\n");
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "2\n");
+    settings_.resume = false;
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "1\n");
+}
+
 TEST_F(VerificationRun, refuses_unknown_names_wrong_heads_and_folders_of_others) {
     add_case_with("settling", "pass");
     add_case_with("couette", "pass");

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/file_content.hpp"
 #include "validation/support/verification.hpp"
 
 namespace cutterflow::validation {
@@ -56,13 +57,28 @@ inline std::string pareto_contact(double youngs_modulus, double dem_step) {
         youngs_modulus, dem_step);
 }
 
-/// Runs every value of every sweep, the default once, and shows one chart a sweep.
+/// A trial that an earlier start of the case finished in this folder, or a new one.
+template <class Options>
+Trial finished_or_run(const std::filesystem::path& folder, const Options& options,
+                      const std::function<Trial(const std::filesystem::path&, const Options&)>& run) {
+    const std::filesystem::path mark = folder.string() + ".json";
+    if (std::filesystem::exists(mark)) {
+        const nlohmann::json kept = nlohmann::json::parse(read_file(mark));
+        return {kept.at("core_s"), kept.at("error")};
+    }
+    std::filesystem::remove_all(folder);
+    const Trial trial = run(folder, options);
+    write_file(mark, nlohmann::json{{"core_s", trial.core_s}, {"error", trial.error}}.dump(2) + "\n");
+    return trial;
+}
+
+/// Runs every value of every sweep, the default once, and shows one chart a sweep. What an earlier start finished is kept.
 /// \param run  runs the case in a folder that is not yet there
 /// \return the default's
 template <class Options>
 Trial run_pareto(Verification& verification, const std::vector<Sweep<Options>>& sweeps, const std::string& error_axis,
                  const std::function<Trial(const std::filesystem::path&, const Options&)>& run) {
-    const Trial standard = run(verification.folder("default"), Options());
+    const Trial standard = finished_or_run(verification.folder("default"), Options(), run);
     for (std::size_t s = 0; s < sweeps.size(); ++s) {
         postproc::Chart chart{sweeps[s].title, "core seconds", error_axis, {}};
         for (std::size_t v = 0; v < sweeps[s].values.size(); ++v) {
@@ -71,7 +87,7 @@ Trial run_pareto(Verification& verification, const std::vector<Sweep<Options>>& 
             if (value.change) {
                 Options options;
                 value.change(options);
-                trial = run(verification.folder(fmt::format("run_{}_{}", s, v)), options);
+                trial = finished_or_run(verification.folder(fmt::format("run_{}_{}", s, v)), options, run);
             }
             chart.points.push_back({value.label, trial.core_s, trial.error, !value.change});
         }
