@@ -8,9 +8,9 @@
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_names.hpp"
-#include "postproc/gnuplot.hpp"
 #include "postproc/html.hpp"
 #include "postproc/palette.hpp"
+#include "postproc/plot.hpp"
 #include "postproc/text.hpp"
 
 namespace cutterflow::postproc {
@@ -18,9 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using html::escape;
+using nlohmann::json;
 
 constexpr std::array<const char*, 3> k_colours{palette::outflow, palette::sucked_up, palette::spilled};
 constexpr std::array<int, 3> k_marks{7, 5, 9};  // gnuplot's disc, square, triangle
+constexpr std::array<const char*, 3> k_symbols{"circle", "square", "triangle-up"};  // plotly's
 
 const AdvVelocity& velocity_of(const AdvResult& result, AdvComponent component) {
     return result.velocity[static_cast<std::size_t>(component)];
@@ -32,31 +34,47 @@ double bar_of(const AdvVelocity& v) {
 }
 
 /// Model against measurement for the points inside or outside the head.
-PlotScript scatter_plot(const AdvComparison& comparison, bool inside) {
-    PlotScript plot{inside ? "inside" : "outside", 540, 480, ""};
+Plot scatter_plot(const AdvComparison& comparison, bool inside) {
+    Plot plot{{inside ? "inside" : "outside", 540, 480, ""}, json::array(), {{"xaxis", axis("measured, m/s")}, {"yaxis", axis("model, m/s")}}};
+    plot.layout["hovermode"] = "closest";
     std::vector<std::string> curves{fmt::format("x with lines lc rgb \"{}\" notitle", palette::faint)};
     double low = 0.0, high = 0.0;
     for (const AdvComponent c : k_adv_components) {
-        std::vector<std::vector<std::string>> rows;
+        PlotRows rows;  // measured, model, half the bar
+        json names = json::array();
         for (const AdvResult& result : comparison.points) {
             const AdvVelocity& v = velocity_of(result, c);
             if (result.inside != inside || !v.measured || !v.model) continue;
             const double bar = bar_of(v);
             low = std::min({low, *v.measured, *v.model - bar});
             high = std::max({high, *v.measured, *v.model + bar});
-            rows.push_back({fmt::format("{:.6g}", *v.measured), fmt::format("{:.6g}", *v.model), fmt::format("{:.6g}", bar)});
+            rows.push_back({*v.measured, *v.model, bar});
+            names.push_back(escape(result.point.name));
         }
         if (rows.empty()) continue;
         const auto index = static_cast<std::size_t>(c);
-        plot.commands += data_block(adv_component_name(c), rows);
-        curves.push_back(fmt::format("${0} using 1:2:3 with yerrorbars pt {1} ps 0.8 lw 1.4 lc rgb \"{2}\" title \"{0}\"", adv_component_name(c),
-                                     k_marks[index], k_colours[index]));
+        const char* name = adv_component_name(c);
+        plot.script.commands += data_block(name, rows);
+        curves.push_back(fmt::format("${0} using 1:2:3 with yerrorbars pt {1} ps 0.8 lw 1.4 lc rgb \"{2}\" title \"{0}\"", name, k_marks[index],
+                                     k_colours[index]));
+        json trace = curve(rows, 0, 1, name, k_colours[index]);
+        trace.update({{"mode", "markers"},
+                      {"marker", {{"symbol", k_symbols[index]}, {"size", 9}, {"color", k_colours[index]}}},
+                      {"error_y", {{"array", column(rows, 2)}, {"width", 3}, {"thickness", 1.4}}},
+                      {"text", names},
+                      {"hovertemplate", fmt::format("%{{text}}, {}<br>measured %{{x:.3f}}, model %{{y:.3f}} m/s<extra></extra>", name)}});
+        plot.traces.push_back(trace);
     }
-    const double margin = 0.05 * std::max(high - low, 1e-3);
-    plot.commands += fmt::format(
-        "set xrange [{0:.6g}:{1:.6g}]\nset yrange [{0:.6g}:{1:.6g}]\nset size square\nset xlabel \"measured (m/s)\"\nset ylabel \"model (m/s)\"\n"
+    const double margin = 0.05 * std::max(high - low, 1e-3), from = low - margin, to = high + margin;
+    plot.script.commands += fmt::format(
+        "set xrange [{0:.6g}:{1:.6g}]\nset yrange [{0:.6g}:{1:.6g}]\nset size square\nset xlabel \"measured, m/s\"\nset ylabel \"model, m/s\"\n"
         "set key top left\nplot {2}\n",
-        low - margin, high + margin, fmt::join(curves, ", "));
+        from, to, fmt::join(curves, ", "));
+    json equal = curve({{from, from}, {to, to}}, 0, 1, "model = measured", palette::faint);
+    equal["hoverinfo"] = "skip";
+    plot.traces.insert(plot.traces.begin(), equal);
+    plot.layout["xaxis"].update({{"range", {from, to}}, {"constrain", "domain"}});
+    plot.layout["yaxis"].update({{"range", {from, to}}, {"constrain", "domain"}, {"scaleanchor", "x"}});
     return plot;
 }
 
@@ -71,7 +89,7 @@ std::string plots(const AdvComparison& comparison, const fs::path& scratch) {
     std::string content;
     for (const bool inside : {true, false})
         if (has_pairs(comparison, inside))
-            content += html::figure(draw_svg(scatter_plot(comparison, inside), scratch),
+            content += html::figure(draw_plot(scatter_plot(comparison, inside), scratch),
                                     fmt::format("{} the head. On the line model and measurement agree. Bars: position error and two standard errors of "
                                                 "the mean in time, root of the sum of squares.",
                                                 inside ? "Inside" : "Outside"));
@@ -131,10 +149,11 @@ fs::path write_adv_report(const AdvComparison& comparison, const fs::path& run_d
     std::string body = fmt::format("<header><h1>{}</h1><p>{:g} rpm, {:g} m³/s</p></header>\n", title, comparison.speed_rpm, comparison.discharge);
     body += fmt::format(
         "<p>The model is averaged over a cylinder {:g} mm across and {:g} mm long along the rotor’s axis, the volume of the instrument, and over the last {} "
-        "whole revolution(s); while steel covers a place it does not count. Position ±: by how much the model’s mean changes within {:g} mm in the "
+        "whole revolution{}; while steel covers a place it does not count. Position ±: by how much the model’s mean changes within {:g} mm in the "
         "steepest direction. Standard error: of the mean in time, by batch means over the revolutions. Velocities at rotating points are relative to the "
         "head. Tangential is positive by the right hand about the axis from hub to ring.</p>\n",
-        1e3 * comparison.probe.diameter, 1e3 * comparison.probe.length, comparison.revolutions, 1e3 * comparison.probe.position_error);
+        1e3 * comparison.probe.diameter, 1e3 * comparison.probe.length, comparison.revolutions, comparison.revolutions == 1 ? "" : "s",
+        1e3 * comparison.probe.position_error);
     body += plots(comparison, page.parent_path() / "adv_plots.part") + agreement_table(comparison) + point_table(comparison);
     write_file(run_directory / names::adv_json, adv_json(comparison).dump(2) + "\n");
     write_file(page, html::document(title, body, fmt::format("The same numbers for programs: adv.json ({}).", k_adv_schema)));

@@ -38,7 +38,7 @@ std::size_t speeds_of(const AdvTrend& trend) {
 
 /// The three components of one point.
 PlotScript trend_plot(const std::vector<AdvTrend>& trends, std::size_t first, std::size_t index) {
-    PlotScript plot{fmt::format("adv_{}", std::string(1, static_cast<char>('a' + index % 26)) + std::string(index / 26, 'z')), 540, 330, ""};
+    PlotScript plot{fmt::format("adv_{}", std::string(1, static_cast<char>('a' + index % 26)) + std::string(index / 26, 'z')), 540, 250, ""};
     std::vector<std::string> curves;
     for (std::size_t c = 0; c < k_adv_components.size(); ++c) {
         std::vector<std::vector<std::string>> model, measured;
@@ -58,13 +58,54 @@ PlotScript trend_plot(const std::vector<AdvTrend>& trends, std::size_t first, st
             curves.push_back(fmt::format("${}_measured using 1:2 with points pt 7 ps 0.9 lc rgb \"{}\" notitle", name, k_colours[c]));
         }
     }
-    plot.commands += fmt::format("set xlabel \"rotor speed (rpm)\"\nset ylabel \"velocity (m/s)\"\nset key outside top center horizontal\nplot {}\n",
+    plot.commands += fmt::format("set xlabel \"rotor speed, rpm\"\nset ylabel \"velocity, m/s\"\nset key outside top center horizontal\nplot {}\n",
                                  curves.empty() ? "NaN notitle" : fmt::format("{}", fmt::join(curves, ", ")));
     return plot;
 }
 
-std::string cell(const std::optional<double>& value) {
-    return value ? fmt::format("{:.3f}", *value) : std::string(text::k_dash);
+/// An operating point of the sweep: speed [rpm], discharge [m3/s].
+using Operation = std::pair<double, double>;
+
+std::vector<Operation> operations_of(const std::vector<AdvTrend>& trends) {
+    std::set<Operation> operations;
+    for (const AdvTrend& trend : trends)
+        for (const AdvTrendValue& value : trend.values) operations.emplace(value.speed_rpm, value.discharge);
+    return {operations.begin(), operations.end()};
+}
+
+std::string cell(const AdvTrendValue& value) {
+    std::string markup = value.model ? fmt::format("{:.3f}", *value.model) : std::string(text::k_dash);
+    if (value.model && value.position_bar) markup += fmt::format(" ± {:.3f}", *value.position_bar);
+    if (value.measured) markup += fmt::format("<br>({:.3f})", *value.measured);
+    return markup;
+}
+
+bool is_measured(const std::vector<AdvTrend>& trends) {
+    return std::any_of(trends.begin(), trends.end(), [](const AdvTrend& trend) {
+        return std::any_of(trend.values.begin(), trend.values.end(), [](const AdvTrendValue& value) { return value.measured.has_value(); });
+    });
+}
+
+/// A row for every point and component, a column for every operating point.
+std::string trend_table(const std::vector<AdvTrend>& trends) {
+    const std::vector<Operation> operations = operations_of(trends);
+    const bool one_discharge =
+        std::all_of(operations.begin(), operations.end(), [&](const Operation& o) { return o.second == operations.front().second; });
+    std::vector<std::string> header{"point", "component"};
+    for (const auto& [speed, discharge] : operations)
+        header.push_back(one_discharge ? fmt::format("{:g} rpm", speed) : fmt::format("{:g} rpm, {:g} m³/s", speed, discharge));
+    std::vector<std::vector<std::string>> rows;
+    for (const AdvTrend& trend : trends) {
+        std::vector<std::string> row{html::escape(trend.point), trend.component};
+        for (const Operation& operation : operations) {
+            const auto found = std::find_if(trend.values.begin(), trend.values.end(), [&](const AdvTrendValue& value) {
+                return Operation(value.speed_rpm, value.discharge) == operation;
+            });
+            row.push_back(found == trend.values.end() ? std::string(text::k_dash) : cell(*found));
+        }
+        rows.push_back(row);
+    }
+    return "<div class=\"scroll\">" + html::table(header, rows, true) + "</div>\n";
 }
 
 }  // namespace
@@ -94,21 +135,15 @@ std::vector<AdvTrend> read_adv_trends(const std::vector<fs::path>& run_directori
 
 std::string adv_trend_section(const std::vector<AdvTrend>& trends, const fs::path& scratch) {
     if (trends.empty()) return "";
+    const bool measured = is_measured(trends);
     std::string figures;
-    std::vector<std::vector<std::string>> rows;
-    for (std::size_t first = 0; first < trends.size(); first += k_adv_components.size()) {
-        if (gnuplot_is_installed())
-            figures += html::figure(draw_svg(trend_plot(trends, first, first / k_adv_components.size()), scratch),
-                                    fmt::format("Point {}: lines are the model with its position bars, discs the measurement.", html::escape(trends[first].point)));
-        for (std::size_t i = first; i < first + k_adv_components.size(); ++i)
-            for (const AdvTrendValue& v : trends[i].values)
-                rows.push_back({html::escape(trends[i].point), trends[i].component, fmt::format("{:g}", v.speed_rpm), fmt::format("{:g}", v.discharge),
-                                cell(v.measured), cell(v.model), cell(v.position_bar)});
-    }
+    for (std::size_t first = 0; gnuplot_is_installed() && first < trends.size(); first += k_adv_components.size())
+        figures += html::figure(draw_svg(trend_plot(trends, first, first / k_adv_components.size()), scratch), html::escape(trends[first].point));
     fs::remove_all(scratch);
-    return html::section("Velocities at points against speed",
-                         "<div class=\"figures\">" + figures + "</div>" +
-                             html::table({"point", "component", "rpm", "m³/s", "measured [m/s]", "model [m/s]", "position ± [m/s]"}, rows, true));
+    const std::string reading =
+        fmt::format("<p>Mean velocity of the water at named points, in m/s: lines are the model, with bars for the error of the point’s position{}.</p>\n",
+                    measured ? "; discs, and numbers in brackets, the measurement" : ". Nothing was measured at these points");
+    return html::section("Velocities at points against speed", reading + "<div class=\"figures\">" + figures + "</div>" + trend_table(trends));
 }
 
 json adv_trend_json(const std::vector<AdvTrend>& trends) {

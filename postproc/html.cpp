@@ -63,6 +63,7 @@ sub { font-size: 0.72em; line-height: 0; }
 table.numbers td, table.numbers thead th:not(:first-child) { text-align: right; font-variant-numeric: tabular-nums; }
 table.numbers th, table.numbers td { overflow-wrap: normal; }
 table.numbers td, table.numbers tbody th { white-space: nowrap; }
+.tables table.numbers tbody th { white-space: normal; }
 table.numbers td:last-child, table.numbers thead th:last-child { padding-right: 2px; }
 .verification th, .verification td { overflow-wrap: normal; }
 .verification table.numbers tbody th { white-space: normal; min-width: 16em; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,14 @@ std::string spaced(std::string word) {
 
 /// "cell_size_min_m" as "cell size min [m]": units stand at the end of a key.
 std::string key_text(const std::string& key) {
+    static const std::map<std::string, std::string> phrases{{"core_s", "core time [s]"},
+                                                            {"wall_s", "wall time [s]"},
+                                                            {"passage_m", "largest sphere that passes between the blades [m]"},
+                                                            {"thickness_m", "thickness of its thin parts, such as blades [m]"},
+                                                            {"memory_bytes", "memory of the mesher [MB]"},
+                                                            {"predicted_memory_bytes", "predicted memory of the mesher [MB]"}};
+    const auto phrase = phrases.find(key);
+    if (phrase != phrases.end()) return phrase->second;
     static const std::vector<std::pair<std::string, std::string>> units{
         {"_kg_m3", "kg/m³"}, {"_m3_s", "m³/s"}, {"_m_s", "m/s"}, {"_deg", "°"}, {"_rad", "rad"}, {"_rpm", "rpm"},
         {"_m3", "m³"},       {"_m2", "m²"},     {"_mm", "mm"},   {"_kg", "kg"}, {"_m", "m"},     {"_s", "s"}};
@@ -55,7 +64,9 @@ std::string key_text(const std::string& key) {
 std::vector<std::vector<std::string>> value_rows(const json& object) {
     std::vector<std::vector<std::string>> rows;
     for (const auto& [key, value] : object.items()) {
-        if (!value.is_structured() && !value.is_null()) rows.push_back({key_text(key), json_text(value)});
+        if (value.is_structured() || value.is_null()) continue;
+        const bool bytes = key.find("_bytes") != std::string::npos && value.is_number();
+        rows.push_back({key_text(key), bytes ? fmt::format("{:.0f}", value.get<double>() / 1e6) : json_text(value)});
     }
     return rows;
 }
@@ -214,7 +225,7 @@ std::string head_figure(const Results& results, const PageFigures& figures) {
 
 std::string velocity_figures(const RunData& run, const PageFigures& figures) {
     if (run.plane_axial.empty() && run.plane_under_ring.empty()) return "";
-    const std::string colours = " Colour: speed in the plane; arrows: its direction; white: steel; orange: contour of revolution; ";
+    const std::string colours = " Colour: speed in the plane (the darkest stands for that speed and more); arrows: its direction; white: steel; orange: contour of revolution; ";
     std::string content;
     if (!run.plane_axial.empty()) {
         content += plot(figures, "plane_axial",
@@ -428,9 +439,10 @@ std::string cost_section(const Results& results, const RunData& run, const PageF
     for (const char* name : {"geometry", "mesh", "case", "start", "run", "report"}) {
         const json stage = recorded.value(name, json());
         if (!stage.is_object()) continue;
-        const auto seconds = [&stage](const char* key) {
+        const bool done = stage.value("state", json()) == "done";
+        const auto seconds = [&stage, done](const char* key) {
             const auto found = stage.find(key);
-            return found != stage.end() && found->is_number() ? duration(found->get<double>()) : std::string(k_dash);
+            return done && found != stage.end() && found->is_number() ? duration(found->get<double>()) : std::string(k_dash);
         };
         stages.push_back({name, json_text(stage.value("state", json(""))), seconds("wall_s"), seconds("core_s")});
     }

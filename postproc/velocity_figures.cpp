@@ -21,7 +21,7 @@ constexpr double k_gap = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t k_arrow_stride = 2;  ///< every second point has an arrow: more cannot be told apart
 constexpr int k_width = 540;
 /// Light to dark, the same in print.
-constexpr const char* k_colours[] = {"#f4f8fb", "#b9d5ea", "#5ba3cf", "#0072b2", "#083b61"};
+constexpr const char* k_colours[] = {"#f4f8fb", "#cfe3f1", "#93c4e4", "#4f9fd1", "#0072b2"};  // no darker: arrows lie over it
 
 /// A point of the picture: where it is drawn and the velocity in the plane. NaN in steel.
 struct PlanePoint {
@@ -59,11 +59,17 @@ Plane read_plane(const Table& table, const Vec3& right, const Vec3& up, const Ve
     return plane;
 }
 
-/// Speed that 95 % of the points stay below: the longest arrow's.
-double typical_largest(const Plane& plane) {
+/// Whether anything has been averaged yet.
+bool has_velocity(const Plane& plane) {
+    return std::any_of(plane.points.begin(), plane.points.end(), [](const PlanePoint& point) { return point.velocity.allFinite(); });
+}
+
+/// Speed that 95 % of the points at a height up to `top` stay below: the darkest colour and the longest arrow stand for it. Higher up is the
+/// suction pipe, in which water is ten times as fast as in the head.
+double typical_largest(const Plane& plane, double top) {
     std::vector<double> speeds;
     for (const PlanePoint& point : plane.points) {
-        if (point.velocity.allFinite()) speeds.push_back(point.velocity.norm());
+        if (point.velocity.allFinite() && point.at.y() <= top) speeds.push_back(point.velocity.norm());
     }
     if (speeds.empty()) return 0.0;
     std::sort(speeds.begin(), speeds.end());
@@ -119,8 +125,9 @@ json thin_line(const PlotRows& rows, const char* colour, double width) {
 }
 
 /// \param outline  of the head in the picture
-Plot plane_plot(const std::string& name, const Plane& plane, const PlotRows& outline, const std::string& x_title, const std::string& y_title) {
-    const double largest = typical_largest(plane);
+/// \param top      height up to which speeds count for the scale of colours
+Plot plane_plot(const std::string& name, const Plane& plane, const PlotRows& outline, double top, const std::string& x_title, const std::string& y_title) {
+    const double largest = typical_largest(plane, top);
     PlotRows speeds;
     Vec2 low = plane.points.front().at, high = low;
     for (const PlanePoint& point : plane.points) {
@@ -145,7 +152,7 @@ Plot plane_plot(const std::string& name, const Plane& plane, const PlotRows& out
                            {"hoverongaps", false},
                            {"colorbar", {{"title", {{"text", "m/s"}}}, {"thickness", 12}, {"outlinewidth", 0}}},
                            {"hovertemplate", "%{x:.3f} m, %{y:.3f} m: %{z:.3f} m/s<extra></extra>"}});
-    plot.traces.push_back(thin_line(strokes, palette::ink, 0.8));
+    plot.traces.push_back(thin_line(strokes, palette::ink, 1.0));
     plot.traces.push_back(thin_line(outline, palette::spilled, 1.6));
 
     std::string& commands = plot.script.commands;
@@ -156,7 +163,7 @@ Plot plane_plot(const std::string& name, const Plane& plane, const PlotRows& out
     commands += data_block("strokes", broken) + gnuplot_palette();
     commands += fmt::format(
         "set xlabel {}\nset ylabel {}\nset cblabel \"m/s\"\nset xrange [{}:{}]\nset yrange [{}:{}]\nset cbrange [0:{}]\nset size ratio -1\n"
-        "unset grid\nunset key\nplot $speeds using 1:2:3 with image, $strokes using 1:2 with lines lw 0.7 lc rgb \"{}\", "
+        "unset grid\nunset key\nplot $speeds using 1:2:3 with image, $strokes using 1:2 with lines lw 0.9 lc rgb \"{}\", "
         "$outline using 1:2 with lines lw 1.6 lc rgb \"{}\"\n",
         quoted(x_title), quoted(y_title), plot_number(low.x()), plot_number(high.x()), plot_number(low.y()), plot_number(high.y()),
         plot_number(std::max(largest, 1e-9)), palette::ink, palette::spilled);
@@ -185,14 +192,16 @@ std::optional<Plot> axial_plane_plot(const RunData& run) {
     const double azimuth = run.operating_point.mouth_azimuth_deg * k_pi / 180.0;
     const Vec3 outwards(std::cos(azimuth), std::sin(azimuth), 0.0);
     const Plane plane = read_plane(run.plane_axial, outwards, Vec3::UnitZ(), Vec3::UnitZ());
-    return plane_plot("plane_axial", plane, contour_outline(run.contour), "from the axis towards the mouth, m", "z along the axis (ring at 0), m");
+    if (!has_velocity(plane)) return std::nullopt;
+    return plane_plot("plane_axial", plane, contour_outline(run.contour), 0.0, "from the axis towards the mouth, m", "z along the axis (ring at 0), m");
 }
 
 std::optional<Plot> under_ring_plot(const RunData& run) {
     if (run.plane_under_ring.empty()) return std::nullopt;
     const Plane plane = read_plane(run.plane_under_ring, -Vec3::UnitY(), -Vec3::UnitX(), Vec3::UnitY());
+    if (!has_velocity(plane)) return std::nullopt;
     const double z = run.plane_under_ring.number("z_m").front();
-    return plane_plot("plane_under_ring", plane, circle(run.contour.radius_at(z)), "across (azimuth 270° to the right), m",
+    return plane_plot("plane_under_ring", plane, circle(run.contour.radius_at(z)), std::numeric_limits<double>::infinity(), "across (azimuth 270° to the right), m",
                       "up from the lowest side, m");
 }
 
