@@ -117,12 +117,14 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const Contou
     inputs.times.first_time_step = k_first_step_per_revolution * study.period();
     inputs.fates.bin_width = study.report.bin_width;
     inputs.fates.outflow_offset = study.report.outflow_offset;
-    inputs.fates.stop_undecided = study.run.stop_undecided;
     inputs.blades = head.blades;
     inputs.velocity_sets = {axial_plane(study, head), plane_under_ring(study, head)};
     if (study.report.adv_points) inputs.velocity_sets.push_back(adv_set(study));
     inputs.ranks = ranks;
-    if (!study.feeds.empty()) inputs.rock = rock_of(study);
+    if (!study.feeds.empty()) {
+        inputs.rock = rock_of(study);
+        inputs.fates.stop_undecided = study.run.stop_undecided;
+    }
     fill_scaled_defaults(inputs);
     return inputs;
 }

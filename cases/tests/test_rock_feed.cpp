@@ -127,5 +127,8 @@ TEST(StudyCase, carries_the_study_into_the_case) {
     ASSERT_TRUE(inputs.rock.has_value());
     EXPECT_EQ(inputs.rock->density, 2700.0);
     EXPECT_EQ(inputs.ranks, 2);
-    EXPECT_FALSE(case_inputs_of(study_of(""), k_head, cylinder(), 1).rock.has_value()) << "without feed it is a pure flow run";
+    EXPECT_TRUE(inputs.fates.stop_undecided.has_value());
+    const CaseInputs flow = case_inputs_of(study_of(""), k_head, cylinder(), 1);
+    EXPECT_FALSE(flow.rock.has_value()) << "without feed it is a pure flow run";
+    EXPECT_FALSE(flow.fates.stop_undecided.has_value()) << "cutterFoam takes no rule of rock without rock";
 }
