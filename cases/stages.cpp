@@ -149,4 +149,20 @@ void run_stages(const RunDirectory& directory, Manifest& manifest, const std::ve
     }
 }
 
+void share_stages(const std::filesystem::path& from, const std::filesystem::path& to, const std::vector<std::string>& stages) {
+    if (std::filesystem::exists(to / names::manifest)) return;
+    const Manifest donor(from / names::manifest);
+    Manifest manifest(to / names::manifest);
+    for (const std::string& stage : stages) {
+        const StageRecord* record = donor.find(stage);
+        if (record == nullptr || record->state != StageState::done) return;
+        for (const auto& [file, hash] : record->outputs) {
+            std::filesystem::create_directories((to / file).parent_path());
+            std::filesystem::copy_file(from / file, to / file, std::filesystem::copy_options::overwrite_existing);
+        }
+        manifest.start(stage, record->inputs, {});
+        manifest.finish(stage, record->outputs, 0.0, 0.0);
+    }
+}
+
 }  // namespace cutterflow::cases

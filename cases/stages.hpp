@@ -39,4 +39,8 @@ using StageObserver = std::function<void(const Stage&, StageEvent, double wall_s
 void run_stages(const RunDirectory& directory, Manifest& manifest, const std::vector<Stage>& stages, const std::string& until, bool resume,
                 const StageObserver& observer);
 
+/// Copies what stages wrote in one run directory into another in which none began yet. Whether they fit is judged there, by their inputs,
+/// as for every finished stage.
+void share_stages(const std::filesystem::path& from, const std::filesystem::path& to, const std::vector<std::string>& stages);
+
 }  // namespace cutterflow::cases

@@ -14,6 +14,7 @@
 #include "cases/manifest.hpp"
 #include "cases/run_directory.hpp"
 #include "cases/slurm.hpp"
+#include "cases/stages.hpp"
 #include "cases/study.hpp"
 #include "cases/study_case.hpp"
 #include "geometry/base/child_process.hpp"
@@ -125,24 +126,6 @@ void check_names(const std::vector<SweepPoint>& points) {
             mistakes.push_back({"", fmt::format("{} points are called {}", times, name), "Each point of a sweep differs from all others",
                                 "Name each value once, and give designs different file names"});
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
-}
-
-/// Copies what stages wrote in one run directory into another in which they did not begin yet. Whether they fit is judged there, by their
-/// inputs, as for every finished stage.
-void share_stages(const fs::path& from, const fs::path& to, const std::vector<std::string>& stages) {
-    if (fs::exists(to / names::manifest)) return;
-    const Manifest donor(from / names::manifest);
-    Manifest manifest(to / names::manifest);
-    for (const std::string& stage : stages) {
-        const StageRecord* record = donor.find(stage);
-        if (record == nullptr || record->state != StageState::done) return;
-        for (const auto& [file, hash] : record->outputs) {
-            fs::create_directories((to / file).parent_path());
-            fs::copy_file(from / file, to / file, fs::copy_options::overwrite_existing);
-        }
-        manifest.start(stage, record->inputs, {});
-        manifest.finish(stage, record->outputs, 0.0, 0.0);
-    }
 }
 
 /// Writes the studies, or finds them as they are.

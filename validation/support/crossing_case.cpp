@@ -6,7 +6,7 @@ namespace cutterflow::validation {
 namespace {
 
 const FallingRock k_rock;
-constexpr double k_start_share = 0.9;  // of the terminal speed
+constexpr double k_start_share = 0.9;                 // of the terminal speed
 constexpr double k_aside = 0.0043, k_above = 0.0017;  // off the mesh's planes of symmetry [m]
 
 }  // namespace

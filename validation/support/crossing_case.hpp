@@ -13,10 +13,10 @@ namespace cutterflow::validation {
 /// A closed cylinder of water at rest about z. Gravity acts along -x, and a rock of 10 mm falls along the diameter.
 struct CrossingCase {
     TankMesh mesh;
-    std::optional<double> rpm;  ///< of the zone inside the interface; none: one mesh without an interface
-    double start = 0.13;        ///< x at which the rock is released [m]
-    double time_step = 1e-3;    ///< [s]
-    double end_time = 0.35;     ///< [s]
+    std::optional<double> rpm;        ///< of the zone inside the interface; none: one mesh without an interface
+    double start = 0.13;              ///< x at which the rock is released [m]
+    double time_step = 1e-3;          ///< [s]
+    double end_time = 0.35;           ///< [s]
     double picture_interval = 0.005;  ///< [s]
 };
 

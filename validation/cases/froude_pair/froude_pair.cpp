@@ -21,7 +21,8 @@ constexpr double k_length_ratio = 4.0;
 std::string crown(double scale) {
     return fmt::format(
         "[ring]\nradius_m = {}\ninner_radius_m = {}\nheight_m = {}\n[hub]\nradius_m = {}\ndepth_m = {}\nheight_m = {}\ncap_height_m = {}\n"
-        "[blades]\ncount = 4\nwrap_deg = 50\nrake_deg = 15\nthickness_m = {}\ndepth_at_ring_m = {}\ndepth_at_hub_m = {}\ncontour_exponent = 2\n"
+        "[blades]\ncount = 4\nwrap_deg = 50\nrake_deg = 15\nthickness_m = {}\ndepth_at_ring_m = {}\ndepth_at_hub_m = {}\ncontour_exponent "
+        "= 2\n"
         "[surface]\nedge_length_m = {}\n",
         scale * 0.1, scale * 0.0825, scale * 0.0125, scale * 0.03, scale * 0.06, scale * 0.02, scale * 0.011, scale * 0.0075, scale * 0.015,
         scale * 0.025, scale * 0.0075);
@@ -35,8 +36,8 @@ std::string study(double scale) {
         "[tank]\nradius_m = {5}\nbed_clearance_m = {6}\nheight_m = {7}\n"
         "[run]\nflow_revolutions = 0.15\nmax_revolutions = 0.45\nmax_courant = 1.8\nstop_undecided = 0\n"
         "[[feed]]\ncount = {8}\nazimuth_centre_deg = 0\ndepth_to_m = {9}\n[[feed.class]]\ndiameter_m = {10}\n",
-        scale, 80.0 / std::sqrt(scale), 0.00375 * std::pow(scale, 2.5), scale * 0.03, scale * 0.01, scale * 0.2, scale * 0.05, scale * 0.2125,
-        k_rocks, scale * 0.025, scale * 0.004);
+        scale, 80.0 / std::sqrt(scale), 0.00375 * std::pow(scale, 2.5), scale * 0.03, scale * 0.01, scale * 0.2, scale * 0.05,
+        scale * 0.2125, k_rocks, scale * 0.025, scale * 0.004);
 }
 
 nlohmann::json run_at(const Verification& verification, double scale) {
@@ -53,7 +54,8 @@ nlohmann::json run_at(const Verification& verification, double scale) {
 std::vector<double> outflow(const nlohmann::json& results, double scale) {
     std::vector<double> values;
     for (const nlohmann::json& bin : results.at("outflow").at("bins"))
-        if (!bin.at("radial_velocity_mean_m_s").is_null()) values.push_back(bin.at("radial_velocity_mean_m_s").get<double>() / std::sqrt(scale));
+        if (!bin.at("radial_velocity_mean_m_s").is_null())
+            values.push_back(bin.at("radial_velocity_mean_m_s").get<double>() / std::sqrt(scale));
     return values;
 }
 
@@ -67,7 +69,8 @@ void compare_outflow(Verification& verification, const nlohmann::json& small, co
                           {"exact", "as many as at length 1: bin widths follow the ring radius", {}});
     if (a.size() != b.size()) return;
     double largest = 0.0, distance = 0.0;
-    postproc::ExhibitTable table{"Radial outflow, at length 4 over the root of 4", {"bin", "length 1, m/s", "length 4, m/s", "difference over the largest, %"}, {}};
+    postproc::ExhibitTable table{
+        "Radial outflow, at length 4 over the root of 4", {"bin", "length 1, m/s", "length 4, m/s", "difference over the largest, %"}, {}};
     for (const double value : b) largest = std::max(largest, std::abs(value));
     for (std::size_t i = 0; i < a.size(); ++i) {
         distance = std::max(distance, std::abs(b[i] - a[i]));
@@ -81,14 +84,16 @@ void compare_outflow(Verification& verification, const nlohmann::json& small, co
 
 void compare_spillage(Verification& verification, const nlohmann::json& small, const nlohmann::json& large) {
     const auto bound = [](const nlohmann::json& results, const char* key) { return results.at("spillage").at(key).get<double>(); };
-    verification.at_most("gap between the bounds of the two spillage ratios", "-",
-                         std::max(bound(small, "ratio_min"), bound(large, "ratio_min")) -
-                             std::min(bound(small, "ratio_max"), bound(large, "ratio_max")),
-                         0.0, {"exact", "below 0 they overlap; each interval holds what undecided rock may still do", {}});
-    postproc::ExhibitTable table{"Rock at 0.45 revolutions", {"length", "placed", "spilled", "sucked up", "in the cutter", "never entered", "spillage ratio"}, {}};
+    verification.at_most(
+        "gap between the bounds of the two spillage ratios", "-",
+        std::max(bound(small, "ratio_min"), bound(large, "ratio_min")) - std::min(bound(small, "ratio_max"), bound(large, "ratio_max")),
+        0.0, {"exact", "below 0 they overlap; each interval holds what undecided rock may still do", {}});
+    postproc::ExhibitTable table{
+        "Rock at 0.45 revolutions", {"length", "placed", "spilled", "sucked up", "in the cutter", "never entered", "spillage ratio"}, {}};
     for (const auto& [results, scale] : {std::pair(&small, 1.0), std::pair(&large, k_length_ratio)})
-        table.rows.push_back({fmt::format("{:g}", scale), std::to_string(results->at("rock").at("placed").get<int>()), count(*results, "spilled"),
-                              count(*results, "sucked_up"), count(*results, "in_cutter"), count(*results, "never_entered"),
+        table.rows.push_back({fmt::format("{:g}", scale), std::to_string(results->at("rock").at("placed").get<int>()),
+                              count(*results, "spilled"), count(*results, "sucked_up"), count(*results, "in_cutter"),
+                              count(*results, "never_entered"),
                               fmt::format("{:.3f} to {:.3f}", bound(*results, "ratio_min"), bound(*results, "ratio_max"))});
     verification.table(table);
     const auto share = [](const nlohmann::json& results) {
@@ -96,10 +101,12 @@ void compare_spillage(Verification& verification, const nlohmann::json& small, c
         return results.at("rock").at("fates").at("spilled").at("count").get<double>() / placed;
     };
     const double p = 0.5 * (share(small) + share(large));
-    verification.report("spilled over placed at length 4", "-", share(large), share(small),
-                        {"exact", fmt::format("the reference is length 1; two batches of {} rocks differ by {:.3f} (standard deviation) by chance alone",
-                                              k_rocks, std::sqrt(2.0 * p * (1.0 - p) / k_rocks)),
-                         {}});
+    verification.report(
+        "spilled over placed at length 4", "-", share(large), share(small),
+        {"exact",
+         fmt::format("the reference is length 1; two batches of {} rocks differ by {:.3f} (standard deviation) by chance alone", k_rocks,
+                     std::sqrt(2.0 * p * (1.0 - p) / k_rocks)),
+         {}});
 }
 
 void run(Verification& verification) {

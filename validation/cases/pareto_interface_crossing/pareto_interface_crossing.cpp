@@ -83,9 +83,10 @@ void run(Verification& verification) {
         {"scheme of convection", scheme_values<Options>({"linearUpwind grad(U)", "limitedLinear 1", "linear"})}};
     verification.table({"Options without a chart",
                         {"option", "why"},
-                        {{"coupling interval", "The solver has no such option: fluid and rock exchange momentum in every fluid step, so that what "
-                                               "the fluid loses in a step is what the rock receives in it. The chart of the time step is that of "
-                                               "the coupling interval too."}}});
+                        {{"coupling interval",
+                          "The solver has no such option: fluid and rock exchange momentum in every fluid step, so that what "
+                          "the fluid loses in a step is what the rock receives in it. The chart of the time step is that of "
+                          "the coupling interval too."}}});
     const Trial standard = run_pareto<Options>(verification, sweeps, "RMS error of the velocity, m/s", cross);
     verification.at_most("RMS error of the velocity with the defaults", "m/s", standard.error, 0.01,
                          {"NieuwboerVanRheeKeetels2023", "against the rock's own force balance; 10 mm, 2650 kg/m3, d/dx = 1, 60 rpm", {}});
