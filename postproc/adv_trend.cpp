@@ -51,14 +51,14 @@ PlotScript trend_plot(const std::vector<AdvTrend>& trends, std::size_t first, st
         if (!model.empty()) {
             plot.commands += data_block(name, model);
             curves.push_back(fmt::format("${0} using 1:2 with lines lw 1.6 lc rgb \"{1}\" title \"{0}\"", name, k_colours[c]));
-            curves.push_back(fmt::format("${} using 1:2:3 with yerrorbars pt 0 lw 1.2 lc rgb \"{}\" notitle", name, k_colours[c]));
+            curves.push_back(fmt::format("${} using 1:2:3 with yerrorbars pt 7 ps 0.3 lw 1.2 lc rgb \"{}\" notitle", name, k_colours[c]));
         }
         if (!measured.empty()) {
             plot.commands += data_block(name + "_measured", measured);
             curves.push_back(fmt::format("${}_measured using 1:2 with points pt 7 ps 0.9 lc rgb \"{}\" notitle", name, k_colours[c]));
         }
     }
-    plot.commands += fmt::format("set xlabel \"rotor speed, rpm\"\nset ylabel \"velocity, m/s\"\nset key outside top center horizontal\nplot {}\n",
+    plot.commands += fmt::format("set xlabel \"rotor speed, rpm\"\nset ylabel \"velocity, m/s\"\nset key outside top center horizontal\nset offsets graph 0.05,graph 0.05,0,0\nplot {}\n",
                                  curves.empty() ? "NaN notitle" : fmt::format("{}", fmt::join(curves, ", ")));
     return plot;
 }
