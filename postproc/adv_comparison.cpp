@@ -285,7 +285,8 @@ std::string adv_text(const AdvComparison& comparison) {
             text += fmt::format("{} the head, {} values: bias {:.3f} m/s, RMSE {:.3f} m/s, slope {}, hit rate {:.0f} %\n", inside ? "inside" : "outside",
                                 a.count, a.bias, a.rmse, value(a.slope), 100.0 * a.hit_rate);
     }
-    return text + fmt::format("velocities in m/s, model averaged over {} revolution(s)\n", comparison.revolutions);
+    return text + fmt::format("velocities in m/s, model averaged over {} revolution{}\n", comparison.revolutions,
+                              comparison.revolutions == 1 ? "" : "s");
 }
 
 }  // namespace cutterflow::postproc

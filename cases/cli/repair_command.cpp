@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/numbers.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/io/read_surface.hpp"
@@ -100,9 +101,9 @@ void add_repair(CLI::App& app) {
     command->add_option("-o,--output", options->output, "STL file to write, in metres")->required();
     command->add_option("--unit", options->unit, "Unit of length of the file (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives a plausible size");
     command->add_option("--weld-distance-m", options->weld_distance_m, "Points nearer than this are joined; default 1e-5 of the largest extent")
-        ->check(CLI::PositiveNumber);
+        ->check(k_positive);
     command->add_option("--hole-size-m", options->hole_size_m, "Holes up to this size are filled; default 0.05 of the largest extent")
-        ->check(CLI::NonNegativeNumber);
+        ->check(k_not_negative);
     command
         ->add_option("--volume-change-percent", options->volume_change_percent,
                      "Volume that repairing may change or leave uncertain (uniting shells apart)")

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/numbers.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/io/write_stl.hpp"
@@ -91,7 +92,7 @@ void add_backplate(CLI::App& app) {
     const auto pipe_length = std::make_shared<double>(0.0);
     const auto solid = std::make_shared<Solid>();
     const auto length = [command](const char* name, double& value, const char* help) {
-        command->add_option(name, value, help)->required()->check(CLI::PositiveNumber);
+        command->add_option(name, value, help)->required()->check(k_positive);
     };
     length("--radius-m", steel->plate_radius, "Radius of the plate");
     length("--thickness-m", steel->plate_thickness, "Thickness of the plate");
@@ -99,7 +100,7 @@ void add_backplate(CLI::App& app) {
     length("--mouth-radius-m", steel->mouth.radius, "Inner radius of mouth and pipe");
     command->add_option("--mouth-offset-m", steel->mouth.offset, "Distance of the mouth's centre from the axis")
         ->required()
-        ->check(CLI::NonNegativeNumber);
+        ->check(k_not_negative);
     command->add_option("--mouth-azimuth-deg", *azimuth_deg, "Azimuth of the mouth's centre")->capture_default_str();
     length("--pipe-wall-m", steel->pipe_wall, "Thickness of the pipe's wall");
     length("--pipe-length-m", *pipe_length, "Length of the pipe above the plate");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/numbers.hpp"
 #include "cases/machine.hpp"
 #include "cases/sweep.hpp"
 #include "geometry/base/child_process.hpp"
@@ -108,10 +109,10 @@ void add_sweep(CLI::App& app) {
     auto* command = app.add_subcommand("sweep", "Run a study at several speeds, discharges, designs and repeats, and compare them.");
     const auto options = std::make_shared<SweepOptions>();
     command->add_option("study", options->study, "The study that all points begin from")->required();
-    command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(CLI::PositiveNumber);
+    command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(k_positive);
     command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")
         ->delimiter(',')
-        ->check(CLI::PositiveNumber);
+        ->check(k_positive);
     command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
     command
         ->add_option("--repeats", options->axes.repeats,

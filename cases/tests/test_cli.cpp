@@ -404,6 +404,12 @@ TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
     expect_refused(call({"check", study("[report]\nadv_points = \"nowhere.csv\"\n")}), 2, "nowhere.csv");
 }
 
+TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
+    const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
+    expect_refused(outcome, 2, "x is not a number above 0");
+    EXPECT_EQ(call({"sweep", study(), "--discharge", "nan"}).code, 2);
+}
+
 TEST_F(Cli, refuses_a_sweep_over_what_it_does_not_vary) {
     const Outcome outcome = call({"sweep", study(), "--speed", "30,60", "--discharges", "0.1"});
     expect_refused(outcome, 2, "a sweep over --speed. A sweep varies --rpm, --discharge, --design, --repeats");

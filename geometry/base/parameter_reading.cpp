@@ -145,7 +145,7 @@ private:
         const std::optional<ParameterValue> value = typed_value(parameter, node);
         if (!value)
             return add(where(node), fmt::format("{} = {} has the wrong type", parameter.key, node_text(node)),
-                       fmt::format("It must be {}", with_unit(parameter, kind_text(parameter.kind))), "Correct the value");
+                       fmt::format("It must be {}", kind_with_unit(parameter)), "Correct the value");
         if (!check_finite(parameter, *value, node) || !check_bounds(parameter, *value, node) || !check_choice(parameter, *value, node))
             return;
         values.set(parameter.key, *value);
@@ -227,7 +227,7 @@ private:
                 values.set(parameter.key, *parameter.default_value);
             } else if (!parameter.optional) {
                 add(place, fmt::format("{} is missing", parameter.key), "It is required and has no default: " + parameter.help,
-                    fmt::format("Add {} ({}) to [{}]", name_of(parameter.key), with_unit(parameter, kind_text(parameter.kind)),
+                    fmt::format("Add {} ({}) to [{}]", name_of(parameter.key), kind_with_unit(parameter),
                                 parameter.repeated ? "[" + repeated_section + "]" : section_of(parameter.key)));
             }
         }

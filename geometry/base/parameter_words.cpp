@@ -64,6 +64,11 @@ std::string with_unit(const Parameter& parameter, const std::string& text) {
     return has_unit(parameter) ? text + " " + parameter.unit : text;
 }
 
+std::string kind_with_unit(const Parameter& parameter) {
+    const std::string kind = kind_text(parameter.kind);
+    return has_unit(parameter) ? kind + " in " + parameter.unit : kind;
+}
+
 std::string bounds_text(const Parameter& parameter) {
     const auto number = [](double value) { return fmt::format("{}", value); };
     if (!parameter.minimum && !parameter.maximum) return "";

@@ -18,6 +18,7 @@ bool is_repeated_section(const ParameterTable& table, const std::string& section
 std::string kind_text(ParameterKind kind);
 bool has_unit(const Parameter& parameter);
 std::string with_unit(const Parameter& parameter, const std::string& text);
+std::string kind_with_unit(const Parameter& parameter);  ///< "a number in rpm"
 
 /// The allowed range in words: "above 0 m", "0 to 120 rpm"; empty without bounds.
 std::string bounds_text(const Parameter& parameter);

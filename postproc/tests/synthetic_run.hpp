@@ -53,7 +53,7 @@ using PlaneFlow = Vec3 (*)(double r, double z);
 
 inline constexpr int k_plane_points_in_steel = 24;  ///< of each plane
 
-/// Writes the tables plane_axial and plane_under_ring of a run of the small run's head.
+/// Writes the tables plane_axial and plane_under_ring of a run of the small run's head; velocities that are not finite as not yet sampled.
 void write_velocity_planes(const std::filesystem::path& directory, PlaneFlow flow);
 
 /// Writes a run like the demo's: 368 rocks of 20 mm, 60 rpm, a six-blade crown, two revolutions, noisy loads, spillage under the ring.

@@ -62,6 +62,17 @@ TEST(VelocityFigures, under_the_ring_a_right_handed_head_turns_clockwise_as_seen
     }
 }
 
+TEST(VelocityFigures, colours_stand_for_speeds_in_the_head_and_not_in_the_suction_pipe) {
+    const PlaneFlow flow = [](double, double z) { return Vec3(0.0, 0.0, z > 0.0 ? 5.0 : 0.3); };
+    EXPECT_NEAR(axial_plane_plot(run_with_planes("plane_pipe", flow)).value().traces.at(0).at("zmax").get<double>(), 0.3, 1e-6);
+}
+
+TEST(VelocityFigures, are_left_out_before_the_first_sample) {
+    const RunData data = run_with_planes("plane_unsampled", [](double, double) -> Vec3 { return Vec3::Constant(std::nan("")); });
+    EXPECT_FALSE(axial_plane_plot(data));
+    EXPECT_FALSE(under_ring_plot(data));
+}
+
 TEST(VelocityFigures, are_left_out_when_the_run_sampled_no_planes) {
     SmallRun run("no_planes");
     run.write();

@@ -1,0 +1,23 @@
+#pragma once
+/// \file Bounds of numbers on the command line. CLI11's own name the largest number there is when one is broken.
+#include <cmath>
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+
+namespace cutterflow::cli {
+
+inline CLI::Validator number_that(bool (*holds)(double), const char* rule) {
+    return CLI::Validator(
+        [holds, rule](std::string& text) {
+            char* end = nullptr;
+            const double value = std::strtod(text.c_str(), &end);
+            return end != text.c_str() && *end == '\0' && std::isfinite(value) && holds(value) ? std::string() : text + " is not " + rule;
+        },
+        "NUMBER");
+}
+
+inline const CLI::Validator k_positive = number_that([](double value) { return value > 0.0; }, "a number above 0");
+inline const CLI::Validator k_not_negative = number_that([](double value) { return value >= 0.0; }, "a number from 0 on");
+
+}  // namespace cutterflow::cli
