@@ -66,11 +66,11 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
     write_foam_dictionary(
         folder, "constant/couplingProperties", "dictionary",
         fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ({});\n"
-                    "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall true; zMax {:.17g}; zMaxWall {}; }}\n}}\n"
+                    "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall {}; zMax {:.17g}; zMaxWall {}; }}\n}}\n"
                     "kernel {{ {} }}\nclosures {{ {} }}\n"
                     "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
                     "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
-                    box.contact, box.walls, radius, box.lower.z(), box.upper.z(), !box.rock_leaves_at_top, box.kernel, box.closures, box.extra));
+                    box.contact, box.walls, radius, box.lower.z(), !box.rock_leaves_at_bottom, box.upper.z(), !box.rock_leaves_at_top, box.kernel, box.closures, box.extra));
     // There is no head in the box: its volume is a pin below the floor.
     std::ofstream(folder / "constant/contour.csv") << "z_m,r_m\n-0.02,0.001\n0,0.001\n";
     std::ofstream feed(folder / "constant/rockFeed.csv");

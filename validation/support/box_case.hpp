@@ -49,7 +49,8 @@ struct BoxCase {
     std::string contact = "youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; "
                           "timeStepFraction 0.1; maxSpeed 1.5;";
     std::string walls;               ///< entries of rock.walls; their surfaces must be put into the folder afterwards
-    bool rock_leaves_at_top = false; ///< the upper side is no wall to rock: it leaves there
+    bool rock_leaves_at_top = false;    ///< the upper side is no wall to rock: it leaves there
+    bool rock_leaves_at_bottom = false; ///< the lower side neither
     std::string extra;               ///< further sections of couplingProperties
 
     double cell_size() const { return (upper.x() - lower.x()) / cells[0]; }
