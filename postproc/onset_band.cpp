@@ -49,7 +49,7 @@ void add_onset_band(Plot& plot, double low, double high) {
 std::string onset_band_text() {
     return fmt::format(
         "Shaded: {:g} to {:g} m/s, where spillage through the bin below the ring began in the simulations of the reference (Nieuwboer, van Rhee and Keetels "
-        "2023; model cutter at scale 1:4, ring radius 0.4 m, rock of 20 mm). It is the reference’s band, not a result of this program.",
+        "2023; model cutter at scale 1:4 of unpublished ring radius, rock of 20 mm). It is the reference’s band, not a result of this program.",
         k_onset_low, k_onset_high);
 }
 

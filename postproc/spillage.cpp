@@ -121,7 +121,7 @@ SpillageRatios ratios_of(const Fates& fates) {
     SpillageRatios ratios;
     ratios.ratio_min = fates.spilled.mass / fates.placed.mass;
     ratios.ratio_max = 1.0 - fates.sucked_up.mass / fates.placed.mass;
-    ratios.undecided = *ratios.ratio_max - *ratios.ratio_min;
+    ratios.undecided = (fates.in_cutter.mass + fates.never_entered.mass) / fates.placed.mass;  // 0 when all is decided, without rounding
     const double decided = fates.spilled.mass + fates.sucked_up.mass;
     if (decided > 0.0) {
         ratios.ratio = fates.spilled.mass / decided;
