@@ -121,7 +121,8 @@ SpillageRatios ratios_of(const Fates& fates) {
     SpillageRatios ratios;
     ratios.ratio_min = fates.spilled.mass / fates.placed.mass;
     ratios.ratio_max = 1.0 - fates.sucked_up.mass / fates.placed.mass;
-    ratios.undecided = (fates.in_cutter.mass + fates.never_entered.mass) / fates.placed.mass;  // 0 when all is decided, without rounding
+    const bool all_decided = fates.in_cutter.count + fates.never_entered.count == 0;
+    ratios.undecided = all_decided ? 0.0 : *ratios.ratio_max - *ratios.ratio_min;  // masses are rounded in their file
     const double decided = fates.spilled.mass + fates.sucked_up.mass;
     if (decided > 0.0) {
         ratios.ratio = fates.spilled.mass / decided;

@@ -30,7 +30,7 @@ struct SpillageRatios {
     std::optional<double> ratio;      ///< spilled / (spilled + sucked_up)
     std::optional<double> ratio_min;  ///< spilled / placed: as if all undecided rock were sucked up
     std::optional<double> ratio_max;  ///< 1 - sucked_up / placed: as if all undecided rock were spilled
-    std::optional<double> undecided;  ///< (in the cutter + never entered) / placed = ratio_max - ratio_min
+    std::optional<double> undecided;  ///< ratio_max - ratio_min; exactly 0 when all rock is decided
     std::string reason;
 };
 
