@@ -136,9 +136,9 @@ std::string point_table(const AdvComparison& comparison) {
         }
     }
     return html::section("Points",
-                         "<div class=\"scroll\">" + html::table({"point", "r, θ, z", "frame", "head", "in water", "component", "measured [m/s]", "model [m/s]", "position ± [m/s]",
-                                      "standard error [m/s]"},
-                                     rows, true) + "</div>\n");
+                         html::scrolling(html::table({"point", "r, θ, z", "frame", "head", "in water", "component", "measured [m/s]",
+                                                      "model [m/s]", "position ± [m/s]", "standard error [m/s]"},
+                                                     rows, true)));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ std::string trend_table(const std::vector<AdvTrend>& trends) {
         }
         rows.push_back(row);
     }
-    return "<div class=\"scroll\">" + html::table(header, rows, true) + "</div>\n";
+    return html::scrolling(html::table(header, rows, true));
 }
 
 }  // namespace

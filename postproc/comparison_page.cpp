@@ -30,11 +30,6 @@ std::string estimate_markup(const Estimate& estimate) {
     return markup;
 }
 
-/// A table with a column a setting may be wider than the window: it scrolls by itself.
-std::string scrolling(const std::string& table) {
-    return "<div class=\"scroll\">" + table + "</div>\n";
-}
-
 std::string quantities_table(const Comparison& comparison) {
     std::vector<std::string> header{"quantity"};
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{}", i + 1));
@@ -43,7 +38,7 @@ std::string quantities_table(const Comparison& comparison) {
         rows.push_back({escape(quantity.name) + (quantity.unit == "-" ? "" : " [" + quantity.unit + "]")});
         for (const Estimate& estimate : quantity.settings) rows.back().push_back(estimate_markup(estimate));
     }
-    return scrolling(html::table(header, rows, true));
+    return html::scrolling(html::table(header, rows, true));
 }
 
 std::string differences_table(const Comparison& comparison) {
@@ -63,7 +58,7 @@ std::string differences_table(const Comparison& comparison) {
                                       : std::string(text::k_dash));
         }
     }
-    return scrolling(html::table(header, rows, true));
+    return html::scrolling(html::table(header, rows, true));
 }
 
 std::string settings_table(const Comparison& comparison) {

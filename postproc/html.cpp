@@ -159,6 +159,10 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
     return result + "</tbody></table>\n";
 }
 
+std::string scrolling(const std::string& table) {
+    return "<div class=\"scroll\">" + table + "</div>\n";
+}
+
 std::string figure(const std::string& content, const std::string& caption, const std::string& css_class) {
     return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n",
                        css_class.empty() ? "" : fmt::format(" class=\"{}\"", css_class), content, caption);

@@ -14,6 +14,9 @@ std::string escape(const std::string& text);
 /// A table; cells are markup (escape text first). The first column of every row is its heading; `numeric` aligns the others right.
 std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows, bool numeric);
 
+/// A table (markup) that may be wider than the window: it scrolls by itself.
+std::string scrolling(const std::string& table);
+
 /// Static content that page.js replaces on screen by what it makes of `data`; without scripts, and in print, the content stays.
 /// \param kind  how page.js draws it: "plot" (plotly's data and layout) or "head" (head_view.hpp)
 std::string replaceable(const std::string& content, const std::string& kind, const nlohmann::json& data);

@@ -49,6 +49,18 @@ std::vector<OptionValue<Options>> scheme_values(const std::vector<std::string>& 
     return result;
 }
 
+/// The options that one rock in a tank has, with the values that its charts show.
+/// \param mesh  rock diameters over cells beside the default
+template <class Options>
+std::vector<Sweep<Options>> one_rock_sweeps(const std::vector<double>& mesh) {
+    return {{"mesh: rock diameter over cell", number_values(&Options::rock_over_cell, mesh)},
+            {"time step: travel of the rock in cells", number_values(&Options::travel, {0.0625, 0.125, 0.5, 1.0})},
+            {"kernel width gamma", number_values(&Options::gamma, {0.5, 0.75, 1.5, 2.0})},
+            {"DEM step over the shortest contact time", number_values(&Options::dem_step, {0.025, 0.05, 0.2, 0.4})},
+            {"Young's modulus, Pa", number_values(&Options::youngs_modulus, {1e6, 1e7, 1e9})},
+            {"scheme of convection", scheme_values<Options>({"linearUpwind grad(U)", "limitedLinear 1", "linear"})}};
+}
+
 /// Section rock.contact of couplingProperties.
 inline std::string pareto_contact(double youngs_modulus, double dem_step) {
     return fmt::format(

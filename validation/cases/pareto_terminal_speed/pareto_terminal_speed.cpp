@@ -58,14 +58,7 @@ Trial fall(const std::filesystem::path& folder, const Options& options) {
 
 void run(Verification& verification) {
     if (!verification.wants(Effort::longest)) return;
-    const std::vector<Sweep<Options>> sweeps = {
-        {"mesh: rock diameter over cell", number_values(&Options::rock_over_cell, {0.5, 1.0, 3.0})},
-        {"time step: travel of the rock in cells", number_values(&Options::travel, {0.0625, 0.125, 0.5, 1.0})},
-        {"kernel width gamma", number_values(&Options::gamma, {0.5, 0.75, 1.5, 2.0})},
-        {"DEM step over the shortest contact time", number_values(&Options::dem_step, {0.025, 0.05, 0.2, 0.4})},
-        {"Young's modulus, Pa", number_values(&Options::youngs_modulus, {1e6, 1e7, 1e9})},
-        {"scheme of convection", scheme_values<Options>({"linearUpwind grad(U)", "limitedLinear 1", "linear"})}};
-    const Trial standard = run_pareto<Options>(verification, sweeps, "error of the terminal speed, %", fall);
+    const Trial standard = run_pareto<Options>(verification, one_rock_sweeps<Options>({0.5, 1.0, 3.0}), "error of the terminal speed, %", fall);
     verification.at_most("error of the terminal speed with the defaults", "%", standard.error, 1.4,
                          {"NieuwboerVanRheeKeetels2023", "10 mm, 2650 kg/m3, d/dx = 2", 0.5});
     verification.report("core seconds with the defaults", "-", standard.core_s, {}, {"exact", "whole run on one core", {}});
