@@ -239,6 +239,7 @@ void RockCoupling::map() {
     }
     drag_rate_.assign(carry_.size(), 0.0);
     deposit(present_, drag, drag_rate_);
+    even_out_within_kernels(drag);
     inertia_.resize(carry_.size());
     const double factor = 1.0 + settings_.closures.added_mass;
     std::transform(fractions[1].begin(), fractions[1].end(), inertia_.begin(), [factor](double f) { return factor * f; });
@@ -247,6 +248,23 @@ void RockCoupling::map() {
     balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
     balance_.solid_fraction_max = std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_));
     require_room(balance_.solid_fraction_max, settings_.kernel.max_solid_fraction);
+}
+
+/// The part of the target that only moves drag between the cells of a kernel: sum_p w_p D_p (ubar_p - u_old) / rho_f.
+/// \param drag  D_p / rho_f [m3/s]
+void RockCoupling::even_out_within_kernels(const std::vector<double>& drag) {
+    const gsl::span<const Vec3> velocity = fluid_.fields().velocity;
+    std::vector<double> sums(3 * drag.size(), 0.0);
+    for (std::size_t p = 0; p < drag.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(present_.cell[i]);
+            Eigen::Map<Vec3>(&sums[3 * p]) += present_.deposit[i] * mapping_.cells().volumes[c] * velocity[c];
+        }
+    communicator_.sum(sums);
+    std::vector<Vec3> amount;
+    for (std::size_t p = 0; p < drag.size(); ++p) amount.push_back(drag[p] * Eigen::Map<const Vec3>(&sums[3 * p]));
+    deposit(present_, amount, source_);
+    for (std::size_t c = 0; c < source_.size(); ++c) source_[c] -= drag_rate_[c] * velocity[c];
 }
 
 /// The old void fraction on the cells as they stand now. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they

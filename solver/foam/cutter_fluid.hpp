@@ -94,6 +94,7 @@ private:
     Foam::tmp<Foam::surfaceScalarField> predicted_flux(const Foam::volVectorField& HbyA, const Foam::volScalarField& rAU) const;
     void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
     void close_domain(Foam::surfaceScalarField& flux);
+    void close_interface(Foam::surfaceScalarField& flux, const Foam::surfaceScalarField& alpha_rAtUf) const;
     Foam::dimensionedScalar domain_surplus(const Foam::surfaceScalarField& flux) const;
     void report_continuity();
     void correct_turbulence();

@@ -96,6 +96,40 @@ TEST(Exchange, hands_what_rock_loses_to_the_fluid) {
     EXPECT_LE(std::abs(carried), 0.1 * lost);
 }
 
+// A wave of the fluid that rock, looking over its kernel's shell, does not see or sees upside down: drag must take its energy all the same.
+TEST(Exchange, slows_down_waves_within_the_kernels_of_a_dense_bed) {
+    const double dx = 0.02, spacing = 0.0215, wavelength = 0.08;
+    Rig rig(box(0.12, dx), {}, 2e-3);
+    std::vector<FeedRock> due;
+    for (int i = 0; i < 1331; ++i) {
+        due.push_back(rock(i + 1, spacing * (Vec3(i % 11, i / 11 % 11, i / 121) - Vec3::Constant(5.0)), 0.02, Vec3::Zero()));
+        due.back().density = 1e12;
+    }
+    rig.coupling.insert(due);
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
+        rig.fluid.velocity[c] = Vec3(0.0, 0.0, 0.1 + 0.02 * std::sin(2.0 * k_pi * rig.fluid.mesh.centres[c].x() / wavelength));
+    const auto height = [&](const Vec3& position) { return std::sin(2.0 * k_pi * position.x() / wavelength); };
+    const auto wave = [&] {
+        double amplitude = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) amplitude += rig.fluid.velocity[c].z() * height(rig.fluid.mesh.centres[c]);
+        return amplitude;
+    };
+    const double before = wave();
+    double decay = 0.0;  // of a wave that each cell's own drag slows down
+    for (int n = 0; n < 40; ++n) {
+        ASSERT_LE(rig.step().momentum_exchange_error, 1e-10);
+        double rate = 0.0, weight = 0.0;
+        for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+            const double h = height(rig.fluid.mesh.centres[c]);
+            rate += h * h * rig.coupling.exchange().drag_rate[c] / rig.fluid.void_fraction[c];
+            weight += h * h;
+        }
+        decay += rate / weight * rig.fluid.time_step();
+    }
+    EXPECT_GT(decay, 0.1);
+    EXPECT_NEAR(std::log(before / wave()), decay, 0.1 * decay);
+}
+
 TEST(Exchange, gives_back_to_the_fluid_what_lift_and_viscous_stress_do_to_rock) {
     CouplingSettings settings = settings_with_rock();
     settings.closures.lift = "mei";

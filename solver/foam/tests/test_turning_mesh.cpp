@@ -7,6 +7,7 @@
 #include "solver/foam/foam_conversions.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
+#include "cyclicAMIFvPatch.H"
 #include "dynamicFvMesh.H"
 #include "fvc.H"
 
@@ -51,6 +52,36 @@ TEST(TurningMesh, RockAtRestRaisesNoFlow) {
     EXPECT_LE(run.deviation(Vec3::Zero()), 1e-10);
 }
 
+/// Takes from both sides of the interface what they disagree by, as the solver does with its flux.
+void close_interface(Foam::surfaceScalarField& flux) {
+    const auto& patches = flux.mesh().boundary();
+    Foam::scalar difference = 0.0, area = 0.0;
+    forAll(patches, patch) {
+        if (!Foam::isA<Foam::cyclicAMIFvPatch>(patches[patch])) continue;
+        difference += Foam::sum(flux.boundaryField()[patch]);
+        area += Foam::sum(patches[patch].magSf());
+    }
+    Foam::reduce(difference, Foam::sumOp<Foam::scalar>());
+    Foam::reduce(area, Foam::sumOp<Foam::scalar>());
+    forAll(patches, patch)
+        if (Foam::isA<Foam::cyclicAMIFvPatch>(patches[patch])) flux.boundaryFieldRef()[patch] -= difference / area * patches[patch].magSf();
+}
+
+// Both sides of the interface carry the same flow, though their faces do not meet: water that is thrown against the rim of a turning cylinder.
+TEST(TurningMesh, WhatLeavesOneSideOfTheInterfaceEntersTheOther) {
+    testing::TinyCase tiny = cylinder("thrown", {}, "(0.7 -0.3 0.2)", 2e-3, 0.05);
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0.7 -0.3 0.2)", "\".*\" { type fixedValue; value uniform (0 0 0); }");
+    FluidRun run(testing::build_case(tiny), false);
+    double worst = 0.0;
+    while (run.engine().running()) {
+        run.begin();
+        run.end({}, {});
+        if (run.engine().time() > 0.025) worst = std::max(worst, run.engine().loads().interface_imbalance);
+    }
+    EXPECT_LE(worst, 5e-6);  // what the pressure changes in a step is left; 3e-5 without closing the interface
+    EXPECT_GE(run.deviation(Vec3(0.7, -0.3, 0.2)), 0.1);
+}
+
 // The old void fraction is the one that a uniform velocity makes of the new one by the solver's own flux, so that the uniform velocity is
 // the solution of the discrete equations, wherever the rock is and however the mesh turns below it.
 TEST(TurningMesh, UniformFlowCarriesRockWithoutBendingAroundIt) {
@@ -64,8 +95,9 @@ TEST(TurningMesh, UniformFlowCarriesRockWithoutBendingAroundIt) {
                                    Foam::dimensionedScalar("one", Foam::dimless, 1.0), "zeroGradient");
         std::copy(new_fraction.begin(), new_fraction.end(), alpha.primitiveFieldRef().begin());
         alpha.correctBoundaryConditions();
-        const Foam::surfaceScalarField flux(Foam::fvc::interpolate(alpha) *
-                                            (mesh.Sf() & Foam::dimensionedVector("u", Foam::dimVelocity, to_foam(u))));
+        Foam::surfaceScalarField flux(Foam::fvc::interpolate(alpha) *
+                                      (mesh.Sf() & Foam::dimensionedVector("u", Foam::dimVelocity, to_foam(u))));
+        close_interface(flux);
         const Foam::scalarField outflow(Foam::fvc::div(flux)().primitiveField());
         std::vector<double> old_fraction(new_fraction);
         for (std::size_t i = 0; i < old_fraction.size(); ++i) old_fraction[i] += run.engine().time_step() * outflow[i];

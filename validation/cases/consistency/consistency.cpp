@@ -1,4 +1,8 @@
 /// The same run on 1, 2 and 4 ranks, whole or resumed.
+#include <fstream>
+#include <iterator>
+#include <regex>
+
 #include <fmt/format.h>
 
 #include "cases/rank_change.hpp"
@@ -16,6 +20,16 @@ namespace fs = std::filesystem;
 
 constexpr double k_end = 0.15, k_halfway = 0.1;
 
+/// Linear solvers go on to rounding, so that what is left is the program's own difference between ranks and not where a solver stopped.
+void solve_to_rounding(const fs::path& folder) {
+    const fs::path file = folder / "system/fvSolution";
+    std::ifstream stream(file);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    text = std::regex_replace(text, std::regex("tolerance +[^;]+;"), "tolerance 1e-13;");
+    text = std::regex_replace(text, std::regex("relTol +[^;]+;"), "relTol 0; maxIter 100;");
+    std::ofstream(file) << text;
+}
+
 fs::path rotor_run(const fs::path& folder, int ranks) {
     cases::CaseInputs inputs = cases::test::tiny_inputs();
     inputs.ranks = ranks;
@@ -25,6 +39,7 @@ fs::path rotor_run(const fs::path& folder, int ranks) {
     inputs.rock.emplace();
     write_rotor_case(folder, inputs,
                      "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,0.03,0,0.18,-0.1,0.02,2650\n2,0.03,-0.05,0.23,0,0.02,2650\n");
+    solve_to_rounding(folder);
     cases::decompose(folder, ranks);
     run_cutter_foam(folder, ranks);
     return folder;
@@ -52,8 +67,8 @@ fs::path resumed(const Verification& verification, const fs::path& whole, int fr
 void run(Verification& verification) {
     const fs::path one = rotor_run(verification.folder("ranks_1"), 1), two = rotor_run(verification.folder("ranks_2"), 2),
                    four = rotor_run(verification.folder("ranks_4"), 4);
-    verification.at_most("rock on 2 ranks and on 1", "tank diameters", apart(one, two), 1e-8, {"exact", "0.15 s at 60 rpm, no contacts"});
-    verification.at_most("rock on 4 ranks and on 1", "tank diameters", apart(one, four), 1e-8, {"exact", "0.15 s at 60 rpm, no contacts"});
+    verification.at_most("rock on 2 ranks and on 1", "tank diameters", apart(one, two), 1e-8, {"exact", "0.15 s at 60 rpm, no contacts, linear solvers to rounding"});
+    verification.at_most("rock on 4 ranks and on 1", "tank diameters", apart(one, four), 1e-8, {"exact", "0.15 s at 60 rpm, no contacts, linear solvers to rounding"});
     verification.at_most("resumed on 1 rank, begun on 1", "tank diameters", apart(one, resumed(verification, one, 1, 1)), 1e-10,
                          {"exact", "stopped at 0.1 s"});
     verification.at_most("resumed on 2 ranks, begun on 2", "tank diameters", apart(two, resumed(verification, two, 2, 2)), 1e-10,
