@@ -122,23 +122,29 @@ std::string agreement_table(const AdvComparison& comparison) {
             "standard errors.</p>\n");
 }
 
+/// A row a point: its name and place in the first cell, and in every other one three lines, one a component.
 std::string point_table(const AdvComparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (const AdvResult& result : comparison.points) {
         const Cylindrical& place = result.point.place;
+        std::vector<std::string> row{fmt::format("{}<br>{:.0f} mm, {:.1f}°, {:.0f} mm<br>{}, {}, {}", escape(result.point.name), 1e3 * place.radius,
+                                                 place.azimuth * 180.0 / k_pi, 1e3 * place.axial, result.point.rotating ? "rotating" : "still",
+                                                 result.inside ? "inside" : "outside", text::percent(result.wet_share)),
+                                     "", "", "", "", ""};
         for (const AdvComponent c : k_adv_components) {
             const AdvVelocity& v = velocity_of(result, c);
-            rows.push_back({c == AdvComponent::radial ? escape(result.point.name) : "",
-                            fmt::format("{:.0f} mm, {:.1f}°, {:.0f} mm", 1e3 * place.radius, place.azimuth * 180.0 / k_pi, 1e3 * place.axial),
-                            result.point.rotating ? "rotating" : "still", result.inside ? "inside" : "outside", text::percent(result.wet_share),
-                            adv_component_name(c), velocity_cell(v.measured), velocity_cell(v.model), velocity_cell(v.position_bar),
-                            velocity_cell(v.statistical_error)});
+            const std::string line = c == k_adv_components.front() ? "" : "<br>";
+            row[1] += line + adv_component_name(c);
+            row[2] += line + velocity_cell(v.measured);
+            row[3] += line + velocity_cell(v.model);
+            row[4] += line + velocity_cell(v.position_bar);
+            row[5] += line + velocity_cell(v.statistical_error);
         }
+        rows.push_back(row);
     }
-    return html::section("Points",
-                         html::scrolling(html::table({"point", "r, θ, z", "frame", "head", "in water", "component", "measured [m/s]",
-                                                      "model [m/s]", "position ± [m/s]", "standard error [m/s]"},
-                                                     rows, true)));
+    return html::section("Points", html::table({"point<br>r, θ, z<br>frame, place by the head, share of time in water", "component", "measured [m/s]",
+                                                "model [m/s]", "position ± [m/s]", "standard error [m/s]"},
+                                               rows, true));
 }
 
 }  // namespace

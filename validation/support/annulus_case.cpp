@@ -152,11 +152,14 @@ void write_system(const fs::path& folder, const AnnulusCase& annulus) {
                           "    div(phi,U) Gauss linear;\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n}\n"
                           "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\n"
                           "snGradSchemes { default corrected; }");
-    // Two outer correctors: the first one convects by the flux of the turned faces, which lags by a step.
+    // Two outer correctors: the first one convects by the flux of the turned faces, which lags by a step. The pressure's reference is a place,
+    // because cell 0 is another cell on each number of ranks.
+    const double reference = 0.3 * annulus.interface + 0.7 * annulus.outer;
     write_foam_dictionary(folder, "system/fvSolution", "dictionary",
-                          "solvers\n{\n    \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }\n"
-                          "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }\n}\n"
-                          "PIMPLE { nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
+                          fmt::format("solvers\n{{\n    \"p.*\" {{ solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }}\n"
+                                      "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }}\n}}\n"
+                                      "PIMPLE {{ nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefPoint ({:.17g} {:.17g} 0); pRefValue 0; }}",
+                                      reference * std::cos(0.01), reference * std::sin(0.01)));
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ constexpr std::array<int, 3> k_columns = {6, 28, 36};
 constexpr double k_spacing = 0.0026;
 
 constexpr double k_stock_modulus = 1e8, k_soft_modulus = 1e6;  // [Pa]
-constexpr double k_short = 0.004, k_end = 0.12;                // [s]
-constexpr double k_average_from = 0.06;                        // [s], when the lattice has settled
+constexpr double k_short = 0.004, k_end = 0.3;                 // [s]
+constexpr double k_average_from = 0.15;                        // [s], when the lattice has settled
 
 constexpr const char* k_bed_probe =
     "{ bed { type surfaceFieldValue; libs (\"libfieldFunctionObjects.so\"); writeFields no; log no; regionType patch; name bottom; operation "
