@@ -300,9 +300,9 @@ std::optional<double> half_width_of_difference(const std::vector<double>& a, con
     return student_factor(freedom) * std::sqrt(va + vb);
 }
 
-Verdict verdict_of(const Estimate& difference) {
+Verdict verdict_of(const Estimate& difference, bool of_rock) {
     if (difference.low && *difference.low <= 0.0 && *difference.high >= 0.0) return Verdict::undecided;
-    if (!difference.half_width) return Verdict::no_replicate;
+    if (!difference.half_width) return of_rock ? Verdict::no_replicate : Verdict::no_interval;
     return std::abs(*difference.value) > *difference.half_width ? Verdict::differs : Verdict::equal;
 }
 
@@ -371,7 +371,7 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
     } else if (a.half_width && b.half_width) {
         difference.estimate.half_width = std::hypot(*a.half_width, *b.half_width);
     }
-    difference.verdict = verdict_of(difference.estimate);
+    difference.verdict = verdict_of(difference.estimate, quantity.of_rock);
     return difference;
 }
 
@@ -387,6 +387,8 @@ const char* verdict_text(Verdict verdict) {
             return "not significant";
         case Verdict::undecided:
             return "within the bounds";
+        case Verdict::no_interval:
+            return "no interval";
         case Verdict::no_replicate:
             break;
     }

@@ -46,6 +46,7 @@ enum class Verdict {
     equal,         ///< the interval of the difference holds zero: not significant
     undecided,     ///< the bounds of the difference hold zero
     no_replicate,  ///< the bounds exclude zero, but nothing is known of the scatter
+    no_interval,   ///< a quantity of the flow without an error in time: its average is too short for batches
 };
 
 struct Difference {

@@ -238,12 +238,22 @@ Plot bins_plot(const Comparison& comparison, const std::string& what, const std:
     return plot;
 }
 
-/// Name of the band just below the ring; empty when there is none.
+/// Share of the placed rock from which on a band of the head counts as open to rock.
+constexpr double k_open_to_rock = 0.01;
+
+/// The uppermost band below the ring plane through which a hundredth or more of the rock left any head; where there is none, the band at the ring
+/// plane. A ring's own steel closes the bands that it reaches over.
 std::string top_bin(const Comparison& comparison) {
+    std::string at_ring;
     for (const AxialBin& bin : comparison.runs.front().run.bins) {
-        if (bin.z_max == 0.0) return bin.name;
+        if (bin.z_max > 0.0) continue;
+        if (at_ring.empty()) at_ring = bin.name;
+        const Quantity* spilled = find_quantity(comparison, bin_key("spilled", bin.name, "share"));
+        if (!spilled) continue;
+        for (const Estimate& share : spilled->settings)
+            if (share.value.value_or(0.0) >= k_open_to_rock) return bin.name;
     }
-    return "";
+    return at_ring;
 }
 
 Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Quantity& outflow) {
@@ -255,7 +265,7 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
         point.x_half = x.half_width.value_or(0.0);
         all.push_back({fmt::format("{}", i + 1), setting_colour(i), {point}});
     }
-    Plot plot = points_plot(comparison, "top_bin", all, "mean radial velocity in the bin below the ring, m/s",
+    Plot plot = points_plot(comparison, "top_bin", all, "mean radial velocity in the top bin, m/s",
                             "spilled there, % of the placed mass", "%{x:.3f} m/s, %{y:.2f} % of the placed mass");
     double highest = 1.0;  // [%]; where nothing is spilled the axis still shows what a little would be
     double slowest = 0.0, fastest = 0.0;
@@ -296,8 +306,9 @@ std::vector<CaptionedPlot> rock_plots(const Comparison& comparison) {
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));
     if (spilled && outflow) {
         plots.push_back({top_bin_plot(comparison, *spilled, *outflow),
-                         fmt::format("Rock that left the head for the last time in the bin below the ring ({}) against the mean radial velocity "
-                                     "just outside it; a colour a setting; bars: 95 % intervals where they are known. {}",
+                         fmt::format("Rock that left the head for the last time in the top bin, the uppermost through which a hundredth or more of the rock left "
+                                     "any head ({}), against the mean radial velocity just outside it; a colour a setting; bars: 95 % intervals where they are "
+                                     "known. {}",
                                      text::bin_text(top), onset_band_text())});
     }
     plots.push_back({bins_plot(comparison, "spilled", "share", 100.0, "spilled, % of the placed mass", "%{x:.2f} %"),

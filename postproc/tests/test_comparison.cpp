@@ -62,6 +62,7 @@ TEST(Comparison, of_single_runs_has_bounds_and_no_interval) {
     EXPECT_NEAR(*difference.estimate.high, 1.0 - 11.0 / 16.0, 1e-9);
     EXPECT_EQ(difference.verdict, Verdict::no_replicate);
     EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "production"), 1).verdict, Verdict::no_replicate);
+    EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "cells"), 1).verdict, Verdict::no_interval);
 }
 
 TEST(Comparison, says_when_bounds_or_scatter_hide_a_difference) {
