@@ -30,7 +30,7 @@ struct CutterSweep {
     std::vector<CutterValue> values;
 };
 
-/// Shows one chart and one table a sweep: processor time of the transient run, and the outflow of the uppermost bin of the head. All trials
+/// Shows one chart and one table a sweep: processor time of the transient run, and the outflow of the first bin below the ring. All trials
 /// share mesh and frozen-rotor flow, as the points of a sweep do; what an earlier start of the case finished is kept.
 /// \param standard  the defaults, of which there is one run
 void run_cutter_sweeps(Verification& verification, const CutterOptions& standard, const std::vector<CutterSweep>& sweeps);
