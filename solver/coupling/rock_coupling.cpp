@@ -250,21 +250,24 @@ void RockCoupling::map() {
     require_room(balance_.solid_fraction_max, settings_.kernel.max_solid_fraction);
 }
 
-/// The part of the target that only moves drag between the cells of a kernel: sum_p w_p D_p (ubar_p - u_old) / rho_f.
+/// The part of the target that only moves drag between the cells of a kernel: sum_p w_p D_p (ubar_p - u_old) / rho_f. Velocities are taken
+/// relative to what the rock saw, so that in a uniform stream, where all differences are rounding, so is what is moved.
 /// \param drag  D_p / rho_f [m3/s]
 void RockCoupling::even_out_within_kernels(const std::vector<double>& drag) {
     const gsl::span<const Vec3> velocity = fluid_.fields().velocity;
-    std::vector<double> sums(3 * drag.size(), 0.0);
+    const auto relative = [&](std::size_t p, std::size_t c) -> Vec3 { return velocity[c] - flow_[index_before_[p]].velocity; };
+    std::vector<double> mean(3 * drag.size(), 0.0);
     for (std::size_t p = 0; p < drag.size(); ++p)
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
-            Eigen::Map<Vec3>(&sums[3 * p]) += present_.deposit[i] * mapping_.cells().volumes[c] * velocity[c];
+            Eigen::Map<Vec3>(&mean[3 * p]) += present_.deposit[i] * mapping_.cells().volumes[c] * relative(p, c);
         }
-    communicator_.sum(sums);
-    std::vector<Vec3> amount;
-    for (std::size_t p = 0; p < drag.size(); ++p) amount.push_back(drag[p] * Eigen::Map<const Vec3>(&sums[3 * p]));
-    deposit(present_, amount, source_);
-    for (std::size_t c = 0; c < source_.size(); ++c) source_[c] -= drag_rate_[c] * velocity[c];
+    communicator_.sum(mean);
+    for (std::size_t p = 0; p < drag.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(present_.cell[i]);
+            source_[c] += present_.deposit[i] * drag[p] * (Eigen::Map<const Vec3>(&mean[3 * p]) - relative(p, c));
+        }
 }
 
 /// The old void fraction on the cells as they stand now. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
