@@ -306,9 +306,9 @@ std::vector<CaptionedPlot> rock_plots(const Comparison& comparison) {
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));
     if (spilled && outflow) {
         plots.push_back({top_bin_plot(comparison, *spilled, *outflow),
-                         fmt::format("Rock that left the head for the last time in the top bin, the uppermost through which a hundredth or more of the rock left "
-                                     "any head ({}), against the mean radial velocity just outside it; a colour a setting; bars: 95 % intervals where they are "
-                                     "known. {}",
+                         fmt::format("Rock that left the head for the last time in the top bin, the uppermost through which a hundredth or more "
+                                     "of the rock left any head ({}), against the mean radial velocity just outside it; a colour a setting; "
+                                     "bars: 95 % intervals where they are known. {}",
                                      text::bin_text(top), onset_band_text())});
     }
     plots.push_back({bins_plot(comparison, "spilled", "share", 100.0, "spilled, % of the placed mass", "%{x:.2f} %"),

@@ -14,7 +14,7 @@ struct CaptionedPlot {
 };
 
 /// Spillage and production by setting, against speed and against flow number (where settings differ in them), outflow and spillage by
-/// axial bin, spillage of the bin below the ring against its outflow. Plots of rock are left out when a run has none.
+/// axial bin, spillage of the top bin against its outflow. Plots of rock are left out when a run has none.
 std::vector<CaptionedPlot> comparison_plots(const Comparison& comparison);
 
 /// Colour of a setting, by its number from 0.

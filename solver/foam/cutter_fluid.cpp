@@ -76,6 +76,13 @@ tmp<volScalarField::Internal> growth_rate(const fvMesh& mesh) {
 
 }  // namespace
 
+std::vector<label> interface_patches(const fvMesh& mesh) {
+    std::vector<label> patches;
+    forAll(mesh.boundary(), patch)
+        if (isA<cyclicAMIFvPatch>(mesh.boundary()[patch])) patches.push_back(patch);
+    return patches;
+}
+
 CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
     : mesh_(mesh),
       time_(const_cast<Time&>(mesh.time())),
@@ -378,8 +385,7 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
 /// difference, shared out by area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last pressure.
 void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
     scalar difference = 0.0, area = 0.0;
-    forAll(mesh_.boundary(), patch) {
-        if (!isA<cyclicAMIFvPatch>(mesh_.boundary()[patch])) continue;
+    for (const label patch : interface_patches(mesh_)) {
         const scalarField& size = mesh_.magSf().boundaryField()[patch];
         const scalarField gradient(p_.boundaryField()[patch].snGrad(mesh_.nonOrthDeltaCoeffs().boundaryField()[patch]));
         difference += sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
@@ -387,10 +393,8 @@ void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarF
     }
     reduce(difference, sumOp<scalar>());
     reduce(area, sumOp<scalar>());
-    forAll(mesh_.boundary(), patch) {
-        if (!isA<cyclicAMIFvPatch>(mesh_.boundary()[patch])) continue;
+    for (const label patch : interface_patches(mesh_))
         flux.boundaryFieldRef()[patch] -= difference / area * mesh_.magSf().boundaryField()[patch] / alphaf_.boundaryField()[patch];
-    }
 }
 
 /// What is left in a closed domain's sum of continuity [1/s] (rounding), which would all go to the pressure's reference cell; 0 in an open
@@ -398,8 +402,7 @@ void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarF
 dimensionedScalar CutterFluid::domain_surplus(const surfaceScalarField& flux) const {
     if (!p_.needReference()) return dimensionedScalar(dimless / dimTime, Zero);
     surfaceScalarField through(alphaf_ * flux);
-    forAll(mesh_.boundary(), patch)
-        if (isA<cyclicAMIFvPatch>(mesh_.boundary()[patch])) through.boundaryFieldRef()[patch] = Zero;  // close_interface sees to it
+    for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interface sees to it
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(through)().internalField());
     return outflow.weightedAverage(mesh_.V());
 }

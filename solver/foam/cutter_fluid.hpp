@@ -2,6 +2,7 @@
 /// \file The fluid solver: volume-averaged incompressible flow on a moving mesh. Only for .cpp files of this folder.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gsl/span>
 
@@ -19,6 +20,9 @@ namespace cutterflow::foam {
 
 /// Whether rock shares the domain with the fluid. Without rock the void fraction stays 1 and no field of the exchange is kept.
 enum class Rock { absent, present };
+
+/// Patches on both sides of sliding interfaces; none on a mesh without one.
+std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 
 /// Solves, for the interstitial velocity u and p* = p/rho - g.x,
 ///

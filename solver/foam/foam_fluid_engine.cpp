@@ -17,7 +17,6 @@
 #include "solver/foam/steel_faces.hpp"
 #include "solver/foam/velocity_sampler.hpp"
 
-#include "cyclicAMIFvPatch.H"
 #include "fvcAverage.H"
 #include "labelIOList.H"
 #include "surfaceInterpolate.H"
@@ -56,10 +55,8 @@ std::vector<double> smooth_cell_sizes(const Foam::fvMesh& mesh) {
     for (int pass = 0; pass < passes; ++pass) {
         size.correctBoundaryConditions();
         Foam::surfaceScalarField of_faces(Foam::linearInterpolate(size));
-        forAll(mesh.boundary(), patch) {
-            if (!Foam::isA<Foam::cyclicAMIFvPatch>(mesh.boundary()[patch])) continue;
+        for (const Foam::label patch : interface_patches(mesh))
             of_faces.boundaryFieldRef()[patch] = size.boundaryField()[patch].patchInternalField();
-        }
         size.primitiveFieldRef() = Foam::fvc::average(of_faces)().primitiveField();
     }
     return std::vector<double>(size.begin(), size.end());

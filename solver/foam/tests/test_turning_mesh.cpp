@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/foam/cutter_fluid.hpp"
 #include "solver/foam/foam_conversions.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
-#include "cyclicAMIFvPatch.H"
 #include "dynamicFvMesh.H"
 #include "fvc.H"
 
@@ -54,17 +54,15 @@ TEST(TurningMesh, RockAtRestRaisesNoFlow) {
 
 /// Takes from both sides of the interface what they disagree by, as the solver does with its flux.
 void close_interface(Foam::surfaceScalarField& flux) {
-    const auto& patches = flux.mesh().boundary();
+    const Foam::fvMesh& mesh = flux.mesh();
     Foam::scalar difference = 0.0, area = 0.0;
-    forAll(patches, patch) {
-        if (!Foam::isA<Foam::cyclicAMIFvPatch>(patches[patch])) continue;
+    for (const Foam::label patch : interface_patches(mesh)) {
         difference += Foam::sum(flux.boundaryField()[patch]);
-        area += Foam::sum(patches[patch].magSf());
+        area += Foam::sum(mesh.boundary()[patch].magSf());
     }
     Foam::reduce(difference, Foam::sumOp<Foam::scalar>());
     Foam::reduce(area, Foam::sumOp<Foam::scalar>());
-    forAll(patches, patch)
-        if (Foam::isA<Foam::cyclicAMIFvPatch>(patches[patch])) flux.boundaryFieldRef()[patch] -= difference / area * patches[patch].magSf();
+    for (const Foam::label patch : interface_patches(mesh)) flux.boundaryFieldRef()[patch] -= difference / area * mesh.boundary()[patch].magSf();
 }
 
 // Both sides of the interface carry the same flow, though their faces do not meet: water that is thrown against the rim of a turning cylinder.

@@ -1,12 +1,11 @@
 /// The same run on 1, 2 and 4 ranks, whole or resumed.
-#include <fstream>
-#include <iterator>
 #include <regex>
 
 #include <fmt/format.h>
 
 #include "cases/rank_change.hpp"
 #include "cases/tests/tiny_rotor_mesh.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/run_names.hpp"
 #include "validation/support/box_case.hpp"
 #include "validation/support/rotor_case.hpp"
@@ -23,11 +22,9 @@ constexpr double k_end = 0.15, k_halfway = 0.1;
 /// Linear solvers go on to rounding, so that what is left is the program's own difference between ranks and not where a solver stopped.
 void solve_to_rounding(const fs::path& folder) {
     const fs::path file = folder / "system/fvSolution";
-    std::ifstream stream(file);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    text = std::regex_replace(text, std::regex("tolerance +[^;]+;"), "tolerance 1e-13;");
+    std::string text = std::regex_replace(read_file(file), std::regex("tolerance +[^;]+;"), "tolerance 1e-13;");
     text = std::regex_replace(text, std::regex("relTol +[^;]+;"), "relTol 0; maxIter 100;");
-    std::ofstream(file) << text;
+    write_file(file, text);
 }
 
 fs::path rotor_run(const fs::path& folder, int ranks) {
