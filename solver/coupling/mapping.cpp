@@ -16,6 +16,16 @@ constexpr double k_lattice_spacing = 0.5;
 
 }  // namespace
 
+void Stencils::clear() {
+    cell_size.clear();
+    width.clear();
+    in_rotor.clear();
+    first.assign(1, 0);
+    cell.clear();
+    deposit.clear();
+    sample.clear();
+}
+
 Mapping::Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator)
     : trees_(cells), sizes_(cells, communicator), visibility_(steel, trees_), axis_(axis), kernel_(kernel), communicator_(communicator) {
     visibility_.set_frames(frames_);
@@ -27,7 +37,7 @@ void Mapping::set_rotor_angle(double angle) {
     frames_ = ZoneFrames(axis_, angle);
     visibility_.set_frames(frames_);
     has_turned_ = true;
-    last_.reset();
+    last_ = {};
 }
 
 bool Mapping::Kept::are_of(const RockShapes& rocks) const {
@@ -35,30 +45,33 @@ bool Mapping::Kept::are_of(const RockShapes& rocks) const {
     return equal(id, rocks.id) && equal(position, rocks.position) && equal(diameter, rocks.diameter);
 }
 
-Stencils Mapping::build(const RockShapes& rocks) {
-    if (has_turned_) return build_anew(rocks);
-    if (!last_ || !last_->are_of(rocks))
-        last_ = Kept{{rocks.id.begin(), rocks.id.end()},
-                     {rocks.position.begin(), rocks.position.end()},
-                     {rocks.diameter.begin(), rocks.diameter.end()},
-                     build_anew(rocks)};
-    return last_->stencils;
+void Mapping::build(const RockShapes& rocks, Stencils& stencils) {
+    if (has_turned_) return build_anew(rocks, stencils);
+    if (last_.is_present && last_.are_of(rocks)) {
+        std::swap(stencils, last_.stencils);
+        last_.is_present = false;
+        return;
+    }
+    build_anew(rocks, stencils);
+    last_.is_present = true;
+    last_.id.assign(rocks.id.begin(), rocks.id.end());
+    last_.position.assign(rocks.position.begin(), rocks.position.end());
+    last_.diameter.assign(rocks.diameter.begin(), rocks.diameter.end());
+    last_.stencils = stencils;
 }
 
-Stencils Mapping::build_anew(const RockShapes& rocks) {
-    Stencils stencils;
-    stencils.first.push_back(0);
+void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
+    stencils.clear();
     std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
     for (std::size_t p = 0; p < rocks.size(); ++p) {
-        const double size = sizes_.at(frames_, rocks.position[p]);
-        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * size);
+        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p]);
+        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * mesh.size);
         const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
-        stencils.cell_size.push_back(size);
+        stencils.cell_size.push_back(mesh.size);
         stencils.width.push_back(width);
-        stencils.in_rotor.push_back(sizes_.nearest(frames_, rocks.position[p]).zone == rotor ? 1 : 0);
+        stencils.in_rotor.push_back(mesh.nearest_zone == rotor ? 1 : 0);
         visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
-        add_entries(rocks.position[p], width, physics::quadratic_share(kernel_.gamma * rocks.diameter[p] / width), stencils);
-        add_sums(stencils, p, sums);
+        add_entries(rocks, p, stencils, sums);
     }
     communicator_.sum(sums);
 
@@ -68,38 +81,39 @@ Stencils Mapping::build_anew(const RockShapes& rocks) {
     if (!hidden.empty()) replace_hidden(rocks, hidden, stencils, sums);
 
     for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const double deposit_scale = 1.0 / sums[2 * p], sample_scale = 1.0 / sums[2 * p + 1];
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
-            stencils.deposit[i] /= sums[2 * p];
-            stencils.sample[i] /= sums[2 * p + 1];
+            stencils.deposit[i] *= deposit_scale;
+            stencils.sample[i] *= sample_scale;
         }
     }
-    return stencils;
 }
 
-/// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at.
-void Mapping::add_entries(const Vec3& position, double width, double quadratic_share, Stencils& stencils) {
-    const double inverse_width2 = 1.0 / (width * width);
+/// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's sums.
+void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums) {
+    const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
+    const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
+    double deposit_sum = 0.0, sample_sum = 0.0;
     for (const Zone zone : k_zones) {
         found_.clear();
-        trees_.of(zone).within(frames_.from_absolute(zone, position), physics::k_kernel_reach * width, found_);
+        trees_.of(zone).within(frames_.from_absolute(zone, rocks.position[rock]), physics::k_kernel_reach * width, found_);
         for (const Neighbour& n : found_) {
             const double visible = visibility_.visible_fraction(n.index);
             if (visible == 0.0) continue;
             const double q = n.squared_distance * inverse_width2;
+            const double gaussian = physics::gaussian_weight(q);
+            const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(q, gaussian, quadratic_share);
+            const double volume = trees_.cells().volumes[static_cast<std::size_t>(n.index)];
             stencils.cell.push_back(n.index);
-            stencils.deposit.push_back(visible * physics::gaussian_weight(q));
-            stencils.sample.push_back(visible * physics::sampling_weight(q, quadratic_share));
+            stencils.deposit.push_back(deposit);
+            stencils.sample.push_back(sample);
+            deposit_sum += deposit * volume;
+            sample_sum += sample * volume;
         }
     }
     stencils.first.push_back(stencils.cell.size());
-}
-
-void Mapping::add_sums(const Stencils& stencils, std::size_t rock, std::vector<double>& sums) const {
-    for (std::size_t i = stencils.first[rock]; i < stencils.first[rock + 1]; ++i) {
-        const double volume = trees_.cells().volumes[static_cast<std::size_t>(stencils.cell[i])];
-        sums[2 * rock] += stencils.deposit[i] * volume;
-        sums[2 * rock + 1] += stencils.sample[i] * volume;
-    }
+    sums[2 * rock] = deposit_sum;
+    sums[2 * rock + 1] = sample_sum;
 }
 
 /// Rocks that see no cell (the mesh's steel and the DEM's walls differ a little, and the centre of a small rock can lie inside the mesh's
@@ -116,11 +130,9 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
     auto next = hidden.begin();
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         if (next != hidden.end() && *next == p) {
-            visibility_.look_from_point(sizes_.nearest(frames_, rocks.position[p]).centre,
+            visibility_.look_from_point(sizes_.around(frames_, rocks.position[p]).nearest_centre,
                                         physics::k_kernel_reach * 2.0 * stencils.width[p]);
-            add_entries(rocks.position[p], stencils.width[p],
-                        physics::quadratic_share(kernel_.gamma * rocks.diameter[p] / stencils.width[p]), replaced);
-            add_sums(replaced, p, new_sums);
+            add_entries(rocks, p, replaced, new_sums);
             ++next;
             continue;
         }

@@ -1,7 +1,6 @@
 #pragma once
 /// \file Mapping between rocks and the cells of this rank: one stencil per rock serves every field in both directions.
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "solver/coupling/communicator.hpp"
@@ -30,6 +29,8 @@ struct Stencils {
     std::vector<double> deposit;         ///< w: from rock to fluid [1/m3]
     std::vector<double> sample;          ///< psi: from fluid to rock [1/m3]
     std::size_t size() const { return width.size(); }
+    /// Of no rock, in the same memory.
+    void clear();
 };
 
 /// Builds stencils: kernels on geometric distance over both zones and all ranks, times the visible fraction of the rock.
@@ -41,10 +42,11 @@ public:
     /// The mesh stands at this rotor angle [rad] from now on.
     void set_rotor_angle(double angle);
 
-    /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are kept: what is new in one
-    /// step is old in the next. Collective.
+    /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are kept and handed out once
+    /// more: what is new in one step is old in the next. Collective.
+    /// \param stencils  what it held is lost, its memory is used again: a step would spend more on asking for it than on some of its sums
     /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
-    Stencils build(const RockShapes& rocks);
+    void build(const RockShapes& rocks, Stencils& stencils);
 
     const SizeField& sizes() const { return sizes_; }
     const Cells& cells() const { return trees_.cells(); }
@@ -55,6 +57,7 @@ public:
 private:
     /// Stencils and the rocks that they belong to.
     struct Kept {
+        bool is_present = false;
         std::vector<int> id;
         std::vector<Vec3> position;
         std::vector<double> diameter;
@@ -62,10 +65,9 @@ private:
         bool are_of(const RockShapes& rocks) const;
     };
 
-    Stencils build_anew(const RockShapes& rocks);
-    void add_entries(const Vec3& position, double width, double quadratic_share, Stencils& stencils);
+    void build_anew(const RockShapes& rocks, Stencils& stencils);
+    void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
     void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
-    void add_sums(const Stencils& stencils, std::size_t rock, std::vector<double>& sums) const;
 
     CellTrees trees_;
     SizeField sizes_;
@@ -75,7 +77,7 @@ private:
     Communicator& communicator_;
     ZoneFrames frames_;
     double angle_ = 0.0;
-    std::optional<Kept> last_;  // none once the mesh has turned
+    Kept last_;  // of no use once the mesh has turned
     bool has_turned_ = false;
     std::size_t hidden_rocks_ = 0;
     std::vector<Neighbour> found_;

@@ -1,5 +1,6 @@
 #include "solver/coupling/point_tree.hpp"
 
+#include <limits>
 #include <numeric>
 
 #include <nanoflann.hpp>
@@ -35,6 +36,29 @@ public:
 
 private:
     double squared_radius_;
+    const std::vector<std::int32_t>& indices_;
+    std::vector<Neighbour>& found_;
+};
+
+/// Keeps the nearest points, nearest first.
+class NearestSet {
+public:
+    NearestSet(std::size_t count, const std::vector<std::int32_t>& indices, std::vector<Neighbour>& found)
+        : count_(count), indices_(indices), found_(found) {}
+    std::size_t size() const { return found_.size(); }
+    bool full() const { return found_.size() == count_; }
+    bool addPoint(double squared_distance, std::uint32_t i) {
+        if (squared_distance >= worstDist()) return true;
+        if (!full()) found_.emplace_back();
+        std::size_t place = found_.size() - 1;
+        for (; place > 0 && found_[place - 1].squared_distance > squared_distance; --place) found_[place] = found_[place - 1];
+        found_[place] = {indices_[i], squared_distance};
+        return true;
+    }
+    double worstDist() const { return full() ? found_.back().squared_distance : std::numeric_limits<double>::max(); }
+
+private:
+    std::size_t count_;
     const std::vector<std::int32_t>& indices_;
     std::vector<Neighbour>& found_;
 };
@@ -95,10 +119,8 @@ void PointTree::within(const Vec3& centre, double radius, std::vector<Neighbour>
 void PointTree::nearest(const Vec3& centre, std::size_t count, std::vector<Neighbour>& found) const {
     found.clear();
     if (!index_->tree) return;
-    std::vector<std::uint32_t> indices(count);
-    std::vector<double> squared(count);
-    const std::size_t n = index_->tree->knnSearch(centre.data(), count, indices.data(), squared.data());
-    for (std::size_t i = 0; i < n; ++i) found.push_back({index_->indices[indices[i]], squared[i]});
+    NearestSet set(count, index_->indices, found);
+    index_->tree->findNeighbors(set, centre.data(), nanoflann::SearchParams(0, 0.0f, false));
 }
 
 }  // namespace cutterflow::coupling

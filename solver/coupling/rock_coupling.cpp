@@ -86,7 +86,7 @@ RockShapes RockCoupling::shapes(const std::vector<Vec3>& position) const {
 
 void RockCoupling::map_present_rock() {
     mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
-    present_ = mapping_.build(shapes(dem_.rocks().position));
+    mapping_.build(shapes(dem_.rocks().position), present_);
 }
 
 void RockCoupling::restore(std::vector<Vec3> carry, const BookedExchange& booked) {
@@ -98,8 +98,9 @@ void RockCoupling::restore(std::vector<Vec3> carry, const BookedExchange& booked
 std::vector<int> RockCoupling::insert(const std::vector<FeedRock>& due) {
     Rocks candidates = rocks_of(due);
     mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    mapping_.build({candidates.id, candidates.position, candidates.diameter}, present_);
     std::vector<FlowAtRock> flow;
-    sample_with(mapping_.build({candidates.id, candidates.position, candidates.diameter}), flow);
+    sample_with(present_, flow);
     for (const FeedRock& rock : due) {
         const auto p =
             static_cast<std::size_t>(std::lower_bound(candidates.id.begin(), candidates.id.end(), rock.id) - candidates.id.begin());
@@ -217,12 +218,12 @@ void RockCoupling::map() {
         old_position.push_back(before_.position[index_before_[p]]);
         velocity_change.push_back(rocks.velocity[p] - before_.velocity[index_before_[p]]);
     }
-    Stencils old = mapping_.build(shapes(old_position));
-    present_ = mapping_.build(shapes(rocks.position));
+    mapping_.build(shapes(old_position), old_);
+    mapping_.build(shapes(rocks.position), present_);
     const std::vector<double> volumes = volumes_of(rocks);
-    Stencils* const both[] = {&old, &present_};
+    Stencils* const both[] = {&old_, &present_};
     const auto fractions = redistribute(both, volumes, cell_volume, settings_.kernel.max_solid_fraction, communicator_);
-    void_fraction_old_ = void_fraction_before(old, volumes);
+    void_fraction_old_ = void_fraction_before(volumes);
     void_fraction_new_ = void_fraction_of(fractions[1]);
 
     source_.resize(carry_.size());
@@ -275,7 +276,7 @@ void RockCoupling::even_out_within_kernels(const std::vector<double>& drag) {
 /// kernel of each rock holds, on the present cells, its volume less what was swept:
 ///   V_old = V (1 + dt sum_c w_c v.S_c).
 /// Without it a blade that passes rock would be a source of fluid.
-std::vector<double> RockCoupling::void_fraction_before(const Stencils& old, std::vector<double> volume) const {
+std::vector<double> RockCoupling::void_fraction_before(std::vector<double> volume) const {
     const gsl::span<const double> retreat = fluid_.wall_retreat();
     std::vector<double> swept(volume.size(), 0.0);
     for (std::size_t p = 0; p < present_.size(); ++p)
@@ -284,7 +285,7 @@ std::vector<double> RockCoupling::void_fraction_before(const Stencils& old, std:
     communicator_.sum(swept);
     for (std::size_t p = 0; p < volume.size(); ++p) volume[p] *= 1.0 + fluid_.time_step() * swept[p];
     std::vector<double> solid_fraction(retreat.size(), 0.0);
-    deposit(old, volume, solid_fraction);
+    deposit(old_, volume, solid_fraction);
     return void_fraction_of(solid_fraction);
 }
 
@@ -365,7 +366,8 @@ void RockCoupling::follow_departures() {
         booked_.volume -= volume.back();
         booked_.momentum -= properties_.density * volume.back() * flow_[p].velocity;
     }
-    add_impulses(mapping_.build({id, position, diameter}), impulse, velocity_change, volume);
+    mapping_.build({id, position, diameter}, old_);
+    add_impulses(old_, impulse, velocity_change, volume);
 }
 
 double RockCoupling::volume_error(const std::vector<double>& solid_fraction, const std::vector<double>& rock_volume) const {

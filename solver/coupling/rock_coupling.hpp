@@ -94,7 +94,7 @@ private:
     void add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
                       gsl::span<const double> volume);
     void even_out_within_kernels(const std::vector<double>& drag);
-    std::vector<double> void_fraction_before(const Stencils& old, std::vector<double> volume) const;
+    std::vector<double> void_fraction_before(std::vector<double> volume) const;
     physics::RockInFluid rock_in_fluid(double diameter, const FlowAtRock& flow) const;
     double drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const;
     Vec3 steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const;
@@ -116,6 +116,7 @@ private:
     double interface_passage_time_;
 
     Stencils present_;                       // of dem_.rocks() on the present mesh
+    Stencils old_;                           // of the same rocks where they were when the step began
     std::vector<FlowAtRock> flow_;           // at the rocks when the step began
     Rocks before_;                           // the rocks when the step began
     DemStep step_;                           // what moved them

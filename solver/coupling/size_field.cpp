@@ -1,6 +1,7 @@
 #include "solver/coupling/size_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -48,36 +49,33 @@ SizeField::SizeField(const Cells& cells, Communicator& communicator) : trees_{Po
     }
 }
 
-double SizeField::at(const ZoneFrames& frames, const Vec3& point) const {
-    std::array<std::vector<Neighbour>, 2> found;
-    std::vector<std::pair<double, double>> nearest;  // squared distance, size
-    for (const Zone zone : k_zones) {
-        trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found[zone]);
-        for (const Neighbour& n : found[zone]) nearest.emplace_back(n.squared_distance, sizes_[zone][static_cast<std::size_t>(n.index)]);
-    }
-    const std::size_t count = std::min(k_neighbours, nearest.size());
-    std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count - 1), nearest.end());
-    const double reach2 = nearest[count - 1].first;
-    double sum = 0.0, weights = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double t = 1.0 - nearest[i].first / reach2;
-        sum += t * t * nearest[i].second;
-        weights += t * t;
-    }
-    return weights > 0.0 ? sum / weights : nearest[count - 1].second;
-}
-
-SizeField::Nearest SizeField::nearest(const ZoneFrames& frames, const Vec3& point) const {
-    double best = std::numeric_limits<double>::infinity();
-    Nearest nearest{stator, point};
+SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& point) const {
+    struct Cell {
+        double squared_distance;
+        Zone zone;
+        std::size_t index;
+    };
+    std::array<Cell, 2 * k_neighbours> cells;  // nearest first
+    std::size_t count = 0;
     std::vector<Neighbour> found;
     for (const Zone zone : k_zones) {
-        trees_[zone].nearest(frames.from_absolute(zone, point), 1, found);
-        if (found.empty() || found[0].squared_distance >= best) continue;
-        best = found[0].squared_distance;
-        nearest = {zone, frames.to_absolute(zone, centres_[zone][static_cast<std::size_t>(found[0].index)])};
+        const std::size_t before = count;
+        trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found);
+        for (const Neighbour& n : found) cells[count++] = {n.squared_distance, zone, static_cast<std::size_t>(n.index)};
+        std::inplace_merge(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before), cells.begin() + static_cast<std::ptrdiff_t>(count),
+                           [](const Cell& a, const Cell& b) { return a.squared_distance < b.squared_distance; });
     }
-    return nearest;
+    count = std::min(k_neighbours, count);
+    const double reach2 = cells[count - 1].squared_distance;
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double t = 1.0 - cells[i].squared_distance / reach2;
+        sum += t * t * sizes_[cells[i].zone][cells[i].index];
+        weights += t * t;
+    }
+    const Cell& nearest = cells[0];
+    return {weights > 0.0 ? sum / weights : sizes_[nearest.zone][nearest.index], nearest.zone,
+            frames.to_absolute(nearest.zone, centres_[nearest.zone][nearest.index])};
 }
 
 double SizeField::interface_passage_time(const RotorMotion& motion) const {

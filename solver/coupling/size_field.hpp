@@ -14,17 +14,15 @@ class SizeField {
 public:
     SizeField(const Cells& cells, Communicator& communicator);
 
-    /// Cell size dx [m] at a point of the absolute frame: mean over the k = 24 nearest cells of both zones with weights
-    /// (1 - (r/r_k)^2)^2, which vanish where a cell enters or leaves the k nearest.
-    double at(const ZoneFrames& frames, const Vec3& point) const;
-
-    /// A cell of the whole mesh.
-    struct Nearest {
-        Zone zone;
-        Vec3 centre;  ///< [m], absolute
+    /// The mesh about a point.
+    struct Surroundings {
+        double size;          ///< cell size dx [m]: mean over the k = 24 nearest cells of both zones with weights (1 - (r/r_k)^2)^2, which
+                              ///< vanish where a cell enters or leaves the k nearest
+        Zone nearest_zone;    ///< of the cell whose centre is nearest
+        Vec3 nearest_centre;  ///< [m], absolute
     };
-    /// The cell whose centre is nearest to a point.
-    Nearest nearest(const ZoneFrames& frames, const Vec3& point) const;
+    /// \param point  [m], absolute
+    Surroundings around(const ZoneFrames& frames, const Vec3& point) const;
 
     double smallest() const { return smallest_; }
 

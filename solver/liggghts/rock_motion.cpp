@@ -40,7 +40,11 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     impulse_.assign(rocks.size(), Vec3::Zero());
     contact_impulse_.assign(rocks.size(), Vec3::Zero());
     angular_impulse_ = 0.0;
-    for (int i = 0; i < atom->nlocal; ++i) states_[i].hydrodynamic = law(index_of(i), Vec3(atom->v[i]));
+    for (int i = 0; i < atom->nlocal; ++i) {
+        const auto of_this_rock = std::lower_bound(rocks.id.begin(), rocks.id.end(), atom->tag[i]);
+        states_[i].index = static_cast<std::size_t>(of_this_rock - rocks.id.begin());
+        states_[i].hydrodynamic = law(states_[i].index, Vec3(atom->v[i]));
+    }
 }
 
 /// From contact (LIGGGHTS' force), hydrodynamic force and submerged weight.
@@ -56,11 +60,6 @@ Vec3 RockMotion::spin_acceleration(int rock) const {
     return Vec3(atom->torque[rock]) / (0.4 * atom->rmass[rock] * radius * radius);
 }
 
-std::size_t RockMotion::index_of(int rock) const {
-    const auto& ids = rocks_->id;
-    return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), atom->tag[rock]) - ids.begin());
-}
-
 /// Comes after the walls', which were declared before.
 void RockMotion::post_force(int) {
     context_.wall_contacts->resolve();
@@ -73,9 +72,8 @@ void RockMotion::initial_integrate(int) {
         Eigen::Map<Vec3> position(atom->x[i]), velocity(atom->v[i]), spin(atom->omega[i]);
         state.acceleration = acceleration(i);
         state.spin_acceleration = spin_acceleration(i);
-        const std::size_t index = index_of(i);
-        impulse_[index] += 0.5 * step * state.hydrodynamic;
-        contact_impulse_[index] += 0.5 * step * Vec3(atom->f[i]);
+        impulse_[state.index] += 0.5 * step * state.hydrodynamic;
+        contact_impulse_[state.index] += 0.5 * step * Vec3(atom->f[i]);
         position += step * (velocity + 0.5 * step * state.acceleration);
         velocity += step * state.acceleration;
         spin += step * state.spin_acceleration;
@@ -88,10 +86,9 @@ void RockMotion::final_integrate() {
     for (int i = 0; i < atom->nlocal; ++i) {
         State& state = states_[i];
         Eigen::Map<Vec3> velocity(atom->v[i]), spin(atom->omega[i]);
-        const std::size_t index = index_of(i);
-        state.hydrodynamic = (*force_)(index, velocity);
-        impulse_[index] += 0.5 * step * state.hydrodynamic;
-        contact_impulse_[index] += 0.5 * step * Vec3(atom->f[i]);
+        state.hydrodynamic = (*force_)(state.index, velocity);
+        impulse_[state.index] += 0.5 * step * state.hydrodynamic;
+        contact_impulse_[state.index] += 0.5 * step * Vec3(atom->f[i]);
         velocity += 0.5 * step * (acceleration(i) - state.acceleration);
         spin += 0.5 * step * (spin_acceleration(i) - state.spin_acceleration);
     }
@@ -112,14 +109,16 @@ int RockMotion::pack_exchange(int rock, double* buffer) {
     std::copy_n(states_[rock].hydrodynamic.data(), 3, buffer);
     std::copy_n(states_[rock].acceleration.data(), 3, buffer + 3);
     std::copy_n(states_[rock].spin_acceleration.data(), 3, buffer + 6);
-    return 9;
+    buffer[9] = static_cast<double>(states_[rock].index);
+    return 10;
 }
 
 int RockMotion::unpack_exchange(int rock, double* buffer) {
     std::copy_n(buffer, 3, states_[rock].hydrodynamic.data());
     std::copy_n(buffer + 3, 3, states_[rock].acceleration.data());
     std::copy_n(buffer + 6, 3, states_[rock].spin_acceleration.data());
-    return 9;
+    states_[rock].index = static_cast<std::size_t>(buffer[9]);
+    return 10;
 }
 
 }  // namespace cutterflow::liggghts

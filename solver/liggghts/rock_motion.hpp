@@ -49,6 +49,7 @@ public:
 private:
     /// Of one rock of this rank; follows it to other ranks.
     struct State {
+        std::size_t index = 0;                  ///< in rocks_
         Vec3 hydrodynamic = Vec3::Zero();       ///< force [N]
         Vec3 acceleration = Vec3::Zero();       ///< at the step's start [m/s2]
         Vec3 spin_acceleration = Vec3::Zero();  ///< [rad/s2]
@@ -56,7 +57,6 @@ private:
 
     Vec3 acceleration(int rock) const;
     Vec3 spin_acceleration(int rock) const;
-    std::size_t index_of(int rock) const;
 
     ContactContext& context_;
     Vec3 gravity_;

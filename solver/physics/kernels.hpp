@@ -48,8 +48,9 @@ inline double quadratic_share(double own_width_share) {
 }
 
 /// Weight from fluid to rock: the quadratic and the Gaussian weight mixed.
-inline double sampling_weight(double q, double share) {
-    return share * quadratic_weight(q) / k_quadratic_integral + (1.0 - share) * gaussian_weight(q) / k_gaussian_integral;
+/// \param gaussian  gaussian_weight(q), which a caller needs anyway
+inline double sampling_weight(double q, double gaussian, double share) {
+    return share * quadratic_weight(q) / k_quadratic_integral + (1.0 - share) * gaussian / k_gaussian_integral;
 }
 
 }  // namespace cutterflow::physics

@@ -43,6 +43,7 @@ void map_one_step(benchmark::State& state) {
     Batch batch(368);
     const double dt = 5e-4, speed = rpm_to_rad_s(60.0);
     double angle = 0.0;
+    Stencils before, after;
     std::size_t entries = 0, steps = 0;
     for (auto _ : state) {
         const std::vector<Vec3> old = batch.position;
@@ -50,8 +51,8 @@ void map_one_step(benchmark::State& state) {
             batch.position[p] = rotate_about(axis, share * speed * dt, old[p]) + dt * batch.velocity[p];
         angle += speed * dt;
         mapping.set_rotor_angle(angle);
-        const Stencils before = mapping.build(batch.shapes(old));
-        const Stencils after = mapping.build(batch.shapes());
+        mapping.build(batch.shapes(old), before);
+        mapping.build(batch.shapes(), after);
         entries += before.cell.size() + after.cell.size();
         ++steps;
     }

@@ -65,15 +65,15 @@ TEST(Sampling, is_the_quadratic_weight_for_rock_of_a_cell_and_above_and_the_gaus
     EXPECT_EQ(quadratic_share(1.0 / 3.0), 0.0);
     EXPECT_EQ(quadratic_share(0.1), 0.0);
     EXPECT_NEAR(quadratic_share(0.5), 0.5, 1e-12);
-    EXPECT_DOUBLE_EQ(sampling_weight(3.0, 1.0), quadratic_weight(3.0) / k_quadratic_integral);
-    EXPECT_DOUBLE_EQ(sampling_weight(3.0, 0.0), gaussian_weight(3.0) / k_gaussian_integral);
+    EXPECT_DOUBLE_EQ(sampling_weight(3.0, gaussian_weight(3.0), 1.0), quadratic_weight(3.0) / k_quadratic_integral);
+    EXPECT_DOUBLE_EQ(sampling_weight(3.0, gaussian_weight(3.0), 0.0), gaussian_weight(3.0) / k_gaussian_integral);
 }
 
 TEST(Sampling, of_small_rock_sees_no_wave_with_the_wrong_sign) {
     // Drag on what is seen with the wrong sign feeds the wave instead of damping it.
     EXPECT_LT(seen_height(quadratic_weight, 2.0), -0.14);
     for (const double own_width : {0.1, 0.3, 0.45}) {
-        const auto weight = [share = quadratic_share(own_width)](double q) { return sampling_weight(q, share); };
+        const auto weight = [share = quadratic_share(own_width)](double q) { return sampling_weight(q, gaussian_weight(q), share); };
         for (double k = 0.1; k < 4.0; k += 0.1) EXPECT_GT(seen_height(weight, k), 0.0) << "wave number " << k << ", own width " << own_width;
     }
 }

@@ -50,7 +50,7 @@ public:
         diameter_ = {diameter};
         angle_ = angle;
         mapping_.set_rotor_angle(angle);
-        stencils_ = mapping_.build({id_, position_, diameter_});
+        mapping_.build({id_, position_, diameter_}, stencils_);
     }
     double volume_error() { return coupling::normalisation_error(stencils_, mesh_.volumes, serial_); }
     /// Distance of the centroid from the rock, over its diameter.
@@ -141,7 +141,8 @@ void ranks(Verification& verification) {
         };
         const SyntheticMesh mine = whole.part(quarter);
         coupling::Mapping mapping(mine.cells(), mine.steel(), RotationAxis{}, coupling::KernelSettings{}, communicator);
-        const coupling::Stencils stencils = mapping.build({id, position, diameter});
+        coupling::Stencils stencils;
+        mapping.build({id, position, diameter}, stencils);
         const double found = coupling::normalisation_error(stencils, mine.volumes, communicator);
         if (communicator.rank() == 0) error = found;
     });
