@@ -11,6 +11,10 @@
 namespace cutterflow::coupling {
 namespace {
 
+/// Share of the carry that a step hands to the fluid. All of it at once rings where drag is stiff (K dt above the void fraction alpha, as in a gas):
+/// with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
+constexpr double k_carry_share = 0.5;
+
 /// Rock and interface travel at most this share of kernel width and cell size per step.
 constexpr double k_travel_share = 0.25;
 
@@ -227,7 +231,7 @@ void RockCoupling::map() {
     void_fraction_new_ = void_fraction_of(fractions[1]);
 
     source_.resize(carry_.size());
-    std::transform(carry_.begin(), carry_.end(), source_.begin(), [dt](const Vec3& carry) -> Vec3 { return carry / dt; });
+    std::transform(carry_.begin(), carry_.end(), source_.begin(), [dt](const Vec3& carry) -> Vec3 { return k_carry_share * carry / dt; });
     rock_momentum_.setZero();
     gross_impulse_ = 0.0;
     add_impulses(present_, step_.impulse, velocity_change, volumes);
@@ -384,7 +388,7 @@ ExchangeBalance RockCoupling::book() {
     const double dt = fluid_.time_step();
     Eigen::Vector4d sums = Eigen::Vector4d::Zero();  // momentum of fluid and change of carry over rho_f; gross carry
     for (std::size_t c = 0; c < carry_.size(); ++c) {
-        const Vec3 rest = (source_[c] - received[c]) * dt;
+        const Vec3 rest = (1.0 - k_carry_share) * carry_[c] + (source_[c] - received[c]) * dt;
         sums.head<3>() += (received[c] * dt + rest - carry_[c]) * volumes[c];
         sums[3] += carry_[c].norm() * volumes[c];
         carry_[c] = rest;

@@ -41,11 +41,11 @@ struct BookedExchange {
 ///
 /// With D the drag per slip velocity, V a rock's volume, J the impulse of drag and Du/Dt parts on it over the step, dv the change of its
 /// velocity (with contacts and weight), the fluid is to receive per cell, over rho_f and mixture volume,
-///   target = sum_p w_p (-J_p / (rho_f dt) + C_AM V_p dv_p / dt + D_p (ubar_p - u_old) / rho_f) + carry / dt       [m/s2],
+///   target = sum_p w_p (-J_p / (rho_f dt) + C_AM V_p dv_p / dt + D_p (ubar_p - u_old) / rho_f) + carry / (2 dt)       [m/s2],
 /// where ubar_p = sum_c w_p u_old V_c: drag slows down each part of the fluid in a kernel by its own slip, which adds up to nothing over the
 /// cells of a rock. The fluid receives target - K (u_new - u_old) - M (Du/Dt_new - Du/Dt_old), K = sum_p w_p D_p / rho_f, M = (1 + C_AM)
-/// solid fraction, because drag and Du/Dt parts lagged by a step would be unstable. The rest, carry = (target - received) dt, goes into the
-/// next step's target: momentum is exchanged to the last bit, part of it one step late.
+/// solid fraction, because drag and Du/Dt parts lagged by a step would be unstable. What is still owed, carry = carry_old / 2 + (target - received) dt, goes
+/// into the next targets by halves: momentum is exchanged to the last bit, part of it some steps late.
 class RockCoupling {
 public:
     RockCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
