@@ -7,18 +7,12 @@
 
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/shell_word.hpp"
 
 namespace cutterflow::cases {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A word as sh reads it, whatever it holds.
-std::string shell_word(const std::string& text) {
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return word + "'";
-}
 
 struct Answer {
     int exit_code = 0;

@@ -14,6 +14,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_names.hpp"
+#include "geometry/base/shell_word.hpp"
 #include "postproc/adv_page.hpp"
 #include "postproc/report.hpp"
 
@@ -80,8 +81,8 @@ void go_through_stages(const RunOptions& options, const cases::RunDirectory& dir
         cases::run_stages(directory, manifest, pipeline.stages(), until, options.resume, stage_lines(count));
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. What is done is kept in {}; go on with: cutterflow {} {} -o {} --ranks {}{}", interrupted.what(),
-                                      directory.path().string(), until == "mesh" ? "mesh" : "run", options.study,
-                                      run_folder(options).string(), options.ranks, until == "mesh" ? "" : " --resume"));
+                                      directory.path().string(), until == "mesh" ? "mesh" : "run", shell_word(options.study),
+                                      shell_word(run_folder(options).string()), options.ranks, until == "mesh" ? "" : " --resume"));
     } catch (const std::exception&) {
         // Whatever failed first on a full disk, what to do is the same.
         if (const std::optional<Mistake> full = pipeline.full_disk()) throw ToolError(*full);

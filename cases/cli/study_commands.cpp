@@ -13,6 +13,7 @@
 #include "cases/study_case.hpp"
 #include "cases/velocity_points.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/shell_word.hpp"
 
 namespace cutterflow::cli {
 namespace {
@@ -32,7 +33,7 @@ void write_new_study(const NewOptions& options) {
     const fs::path folder = fs::absolute(options.study).parent_path();
     const fs::path cutter = options.cutter.empty() ? fs::path("cutter.stl") : fs::absolute(options.cutter).lexically_relative(folder);
     write_file(options.study, cases::study_template(fs::path(options.study).stem().string(), cutter.string(), options.unit));
-    std::cout << fmt::format("wrote {}\nnext: edit it, then cutterflow check {}\n", options.study, options.study);
+    std::cout << fmt::format("wrote {}\nnext: edit it, then cutterflow check {}\n", options.study, shell_word(options.study));
 }
 
 nlohmann::json parameter_json(const Parameter& parameter) {
@@ -98,7 +99,7 @@ void check_study_file(const CheckOptions& options) {
     std::cout << to_text(inspection) << "\n" << to_text(prediction);
     for (const std::string& line : cases::feed_lines(feeds)) std::cout << line << "\n";
     for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
-    std::cout << fmt::format("{} is valid; next: cutterflow run {} --ranks {}\n", options.study, options.study, options.ranks);
+    std::cout << fmt::format("{} is valid; next: cutterflow run {} --ranks {}\n", options.study, shell_word(options.study), options.ranks);
 }
 
 }  // namespace

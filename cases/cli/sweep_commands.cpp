@@ -14,6 +14,7 @@
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
+#include "geometry/base/shell_word.hpp"
 #include "postproc/comparison_page.hpp"
 
 namespace cutterflow::cli {
@@ -66,8 +67,8 @@ void sweep(const SweepOptions& options) {
     if (options.emit) {
         const fs::path script = cases::emit_slurm(points, settings);
         std::cout << (script.empty() ? std::string("no point is missing\n")
-                                     : fmt::format("the job array: {0}\nnext: sbatch {0}; then this command with --launcher slurm --resume collects and compares\n",
-                                                   script.string()));
+                                     : fmt::format("the job array: {0}\nnext: sbatch {1}; then this command with --launcher slurm --resume collects and compares\n",
+                                                   script.string(), shell_word(script.string())));
         return;
     }
     if (local)

@@ -124,7 +124,7 @@ echo '{"schema":"cutterflow.manifest/1","stages":{"report":{"state":"done","inpu
 TEST_F(Slurm, script_is_an_array_of_quoted_commands) {
     const std::string script = slurm_script("cutterflow_a", {{{"/opt/c f", "run", "it's.toml"}, "/l/1.log"}, {{"x"}, "/l/2.log"}}, 4);
     for (const char* part : {"#!/bin/sh\n", "#SBATCH --array=0-1\n", "#SBATCH --ntasks=4\n", "#SBATCH --nodes=1\n",
-                             "0) exec '/opt/c f' 'run' 'it'\\''s.toml' > '/l/1.log' 2>&1 ;;\n", "1) exec 'x' > '/l/2.log' 2>&1 ;;\n"})
+                             "0) exec '/opt/c f' run 'it'\\''s.toml' > /l/1.log 2>&1 ;;\n", "1) exec x > /l/2.log 2>&1 ;;\n"})
         EXPECT_THAT(script, HasSubstr(part));
 }
 
