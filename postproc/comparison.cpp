@@ -10,6 +10,7 @@
 
 #include "geometry/base/error.hpp"
 #include "postproc/not_modelled.hpp"
+#include "postproc/text.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -123,7 +124,8 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
     }
     if (comparison.equal_revolutions) {
         const double turns = *comparison.equal_revolutions;
-        append(equal_rules("equal_revolutions", fmt::format("after {:.3g} revolutions", turns),
+        const std::string count = fmt::format("{:.3g}", turns);
+        append(equal_rules("equal_revolutions", fmt::format("after {} {}", count, count == "1" ? "revolution" : "revolutions"),
                            [=](const ComparedRun& r) { return turns * r.run.operating_point.revolution_s(); }));
     }
     return rules;
@@ -164,7 +166,7 @@ std::vector<std::string> common_bins(const std::vector<ComparedRun>& runs, BinsO
 std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
     std::vector<QuantityRule> rules;
     for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.outflow; })) {
-        rules.push_back({bin_key("outflow", name, "m_s"), fmt::format("radial outflow, {}", name), "m/s", false,
+        rules.push_back({bin_key("outflow", name, "m_s"), fmt::format("radial outflow, {}", text::bin_text(name)), "m/s", false,
                          [=](const ComparedRun& r) { return of_average(find_bin(r.results.outflow, name)->radial_velocity); }});
     }
     return rules;
@@ -173,7 +175,7 @@ std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
 std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
     std::vector<QuantityRule> rules;
     for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.spillage->bins; })) {
-        rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / placed, {}", name), "-", true,
+        rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / placed, {}", text::bin_text(name)), "-", true,
                          [=](const ComparedRun& r) {
                              const Spillage& spillage = *r.results.spillage;
                              if (!(spillage.fates.placed.mass > 0.0)) return Estimate{};
@@ -262,11 +264,15 @@ std::string batch_text(const RunData& run) {
     return fmt::format("{} rocks asked for: {}", run.feed->requested, fmt::join(classes, "; "));
 }
 
-/// What all runs have reached since their first rock.
+/// What all runs have reached since their first rock; nothing when one of them has yet to release it.
 void find_equal_points(Comparison& comparison) {
     for (const ComparedRun& compared : comparison.runs) {
         if (!compared.results.spillage) return;
         const double duration = compared.results.spillage->fates.time - compared.results.spillage->feed_start;
+        if (!(duration > 0.0)) {
+            comparison.equal_time = comparison.equal_revolutions = std::nullopt;
+            return;
+        }
         const double turns = duration / compared.run.operating_point.revolution_s();
         comparison.equal_time = std::min(comparison.equal_time.value_or(duration), duration);
         comparison.equal_revolutions = std::min(comparison.equal_revolutions.value_or(turns), turns);

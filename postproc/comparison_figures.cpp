@@ -148,13 +148,23 @@ Plot shares_plot(const Comparison& comparison) {
     return plot;
 }
 
-/// What tells settings apart besides speed: cutter, discharge, mesh, each only where settings differ in it.
+bool varies(const Quantity& quantity) {
+    std::set<double> values;
+    for (const Estimate& estimate : quantity.settings) {
+        if (estimate.value) values.insert(*estimate.value);
+    }
+    return values.size() > 1;
+}
+
+/// What tells the curves of a trend apart: cutter, discharge, mesh, each only where settings differ in it. At one speed the flow number varies with
+/// the discharge, along a curve.
 std::vector<std::string> groups_of(const Comparison& comparison) {
     using Describe = std::string (*)(const RunData&);
-    const Describe parts[] = {
+    std::vector<Describe> parts{
         [](const RunData& run) { return std::filesystem::path(run.geometry.value("file", std::string())).filename().string(); },
-        [](const RunData& run) { return fmt::format("{:g} m³/s", run.operating_point.discharge); },
         [](const RunData& run) { return run.operating_point.mesh_preset.empty() ? "" : run.operating_point.mesh_preset + " mesh"; }};
+    if (varies(*find_quantity(comparison, "speed_rpm")))
+        parts.push_back([](const RunData& run) { return fmt::format("{:g} m³/s", run.operating_point.discharge); });
     std::vector<std::string> groups(comparison.settings.size());
     for (const Describe part : parts) {
         std::set<std::string> values;
@@ -279,14 +289,6 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
     plot.script.commands = fmt::format("set yrange [0:{}]\n", plot_number(highest)) + plot.script.commands;
     plot.layout["yaxis"]["range"] = {0, highest};
     return plot;
-}
-
-bool varies(const Quantity& quantity) {
-    std::set<double> values;
-    for (const Estimate& estimate : quantity.settings) {
-        if (estimate.value) values.insert(*estimate.value);
-    }
-    return values.size() > 1;
 }
 
 std::vector<CaptionedPlot> rock_plots(const Comparison& comparison) {

@@ -1,5 +1,6 @@
 #include "postproc/comparison.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -7,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/run_names.hpp"
+#include "postproc/comparison_figures.hpp"
 #include "postproc/comparison_page.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
@@ -94,6 +97,41 @@ TEST(Comparison, is_made_at_the_time_and_the_revolutions_that_all_runs_reached) 
     EXPECT_NEAR(*comparison.equal_revolutions, 0.5, 1e-9);
     const Quantity& spilled = quantity_of(comparison, "spilled_at_equal_time");
     EXPECT_DOUBLE_EQ(*spilled.settings[0].value, *spilled.settings[1].value);
+}
+
+TEST(Comparison, has_no_equal_point_when_a_run_has_yet_to_release_its_rock) {
+    SmallRun done("released"), waiting("unreleased");
+    waiting.end_time = 1.0;  // the feed's
+    waiting.finished = false;
+    done.write();
+    waiting.write();
+    const Comparison comparison = compare_runs({done.directory, waiting.directory});
+    EXPECT_FALSE(comparison.equal_time);
+    EXPECT_FALSE(comparison.equal_revolutions);
+}
+
+TEST(Comparison, draws_one_curve_along_the_discharges_of_one_speed) {
+    std::vector<fs::path> runs;
+    for (const char* discharge : {"0.08", "0.12", "0.16"}) {
+        runs.push_back(variant(std::string("discharge_") + discharge, {}));
+        std::string study = testing::read_text(runs.back() / names::resolved_study);
+        const std::string key = "discharge_m3_s = ";
+        study.replace(study.find(key), key.size() + 4, key + discharge);
+        testing::write_text(runs.back() / names::resolved_study, study);
+    }
+    const Comparison comparison = compare_runs(runs);
+    ASSERT_EQ(comparison.settings.size(), 3u);
+    for (const CaptionedPlot& item : comparison_plots(comparison)) {
+        if (item.plot.script.name != "flow_number") continue;
+        ASSERT_EQ(item.plot.traces.size(), 2u);  // spillage ratio and production
+        for (const auto& trace : item.plot.traces) {
+            const std::vector<double> x = trace.at("x");
+            EXPECT_EQ(x.size(), 3u);
+            EXPECT_TRUE(std::is_sorted(x.begin(), x.end()));
+        }
+        return;
+    }
+    FAIL() << "no plot against the flow number";
 }
 
 TEST(Comparison, gives_shares_by_bin_and_ratios_at_equal_points) {
