@@ -27,9 +27,10 @@ void require_openfoam_environment() {
 
 void require_ranks(int ranks) {
     const int cores = available_cores();
-    if (ranks >= 1 && ranks <= cores) return;
+    if (ranks < 1) throw UserError(fmt::format("--ranks {}", ranks), "A run needs one process or more", "Use --ranks 1");
+    if (ranks <= cores) return;
     throw UserError(fmt::format("--ranks {} on {} core(s)", ranks, cores), "A rank needs a core of its own",
-                    fmt::format("Use --ranks {}, or a machine with more cores", ranks < 1 ? 1 : cores));
+                    fmt::format("Use --ranks {}, or a machine with more cores", cores));
 }
 
 constexpr std::uint32_t k_lattice = 64;       // cells along an edge

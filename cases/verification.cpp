@@ -121,6 +121,18 @@ void require_usable_folder(const fs::path& folder) {
     write_file(folder / k_mark, "Results of cutterflow verify.\n");
 }
 
+/// Hours of work are not replaced with a glance.
+void require_no_dearer_results(const std::vector<VerificationCase>& cases, const VerificationSettings& settings) {
+    std::vector<Mistake> mistakes;
+    for (const VerifiedCase& result : read_verification(settings.folder)) {
+        const bool is_asked_for = std::any_of(cases.begin(), cases.end(), [&](const VerificationCase& one) { return one.name == result.name; });
+        if (is_asked_for && effort_of(result) > static_cast<int>(settings.effort))
+            mistakes.push_back({(settings.folder / (result.name + ".json")).string(), fmt::format("is a result of class {}", result.effort),
+                                fmt::format("A run of class {} does not replace it", effort_text(settings.effort)), "Name another folder with -o"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 /// Makes the folder in which a case's program works. What an earlier start left there stays when the case can go on with it.
 void prepare_work(const VerificationCase& one, const VerificationSettings& settings, const std::string& programs) {
     const fs::path work = settings.folder / one.name, mark = work / k_programs;
@@ -145,6 +157,7 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     const ChildResult ended = run_child(command);
     result.core_s = ended.core_s;
     result.wall_s = ended.wall_s;
+    if (ended.exit_code == static_cast<int>(ExitCode::user_input)) throw UserError({failure_of(command, ended)});
     const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) ||
                         ended.exit_code == static_cast<int>(ExitCode::check_failed);
     if (!judged || !fs::exists(written)) {
@@ -208,7 +221,7 @@ std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& 
         }
         const std::string nearest = nearest_word(name, known);
         mistakes.push_back({"", fmt::format("there is no verification case {}", name),
-                            fmt::format("The cases are {}", fmt::join(known, ", ")),
+                            mistakes.empty() ? fmt::format("The cases are {}", fmt::join(known, ", ")) : "The cases are those above",
                             nearest.empty() ? "See cutterflow verify --list" : fmt::format("Did you mean {}?", nearest)});
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
@@ -218,6 +231,7 @@ std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& 
 std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& cases, const VerificationPlaces& places,
                                            const VerificationSettings& settings, const std::function<void(const std::string&)>& say) {
     require_usable_folder(settings.folder);
+    if (!settings.resume) require_no_dearer_results(cases, settings);
     const std::vector<double> costs = expected_costs(cases, places, settings);
     double total = 0.0, done = 0.0;
     for (const double cost : costs) total += cost;
@@ -247,9 +261,13 @@ std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& 
 std::vector<VerifiedCase> read_verification(const fs::path& folder) {
     std::vector<VerifiedCase> results;
     if (!fs::is_directory(folder)) return results;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path().extension() == ".json")
-            results.push_back(postproc::case_from_json(read_file(entry.path()), entry.path().string()));
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (!entry.is_regular_file() || entry.path().extension() != ".json") continue;
+        const std::string text = read_file(entry.path());
+        const nlohmann::json content = nlohmann::json::parse(text, nullptr, false);
+        const bool is_foreign = text.empty() || (!content.is_discarded() && !content.contains("case"));  // as the output of --json
+        if (!is_foreign) results.push_back(postproc::case_from_json(text, entry.path().string()));
+    }
     std::sort(results.begin(), results.end(), [](const VerifiedCase& a, const VerifiedCase& b) { return a.name < b.name; });
     return results;
 }
@@ -259,8 +277,8 @@ std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& o
     for (const VerifiedCase& result : older) merged[result.name] = result;
     for (const VerifiedCase& result : newer) {
         const auto found = merged.find(result.name);
-        if (found != merged.end() && (effort_of(found->second) > effort_of(result) || result.verdict() == postproc::Verdict::skipped))
-            continue;
+        const bool is_less = found != merged.end() && effort_of(found->second) > effort_of(result) && result.verdict() != postproc::Verdict::fail;
+        if (is_less || (found != merged.end() && result.verdict() == postproc::Verdict::skipped)) continue;
         merged[result.name] = result;
     }
     std::vector<VerifiedCase> results;

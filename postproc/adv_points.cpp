@@ -29,6 +29,8 @@ struct Quantity {
 constexpr Quantity k_x{"x", &k_lengths}, k_y{"y", &k_lengths}, k_r{"r", &k_lengths}, k_theta{"theta", &k_angles}, k_z{"z", &k_lengths};
 constexpr std::array<Quantity, 3> k_measured{{{"u_radial", &k_velocities}, {"u_tangential", &k_velocities}, {"u_axial", &k_velocities}}};
 
+constexpr const char* k_byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets write it
+
 std::string trimmed(const std::string& text) {
     const auto first = text.find_first_not_of(" \t\r");
     return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -61,7 +63,7 @@ public:
         std::istringstream lines(read_file(file));
         int number = 0;
         for (std::string line; std::getline(lines, line);) {
-            ++number;
+            if (++number == 1 && line.rfind(k_byte_order_mark, 0) == 0) line.erase(0, std::string(k_byte_order_mark).size());
             if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
             if (header_.empty())
                 read_header(line, number);
@@ -82,6 +84,11 @@ private:
     void read_header(const std::string& line, int number) {
         const std::string where = fmt::format("{}:{}", name_, number);
         header_ = fields_of(line);
+        if (header_.size() == 1 && line.find_first_of(";\t") != std::string::npos) {
+            add(where, fmt::format("the columns of \"{}\" are set apart by semicolons or tabs", trimmed(line)), "They are set apart by commas, and decimals by points",
+                "Export the table anew, or replace them");
+            throw UserError(std::move(mistakes_));
+        }
         read_as_.resize(header_.size());
         std::vector<Quantity> wanted{k_z};
         cylindrical_ = std::any_of(header_.begin(), header_.end(), [](const std::string& c) { return c.rfind("r_", 0) == 0 || c.rfind("theta_", 0) == 0; });

@@ -325,13 +325,34 @@ json estimate_json(const Estimate& estimate) {
 
 std::string estimate_text(const Estimate& estimate) {
     if (!estimate.value) return "-";
-    std::string text = fmt::format("{:.4g}", *estimate.value);
+    std::string text = is_count(*estimate.value) ? fmt::format("{:.0f}", *estimate.value) : fmt::format("{:.4g}", *estimate.value);
     if (estimate.half_width) text += fmt::format(" ± {:.2g}", *estimate.half_width);
     if (estimate.low) text += fmt::format(" [{:.3f}, {:.3f}]", *estimate.low, *estimate.high);
     return text;
 }
 
+/// A run is no repeat of itself, by whatever path it comes, and no copy of it is.
+void require_different(const std::vector<ComparedRun>& runs) {
+    std::vector<Mistake> mistakes;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const RunData& run = runs[i].run;
+        const auto other = std::find_if(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(i), [&](const ComparedRun& r) {
+            return std::filesystem::equivalent(r.run.directory, run.directory) ||
+                   (!run.release.empty() && r.run.setting == run.setting && r.run.release == run.release);
+        });
+        if (other == runs.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+        mistakes.push_back({"", fmt::format("{} is the same run as {}", run.directory.string(), other->run.directory.string()),
+                            "Repeats of a setting differ by seed or time of release, as `cutterflow sweep --repeats` makes them",
+                            "Name each run once"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 }  // namespace
+
+bool is_count(double value) {
+    return std::abs(value) < 1e9 && value == std::floor(value);
+}
 
 Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
     if (directories.size() < 2)
@@ -348,6 +369,7 @@ Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
         }
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    require_different(comparison.runs);
     comparison.settings = group(comparison.runs);
     find_equal_points(comparison);
     for (const QuantityRule& rule : rules_of(comparison)) {

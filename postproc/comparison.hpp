@@ -25,6 +25,9 @@ struct Estimate {
     std::optional<double> half_width;  ///< of the 95 % interval: Student's t over repeats, or batch means in time; absent without them
 };
 
+/// A whole number of things, which is shown with all its digits.
+bool is_count(double value);
+
 /// Runs of one setting: repeats that differ by placement and time of release only.
 struct Setting {
     std::string label;

@@ -24,7 +24,7 @@ using html::escape;
 
 std::string estimate_markup(const Estimate& estimate) {
     if (!estimate.value) return text::k_dash;
-    std::string markup = text::digits_of(*estimate.value, 4);
+    std::string markup = is_count(*estimate.value) ? fmt::format("{:.0f}", *estimate.value) : text::digits_of(*estimate.value, 4);
     if (estimate.half_width) markup += " ± " + text::digits_of(*estimate.half_width, 2);
     if (estimate.low) markup += fmt::format("<br>{:.3f} … {:.3f}", *estimate.low, *estimate.high);
     return markup;

@@ -31,6 +31,10 @@ json read_json(const fs::path& file) {
 class StudyReader {
 public:
     explicit StudyReader(fs::path file) : file_(std::move(file)) {
+        if (!fs::exists(file_))
+            throw UserError(fmt::format("{} is no run directory", file_.parent_path().string()),
+                            fmt::format("A run directory holds {}, which `cutterflow run` writes", file_.filename().string()),
+                            "Check the path, or make the run first");
         try {
             root_ = toml::parse_file(file_.string());
         } catch (const toml::parse_error& error) {
@@ -54,22 +58,29 @@ public:
         if (!value && required) miss(key, "is missing or not a text");
         return value.value_or("");
     }
-    /// The study but for its name and what repeats of a run vary.
-    std::string setting() const {
+    /// The study but for its name, what repeats of a run vary, and what changes no result; equal for equal values, however they are written.
+    /// \param cutter  what tells the cutter's content; empty: the study's own name of the file
+    std::string setting(const std::string& cutter) const {
         toml::table study = root_;
         study.erase("name");
-        study.erase("report");
-        if (toml::table* run = study["run"].as_table()) {
-            run->erase("max_revolutions");
-            run->erase("checkpoint_interval_s");
-            run->erase("write_interval_s");
+        erase_keys(study["report"].as_table(), {"adv_points", "adv_probe_diameter_m", "adv_probe_length_m", "adv_position_error_m"});
+        erase_keys(study["run"].as_table(), {"checkpoint_interval_s", "write_interval_s"});
+        for_each_feed(study, [](toml::table& feed) { erase_keys(&feed, k_release_keys); });
+        if (!cutter.empty()) {
+            erase_keys(study["cutter"].as_table(), {"file"});
+            study.insert_or_assign("cutter_content", cutter);
         }
-        if (toml::array* feeds = study["feed"].as_array())
-            for (toml::node& feed : *feeds)
-                if (toml::table* table = feed.as_table())
-                    for (const char* key : {"seed", "start_revolution"}) table->erase(key);
         std::ostringstream text;
-        text << toml::toml_formatter(study);
+        text << toml::toml_formatter(with_numbers_alike(study));
+        return text.str();
+    }
+    /// What tells repeats apart: seed and angle of release of each feed; empty without rock.
+    std::string release() const {
+        std::ostringstream text;
+        toml::table study = root_;
+        for_each_feed(study, [&](toml::table& feed) {
+            for (const char* key : k_release_keys) text << key << feed[key].value_or(0.0) << ";";
+        });
         return text.str();
     }
     int seed() const { return root_["feed"][0]["seed"].value_or(0); }
@@ -78,6 +89,34 @@ public:
     }
 
 private:
+    static constexpr std::initializer_list<const char*> k_release_keys{"seed", "start_revolution"};
+
+    static void erase_keys(toml::table* table, std::initializer_list<const char*> keys) {
+        if (table)
+            for (const char* key : keys) table->erase(key);
+    }
+    template <typename Each>
+    static void for_each_feed(toml::table& study, const Each& each) {
+        if (toml::array* feeds = study["feed"].as_array())
+            for (toml::node& feed : *feeds)
+                if (toml::table* table = feed.as_table()) each(*table);
+    }
+    /// 60 and 60.0 are the same number.
+    static toml::table with_numbers_alike(toml::table table) {
+        make_alike(table);
+        return table;
+    }
+    static void make_alike(toml::node& node) {
+        if (toml::table* table = node.as_table())
+            for (auto&& [key, value] : *table) {
+                if (const auto* integer = value.as_integer())
+                    table->insert_or_assign(key, static_cast<double>(integer->get()));
+                else
+                    make_alike(value);
+            }
+        if (toml::array* array = node.as_array())
+            for (toml::node& value : *array) make_alike(value);
+    }
     void miss(const std::string& key, const std::string& what) {
         mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report computes with it", k_rerun});
     }
@@ -224,6 +263,36 @@ void require_computed(const RunData& run) {
                     "Start or continue the run: cutterflow run --resume");
 }
 
+/// A finished run wrote its last rows at its end; a table that ends before lost a part, as by a copy that was broken off.
+void require_whole(const RunData& run) {
+    if (!run.finished) return;
+    const fs::path folder = run.directory / "postProcessing";
+    const double end = run.balance.number("time_s").back();
+    std::vector<Mistake> mistakes;
+    const auto check = [&](const Table& table, const char* name, double tolerance) {
+        const double last = table.empty() ? 0.0 : table.number("time_s").back();
+        if (last < end - tolerance)
+            mistakes.push_back({(folder / name).string(), fmt::format("ends at {:g} s, the run at {:g} s", last, end),
+                                "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
+    };
+    const double rounding = 1e-6 * end;
+    const double latest = std::max({end, run.loads.number("time_s").back(), run.cost.number("time_s").back()});
+    if (latest > end + rounding) mistakes.push_back({(folder / "balance").string(), fmt::format("ends at {:g} s, the run at {:g} s", end, latest),
+                                                     "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
+    check(run.loads, "loads", rounding);
+    check(run.cost, "cost", rounding);
+    if (run.rock) check(run.rock->fates, "rock", rounding);
+    if (!run.rock && run.feed && run.feed->requested > run.feed->rejected)
+        mistakes.push_back({(folder / "rock").string(), "holds no fates", "The study feeds rock", "Copy the run directory again as a whole"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
+/// SHA-256 of the cutter's file as the run took it; empty when the manifest does not tell.
+std::string cutter_of(const json& manifest) {
+    const json::json_pointer place("/stages/geometry/inputs/cutter.file");
+    return manifest.contains(place) && manifest.at(place).is_string() ? manifest.at(place).get<std::string>() : "";
+}
+
 }  // namespace
 
 RunData read_run(const fs::path& directory) {
@@ -253,7 +322,8 @@ RunData read_run(const fs::path& directory) {
                 read_blades(geometry),
                 read_adv_probe(study)};
     run.prediction = read_json(directory / names::prediction);
-    run.setting = study.setting();
+    run.setting = study.setting(cutter_of(run.manifest));
+    run.release = study.release();
     run.seed = study.seed();
     std::vector<std::string> bin_names;
     for (const AxialBin& bin : run.bins) bin_names.push_back(bin.name);
@@ -270,6 +340,7 @@ RunData read_run(const fs::path& directory) {
     const auto cost_folders = start_folders(directory, "cost");
     run.cost_summary = read_json(cost_folders.back().second / "cost.json");
     run.finished = !run.cost_summary.empty();
+    require_whole(run);
     return run;
 }
 

@@ -73,7 +73,8 @@ struct RunData {
     int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
     AdvProbe adv_probe;  ///< with which the run sampled its places of measurement, if it has any
     bool finished = false;                                  ///< the run came to its end
-    std::string setting{};  ///< the study without its name and what repeats vary (seed and time of release); equal for repeats
+    std::string setting{};  ///< the study without its name and what repeats vary (seed and time of release), the cutter by its content; equal for repeats
+    std::string release{};  ///< seed and time of release of each feed: what tells repeats apart; empty without rock
     int seed = 0;         ///< of the first feed
     nlohmann::json prediction{};  ///< of the run's cost, before it; empty when the file is absent
 };

@@ -43,6 +43,8 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
+    if (options.contour && fs::exists(*options.contour))
+        throw UserError(fmt::format("{} is there already", *options.contour), "Nothing is overwritten", "Choose another name or remove it");
     std::optional<LengthUnit> unit;
     if (options.unit) unit = length_unit_of(*options.unit);
     const ImportedSurface imported = import_cutter(options.cutter, unit);

@@ -1,6 +1,7 @@
 /// \file cutterflow: the command line.
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -67,6 +68,10 @@ int main(int argc, char** argv) {
     } catch (const Interrupted& interrupted) {
         std::cerr << "cutterflow: " << interrupted.what() << std::endl;
         return k_interrupted;
+    } catch (const std::filesystem::filesystem_error& error) {
+        const UserError told(error.what(), "Folders and files that are named must be there, or be ones that can be made", "Check the path and its permissions");
+        std::cerr << "cutterflow: " << told.what() << std::endl;
+        return static_cast<int>(told.code());
     } catch (const std::exception& error) {
         std::cerr << "cutterflow: defect: " << error.what() << ". Please report it with the command and its input." << std::endl;
         return static_cast<int>(ExitCode::defect);

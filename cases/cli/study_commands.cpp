@@ -14,6 +14,7 @@
 #include "cases/velocity_points.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/shell_word.hpp"
+#include "geometry/length_unit.hpp"
 
 namespace cutterflow::cli {
 namespace {
@@ -29,6 +30,9 @@ struct NewOptions {
 void write_new_study(const NewOptions& options) {
     if (fs::exists(options.study))
         throw UserError(fmt::format("{} is there already", options.study), "Nothing is overwritten", "Choose another name or remove it");
+    if (!options.cutter.empty() && !fs::exists(options.cutter))
+        throw UserError(fmt::format("--cutter {} is not there", options.cutter), "The study names a surface of a cutter", "Check the path");
+    if (options.unit) length_unit_of(*options.unit);  // refuses what is none
     // The study refers to the cutter from its own folder.
     const fs::path folder = fs::absolute(options.study).parent_path();
     const fs::path cutter = options.cutter.empty() ? fs::path("cutter.stl") : fs::absolute(options.cutter).lexically_relative(folder);

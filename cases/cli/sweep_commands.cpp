@@ -1,4 +1,5 @@
 /// \file sweep, compare: many runs.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "cases/cli/commands.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/machine.hpp"
+#include "cases/run_directory.hpp"
 #include "cases/sweep.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
@@ -56,9 +58,10 @@ void require_known_axes(const std::vector<std::string>& words) {
 void sweep(const SweepOptions& options) {
     // Slurm's nodes may have more cores than the machine that hands the jobs in.
     const bool local = options.launcher == "local" && !options.emit;
-    cases::require_machine(local ? options.ranks : 1, {});
+    cases::require_machine(local ? options.ranks : std::min(options.ranks, 1), {});
     const fs::path folder =
         options.output ? fs::path(*options.output) : fs::path("runs") / (fs::path(options.study).stem().string() + "_sweep");
+    cases::require_openfoam_path(fs::absolute(folder));
     const std::vector<cases::SweepPoint> points = cases::sweep_points(options.study, options.axes, folder);
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
     const cases::SweepSettings settings{folder,         fs::read_symlink("/proc/self/exe"),

@@ -43,7 +43,7 @@ void list(const std::vector<cases::VerificationCase>& all, bool json) {
     nlohmann::json rows = nlohmann::json::array();
     for (const cases::VerificationCase& one : all) {
         rows.push_back({{"case", one.name}, {"title", one.title}, {"class", cases::effort_text(one.effort)}, {"needs", one.needs}});
-        if (!json) std::cout << fmt::format("{:24} {:9} {}\n", one.name, cases::effort_text(one.effort), one.title);
+        if (!json) std::cout << fmt::format("{:26} {:9} {}\n", one.name, cases::effort_text(one.effort), one.title);
     }
     if (json) std::cout << rows.dump(2) << "\n";
 }
@@ -78,8 +78,10 @@ void publish(const std::vector<VerifiedCase>& results, const fs::path& scratch) 
 }
 
 void write_pages(const fs::path& folder, const cases::VerificationPlaces& where) {
-    const std::vector<VerifiedCase> all =
-        cases::merged_verification(cases::read_verification(where.kept), cases::read_verification(folder));
+    std::vector<VerifiedCase> all = cases::read_verification(folder);  // what was found here is shown, better or worse
+    for (const VerifiedCase& published : cases::read_verification(where.kept))
+        if (std::none_of(all.begin(), all.end(), [&](const VerifiedCase& own) { return own.name == published.name; })) all.push_back(published);
+    std::sort(all.begin(), all.end(), [](const VerifiedCase& a, const VerifiedCase& b) { return a.name < b.name; });
     write_file(folder / "validation.md", postproc::verification_markdown(all, link_to_cases(folder)));
     write_file(folder / "index.html", postproc::verification_page(all, link_to_cases(folder), folder / k_charts));
     say(fmt::format("the page, with earlier results of other cases: {}", (folder / "index.html").string()));
@@ -90,6 +92,9 @@ void verify(const VerifyOptions& options) {
     const std::vector<cases::VerificationCase> all = cases::find_verification_cases(where.cases);
     if (options.list) return list(all, options.json);
     const std::vector<cases::VerificationCase> chosen = selected(all, options);
+    if (options.publish && chosen.empty() && cases::read_verification(options.output).empty())
+        throw UserError(fmt::format("{} holds no results", options.output), "What is published was run before",
+                        "Name the folder of the results with -o, or cases to run");
     std::vector<VerifiedCase> results;
     try {
         results = cases::run_verification(chosen, where, {options.output, effort_of(options), options.resume}, say);

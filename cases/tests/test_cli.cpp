@@ -143,6 +143,9 @@ TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {
     EXPECT_EQ(call({"new", "--cutter", "head.stl", "mine.toml"}).code, 0);
     EXPECT_EQ(call({"check", "mine.toml"}).code, 0);
     expect_refused(call({"new", "mine.toml"}), 2, "Nothing is overwritten");
+    expect_refused(call({"new", "other.toml", "--unit", "parsec"}), 2, "unknown unit");
+    expect_refused(call({"new", "other.toml", "--cutter", "nowhere.stl"}), 2, "nowhere.stl is not there");
+    expect_refused(call({"new", "mine.toml/other.toml"}), 2, "cannot");
 }
 
 TEST_F(Cli, params_lists_every_key) {
@@ -201,6 +204,7 @@ TEST_F(Cli, a_name_with_spaces_and_brackets_is_a_name_like_any_other) {
     const Outcome outcome = call({"inspect", "Cutter Head (rev B).STL", "--contour", "my contour.csv"});
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_EQ(read_file(folder_ / "my contour.csv").substr(0, 8), "z_m,r_m\n");
+    expect_refused(call({"inspect", "Cutter Head (rev B).STL", "--contour", "Cutter Head (rev B).STL"}), 2, "Nothing is overwritten");
 }
 
 TEST_F(Cli, refuses_surfaces_that_bound_no_solid) {

@@ -110,6 +110,31 @@ TEST_F(VerificationRun, resume_keeps_what_the_same_programs_finished) {
     EXPECT_EQ(times_run("two"), 4u);
 }
 
+TEST_F(VerificationRun, replaces_no_result_with_one_of_less_effort) {
+    add_case_with("one", "pass");
+    settings_.effort = Effort::standard;
+    run();
+    settings_.effort = Effort::fast;
+    EXPECT_THROW(run(), UserError);
+    EXPECT_EQ(read_verification(settings_.folder).at(0).effort, "standard");
+    settings_.resume = true;
+    run();
+    EXPECT_EQ(times_run("one"), 1u);
+}
+
+TEST_F(VerificationRun, refuses_what_a_case_refuses_and_passes_over_files_of_others) {
+    add_case("bad_reference", "echo 'reference.csv:3: \"nan\"'; exit 2");
+    try {
+        run();
+        FAIL() << "taken";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("reference.csv:3"));
+    }
+    write_file(settings_.folder / "all.json", "[]");
+    write_file(settings_.folder / "empty.json", "");
+    EXPECT_TRUE(read_verification(settings_.folder).empty());
+}
+
 TEST_F(VerificationRun, resume_leaves_the_begun_work_of_cases_that_go_on_with_it) {
     // Each start finds one file more, as long as it may go on.
     const std::string script = fmt::format("touch $2/part_$(ls $2 | grep -c part)\nls $2 | grep -c part > {}/$(basename $2).parts\nkill -9 $$",
@@ -165,6 +190,9 @@ TEST_F(VerificationRun, keeps_the_result_that_was_run_with_more_effort) {
     older.quantities = newer.quantities = {postproc::quantity_from_json(nlohmann::json::parse(quantity("pass")), "here")};
     EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard");
     EXPECT_EQ(merged_verification({newer}, {older}).at(0).effort, "standard");
+    newer.quantities = {postproc::quantity_from_json(nlohmann::json::parse(quantity("fail")), "here")};
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).verdict(), Verdict::fail) << "a failure gives way to nothing";
+    newer.quantities = older.quantities;
     newer.effort = "long";
     EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "long");
     newer.quantities.clear();

@@ -209,12 +209,18 @@ private:
         return found == names.end() ? "" : keys[static_cast<std::size_t>(found - names.begin())];
     }
 
+    std::vector<std::string> named_sections() const {
+        std::vector<std::string> sections = sections_of(table_);
+        sections.erase(std::remove(sections.begin(), sections.end(), ""), sections.end());
+        return sections;
+    }
+
     std::string known_neighbours(const std::string& key) const {
         std::vector<std::string> known;
         const std::string section = section_of(key);
         for (const Parameter& parameter : table_)
             if (section_of(parameter.key) == section) known.push_back(name_of(parameter.key));
-        if (section.empty() || known.empty()) return fmt::format("The file's sections are {}", join(sections_of(table_), ", "));
+        if (section.empty() || known.empty()) return fmt::format("The file's sections are {}", join(named_sections(), ", "));
         return fmt::format("The keys of {} are {}", section, join(known, ", "));
     }
 

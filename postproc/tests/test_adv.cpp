@@ -123,7 +123,7 @@ TEST(AdvPoints, are_read_in_any_unit_order_and_coordinates) {
     EXPECT_FALSE(points[0].rotating);
     EXPECT_TRUE(points[1].rotating);
     EXPECT_FALSE(points[1].measured[1]);
-    testing::write_text(folder / "template.csv", adv_template());
+    testing::write_text(folder / "template.csv", "\xEF\xBB\xBF" + adv_template());  // as a spreadsheet saves it
     EXPECT_EQ(read_adv_points(folder / "template.csv").size(), 3u);
 }
 
@@ -145,6 +145,8 @@ TEST(AdvPoints, names_every_mistake_of_a_file_at_once) {
         EXPECT_THAT(lines, HasSubstr(part));
     testing::write_text(file, "# nothing\n");
     EXPECT_THAT(refusal(file), HasSubstr("no header line"));
+    testing::write_text(file, "name;x_mm;y_mm\nA;1;2\n");
+    EXPECT_THAT(refusal(file), HasSubstr("set apart by semicolons or tabs"));
 }
 
 TEST(AdvPlaces, average_a_cubic_field_over_the_probes_volume_exactly) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -108,6 +109,50 @@ TEST(Comparison, has_no_equal_point_when_a_run_has_yet_to_release_its_rock) {
     const Comparison comparison = compare_runs({done.directory, waiting.directory});
     EXPECT_FALSE(comparison.equal_time);
     EXPECT_FALSE(comparison.equal_revolutions);
+}
+
+TEST(Comparison, takes_no_run_for_a_repeat_of_itself) {
+    const fs::path run = variant("itself", {}), other = variant("another", {}, 2.0), link = testing::fresh_directory("links") / "link";
+    fs::create_directory_symlink(run, link);
+    for (const fs::path& again : {run, run / "", link}) EXPECT_THROW(compare_runs({run, again, other}), UserError) << again;
+    const auto release = [](const fs::path& directory, int seed) {
+        std::string study = testing::read_text(directory / names::resolved_study);
+        testing::write_text(directory / names::resolved_study, study + fmt::format("[[feed]]\nseed = {}\nstart_revolution = 1\n", seed));
+    };
+    const fs::path first = variant("release_1", {}), copy = variant("release_1_again", {}), repeat = variant("release_2", {});
+    release(first, 1);
+    release(copy, 1);
+    release(repeat, 2);
+    EXPECT_THROW(compare_runs({first, copy}), UserError);
+    EXPECT_EQ(compare_runs({first, repeat}).settings.size(), 1u);
+}
+
+TEST(Comparison, knows_settings_by_values_and_cutters_by_content) {
+    const auto edited = [](const fs::path& directory, const std::string& from, const std::string& to) {
+        std::string study = testing::read_text(directory / names::resolved_study);
+        study.replace(study.find(from), from.size(), to);
+        testing::write_text(directory / names::resolved_study, study);
+        return directory;
+    };
+    const auto with_cutter = [](const fs::path& directory, const std::string& sum) {
+        auto manifest = nlohmann::json::parse(testing::read_text(directory / names::manifest));
+        manifest["stages"]["geometry"]["inputs"]["cutter.file"] = sum;
+        testing::write_text(directory / names::manifest, manifest.dump());
+        return directory;
+    };
+    const fs::path plain = variant("value_plain", {}), same = edited(variant("value_same", {}), "inclination_deg = 45", "inclination_deg = 45.0");
+    EXPECT_EQ(compare_runs({plain, same}).settings.size(), 1u);
+    EXPECT_EQ(compare_runs({with_cutter(plain, "aa"), with_cutter(same, "bb")}).settings.size(), 2u);
+}
+
+TEST(Comparison, refuses_a_finished_run_that_lost_a_part_of_its_tables) {
+    for (const char* table : {"rock/0/fates.csv", "loads/0/loads.csv", "cost/0/cost.csv", "balance/0/balance.csv"}) {
+        const fs::path whole = variant("whole", {}), broken = variant("broken", {}, 2.0);
+        std::string text = testing::read_text(broken / "postProcessing" / table);
+        text.resize(text.find('\n', text.size() / 2) + 1);
+        testing::write_text(broken / "postProcessing" / table, text);
+        EXPECT_THROW(compare_runs({whole, broken}), UserError) << table;
+    }
 }
 
 TEST(Comparison, draws_one_curve_along_the_discharges_of_one_speed) {

@@ -1,6 +1,7 @@
 #include "validation/support/reference_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -62,6 +63,7 @@ ReferenceTable read_reference(const fs::path& file, const std::vector<ReferenceC
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
         ++number;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
         const std::string where = fmt::format("{}:{}", file.string(), number);
         if (line.rfind(k_source, 0) == 0) table.source = line.substr(std::string(k_source).size());
         if (line.empty() || line.front() == '#') continue;
@@ -76,12 +78,15 @@ ReferenceTable read_reference(const fs::path& file, const std::vector<ReferenceC
                                 "Write one number a column"});
         for (std::size_t i = 0; i < std::min(fields.size(), columns.size()); ++i) {
             char* end = nullptr;
-            table.columns[columns[i].name].push_back(std::strtod(fields[i].c_str(), &end));
-            if (end == fields[i].c_str() || *end != '\0')
-                mistakes.push_back({where, fmt::format("\"{}\" in column \"{}\"", fields[i], columns[i].name), "It must be a number", "Correct it"});
+            const double value = std::strtod(fields[i].c_str(), &end);
+            table.columns[columns[i].name].push_back(value);
+            if (end == fields[i].c_str() || *end != '\0' || !std::isfinite(value))
+                mistakes.push_back({where, fmt::format("\"{}\" in column \"{}\"", fields[i], columns[i].name), "It must be a finite number", "Correct it"});
         }
     }
     if (columns.empty()) mistakes.push_back({file.string(), "there are no columns", "One line names them", "Write it"});
+    if (!columns.empty() && table.columns.empty())
+        mistakes.push_back({file.string(), "there are no numbers", "One line below the names is one point of the reference", "Write them"});
     if (!is_known(table.source))
         mistakes.push_back({file.string(), fmt::format("source \"{}\"", table.source),
                             "A line \"# source: <key>\" names an entry of docs/references.bib", "Add the line, or the entry"});

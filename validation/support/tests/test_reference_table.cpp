@@ -30,6 +30,17 @@ std::string refusal(const std::string& text) {
     return "taken";
 }
 
+TEST(ReferenceTable, takes_lines_that_end_as_on_windows) {
+    const ReferenceTable table = read("# source: Legendre2006\r\nrestitution [-],speed [m/s]\r\n0.5,1e-2\r\n");
+    EXPECT_EQ(table.source, "Legendre2006");
+    EXPECT_THAT(table.at("speed"), ElementsAre(0.01));
+}
+
+TEST(ReferenceTable, holds_finite_numbers) {
+    EXPECT_THAT(refusal("# source: Legendre2006\nspeed [m/s],restitution [-]\n"), HasSubstr("there are no numbers"));
+    EXPECT_THAT(refusal("# source: Legendre2006\nspeed [m/s],restitution [-]\n1,nan\n"), HasSubstr("\"nan\" in column \"restitution"));
+}
+
 TEST(ReferenceTable, gives_columns_and_source) {
     const ReferenceTable table = read("# source: Legendre2006\n# a comment\nrestitution [-],speed [m/s]\n0.5,1e-2\n0.75,2\n");
     EXPECT_EQ(table.source, "Legendre2006");
