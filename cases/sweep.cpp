@@ -142,15 +142,17 @@ void write_studies(const std::vector<SweepPoint>& points, const SweepSettings& s
         throw UserError(fmt::format("{} holds a sweep already", settings.folder.string()), "Its runs are kept",
                         "Add --resume to go on with it, or name another folder with -o");
     std::vector<Mistake> mistakes;
+    std::vector<const SweepPoint*> added;
     for (const SweepPoint& point : points) {
         const fs::path file = studies / (point.name + ".toml");
         if (!fs::exists(file))
-            write_file(file, point.text);  // points may be added
+            added.push_back(&point);
         else if (read_file(file) != point.text)
             mistakes.push_back({file.string(), "the study of this point is another", "A point's results belong to its study",
                                 "Name another folder with -o, or change the study back"});
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    for (const SweepPoint* point : added) write_file(studies / (point->name + ".toml"), point->text);
 }
 
 /// Share done as "run: 42 %, ..." tells it; nothing for other lines.
@@ -416,6 +418,10 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;
     Designs designs;
+    for (const std::string& design : axes.designs)
+        if (!fs::exists(design))
+            mistakes.push_back({"", fmt::format("--design {} is not there", design), "Its path is relative to where the command is given", "Check the path"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
     for (const Combination& combination : combinations_of(axes)) {
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
         std::string name = setting_name(combination, study.stem().string());

@@ -437,6 +437,21 @@ std::vector<std::string> differing_batches(const Comparison& comparison) {
     return feeds.size() > 1 || seeds.size() > 1 ? texts : std::vector<std::string>{};
 }
 
+std::map<std::string, std::vector<std::string>> differing_keys(const Comparison& comparison) {
+    std::map<std::string, std::vector<std::string>> values;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i)
+        for (const auto& [key, value] : comparison.runs[comparison.settings[i].runs.front()].run.setting) {
+            values[key].resize(comparison.settings.size());
+            values[key][i] = value;
+        }
+    for (auto item = values.begin(); item != values.end();) {
+        const std::vector<std::string>& all = item->second;
+        const bool differ = std::adjacent_find(all.begin(), all.end(), std::not_equal_to<>()) != all.end();
+        item = differ ? std::next(item) : values.erase(item);
+    }
+    return values;
+}
+
 json comparison_json(const Comparison& comparison) {
     json document{{"schema", k_comparison_schema}, {"settings", json::array()}, {"quantities", json::array()}};
     for (const Setting& setting : comparison.settings) {
@@ -459,6 +474,7 @@ json comparison_json(const Comparison& comparison) {
         }
         document["quantities"].push_back(item);
     }
+    document["differing_keys"] = differing_keys(comparison);
     document["differing_batches"] = differing_batches(comparison);
     document["equal_time_s"] = or_null(comparison.equal_time);
     document["equal_revolutions"] = or_null(comparison.equal_revolutions);

@@ -76,6 +76,18 @@ std::string settings_table(const Comparison& comparison) {
     return "<div class=\"legend\">" + html::table({"setting", "name", "cutter", "mesh", "runs", "finished"}, rows, false) + "</div>";
 }
 
+/// What was asked for differently; sizes that follow from it stand there, too.
+std::string studies_table(const Comparison& comparison) {
+    std::vector<std::string> header{"key"};
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{}", i + 1));
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [key, values] : differing_keys(comparison)) {
+        rows.push_back({escape(key)});
+        for (const std::string& value : values) rows.back().push_back(value.empty() ? std::string(text::k_dash) : escape(value));
+    }
+    return html::scrolling(html::table(header, rows, true));
+}
+
 std::string heads(const Comparison& comparison) {
     std::string content;
     ViewSurfaces surfaces;
@@ -144,6 +156,7 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder) 
                               "<p>± half the 95 % interval: Student’s t over repeats for what rock does, batch means in time for the flow. "
                               "Second line: bounds, whatever the undecided rock does.</p>");
     body += html::section("Differences from setting 1", differences_table(comparison));
+    body += html::section("What the studies differ in", studies_table(comparison));
     std::vector<fs::path> directories;
     for (const ComparedRun& compared : comparison.runs) directories.push_back(compared.run.directory);
     const std::vector<AdvTrend> velocities = read_adv_trends(directories);

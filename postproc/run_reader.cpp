@@ -60,19 +60,16 @@ public:
     }
     /// The study but for its name, what repeats of a run vary, and what changes no result; equal for equal values, however they are written.
     /// \param cutter  what tells the cutter's content; empty: the study's own name of the file
-    std::string setting(const std::string& cutter) const {
+    std::map<std::string, std::string> setting(const std::string& cutter) const {
         toml::table study = root_;
         study.erase("name");
         erase_keys(study["report"].as_table(), {"adv_points", "adv_probe_diameter_m", "adv_probe_length_m", "adv_position_error_m"});
         erase_keys(study["run"].as_table(), {"checkpoint_interval_s", "write_interval_s"});
         for_each_feed(study, [](toml::table& feed) { erase_keys(&feed, k_release_keys); });
-        if (!cutter.empty()) {
-            erase_keys(study["cutter"].as_table(), {"file"});
-            study.insert_or_assign("cutter_content", cutter);
-        }
-        std::ostringstream text;
-        text << toml::toml_formatter(with_numbers_alike(study));
-        return text.str();
+        std::map<std::string, std::string> values;
+        add_values(study, "", values);
+        if (!cutter.empty()) values["cutter.file"] = "SHA-256 " + cutter.substr(0, 12);
+        return values;
     }
     /// What tells repeats apart: seed and angle of release of each feed; empty without rock.
     std::string release() const {
@@ -101,21 +98,18 @@ private:
             for (toml::node& feed : *feeds)
                 if (toml::table* table = feed.as_table()) each(*table);
     }
-    /// 60 and 60.0 are the same number.
-    static toml::table with_numbers_alike(toml::table table) {
-        make_alike(table);
-        return table;
-    }
-    static void make_alike(toml::node& node) {
-        if (toml::table* table = node.as_table())
-            for (auto&& [key, value] : *table) {
-                if (const auto* integer = value.as_integer())
-                    table->insert_or_assign(key, static_cast<double>(integer->get()));
-                else
-                    make_alike(value);
-            }
-        if (toml::array* array = node.as_array())
-            for (toml::node& value : *array) make_alike(value);
+    /// Every value by its path, as "feed[1].class[1].count"; 60 and 60.0 are the same number.
+    static void add_values(const toml::node& node, const std::string& path, std::map<std::string, std::string>& values) {
+        if (const toml::table* table = node.as_table())
+            for (auto&& [key, value] : *table) add_values(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), values);
+        else if (const toml::array* array = node.as_array())
+            for (std::size_t i = 0; i < array->size(); ++i) add_values(*array->get(i), fmt::format("{}[{}]", path, i + 1), values);
+        else if (node.is_number())
+            values[path] = fmt::format("{:.9g}", node.value_or(0.0));
+        else if (node.is_boolean())
+            values[path] = node.value_or(false) ? "true" : "false";
+        else
+            values[path] = node.value_or(std::string());
     }
     void miss(const std::string& key, const std::string& what) {
         mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report computes with it", k_rerun});

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What a run directory holds, read for the report. Which file has what: docs/design/001-contracts.md.
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,7 +74,7 @@ struct RunData {
     int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
     AdvProbe adv_probe;  ///< with which the run sampled its places of measurement, if it has any
     bool finished = false;                                  ///< the run came to its end
-    std::string setting{};  ///< the study without its name and what repeats vary (seed and time of release), the cutter by its content; equal for repeats
+    std::map<std::string, std::string> setting{};  ///< values by key: the study without its name and what repeats vary (seed and time of release), the cutter by its content; equal for repeats
     std::string release{};  ///< seed and time of release of each feed: what tells repeats apart; empty without rock
     int seed = 0;         ///< of the first feed
     nlohmann::json prediction{};  ///< of the run's cost, before it; empty when the file is absent

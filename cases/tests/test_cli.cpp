@@ -412,6 +412,9 @@ TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
     const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
     expect_refused(outcome, 2, "x is not a number above 0");
     EXPECT_EQ(call({"sweep", study(), "--discharge", "nan"}).code, 2);
+    expect_refused(call({"sweep", study(), "--design", "a.stl,b.stl"}), 2, "--design b.stl is not there");
+    expect_refused(call({"sweep", study(), "--rpm", "30", "--emit", "slurm", "--ranks", "0"}), 2, "--ranks 0");
+    expect_refused(call({"sweep", study(), "--rpm", "30", "--emit", "slurm", "-o", "my sweep"}), 2, "OpenFOAM");
 }
 
 TEST_F(Cli, refuses_a_sweep_over_what_it_does_not_vary) {

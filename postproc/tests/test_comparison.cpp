@@ -142,6 +142,9 @@ TEST(Comparison, knows_settings_by_values_and_cutters_by_content) {
     };
     const fs::path plain = variant("value_plain", {}), same = edited(variant("value_same", {}), "inclination_deg = 45", "inclination_deg = 45.0");
     EXPECT_EQ(compare_runs({plain, same}).settings.size(), 1u);
+    const Comparison other = compare_runs({plain, edited(variant("value_other", {}), "gap_m = 0.03", "gap_m = 0.04")});
+    const std::map<std::string, std::vector<std::string>> differing{{"suction.gap_m", {"0.03", "0.04"}}};
+    EXPECT_EQ(differing_keys(other), differing);
     EXPECT_EQ(compare_runs({with_cutter(plain, "aa"), with_cutter(same, "bb")}).settings.size(), 2u);
 }
 
