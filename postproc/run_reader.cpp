@@ -68,7 +68,10 @@ public:
         for_each_feed(study, [](toml::table& feed) { erase_keys(&feed, k_release_keys); });
         std::map<std::string, std::string> values;
         add_values(study, "", values);
-        if (!cutter.empty()) values["cutter.file"] = "SHA-256 " + cutter.substr(0, 12);
+        if (!cutter.empty()) {
+            values.erase("cutter.file");
+            values["cutter, SHA-256"] = cutter.substr(0, 12);
+        }
         return values;
     }
     /// What tells repeats apart: seed and angle of release of each feed; empty without rock.
