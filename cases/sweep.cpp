@@ -418,11 +418,12 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;
     Designs designs;
-    for (const std::string& design : axes.designs)
-        if (!fs::exists(design))
-            mistakes.push_back({"", fmt::format("--design {} is not there", design), "Its path is relative to where the command is given", "Check the path"});
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
     for (const Combination& combination : combinations_of(axes)) {
+        if (combination.design && !fs::exists(*combination.design)) {
+            add_once({"", fmt::format("--design {} is not there", *combination.design), "Its path is relative to where the command is given",
+                      "Check the path"}, mistakes);
+            continue;
+        }
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
         std::string name = setting_name(combination, study.stem().string());
         ParameterValues values = values_of(combination, base, name);
