@@ -30,15 +30,20 @@ std::string estimate_markup(const Estimate& estimate) {
     return markup;
 }
 
-std::string quantities_table(const Comparison& comparison) {
-    std::vector<std::string> header{"quantity"};
+/// What the rows are, then the number of each setting.
+std::vector<std::string> settings_header(const char* rows, const Comparison& comparison) {
+    std::vector<std::string> header{rows};
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{}", i + 1));
+    return header;
+}
+
+std::string quantities_table(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (const Quantity& quantity : comparison.quantities) {
         rows.push_back({escape(quantity.name) + (quantity.unit == "-" ? "" : " [" + quantity.unit + "]")});
         for (const Estimate& estimate : quantity.settings) rows.back().push_back(estimate_markup(estimate));
     }
-    return html::scrolling(html::table(header, rows, true));
+    return html::scrolling(html::table(settings_header("quantity", comparison), rows, true));
 }
 
 std::string differences_table(const Comparison& comparison) {
@@ -78,14 +83,12 @@ std::string settings_table(const Comparison& comparison) {
 
 /// What was asked for differently; sizes that follow from it stand there, too.
 std::string studies_table(const Comparison& comparison) {
-    std::vector<std::string> header{"key"};
-    for (std::size_t i = 0; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{}", i + 1));
     std::vector<std::vector<std::string>> rows;
     for (const auto& [key, values] : differing_keys(comparison)) {
         rows.push_back({escape(key)});
         for (const std::string& value : values) rows.back().push_back(value.empty() ? std::string(text::k_dash) : escape(value));
     }
-    return html::scrolling(html::table(header, rows, true));
+    return html::scrolling(html::table(settings_header("key", comparison), rows, true));
 }
 
 std::string heads(const Comparison& comparison) {

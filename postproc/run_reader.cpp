@@ -264,21 +264,15 @@ void require_computed(const RunData& run) {
 void require_whole(const RunData& run) {
     if (!run.finished) return;
     const fs::path folder = run.directory / "postProcessing";
-    const double end = run.balance.number("time_s").back();
+    std::vector<std::pair<const char*, const Table*>> tables{{"balance", &run.balance}, {"loads", &run.loads}, {"cost", &run.cost}};
+    if (run.rock) tables.emplace_back("rock", &run.rock->fates);
+    double end = 0.0;
+    for (const auto& [name, table] : tables) end = std::max(end, table->number("time_s").back());
     std::vector<Mistake> mistakes;
-    const auto check = [&](const Table& table, const char* name, double tolerance) {
-        const double last = table.empty() ? 0.0 : table.number("time_s").back();
-        if (last < end - tolerance)
+    for (const auto& [name, table] : tables)
+        if (const double last = table->number("time_s").back(); last < end * (1.0 - 1e-6))
             mistakes.push_back({(folder / name).string(), fmt::format("ends at {:g} s, the run at {:g} s", last, end),
                                 "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
-    };
-    const double rounding = 1e-6 * end;
-    const double latest = std::max({end, run.loads.number("time_s").back(), run.cost.number("time_s").back()});
-    if (latest > end + rounding) mistakes.push_back({(folder / "balance").string(), fmt::format("ends at {:g} s, the run at {:g} s", end, latest),
-                                                     "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
-    check(run.loads, "loads", rounding);
-    check(run.cost, "cost", rounding);
-    if (run.rock) check(run.rock->fates, "rock", rounding);
     if (!run.rock && run.feed && run.feed->requested > run.feed->rejected)
         mistakes.push_back({(folder / "rock").string(), "holds no fates", "The study feeds rock", "Copy the run directory again as a whole"});
     if (!mistakes.empty()) throw UserError(std::move(mistakes));

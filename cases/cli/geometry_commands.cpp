@@ -1,5 +1,4 @@
 /// \file generate-cutter, inspect: work on surfaces alone.
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/new_file.hpp"
 #include "cases/inspection_page.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/crown_cutter.hpp"
@@ -18,16 +18,13 @@
 namespace cutterflow::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct GenerateOptions {
     std::string crown;
     std::string output;
 };
 
 void generate(const GenerateOptions& options) {
-    if (fs::exists(options.output))
-        throw UserError(fmt::format("{} is there already", options.output), "Nothing is overwritten", "Choose another name or remove it");
+    require_new_file(options.output);
     const TriangleSurface surface = generate_crown_cutter(read_crown_parameters(options.crown));
     write_stl(surface, options.output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3 of steel, in metres\n", options.output, surface.triangles.size(),
@@ -43,8 +40,7 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
-    if (options.contour && fs::exists(*options.contour))
-        throw UserError(fmt::format("{} is there already", *options.contour), "Nothing is overwritten", "Choose another name or remove it");
+    if (options.contour) require_new_file(*options.contour);
     std::optional<LengthUnit> unit;
     if (options.unit) unit = length_unit_of(*options.unit);
     const ImportedSurface imported = import_cutter(options.cutter, unit);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -33,11 +34,6 @@ struct RepairOptions {
     double area_change_percent = 2.0;
     bool json = false;
 };
-
-void require_new(const fs::path& file) {
-    if (fs::exists(file))
-        throw UserError(fmt::format("{} is there already", file.string()), "Nothing is overwritten", "Choose another name or remove it");
-}
 
 /// output.bad_faces.vtp, or with a number when there is one already.
 fs::path bad_faces_file(const fs::path& output) {
@@ -68,8 +64,8 @@ repair::RepairLimits limits_of(const RepairOptions& options, const TriangleSurfa
 }
 
 void run_repair(const RepairOptions& options) {
-    require_new(options.output);
-    if (options.report) require_new(*options.report);
+    require_new_file(options.output);
+    if (options.report) require_new_file(*options.report);
     std::optional<LengthUnit> unit;
     if (options.unit) unit = length_unit_of(*options.unit);
     const ImportedSurface imported = import_cutter(options.input, unit);

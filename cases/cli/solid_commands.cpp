@@ -1,12 +1,12 @@
 /// \file generate-solid: simple solids, and the steel that does not turn.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -18,8 +18,7 @@ namespace cutterflow::cli {
 namespace {
 
 void write_solid(const TriangleSurface& surface, double exact_volume, const std::string& output) {
-    if (std::filesystem::exists(output))
-        throw UserError(fmt::format("{} is there already", output), "Nothing is overwritten", "Choose another name or remove it");
+    require_new_file(output);
     write_stl(surface, output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3, {:.2g} % less than the exact solid, in metres\n", output,
                              surface.triangles.size(), volume_of(surface), 100.0 * std::max(0.0, 1.0 - volume_of(surface) / exact_volume));

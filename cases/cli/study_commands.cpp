@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/new_file.hpp"
 #include "cases/machine.hpp"
 #include "cases/prediction.hpp"
 #include "cases/rock_feed.hpp"
@@ -28,8 +29,7 @@ struct NewOptions {
 };
 
 void write_new_study(const NewOptions& options) {
-    if (fs::exists(options.study))
-        throw UserError(fmt::format("{} is there already", options.study), "Nothing is overwritten", "Choose another name or remove it");
+    require_new_file(options.study);
     if (!options.cutter.empty() && !fs::exists(options.cutter))
         throw UserError(fmt::format("--cutter {} is not there", options.cutter), "The study names a surface of a cutter", "Check the path");
     if (options.unit) length_unit_of(*options.unit);  // refuses what is none
