@@ -28,7 +28,7 @@ void add_coupling_models(const coupling::CouplingSettings& settings, std::vector
 
 void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {
     const coupling::ContactSettings& contact = dem.contact;
-    notes.push_back({fmt::format("contact: Hertz-Mindlin, E = {:.3g} Pa, friction {:.3g}, restitution {:.3g}", contact.youngs_modulus, contact.friction,
+    notes.push_back({fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa, friction {:.3g}, restitution {:.3g}", contact.youngs_modulus, contact.friction,
                                  contact.restitution),
                      "rock hits rock and steel"});
     if (contact.wet_restitution) notes.push_back({"wet restitution after Legendre", "the fluid in the gap damps slow impacts"});

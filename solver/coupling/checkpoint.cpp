@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_state_file = "state.json";
 constexpr const char* k_velocity_file = "velocity.sums";
-constexpr const char* k_schema = "cutterflow.state/1";
+constexpr const char* k_schema = "cutterflow.state/2";
 
 json to_json(const Vec3& v) {
     return {v[0], v[1], v[2]};

@@ -8,9 +8,6 @@ namespace cutterflow::liggghts {
 
 namespace {
 
-// A restitution of 0 has an infinite logarithm; its damping factor's limit is reached long before.
-constexpr double k_smallest_restitution = 1e-100;
-
 std::map<const LAMMPS_NS::LAMMPS*, ContactContext*>& contexts() {
     static std::map<const LAMMPS_NS::LAMMPS*, ContactContext*> instances;
     return instances;
@@ -34,7 +31,7 @@ double ContactContext::mass_with_added_mass(double mass, double radius) const {
 double ContactContext::damping_factor(double impact_speed, double diameter, double density) const {
     if (!contact.wet_restitution) return dry_damping_factor;
     const double stokes = physics::impact_stokes(density / fluid.density, added_mass, impact_speed, diameter, fluid.kinematic_viscosity);
-    return physics::hertz_damping_factor(std::max(physics::wet_restitution(contact.restitution, stokes), k_smallest_restitution));
+    return physics::hertz_damping_factor(std::max(physics::wet_restitution(contact.restitution, stokes), physics::k_smallest_restitution));
 }
 
 ContactContext& ContactContext::of(const LAMMPS_NS::LAMMPS* lammps) {

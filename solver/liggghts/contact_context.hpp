@@ -16,7 +16,7 @@ class FixPropertyAtom;
 
 namespace cutterflow::liggghts {
 
-/// Marks a contact that begins without approach; its damping is that of restitution 0.
+/// Marks a contact that begins without approach; its damping is that of the smallest restitution.
 inline constexpr double k_smallest_impact_speed = 1e-12;  // [m/s]
 
 /// A body of steel: all triangles of one STL, or one plane.

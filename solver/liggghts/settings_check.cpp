@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/physics/contact.hpp"
+
 namespace cutterflow::liggghts {
 
 namespace {
@@ -34,7 +36,9 @@ void check_contact(const coupling::ContactSettings& contact, Checker& check) {
     poisson("rock.contact.poissonRock", contact.poisson_rock);
     poisson("rock.contact.poissonSteel", contact.poisson_steel);
     check.number("rock.contact.friction", contact.friction, contact.friction >= 0.0, ">= 0");
-    check.number("rock.contact.restitution", contact.restitution, contact.restitution > 0.0 && contact.restitution <= 1.0, "> 0 and <= 1");
+    check.number("rock.contact.restitution", contact.restitution,
+                 contact.restitution >= physics::k_smallest_restitution && contact.restitution <= 1.0,
+                 fmt::format("within {} and 1", physics::k_smallest_restitution));
     check.number("rock.contact.timeStepFraction", contact.time_step_fraction,
                  contact.time_step_fraction > 0.0 && contact.time_step_fraction <= 0.5, "> 0 and <= 0.5");
     check.positive("rock.contact.maxSpeed", contact.max_speed);

@@ -121,6 +121,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
     contact.normal = touch.normal;
     contact.overlap = touch.overlap;
     contact.normal_speed = touch.normal.dot(centre_velocity);
+    contact.impact_speed = record.impact_speed;
     contact.slip_velocity = surface_velocity - touch.normal * touch.normal.dot(surface_velocity);
     contact.radius = radius;
     contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius);
@@ -129,10 +130,8 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
     contact.friction = context_.contact.friction;
 
     const bool setting_up = lammps_->update->setupflag != 0;
-    Vec3 spring(record.spring);
-    const Vec3 force = weighted.weight * contact_force(contact, setting_up ? 0.0 : lammps_->update->dt, spring);
+    const Vec3 force = weighted.weight * contact_force(contact, setting_up ? 0.0 : lammps_->update->dt, record.slip);
     const Vec3 torque = arm.cross(force);
-    std::copy_n(spring.data(), 3, record.spring);
     std::copy_n(touch.normal.data(), 3, record.normal);
     if (!setting_up) record.last_touch = static_cast<double>(lammps_->update->ntimestep);
 

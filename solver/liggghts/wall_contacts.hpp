@@ -22,7 +22,7 @@ struct WallContactRecord {
     double last_touch = 0.0;    ///< step
     double impact_speed = 0.0;  ///< [m/s]; 0: never used
     double normal[3] = {0.0, 0.0, 0.0};
-    double spring[3] = {0.0, 0.0, 0.0};
+    SlipMemory slip;
 };
 
 /// LIGGGHTS itself makes one contact of every touched triangle and keeps its history per triangle. On a curved blade, whose facets are

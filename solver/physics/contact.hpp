@@ -10,9 +10,17 @@ double impact_stokes(double density_ratio, double added_mass_coefficient, double
 /// Restitution in the fluid [-]:  e_wet = e_dry exp(-35/St); 0 for St = 0. [Legendre2006]
 double wet_restitution(double dry_restitution, double stokes);
 
-/// Damping factor of the Hertz contact [-]:  alpha = -sqrt(5) ln e / sqrt(ln^2 e + pi^2), so that the normal damping force is
-/// alpha sqrt(m* k_n) overlap^(1/4) times the normal speed, k_n = 4/3 E* sqrt(R*). \param restitution in (0, 1]. [AntypovElliott2011]
+/// Damping factor alpha [-] of a Hertz contact that never pulls: the damping force is alpha sqrt(m* k_n) overlap^(1/4) times the normal
+/// speed, k_n = 4/3 E* sqrt(R*), until it would outweigh the elastic force. With zeta = alpha/sqrt(5):
+///
+///   -ln e = 2 zeta acos(zeta) / sqrt(1 - zeta^2)      (zeta > 1: acosh and sqrt(zeta^2 - 1))
+///
+/// This is the linear dashpot's restitution when the contact ends without force [SchwagerPoeschel2007], which the substitution
+/// q = overlap^(5/4) carries over to Hertz [AntypovElliott2011]. \param restitution in [k_smallest_restitution, 1]
 double hertz_damping_factor(double restitution);
+
+/// Less (0.25 % of the energy) is not worth its damping: the factor grows without bound as e goes to 0, and with it the time step shrinks.
+inline constexpr double k_smallest_restitution = 0.05;
 
 /// A normal impact of two bodies, as the effective values of Hertz' law.
 struct Impact {

@@ -97,9 +97,10 @@ void write_system(const fs::path& folder, const BoxCase& box) {
                                  "corrected; }}\ninterpolationSchemes {{ default linear; }}\nsnGradSchemes {{ default corrected; }}",
                                  box.convection));
     write_foam_dictionary(folder, "system/fvSolution", "dictionary",
-                     "solvers\n{\n    \"p.*\" { solver GAMG; smoother DICGaussSeidel; tolerance 1e-9; relTol 0; }\n"
-                     "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
-                     "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
+                     fmt::format("solvers\n{{\n    \"p.*\" {{ solver GAMG; smoother DICGaussSeidel; tolerance {:g}; relTol 0; }}\n"
+                                 "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }}\n}}\n"
+                                 "PIMPLE {{ nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}",
+                                 box.pressure_tolerance));
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ struct BoxCase {
     double end_time = 0.1;
     double time_step = 1e-3;
     double write_interval = 1e9;     ///< [s]
+    double pressure_tolerance = 1e-9;  ///< of the linear solver, without a relative one
     std::vector<FeedRock> rocks;
     std::string convection = "upwind";  ///< scheme of div(phi,U)
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";

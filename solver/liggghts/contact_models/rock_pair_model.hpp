@@ -6,6 +6,7 @@ NORMAL_MODEL(ROCK_PAIR, rock, 40)
 #define CUTTERFLOW_ROCK_PAIR_MODEL
 
 #include <algorithm>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -27,9 +28,9 @@ public:
           context_(cutterflow::liggghts::ContactContext::of(lammps)),
           offset_(history->add_history_value("impact_speed", "0")) {
         history->add_history_value("last_touch", "0");
-        history->add_history_value("spring_x", "1");
-        history->add_history_value("spring_y", "1");
-        history->add_history_value("spring_z", "1");
+        history->add_history_value("contact_radius", "0");
+        for (int k = 0; k < cutterflow::liggghts::k_springs; ++k)
+            for (const char axis : {'x', 'y', 'z'}) history->add_history_value("stretch_" + std::to_string(k) + axis, "1");
     }
 
     void registerSettings(Settings&) override {}
@@ -53,15 +54,15 @@ public:
         contact.normal = Vec3(pair.en);
         contact.overlap = pair.deltan;
         contact.normal_speed = pair.vn;
+        contact.impact_speed = record[0];
         contact.slip_velocity = Vec3(pair.vtr1, pair.vtr2, pair.vtr3);
         contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
         contact.mass = mass_i * mass_j / (mass_i + mass_j);
         contact.elastic = context_.rock_rock;
         contact.damping_factor = damping_factor(pair, record[0]);
         contact.friction = context_.contact.friction;
-        Vec3 spring(record + 2);
-        const Vec3 force = contact_force(contact, keep ? update->dt : 0.0, spring);
-        std::copy_n(spring.data(), 3, record + 2);
+        auto& memory = *reinterpret_cast<cutterflow::liggghts::SlipMemory*>(record + 2);
+        const Vec3 force = contact_force(contact, keep ? update->dt : 0.0, memory);
 
         const Vec3 moment = -contact.normal.cross(force);  // per unit of lever arm, the same on both
         for (int k = 0; k < 3; ++k) {
@@ -75,14 +76,14 @@ public:
     }
 
 private:
-    /// A first touch stores the approach speed and frees the spring. LIGGGHTS clears the history of a pair that separates only when it
+    /// A first touch stores the approach speed and forgets all slip. LIGGGHTS clears the history of a pair that separates only when it
     /// happens to see it close by, therefore the step of the last touch decides.
     void update_record(double* record, double approach_speed, bool keep) const {
         const double step = static_cast<double>(update->ntimestep);
         const bool first_touch = record[0] == 0.0 || record[1] < step - 1.0;
         if (first_touch) {
             record[0] = std::max(approach_speed, cutterflow::liggghts::k_smallest_impact_speed);
-            std::fill_n(record + 2, 3, 0.0);
+            std::fill_n(record + 2, sizeof(cutterflow::liggghts::SlipMemory) / sizeof(double), 0.0);
         }
         if (keep) record[1] = step;
     }

@@ -28,26 +28,48 @@ TEST(ContactLaw, elastic_constants_of_equal_materials_have_their_closed_form) {
     EXPECT_NEAR(pair.shear, shear_modulus / (2.0 * (2.0 - 0.24)), 1e-6);
 }
 
+double normal_force_of(const Contact& contact) {
+    return 4.0 / 3.0 * contact.elastic.youngs * std::sqrt(contact.radius) * std::pow(contact.overlap, 1.5);
+}
+
+double contact_radius_of(const Contact& contact) {
+    return std::sqrt(contact.radius * contact.overlap);
+}
+
+/// Speed with which an impact reaches the contact's overlap.
+double speed_for(const Contact& contact) {
+    return std::sqrt(16.0 / 15.0 * contact.elastic.youngs * std::sqrt(contact.radius) * std::pow(contact.overlap, 2.5) / contact.mass);
+}
+
+/// Moves the surfaces by `way` along x in one step and returns the force.
+Vec3 slip_by(double way, Contact contact, SlipMemory& memory) {
+    constexpr double step = 1e-6;
+    contact.slip_velocity = Vec3(way / step, 0, 0);
+    return contact_force(contact, step, memory);
+}
+
 TEST(ContactLaw, the_elastic_force_is_that_of_hertz) {
     const Contact contact = rock_on_steel();
-    Vec3 spring = Vec3::Zero();
-    const Vec3 force = contact_force(contact, 1e-5, spring);
-    EXPECT_NEAR(force.z(), 4.0 / 3.0 * contact.elastic.youngs * std::sqrt(0.01) * std::pow(1e-4, 1.5), 1e-12);
+    SlipMemory memory;
+    const Vec3 force = contact_force(contact, 1e-5, memory);
+    EXPECT_NEAR(force.z(), normal_force_of(contact), 1e-12);
     EXPECT_EQ(force.head<2>().norm(), 0.0);
 }
 
-TEST(ContactLaw, damping_resists_approach_and_separation_and_may_pull) {
+TEST(ContactLaw, damping_resists_approach_and_separation_and_never_pulls) {
     Contact contact = rock_on_steel();
     contact.damping_factor = physics::hertz_damping_factor(0.3);
-    Vec3 spring = Vec3::Zero();
-    const double elastic = contact_force(contact, 0.0, spring).z();
-    contact.normal_speed = -1.0;
-    const double approaching = contact_force(contact, 0.0, spring).z();
-    contact.normal_speed = 1.0;
-    const double separating = contact_force(contact, 0.0, spring).z();
+    SlipMemory memory;
+    const double elastic = contact_force(contact, 0.0, memory).z();
+    contact.normal_speed = -0.01;
+    const double approaching = contact_force(contact, 0.0, memory).z();
+    contact.normal_speed = 0.01;
+    const double separating = contact_force(contact, 0.0, memory).z();
     EXPECT_GT(approaching, elastic);
     EXPECT_NEAR(approaching + separating, 2.0 * elastic, 1e-12 * elastic);
-    EXPECT_LT(separating, 0.0);
+    contact.normal_speed = 1.0;
+    contact.slip_velocity = Vec3(1.0, 0, 0);
+    EXPECT_EQ(contact_force(contact, 1e-5, memory), Vec3(Vec3::Zero()));
 }
 
 // Integrated without LIGGGHTS: the law returns the restitution that its damping factor was made for.
@@ -57,38 +79,90 @@ TEST(ContactLaw, a_normal_impact_returns_the_restitution) {
         contact.damping_factor = physics::hertz_damping_factor(restitution);
         double overlap = 0.0, speed = 1.0;  // into the wall
         const double step = 1e-8;
-        Vec3 spring = Vec3::Zero();
+        SlipMemory memory;
         do {
             overlap += step * speed;
             contact.overlap = std::max(overlap, 0.0);
             contact.normal_speed = -speed;
-            speed -= step * contact_force(contact, 0.0, spring).z() / contact.mass;
+            speed -= step * contact_force(contact, 0.0, memory).z() / contact.mass;
         } while (overlap > 0.0);
         EXPECT_NEAR(-speed, restitution, 1e-3) << "e = " << restitution;
     }
 }
 
-TEST(ContactLaw, the_spring_stays_in_the_plane_and_carries_coulombs_limit_when_sliding) {
+// Under a constant normal force: s = 3 mu F_n / (16 G* a) (1 - (1 - F_t / (mu F_n))^(2/3)) until all slips. Four springs are a chain of
+// straight lines beside that curve, 2 % of the limit apart at most, and twice as much where the way back has twice the size.
+TEST(ContactLaw, slip_begins_at_the_edge_as_cattaneo_and_mindlin_have_it) {
     Contact contact = rock_on_steel();
-    contact.slip_velocity = Vec3(1.0, 0, 0);
-    Vec3 spring(0, 0, 5e-5);  // from a plane that has turned since
-    const Vec3 sticking = contact_force(contact, 1e-9, spring);
-    EXPECT_EQ(spring.z(), 0.0);
-    EXPECT_NEAR(spring.x(), 1e-9, 1e-20);
-    EXPECT_NEAR(sticking.x(), -8.0 * contact.elastic.shear * std::sqrt(0.01 * 1e-4) * 1e-9, 1e-12);
-
-    for (int k = 0; k < 100; ++k) contact_force(contact, 1e-5, spring);
-    const Vec3 sliding = contact_force(contact, 1e-5, spring);
-    EXPECT_NEAR(sliding.x(), -0.15 * sliding.z(), 1e-12 * sliding.z());
-    EXPECT_NEAR(8.0 * contact.elastic.shear * std::sqrt(0.01 * 1e-4) * spring.x(), 0.15 * sliding.z(), 1e-12 * sliding.z());
+    contact.impact_speed = speed_for(contact);
+    const double limit = 0.15 * normal_force_of(contact);
+    const double full_slip = 3.0 * limit / (16.0 * contact.elastic.shear * contact_radius_of(contact));
+    SlipMemory memory;
+    slip_by(0.0, contact, memory);
+    for (int k = 1; k <= 20; ++k) {
+        const double found = -slip_by(0.05 * full_slip, contact, memory).x();
+        EXPECT_NEAR(found, limit * (1.0 - std::pow(1.0 - 0.05 * k, 1.5)), 0.02 * limit) << "at " << 5 * k << " %";
+    }
+    // Back again: Mindlin and Deresiewicz' loop, twice the way for twice the force.
+    for (int k = 1; k <= 20; ++k) {
+        const double found = -slip_by(-0.1 * full_slip, contact, memory).x();
+        EXPECT_NEAR(found, limit * (1.0 - 2.0 * (1.0 - std::pow(1.0 - 0.05 * k, 1.5))), 0.04 * limit) << "back at " << 5 * k << " %";
+    }
 }
 
-TEST(ContactLaw, no_step_leaves_the_spring) {
+// Without an impact speed one spring takes all: Mindlin's stiffness up to Coulomb's limit.
+TEST(ContactLaw, a_contact_without_impact_sticks_with_mindlins_stiffness) {
+    const Contact contact = rock_on_steel();
+    const double stiffness = 8.0 * contact.elastic.shear * contact_radius_of(contact), limit = 0.15 * normal_force_of(contact);
+    SlipMemory memory;
+    slip_by(0.0, contact, memory);
+    EXPECT_NEAR(slip_by(0.9 * limit / stiffness, contact, memory).x(), -0.9 * limit, 1e-9 * limit);
+    EXPECT_NEAR(slip_by(0.2 * limit / stiffness, contact, memory).x(), -limit, 1e-9 * limit);
+    EXPECT_NEAR(slip_by(-0.5 * limit / stiffness, contact, memory).x(), -0.5 * limit, 1e-9 * limit);
+}
+
+// Area that touches later has not been stretched, and area that parts takes its force along.
+TEST(ContactLaw, a_growing_contact_keeps_its_tangential_force_and_a_shrinking_one_loses_some) {
+    Contact contact = rock_on_steel();
+    contact.friction = 10.0;
+    contact.impact_speed = 2.0 * speed_for(contact);
+    SlipMemory memory;
+    slip_by(0.0, contact, memory);
+    const double held = slip_by(1e-7, contact, memory).x();
+    contact.overlap *= 2.0;
+    EXPECT_NEAR(slip_by(0.0, contact, memory).x(), held, 1e-9 * std::abs(held));
+    contact.overlap *= 0.5;
+    const double left = slip_by(0.0, contact, memory).x();
+    EXPECT_LT(std::abs(left), std::abs(held));
+    EXPECT_GT(std::abs(left), 0.7 * std::abs(held));
+}
+
+TEST(ContactLaw, what_slides_carries_coulombs_limit) {
+    Contact contact = rock_on_steel();
+    contact.impact_speed = speed_for(contact);
+    SlipMemory memory;
+    Vec3 force = Vec3::Zero();
+    for (int k = 0; k < 100; ++k) force = slip_by(1e-5, contact, memory);
+    EXPECT_NEAR(force.x(), -0.15 * force.z(), 1e-12 * force.z());
+}
+
+TEST(ContactLaw, the_springs_stay_in_the_plane) {
+    Contact contact = rock_on_steel();
+    SlipMemory memory;
+    memory.contact_radius = contact_radius_of(contact);
+    memory.stretch[k_springs - 1][2] = 5e-5;  // from a plane that has turned since
+    slip_by(0.0, contact, memory);
+    EXPECT_EQ(memory.stretch[k_springs - 1][2], 0.0);
+}
+
+TEST(ContactLaw, no_step_leaves_the_memory) {
     Contact contact = rock_on_steel();
     contact.slip_velocity = Vec3(1.0, 0, 0);
-    Vec3 spring(1e-7, 0, 0);
-    contact_force(contact, 0.0, spring);
-    EXPECT_EQ(spring, Vec3(1e-7, 0, 0));
+    SlipMemory memory;
+    memory.stretch[0][0] = 1e-7;
+    contact_force(contact, 0.0, memory);
+    EXPECT_EQ(memory.stretch[0][0], 1e-7);
+    EXPECT_EQ(memory.contact_radius, 0.0);
 }
 
 }  // namespace

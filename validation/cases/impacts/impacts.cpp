@@ -44,9 +44,10 @@ void check_elastic(Verification& verification) {
     for (const auto& [name, material] : pairs) {
         const double radius = 0.01, speed = 10.0, x = radius * (1.0 + 1e-4);
         const physics::Impact hertz{0.5 * ball_mass(radius, material.density), 0.5 * radius, 0.5 * plane_modulus(material), 2.0 * speed};
-        const Impact found = collide(dry_room(0.2, false, material, 1.0, 0.35, 2.0 * speed),
-                                     {{radius, material.density, Vec3(-x, 0, 0), Vec3(speed, 0, 0)}, {radius, material.density, Vec3(x, 0, 0), Vec3(-speed, 0, 0)}},
-                                     physics::hertz_time(hertz) / 400.0);
+        const Impact found = collide(
+            dry_room(0.2, false, material, 1.0, 0.35, 2.0 * speed),
+            {{radius, material.density, Vec3(-x, 0, 0), Vec3(speed, 0, 0)}, {radius, material.density, Vec3(x, 0, 0), Vec3(-speed, 0, 0)}},
+            physics::hertz_time(hertz) / 400.0);
         compare_with_hertz(verification, fmt::format("test 1, two spheres of {}", name), found, hertz);
     }
     const std::pair<const char*, Elastic> balls[] = {{"aluminium alloy", k_alloy}, {"magnesium alloy", k_magnesium}};
@@ -67,8 +68,8 @@ void check_restitution(Verification& verification) {
             const physics::Impact hertz{ball_mass(radius, material.density), radius, plane_modulus(material), speed};
             const Impact found = collide(dry_room(0.05, true, against_rigid(material), restitution, 0.0, speed),
                                          {above_floor(radius, material.density, Vec3(0, 0, -speed))}, physics::hertz_time(hertz) / 100.0);
-            verification.relative(fmt::format("test 3, {}, e = {}", name, restitution), "-", found.velocity[0].z() / speed, restitution, 0.01,
-                                  {"ChungOoi2011", "3.9 m/s on a rigid wall", {}});
+            verification.relative(fmt::format("test 3, {}, e = {}", name, restitution), "-", found.velocity[0].z() / speed, restitution,
+                                  0.01, {"ChungOoi2011", "3.9 m/s on a rigid wall", {}});
         }
 }
 
@@ -77,7 +78,8 @@ struct Oblique {
     double tangential = 0.0, normal = 0.0, spin = 0.0;  ///< after it [m/s], [rad/s]
 };
 
-Oblique hit_wall(const Elastic& material, double radius, double restitution, double friction, double normal, double tangential, double spin) {
+Oblique hit_wall(const Elastic& material, double radius, double restitution, double friction, double normal, double tangential,
+                 double spin) {
     const physics::Impact hertz{ball_mass(radius, material.density), radius, plane_modulus(material), normal};
     const Impact found = collide(dry_room(20.0 * radius, true, against_rigid(material), restitution, friction, normal),
                                  {above_floor(radius, material.density, Vec3(tangential, 0, -normal), Vec3(0, spin, 0))},
@@ -85,57 +87,85 @@ Oblique hit_wall(const Elastic& material, double radius, double restitution, dou
     return {found.velocity[0].x(), found.velocity[0].z(), found.spin[0].y()};
 }
 
-void check_oblique(Verification& verification) {
-    constexpr double radius = 0.0025, speed = 3.9, friction = 0.092, restitution = 0.98;
-    const auto hit = [&](double angle_deg) {
-        const double angle = angle_deg * k_pi / 180.0;
-        return hit_wall(k_oxide, radius, restitution, friction, speed * std::cos(angle), speed * std::sin(angle), 0.0);
-    };
-    const auto tangential_restitution = [&](double angle_deg) { return hit(angle_deg).tangential / (speed * std::sin(angle_deg * k_pi / 180.0)); };
-    // The paper counts the spin against the velocity's direction; the rebound angle is that of the contact patch.
-    const auto patch_angle = [&](double angle_deg) {
-        const Oblique after = hit(angle_deg);
-        return std::atan2(after.tangential - radius * after.spin, after.normal) * 180.0 / k_pi;
-    };
-    for (const double angle_deg : {35.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0}) {
-        const double angle = angle_deg * k_pi / 180.0, impulse = friction * (1.0 + restitution);
-        const Oblique after = hit(angle_deg);
-        const About about{"ChungOoi2011", "slides throughout: the reference is the closed form", {}};
-        verification.relative(fmt::format("test 4, {} degrees: tangential restitution", angle_deg), "-", after.tangential / (speed * std::sin(angle)),
-                              1.0 - impulse / std::tan(angle), 0.02, about);
-        verification.relative(fmt::format("test 4, {} degrees: spin", angle_deg), "rad/s", after.spin,
-                              2.5 * impulse * speed * std::cos(angle) / radius, 0.02, about);
-    }
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test4.csv", {{"angle for restitution", "deg"},
-                                                                                 {"tangential restitution", "-"},
-                                                                                 {"angle for spin", "deg"},
-                                                                                 {"spin", "rad/s"},
-                                                                                 {"angle for rebound", "deg"},
-                                                                                 {"rebound angle", "deg"}});
-    double restitution_error = 0.0, spin_error = 0.0, rebound_error = 0.0;
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-        restitution_error = std::max(restitution_error, std::abs(tangential_restitution(table.at("angle for restitution")[i]) - table.at("tangential restitution")[i]));
-        spin_error = std::max(spin_error, std::abs(-hit(table.at("angle for spin")[i]).spin - table.at("spin")[i]));
-        rebound_error = std::max(rebound_error, std::abs(patch_angle(table.at("angle for rebound")[i]) - table.at("rebound angle")[i]));
-    }
-    const About about{table.source, "13 angles from 5 to 85 degrees against the digitised curve, of its full scale (1, 617 rad/s, 90 degrees)", {}};
-    verification.at_most("test 4: largest distance of the tangential restitution", "-", restitution_error, 0.02, about);
-    verification.at_most("test 4: largest distance of the spin over 617 rad/s", "-", spin_error / 617.0, 0.02, about);
-    verification.at_most("test 4: largest distance of the rebound angle over 90 degrees", "-", rebound_error / 90.0, 0.02, about);
+/// Test 4: a sphere of aluminium oxide at 3.9 m/s, which slides throughout above atan(7/2 mu (1 + e)).
+namespace oblique {
+constexpr double k_radius = 0.0025, k_speed = 3.9, k_friction = 0.092, k_restitution = 0.98, k_sliding_deg = 32.5;
 
-    const ReferenceTable measured = read_reference(CUTTERFLOW_CASE_DIR "/kharaz.csv", {{"angle", "deg"}, {"tangential restitution", "-"}});
-    for (std::size_t i = 0; i < measured.rows(); ++i) {
-        const double angle = measured.at("angle")[i], found = tangential_restitution(angle), reference = measured.at("tangential restitution")[i];
-        const std::string name = fmt::format("Kharaz' sphere at {} degrees: tangential restitution", angle);
-        const About of_experiment{measured.source, "against the measured points: the sphere must slide throughout above 32.5 degrees", {}};
-        if (angle > 32.5)
-            verification.relative(name, "-", found, reference, 0.02, of_experiment);
-        else
-            verification.report(name, "-", found, reference, {measured.source, "below, where it sticks in part, the distance is told: Mindlin's spring without history of micro-slip", {}});
+Oblique hit(double angle_deg) {
+    const double angle = angle_deg * k_pi / 180.0;
+    return hit_wall(k_oxide, k_radius, k_restitution, k_friction, k_speed * std::cos(angle), k_speed * std::sin(angle), 0.0);
+}
+
+double tangential_restitution(double angle_deg) {
+    return hit(angle_deg).tangential / (k_speed * std::sin(angle_deg * k_pi / 180.0));
+}
+
+/// The paper's rebound angle is that of the contact patch [deg].
+double patch_angle(double angle_deg) {
+    const Oblique after = hit(angle_deg);
+    return std::atan2(after.tangential - k_radius * after.spin, after.normal) * 180.0 / k_pi;
+}
+
+void check_sliding(Verification& verification) {
+    for (const double angle_deg : {35.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0}) {
+        const double angle = angle_deg * k_pi / 180.0, impulse = k_friction * (1.0 + k_restitution);
+        const About about{"ChungOoi2011", "slides throughout: the reference is the closed form", {}};
+        verification.relative(fmt::format("test 4, {} degrees: tangential restitution", angle_deg), "-", tangential_restitution(angle_deg),
+                              1.0 - impulse / std::tan(angle), 0.02, about);
+        verification.relative(fmt::format("test 4, {} degrees: spin", angle_deg), "rad/s", hit(angle_deg).spin,
+                              2.5 * impulse * k_speed * std::cos(angle) / k_radius, 0.02, about);
     }
 }
 
-/// Steel at 5 m/s, elastic. A sphere that slides throughout (x = V_st/(mu V_n) above 7) has y1 = V_st'/(mu V_n) = x - 7 and the spin 5 mu V_n/R.
+/// The paper counts the spin against the velocity's direction.
+void check_curve(Verification& verification) {
+    struct Curve {
+        const char *name, *angle, *value, *unit;
+        double scale;
+        double (*found)(double angle_deg);
+    };
+    const Curve curves[] = {
+        {"tangential restitution", "angle for restitution", "tangential restitution", "-", 1.0, tangential_restitution},
+        {"spin over 617 rad/s", "angle for spin", "spin", "rad/s", 617.0, [](double angle_deg) { return -hit(angle_deg).spin; }},
+        {"rebound angle over 90 degrees", "angle for rebound", "rebound angle", "deg", 90.0, patch_angle}};
+    for (const Curve& curve : curves) {
+        const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test4.csv", {{curve.angle, "deg"}, {curve.value, curve.unit}});
+        double slides = 0.0, sticks = 0.0;
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            const double angle_deg = table.at(curve.angle)[i];
+            double& worst = angle_deg > k_sliding_deg ? slides : sticks;
+            worst = std::max(worst, std::abs(curve.found(angle_deg) - table.at(curve.value)[i]) / curve.scale);
+        }
+        verification.at_most(fmt::format("test 4: largest distance of the {}, sliding", curve.name), "-", slides, 0.02,
+                             {table.source, "35 to 85 degrees against the digitised curve, of its full scale", {}});
+        verification.report(
+            fmt::format("test 4: largest distance of the {}, sticking", curve.name), "-", sticks, 0.0,
+            {table.source,
+             "5 to 30 degrees. The curve is another DEM code's, without micro-slip, and the measurement contradicts it: 0.948 at 5.2 "
+             "degrees where 0.746 was measured at 4.2. The measurement is asked for.",
+             {}});
+    }
+}
+
+/// Class fast leaves out the angles at which the sphere sticks in part.
+void check_measured(Verification& verification) {
+    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/kharaz.csv", {{"angle", "deg"}, {"tangential restitution", "-"}});
+    const About about{
+        table.source,
+        "against the measured points, alumina on glass. Below 32.5 degrees it sticks in part; there many springs and the glass's own "
+        "constants would change the value by less than 0.01",
+        {}};
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+        const double angle_deg = table.at("angle")[i];
+        if (angle_deg < k_sliding_deg && !verification.wants(Effort::standard)) continue;
+        verification.relative(fmt::format("Kharaz' sphere at {} degrees: tangential restitution", angle_deg), "-",
+                              tangential_restitution(angle_deg), table.at("tangential restitution")[i], 0.02, about);
+    }
+}
+}  // namespace oblique
+
+/// Steel at 5 m/s, elastic. A sphere that slides throughout (x = V_st/(mu V_n) above 7) has y1 = V_st'/(mu V_n) = x - 7 and the spin 5 mu
+/// V_n/R.
 void check_constant_normal_speed(Verification& verification) {
     constexpr double radius = 0.01, normal = 5.0, friction = 0.3;
     const auto patch = [&](double x, Oblique& after) {
@@ -145,18 +175,21 @@ void check_constant_normal_speed(Verification& verification) {
     const About sliding{"ChungOoi2011", "steel, elastic, slides throughout: the reference is the closed form", {}};
     Oblique after;
     for (const double x : {8.0, 10.0, 13.0}) {
-        verification.relative(fmt::format("test 5, V_st = {} mu V_n: velocity of the contact patch over mu V_n", x), "-", patch(x, after), x - 7.0, 0.02, sliding);
-        verification.relative(fmt::format("test 5, V_st = {} mu V_n: spin over mu V_n / R", x), "-", radius * after.spin / (friction * normal), 5.0, 0.02, sliding);
+        verification.relative(fmt::format("test 5, V_st = {} mu V_n: velocity of the contact patch over mu V_n", x), "-", patch(x, after),
+                              x - 7.0, 0.02, sliding);
+        verification.relative(fmt::format("test 5, V_st = {} mu V_n: spin over mu V_n / R", x), "-",
+                              radius * after.spin / (friction * normal), 5.0, 0.02, sliding);
     }
     if (!verification.wants(Effort::standard)) return;
     const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test5.csv", {{"x", "-"}, {"y1", "-"}});
     double error = 0.0;
     for (std::size_t i = 0; i < table.rows(); ++i) error = std::max(error, std::abs(patch(table.at("x")[i], after) - table.at("y1")[i]));
-    verification.at_most("test 5: largest distance of the patch's velocity from the finite-element curve, over 5 mu V_n", "-", error / 5.0, 0.02,
-                         {table.source,
-                          "Where the sphere sticks in part, micro-slip spreads over the contact from its edge; Mindlin's spring with one Coulomb limit has no "
-                          "such history. Test 4's curve, which such laws gave, is met.",
-                          {}});
+    verification.at_most(
+        "test 5: largest distance of the patch's velocity from the finite-element curve, over 5 mu V_n", "-", error / 5.0, 0.02,
+        {table.source,
+         "9 points, the worst at V_st = 1.19 mu V_n, the others within 0.01. Sixteen times as many springs change it by 0.004: it is what "
+         "Cattaneo's and Mindlin's theory and the finite elements differ by.",
+         {}});
 }
 
 /// Test 6: beta = -V_st'/V_st of a spinning sphere on a wall; test 8: on a sphere of five times its size and a thousand times its density.
@@ -169,15 +202,19 @@ Spin spin_test(double x) {
     const double slip = 3.5 * friction * (1.0 + restitution) * normal / x;
     const Oblique after = hit_wall(k_alloy6, radius, restitution, friction, normal, 0.0, -slip / radius);
     const physics::Impact hertz{ball_mass(radius, k_alloy6.density), radius / 1.2, 0.5 * plane_modulus(k_alloy6), normal};
-    const Impact pair = collide(dry_room(4.0, false, k_alloy6, restitution, friction, normal),
-                                {{radius, k_alloy6.density, Vec3(0, 0, radius * (1.0 + 1e-4)), Vec3(0, 0, -normal), Vec3(0, -slip / radius, 0)},
-                                 {5.0 * radius, 1000.0 * k_alloy6.density, Vec3(0, 0, -5.0 * radius), Vec3::Zero(), Vec3::Zero()}},
-                                physics::hertz_time(hertz) / 200.0);
+    const Impact pair =
+        collide(dry_room(4.0, false, k_alloy6, restitution, friction, normal),
+                {{radius, k_alloy6.density, Vec3(0, 0, radius * (1.0 + 1e-4)), Vec3(0, 0, -normal), Vec3(0, -slip / radius, 0)},
+                 {5.0 * radius, 1000.0 * k_alloy6.density, Vec3(0, 0, -5.0 * radius), Vec3::Zero(), Vec3::Zero()}},
+                physics::hertz_time(hertz) / 200.0);
     return {-(after.tangential - radius * after.spin) / slip, -(pair.velocity[0].x() - radius * pair.spin[0].y()) / slip};
 }
 
 void check_spin(Verification& verification) {
-    const About sliding{"ChungOoi2011", "aluminium alloy, e = 0.5, slides throughout: the reference is the closed form x - 1; tolerance 3 % of the full scale 1", {}};
+    const About sliding{
+        "ChungOoi2011",
+        "aluminium alloy, e = 0.5, slides throughout: the reference is the closed form x - 1; tolerance 3 % of the full scale 1",
+        {}};
     for (const double x : {0.1, 0.2, 0.4}) {
         const Spin found = spin_test(x);
         verification.absolute(fmt::format("test 6, x = {}: beta", x), "-", found.wall, x - 1.0, 0.03, sliding);
@@ -193,10 +230,12 @@ void check_spin(Verification& verification) {
         worst.wall = std::max(worst.wall, std::abs(found.wall - table.at("beta wall")[i]));
         worst.spheres = std::max(worst.spheres, std::abs(found.spheres - table.at("beta spheres")[i]));
     }
-    const About slide_note{table.source, "x below 1. With e = 0.5 the damped spring pulls at the contact's end, and the law rubs then too, as its source has it (mu |F_n|): "
-                                         "so friction takes up to 6 % more.", {}};
-    const About stick_note{table.source, "x above 1. The solver's law damps the tangential direction with the same factor as the normal one (Tsuji's form, as its source has "
-                                         "it): with e = 0.5 little of the recoil is left. For rock, e = 0.97, test 4 holds.", {}};
+    const About slide_note{table.source, "x below 1", {}};
+    const About stick_note{
+        table.source,
+        "x above 1. Another DEM code's curve, whose law is not told; with e = 0.5 all hangs on how that law damps the tangential "
+        "direction. No law that we tried meets it (docs/design/006). Rock has e = 0.97.",
+        {}};
     verification.at_most("test 6: largest distance of beta from the curve, sliding", "-", slides.wall, 0.03, slide_note);
     verification.at_most("test 8: largest distance of beta from the curve, sliding", "-", slides.spheres, 0.03, slide_note);
     verification.at_most("test 6: largest distance of beta from the curve, sticking", "-", sticks.wall, 0.03, stick_note);
@@ -225,7 +264,9 @@ void run(Verification& verification) {
     const SingleProcess mpi;
     check_elastic(verification);
     check_restitution(verification);
-    check_oblique(verification);
+    oblique::check_sliding(verification);
+    oblique::check_curve(verification);
+    oblique::check_measured(verification);
     check_constant_normal_speed(verification);
     check_spin(verification);
     check_gears(verification);
