@@ -9,6 +9,7 @@ namespace cutterflow::cases::test {
 
 inline constexpr double k_tiny_rotor_radius = 0.15;  ///< [m], of the steel
 inline constexpr double k_tiny_tank_radius = 0.6;
+inline constexpr int k_tiny_cells = 2928;
 inline constexpr double k_tiny_z_min = -0.3;
 inline constexpr double k_tiny_z_max = 0.1;
 

@@ -14,6 +14,7 @@
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
 #include "cyclicAMIFvPatch.H"
+#include "directionMixedFvPatchFields.H"
 #include "findRefCell.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvc.H"
@@ -112,6 +113,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
     mesh_.setFluxRequired(p_.name());
     create_face_velocity();
     start_old_times();
+    find_inflow();
     turbulence_->validate();
     restore_state();
     if (rock_ == Rock::present && !DuDt_.headerOk()) update_material_acceleration();
@@ -129,6 +131,13 @@ void CutterFluid::start_old_times() {
     phi_.oldTime();
     DuDt_.oldTime();
     if (Uf_.valid()) Uf_().oldTime();
+}
+
+/// A condition that follows the flux reads its values from a file but not which way the flow went; the viscosity of realizableKE, made from
+/// gradients, would begin a resumed run with another one.
+void CutterFluid::find_inflow() {
+    for (fvPatchVectorField& patch : U_.boundaryFieldRef())
+        if (isA<directionMixedFvPatchVectorField>(patch)) patch.evaluate();
 }
 
 void CutterFluid::require_case_for_rock() const {

@@ -1,10 +1,15 @@
 /// The same run on 1, 2 and 4 ranks, whole or resumed.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <regex>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cases/rank_change.hpp"
 #include "cases/tests/tiny_rotor_mesh.hpp"
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_names.hpp"
 #include "validation/support/box_case.hpp"
@@ -27,15 +32,22 @@ void solve_to_rounding(const fs::path& folder) {
     write_file(file, text);
 }
 
-fs::path rotor_run(const fs::path& folder, int ranks) {
+constexpr const char* k_two_rocks = "1,0.03,0,0.18,-0.1,0.02,2650\n2,0.03,-0.05,0.23,0,0.02,2650\n";
+
+/// A run of the tiny rotor. \param rocks  rows of the feed \param interval  of checkpoints [s]
+fs::path rotor_case(const fs::path& folder, const std::string& rocks, double end, double interval, int ranks) {
     cases::CaseInputs inputs = cases::test::tiny_inputs();
     inputs.ranks = ranks;
-    inputs.times.end = k_end;
-    inputs.times.checkpoint_interval = 0.05;
-    inputs.times.write_interval = 0.05;
+    inputs.times.end = end;
+    inputs.times.checkpoint_interval = interval;
+    inputs.times.write_interval = interval;
     inputs.rock.emplace();
-    write_rotor_case(folder, inputs,
-                     "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,0.03,0,0.18,-0.1,0.02,2650\n2,0.03,-0.05,0.23,0,0.02,2650\n");
+    write_rotor_case(folder, inputs, "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n" + rocks);
+    return folder;
+}
+
+fs::path rotor_run(const fs::path& folder, int ranks) {
+    rotor_case(folder, k_two_rocks, k_end, 0.05, ranks);
     solve_to_rounding(folder);
     cases::decompose(folder, ranks);
     run_cutter_foam(folder, ranks);
@@ -50,30 +62,115 @@ double apart(const fs::path& a, const fs::path& b) {
     return most / (2.0 * cases::test::k_tiny_tank_radius);
 }
 
-/// A copy of a run as it was halfway, resumed.
-fs::path resumed(const Verification& verification, const fs::path& whole, int from, int ranks) {
-    const fs::path folder = verification.folder(fmt::format("resumed_from_{}_on_{}", from, ranks));
+/// A copy of a run as it was at a time [s], resumed.
+fs::path resumed(const Verification& verification, const std::string& name, const fs::path& whole, double from, int ranks) {
+    const fs::path folder = verification.folder(name);
     fs::copy(whole, folder, fs::copy_options::recursive);
     for (const auto& checkpoint : fs::directory_iterator(folder / names::checkpoints))
-        if (std::stod(checkpoint.path().filename()) > k_halfway + 0.01) fs::remove_all(checkpoint.path());
+        if (std::stod(checkpoint.path().filename()) > from + 1e-6) fs::remove_all(checkpoint.path());
     cases::move_checkpoint_to_ranks(folder, ranks);
     run_cutter_foam(folder, ranks);
     return folder;
 }
 
-void run(Verification& verification) {
+void check_ranks_and_restart(Verification& verification) {
     const fs::path one = rotor_run(verification.folder("ranks_1"), 1), two = rotor_run(verification.folder("ranks_2"), 2),
                    four = rotor_run(verification.folder("ranks_4"), 4);
-    verification.at_most("rock on 2 ranks and on 1", "tank diameters", apart(one, two), 1e-8, {"exact", "0.15 s at 60 rpm, no contacts, linear solvers to rounding"});
-    verification.at_most("rock on 4 ranks and on 1", "tank diameters", apart(one, four), 1e-8, {"exact", "0.15 s at 60 rpm, no contacts, linear solvers to rounding"});
-    verification.at_most("resumed on 1 rank, begun on 1", "tank diameters", apart(one, resumed(verification, one, 1, 1)), 1e-10,
-                         {"exact", "stopped at 0.1 s"});
-    verification.at_most("resumed on 2 ranks, begun on 2", "tank diameters", apart(two, resumed(verification, two, 2, 2)), 1e-10,
-                         {"exact", "stopped at 0.1 s"});
-    verification.at_most("resumed on 1 rank, begun on 2", "tank diameters", apart(two, resumed(verification, two, 2, 1)), 1e-8,
-                         {"exact", "through reconstructPar"});
-    verification.at_most("resumed on 4 ranks, begun on 1", "tank diameters", apart(one, resumed(verification, one, 1, 4)), 1e-8,
-                         {"exact", "through decomposePar"});
+    const About about{"exact", "0.15 s at 60 rpm, no contacts, linear solvers to rounding", {}};
+    verification.at_most("rock on 2 ranks and on 1", "tank diameters", apart(one, two), 1e-8, about);
+    verification.at_most("rock on 4 ranks and on 1", "tank diameters", apart(one, four), 1e-8, about);
+    const auto resume = [&](const fs::path& whole, int begun, int ranks) {
+        return apart(whole, resumed(verification, fmt::format("resumed_from_{}_on_{}", begun, ranks), whole, k_halfway, ranks));
+    };
+    verification.at_most("resumed on 1 rank, begun on 1", "tank diameters", resume(one, 1, 1), 1e-10, {"exact", "stopped at 0.1 s", {}});
+    verification.at_most("resumed on 2 ranks, begun on 2", "tank diameters", resume(two, 2, 2), 1e-10, {"exact", "stopped at 0.1 s", {}});
+    verification.at_most("resumed on 1 rank, begun on 2", "tank diameters", resume(two, 2, 1), 1e-8,
+                         {"exact", "through reconstructPar", {}});
+    verification.at_most("resumed on 4 ranks, begun on 1", "tank diameters", resume(one, 1, 4), 1e-8,
+                         {"exact", "through decomposePar", {}});
+}
+
+/// Water after the first step from a checkpoint, against the run that did not stop.
+void check_first_step(Verification& verification) {
+    constexpr double step = 1e-3;
+    const fs::path whole = rotor_case(verification.folder("first_step"), k_two_rocks, k_halfway + step, 0.05, 1);
+    const std::size_t cells = cases::test::k_tiny_cells;
+    const std::string time = fmt::format("{:g}", k_halfway + step);
+    for (const auto& [key, value] :
+         {std::pair("writeFormat", std::string("ascii")), std::pair("writePrecision", std::string("17")), std::pair("writeInterval", time)})
+        run_in_case(whole, {"foamDictionary", "-entry", key, "-set", value, "system/controlDict"});
+    solve_to_rounding(whole);
+    run_cutter_foam(whole);
+    const std::vector<Vec3> a = read_vector_field(whole / time / "U", cells);
+    fs::remove_all(whole / time);
+    const fs::path again = resumed(verification, "first_step_resumed", whole, k_halfway, 1);
+    const std::vector<Vec3> b = read_vector_field(again / time / "U", cells);
+    double fastest = 0.0, difference = 0.0;
+    for (std::size_t c = 0; c < cells; ++c) {
+        fastest = std::max(fastest, a[c].norm());
+        difference = std::max(difference, (a[c] - b[c]).norm());
+    }
+    verification.at_most(
+        "velocity after the first step from a checkpoint, over the largest", "-", difference / fastest, 1e-12,
+        {"exact",
+         fmt::format("begun and resumed on 1 rank, 1 ms, {} cells, linear solvers to rounding, written with 17 digits", cells),
+         {}});
+}
+
+/// 20 rocks beside the lumps of steel. \param shift  of all [m]
+std::string crowd(double shift) {
+    std::string rocks;
+    for (int i = 0; i < 20; ++i) {
+        const double azimuth = (66.0 + 26.0 * (i % 4)) * k_pi / 180.0;
+        rocks += fmt::format("{},0,{:.9g},{:.9g},{:.9g},0.02,2650\n", i + 1, 0.1275 * std::cos(azimuth) + shift, 0.1275 * std::sin(azimuth),
+                             -0.2 + 0.045 * (i / 4));
+    }
+    return rocks;
+}
+
+double spilled(const fs::path& folder) {
+    return read_columns(folder / "postProcessing/rock/0/fates.csv").at("spilled_count").back();
+}
+
+/// Contacts make runs part; then counts must stay within what runs that began 1 um apart scatter.
+void check_contacts(Verification& verification) {
+    constexpr int replicates = 6;
+    constexpr double end = 0.4, halfway = 0.2, student = 2.571;  // 95 %, 5 degrees of freedom
+    std::vector<double> counts;
+    fs::path first;
+    for (int i = 0; i < replicates; ++i) {
+        const fs::path folder = rotor_case(verification.folder(fmt::format("contacts_{}", i)), crowd(1e-6 * i), end, halfway, 1);
+        run_cutter_foam(folder);
+        counts.push_back(spilled(folder));
+        if (i == 0) first = folder;
+    }
+    const double mean = std::accumulate(counts.begin(), counts.end(), 0.0) / replicates;
+    double squares = 0.0;
+    for (const double count : counts) squares += (count - mean) * (count - mean);
+    const double reach = student * std::sqrt(squares / (replicates - 1) * (1.0 + 1.0 / replicates));
+
+    const std::vector<double> contacts = read_columns(first / "postProcessing/balance/0/balance.csv").at("contacts");
+    verification.at_least("contacts at once in a crowd", "-", *std::max_element(contacts.begin(), contacts.end()), 1.0,
+                          {"exact", "20 rocks of 20 mm, 0.4 s at 60 rpm", {}});
+    const fs::path same = resumed(verification, "contacts_resumed_on_1", first, halfway, 1);
+    verification.at_most("crowd resumed on 1 rank, begun on 1", "tank diameters", apart(first, same), 1e-10,
+                         {"exact", "stopped at 0.2 s", {}});
+    const About about{
+        "exact",
+        fmt::format("the reference is the mean of {} runs that began 1 um apart ({}), the tolerance their prediction interval (95 %)",
+                    replicates, fmt::join(counts, ", ")),
+        {}};
+    for (const int ranks : {2, 4})
+        verification.absolute(fmt::format("rocks that left the cutter, crowd resumed on {} ranks, begun on 1", ranks), "-",
+                              spilled(resumed(verification, fmt::format("contacts_resumed_on_{}", ranks), first, halfway, ranks)), mean,
+                              reach, about);
+}
+
+void run(Verification& verification) {
+    check_first_step(verification);
+    if (!verification.wants(Effort::standard)) return;
+    check_ranks_and_restart(verification);
+    check_contacts(verification);
 }
 
 }  // namespace
