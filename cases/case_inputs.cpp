@@ -62,7 +62,7 @@ void check_rock(const Rock& rock, Rules& rules) {
     rules.within("Poisson's ratio of rock", rock.poisson_rock, 0.0, 0.5);
     rules.within("Poisson's ratio of steel", rock.poisson_steel, 0.0, 0.5);
     rules.within("friction", rock.friction, 0.0, 10.0);
-    rules.within("restitution", rock.restitution, 0.05, 1.0);
+    rules.within("restitution", rock.restitution, physics::k_smallest_restitution, 1.0);
     rules.within("fraction of the DEM time step", rock.time_step_fraction, 1e-3, 0.3);
     rules.positive("largest speed of rock [m/s]", rock.max_speed);
     rules.positive("kernel gamma", rock.kernel_gamma);

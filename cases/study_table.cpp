@@ -4,6 +4,7 @@
 
 #include "cases/study.hpp"
 #include "solver/physics/catalogue.hpp"
+#include "solver/physics/contact.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -129,7 +130,7 @@ ParameterTable rock_rows() {
         number("rock.poisson_rock", "-", "Poisson's ratio of rock.").at_least(0.0).at_most(0.49).standard(0.24),
         number("rock.poisson_steel", "-", "Poisson's ratio of steel.").at_least(0.0).at_most(0.49).standard(0.27),
         number("rock.friction", "-", "Coefficient of friction, rock on rock and on steel.").at_least(0.0).at_most(2.0).standard(0.15),
-        number("rock.restitution", "-", "Restitution of a dry impact.").at_least(0.05).at_most(1.0).standard(0.97),
+        number("rock.restitution", "-", "Restitution of a dry impact.").at_least(physics::k_smallest_restitution).at_most(1.0).standard(0.97),
         Row("rock.wet_restitution", ParameterKind::boolean, "-", "Whether water damps impacts by their Stokes number.")
             .standard(true)
             .source("Legendre2006"),

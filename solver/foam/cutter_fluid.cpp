@@ -19,6 +19,7 @@
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvc.H"
 #include "fvm.H"
+#include "mixedFvPatchFields.H"
 #include "zeroGradientFvPatchFields.H"
 
 namespace cutterflow::foam {
@@ -113,7 +114,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
     mesh_.setFluxRequired(p_.name());
     create_face_velocity();
     start_old_times();
-    find_inflow();
+    evaluate_flux_conditions();
     turbulence_->validate();
     restore_state();
     if (rock_ == Rock::present && !DuDt_.headerOk()) update_material_acceleration();
@@ -135,9 +136,9 @@ void CutterFluid::start_old_times() {
 
 /// A condition that follows the flux reads its values from a file but not which way the flow went; the viscosity of realizableKE, made from
 /// gradients, would begin a resumed run with another one.
-void CutterFluid::find_inflow() {
+void CutterFluid::evaluate_flux_conditions() {
     for (fvPatchVectorField& patch : U_.boundaryFieldRef())
-        if (isA<directionMixedFvPatchVectorField>(patch)) patch.evaluate();
+        if (isA<directionMixedFvPatchVectorField>(patch) || isA<mixedFvPatchVectorField>(patch)) patch.evaluate();
 }
 
 void CutterFluid::require_case_for_rock() const {

@@ -82,7 +82,7 @@ private:
 
     void create_face_velocity();
     void start_old_times();
-    void find_inflow();
+    void evaluate_flux_conditions();
     void require_case_for_rock() const;
     void update_courant_number();
     void choose_time_step(double travel_limit, double stop_time);

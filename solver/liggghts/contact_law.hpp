@@ -42,9 +42,9 @@ struct SlipMemory {
 ///
 /// Spring i covers the part l_i of (0, a) from i to i + 1 quarters of the radius that the impact reaches, the last one all beyond, and
 /// bears the share p_i of Hertz' pressure; so slip begins at the edge and works inwards (Cattaneo and Mindlin), and the sums are Mindlin's
-/// stiffness 8 G* a and Coulomb's limit. This is the method of dimensionality reduction, exact for any history of loading as the springs
-/// become many [PopovHess2015]. Newly touched area begins without stretch and what separates takes its force along, so that no history
-/// makes energy. \param time_step  [s]; 0 evaluates the force and leaves the memory \see seeds S0-18 to S0-20
+/// stiffness 8 G* a and Coulomb's limit. This is the method of dimensionality reduction, exact as the springs become many while slip keeps
+/// its line [PopovHess2015]. Newly touched area begins without stretch and what separates takes its force along, so that no history makes
+/// energy. \param time_step  [s]; 0 evaluates the force and leaves the memory \see seeds S0-18 to S0-20
 Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory);
 
 }  // namespace cutterflow::liggghts

@@ -163,11 +163,19 @@ private:
     bool set_up_needed_ = true;
 };
 
-LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor,
-                                               MPI_Comm communicator)
-    : settings_(settings), rotor_(rotor), context_(settings, rotor.axis) {
+namespace {
+
+const coupling::DemSettings& checked(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor) {
     std::vector<Mistake> mistakes = check_settings(settings, rotor);
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    return settings;
+}
+
+}  // namespace
+
+LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor,
+                                               MPI_Comm communicator)
+    : settings_(checked(settings, rotor)), rotor_(rotor), context_(settings, rotor.axis) {
     read_walls();
     MPI_Comm_dup(communicator, &communicator_);
     register_contact_models();

@@ -6,26 +6,6 @@
 
 namespace cutterflow::physics {
 
-namespace {
-
-constexpr double k_series = 1e-4;  // distance from 1 below which a series is more exact
-
-/// F(x) = acos(x) / sqrt(1 - x^2), beyond 1 acosh(x) / sqrt(x^2 - 1), one smooth function.
-double arc_over_sine(double x) {
-    const double below = 1.0 - x;
-    if (std::abs(below) < k_series) return 1.0 + below / 3.0 + 2.0 / 15.0 * below * below;
-    const double square = below * (1.0 + x);
-    return square > 0.0 ? std::acos(x) / std::sqrt(square) : std::acosh(x) / std::sqrt(-square);
-}
-
-/// F' at x with f = F(x).
-double arc_over_sine_slope(double x, double f) {
-    const double below = 1.0 - x;
-    return std::abs(below) < k_series ? -1.0 / 3.0 - 4.0 / 15.0 * below : (x * f - 1.0) / (below * (1.0 + x));
-}
-
-}  // namespace
-
 double impact_stokes(double density_ratio, double added_mass_coefficient, double impact_speed, double diameter,
                      double kinematic_viscosity) {
     return (density_ratio + added_mass_coefficient) * impact_speed * diameter / (9.0 * kinematic_viscosity);
@@ -40,8 +20,8 @@ double hertz_damping_factor(double restitution) {
     const double loss = -std::log(restitution);
     double ratio = loss / k_pi, change = ratio;  // Newton's method; the loss is concave, so that it comes from below
     while (change > close_enough * ratio) {
-        const double f = arc_over_sine(ratio), slope = 2.0 * (f + ratio * arc_over_sine_slope(ratio, f));
-        change = (loss - 2.0 * ratio * f) / slope;
+        const double square = 1.0 - ratio * ratio, arc = std::acos(ratio) / std::sqrt(square);
+        change = 0.5 * (loss - 2.0 * ratio * arc) / (arc + ratio * (ratio * arc - 1.0) / square);
         ratio += change;
     }
     return std::sqrt(5.0) * ratio;

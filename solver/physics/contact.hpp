@@ -13,14 +13,14 @@ double wet_restitution(double dry_restitution, double stokes);
 /// Damping factor alpha [-] of a Hertz contact that never pulls: the damping force is alpha sqrt(m* k_n) overlap^(1/4) times the normal
 /// speed, k_n = 4/3 E* sqrt(R*), until it would outweigh the elastic force. With zeta = alpha/sqrt(5):
 ///
-///   -ln e = 2 zeta acos(zeta) / sqrt(1 - zeta^2)      (zeta > 1: acosh and sqrt(zeta^2 - 1))
+///   -ln e = 2 zeta acos(zeta) / sqrt(1 - zeta^2)
 ///
 /// This is the linear dashpot's restitution when the contact ends without force [SchwagerPoeschel2007], which the substitution
 /// q = overlap^(5/4) carries over to Hertz [AntypovElliott2011]. \param restitution in [k_smallest_restitution, 1]
 double hertz_damping_factor(double restitution);
 
-/// Less (0.25 % of the energy) is not worth its damping: the factor grows without bound as e goes to 0, and with it the time step shrinks.
-inline constexpr double k_smallest_restitution = 0.05;
+/// Just above critical damping's, exp(-2). Less (2 % of the energy) asks for damping that the time steps of stiff contacts do not resolve.
+inline constexpr double k_smallest_restitution = 0.14;
 
 /// A normal impact of two bodies, as the effective values of Hertz' law.
 struct Impact {

@@ -226,6 +226,15 @@ TEST(Settings, every_mistake_is_named) {
     }
 }
 
+// Before anything is worked out from it.
+TEST(Settings, a_restitution_that_no_damping_gives_is_refused) {
+    for (const double restitution : {-1.0, 0.0, 0.13}) {
+        coupling::DemSettings settings = still_water();
+        settings.contact.restitution = restitution;
+        EXPECT_THROW(LiggghtsEngine(settings, still_rotor(), MPI_COMM_WORLD), UserError) << restitution;
+    }
+}
+
 TEST(Settings, a_wall_without_its_file_is_refused) {
     coupling::DemSettings settings = still_water();
     settings.walls = {{"cutter", "no/such/file.stl", true}};

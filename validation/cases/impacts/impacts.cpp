@@ -231,11 +231,10 @@ void check_spin(Verification& verification) {
         worst.spheres = std::max(worst.spheres, std::abs(found.spheres - table.at("beta spheres")[i]));
     }
     const About slide_note{table.source, "x below 1", {}};
-    const About stick_note{
-        table.source,
-        "x above 1. Another DEM code's curve, whose law is not told; with e = 0.5 all hangs on how that law damps the tangential "
-        "direction. No law that we tried meets it (docs/design/006). Rock has e = 0.97.",
-        {}};
+    const About stick_note{table.source,
+                           "x above 1. Another DEM code's curve, whose law is not told with the copy; no law that we tried meets it "
+                           "(docs/design/006). e = 0.5 here, rock has 0.97.",
+                           {}};
     verification.at_most("test 6: largest distance of beta from the curve, sliding", "-", slides.wall, 0.03, slide_note);
     verification.at_most("test 8: largest distance of beta from the curve, sliding", "-", slides.spheres, 0.03, slide_note);
     verification.at_most("test 6: largest distance of beta from the curve, sticking", "-", sticks.wall, 0.03, stick_note);

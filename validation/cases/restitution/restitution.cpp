@@ -35,7 +35,7 @@ double sample_of(const Elastic& material, double speed) {
 }
 
 void check_dry(Verification& verification) {
-    const About about{"AntypovElliott2011", "20 mm, 1 m/s, E = 0.11 GPa, step 0.1 of the Rayleigh time", {}};
+    const About about{"SchwagerPoeschel2007", "20 mm, 1 m/s, E = 0.11 GPa, step 0.1 of the Rayleigh time", {}};
     for (const double restitution : {0.3, 0.5, 0.7, 0.9, 0.97}) {
         const auto settings = dry_room(0.3, true, k_rock, restitution, 0.0, 1.0);
         const Impact wall = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -1.0))}, sample_of(k_rock, 1.0));
