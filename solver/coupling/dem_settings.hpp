@@ -16,7 +16,7 @@ struct ContactSettings {
     double poisson_rock = 0.24;       ///< [-]
     double poisson_steel = 0.27;      ///< [-]
     double friction = 0.15;           ///< Coulomb, rock on rock and rock on steel [-]
-    double restitution = 0.97;        ///< dry [-], 0.05 to 1
+    double restitution = 0.97;        ///< dry [-], 0.14 to 1
     bool wet_restitution = true;      ///< e after Legendre from the impact speed
     double time_step_fraction = 0.1;  ///< of the smaller of Rayleigh and Hertz time
     double max_speed = 0.0;           ///< impact speed for the Hertz time [m/s]

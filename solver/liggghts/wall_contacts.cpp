@@ -104,6 +104,7 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
         *taken[k] = WallContactRecord{};
         taken[k]->body = touch.body;
         taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
+        taken[k]->damping_factor = context_.damping_factor(taken[k]->impact_speed, 2.0 * atom.radius[touch.rock], atom.density[touch.rock]);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k]);
 }
@@ -126,7 +127,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
     contact.radius = radius;
     contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius);
     contact.elastic = context_.rock_steel;
-    contact.damping_factor = context_.damping_factor(record.impact_speed, 2.0 * radius, atom.density[rock]);
+    contact.damping_factor = record.damping_factor;
     contact.friction = context_.contact.friction;
 
     const bool setting_up = lammps_->update->setupflag != 0;

@@ -21,6 +21,7 @@ struct WallContactRecord {
     double body = 0.0;
     double last_touch = 0.0;    ///< step
     double impact_speed = 0.0;  ///< [m/s]; 0: never used
+    double damping_factor = 0.0;
     double normal[3] = {0.0, 0.0, 0.0};
     SlipMemory slip;
 };

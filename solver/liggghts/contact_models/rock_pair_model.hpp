@@ -19,7 +19,15 @@ NORMAL_MODEL(ROCK_PAIR, rock, 40)
 namespace LIGGGHTS {
 namespace ContactModels {
 
-/// The restitution follows from the impact speed, which the pair's history keeps from the first touch until the rocks separate.
+/// What the pair's history keeps from the first touch until the rocks separate, in the order in which the model declares it.
+struct RockPairRecord {
+    double impact_speed = 0.0;  ///< [m/s]; 0: never used
+    double last_touch = 0.0;    ///< step
+    double damping_factor = 0.0;
+    cutterflow::liggghts::SlipMemory slip;
+};
+
+/// The restitution follows from the impact speed.
 template <>
 class NormalModel<ROCK_PAIR> : public NormalModelBase {
 public:
@@ -28,6 +36,7 @@ public:
           context_(cutterflow::liggghts::ContactContext::of(lammps)),
           offset_(history->add_history_value("impact_speed", "0")) {
         history->add_history_value("last_touch", "0");
+        history->add_history_value("damping_factor", "0");
         history->add_history_value("contact_radius", "0");
         for (int k = 0; k < cutterflow::liggghts::k_springs; ++k)
             for (const char axis : {'x', 'y', 'z'}) history->add_history_value("stretch_" + std::to_string(k) + axis, "1");
@@ -47,22 +56,21 @@ public:
         const double mass_i = context_.mass_with_added_mass(pair.mi, pair.radi);
         const double mass_j = context_.mass_with_added_mass(pair.mj, pair.radj);
         const bool keep = pair.computeflag && pair.shearupdate;
-        double* record = pair.contact_history + offset_;
-        update_record(record, -pair.vn, keep);
+        auto& record = *reinterpret_cast<RockPairRecord*>(pair.contact_history + offset_);
+        update_record(record, pair, keep);
 
         cutterflow::liggghts::Contact contact;
         contact.normal = Vec3(pair.en);
         contact.overlap = pair.deltan;
         contact.normal_speed = pair.vn;
-        contact.impact_speed = record[0];
+        contact.impact_speed = record.impact_speed;
         contact.slip_velocity = Vec3(pair.vtr1, pair.vtr2, pair.vtr3);
         contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
         contact.mass = mass_i * mass_j / (mass_i + mass_j);
         contact.elastic = context_.rock_rock;
-        contact.damping_factor = damping_factor(pair, record[0]);
+        contact.damping_factor = record.damping_factor;
         contact.friction = context_.contact.friction;
-        auto& memory = *reinterpret_cast<cutterflow::liggghts::SlipMemory*>(record + 2);
-        const Vec3 force = contact_force(contact, keep ? update->dt : 0.0, memory);
+        const Vec3 force = contact_force(contact, keep ? update->dt : 0.0, record.slip);
 
         const Vec3 moment = -contact.normal.cross(force);  // per unit of lever arm, the same on both
         for (int k = 0; k < 3; ++k) {
@@ -78,14 +86,15 @@ public:
 private:
     /// A first touch stores the approach speed and forgets all slip. LIGGGHTS clears the history of a pair that separates only when it
     /// happens to see it close by, therefore the step of the last touch decides.
-    void update_record(double* record, double approach_speed, bool keep) const {
+    void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, bool keep) const {
         const double step = static_cast<double>(update->ntimestep);
-        const bool first_touch = record[0] == 0.0 || record[1] < step - 1.0;
+        const bool first_touch = record.impact_speed == 0.0 || record.last_touch < step - 1.0;
         if (first_touch) {
-            record[0] = std::max(approach_speed, cutterflow::liggghts::k_smallest_impact_speed);
-            std::fill_n(record + 2, sizeof(cutterflow::liggghts::SlipMemory) / sizeof(double), 0.0);
+            record.impact_speed = std::max(-pair.vn, cutterflow::liggghts::k_smallest_impact_speed);
+            record.damping_factor = damping_factor(pair, record.impact_speed);
+            record.slip = {};
         }
-        if (keep) record[1] = step;
+        if (keep) record.last_touch = step;
     }
 
     /// Harmonic mean of the diameters, mean of the densities: for equal rocks the rock's own, as on a wall.
