@@ -8,10 +8,10 @@
 
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
-#include "cases/inspection_page.hpp"
+#include "cases/cli/inspection_page.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/crown_cutter.hpp"
-#include "geometry/geometry_report.hpp"
+#include "geometry/head/crown_cutter.hpp"
+#include "geometry/head/geometry_report.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
 
@@ -25,10 +25,10 @@ struct GenerateOptions {
 
 void generate(const GenerateOptions& options) {
     require_new_file(options.output);
-    const TriangleSurface surface = generate_crown_cutter(read_crown_parameters(options.crown));
-    write_stl(surface, options.output);
+    const geometry::TriangleSurface surface = geometry::generate_crown_cutter(geometry::read_crown_parameters(options.crown));
+    geometry::write_stl(surface, options.output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3 of steel, in metres\n", options.output, surface.triangles.size(),
-                             volume_of(surface));
+                             geometry::volume_of(surface));
 }
 
 struct InspectOptions {
@@ -41,14 +41,14 @@ struct InspectOptions {
 
 void inspect(const InspectOptions& options) {
     if (options.contour) require_new_file(*options.contour);
-    std::optional<LengthUnit> unit;
-    if (options.unit) unit = length_unit_of(*options.unit);
-    const ImportedSurface imported = import_cutter(options.cutter, unit);
-    const GeometryInspection inspection = inspect_cutter(imported, options.cutter);
+    std::optional<geometry::LengthUnit> unit;
+    if (options.unit) unit = geometry::length_unit_of(*options.unit);
+    const geometry::ImportedSurface imported = geometry::import_cutter(options.cutter, unit);
+    const geometry::GeometryInspection inspection = geometry::inspect_cutter(imported, options.cutter);
     if (options.output) cases::write_inspection(inspection, imported.surface, *options.output);
-    std::cout << (options.json ? to_json(inspection).dump(2) + "\n" : to_text(inspection)) << std::flush;
-    require_head(inspection);
-    if (options.contour) write_contour_csv(inspection.head->contour, *options.contour);
+    std::cout << (options.json ? geometry::to_json(inspection).dump(2) + "\n" : geometry::to_text(inspection)) << std::flush;
+    geometry::require_head(inspection);
+    if (options.contour) geometry::write_contour_csv(inspection.head->contour, *options.contour);
 }
 
 }  // namespace

@@ -44,8 +44,8 @@ fs::path bad_faces_file(const fs::path& output) {
     }
 }
 
-repair::RepairLimits limits_of(const RepairOptions& options, const TriangleSurface& surface) {
-    repair::RepairLimits limits = repair::default_limits(surface);
+geometry::repair::RepairLimits limits_of(const RepairOptions& options, const geometry::TriangleSurface& surface) {
+    geometry::repair::RepairLimits limits = geometry::repair::default_limits(surface);
     if (options.weld_distance_m) limits.weld_distance = *options.weld_distance_m;
     if (options.hole_size_m) limits.hole_size = *options.hole_size_m;
     limits.volume_change = 0.01 * options.volume_change_percent;
@@ -54,7 +54,7 @@ repair::RepairLimits limits_of(const RepairOptions& options, const TriangleSurfa
 }
 
 /// The refusals, and where the faces concerned were written.
-[[noreturn]] void refuse(const repair::RepairOutcome& outcome, const fs::path& bad_faces) {
+[[noreturn]] void refuse(const geometry::repair::RepairOutcome& outcome, const fs::path& bad_faces) {
     std::vector<Mistake> mistakes = outcome.refusals;
     if (!outcome.bad_faces.faces.surface.triangles.empty())
         mistakes.push_back({bad_faces.string(),
@@ -66,24 +66,24 @@ repair::RepairLimits limits_of(const RepairOptions& options, const TriangleSurfa
 void run_repair(const RepairOptions& options) {
     require_new_file(options.output);
     if (options.report) require_new_file(*options.report);
-    std::optional<LengthUnit> unit;
-    if (options.unit) unit = length_unit_of(*options.unit);
-    const ImportedSurface imported = import_cutter(options.input, unit);
-    const repair::RepairOutcome outcome = repair::repair_surface(imported.surface, limits_of(options, imported.surface), options.input);
+    std::optional<geometry::LengthUnit> unit;
+    if (options.unit) unit = geometry::length_unit_of(*options.unit);
+    const geometry::ImportedSurface imported = geometry::import_cutter(options.input, unit);
+    const geometry::repair::RepairOutcome outcome = geometry::repair::repair_surface(imported.surface, limits_of(options, imported.surface), options.input);
 
     const fs::path bad_faces = bad_faces_file(options.output);
-    nlohmann::json report = repair::to_json(outcome, options.input, imported.unit);
+    nlohmann::json report = geometry::repair::to_json(outcome, options.input, imported.unit);
     if (outcome.repaired()) {
-        write_stl(outcome.result.surface, options.output);
+        geometry::write_stl(outcome.result.surface, options.output);
         report["output"] = options.output;
     } else if (!outcome.bad_faces.faces.surface.triangles.empty()) {
         std::map<std::string, std::vector<std::int64_t>> cell_data = outcome.bad_faces.defects;
         cell_data["source_face"] = outcome.bad_faces.faces.source;
-        write_vtp(outcome.bad_faces.faces.surface, cell_data, bad_faces);
+        geometry::write_vtp(outcome.bad_faces.faces.surface, cell_data, bad_faces);
         report["bad_faces"] = bad_faces.string();
     }
     if (options.report) write_file(*options.report, report.dump(2) + "\n");
-    std::cout << (options.json ? report.dump(2) + "\n" : repair::to_text(outcome, options.input, imported.unit)) << std::flush;
+    std::cout << (options.json ? report.dump(2) + "\n" : geometry::repair::to_text(outcome, options.input, imported.unit)) << std::flush;
     if (!outcome.repaired()) refuse(outcome, bad_faces);
     if (!options.json) std::cout << fmt::format("wrote {}, in metres\n", options.output);
 }

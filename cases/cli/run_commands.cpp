@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
-#include "cases/machine.hpp"
-#include "cases/pipeline.hpp"
+#include "cases/runner/machine.hpp"
+#include "cases/runner/pipeline.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
-#include "geometry/base/run_names.hpp"
+#include "geometry/base/run_files.hpp"
 #include "geometry/base/shell_word.hpp"
-#include "postproc/adv_page.hpp"
-#include "postproc/report.hpp"
+#include "postproc/pages/adv_page.hpp"
+#include "postproc/pages/report.hpp"
 
 namespace cutterflow::cli {
 namespace {

@@ -11,17 +11,17 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/io/write_stl.hpp"
-#include "geometry/simple_solids.hpp"
-#include "geometry/stationary_steel.hpp"
+#include "geometry/surface/simple_solids.hpp"
+#include "geometry/head/stationary_steel.hpp"
 
 namespace cutterflow::cli {
 namespace {
 
-void write_solid(const TriangleSurface& surface, double exact_volume, const std::string& output) {
+void write_solid(const geometry::TriangleSurface& surface, double exact_volume, const std::string& output) {
     require_new_file(output);
-    write_stl(surface, output);
+    geometry::write_stl(surface, output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3, {:.2g} % less than the exact solid, in metres\n", output,
-                             surface.triangles.size(), volume_of(surface), 100.0 * std::max(0.0, 1.0 - volume_of(surface) / exact_volume));
+                             surface.triangles.size(), geometry::volume_of(surface), 100.0 * std::max(0.0, 1.0 - geometry::volume_of(surface) / exact_volume));
 }
 
 /// Options that every solid has.
@@ -37,7 +37,7 @@ void add_common_options(CLI::App& command, Solid& solid) {
 
 void add_pipe(CLI::App& app) {
     auto* command = app.add_subcommand("pipe", "A pipe about the z axis from z = 0 up; a rod when its inner radius is 0.");
-    const auto pipe = std::make_shared<PipeParameters>();
+    const auto pipe = std::make_shared<geometry::PipeParameters>();
     const auto solid = std::make_shared<Solid>();
     command->add_option("--inner-radius-m", pipe->inner_radius, "Inner radius")->required();
     command->add_option("--wall-m", pipe->wall, "Thickness of the wall")->required();
@@ -45,7 +45,7 @@ void add_pipe(CLI::App& app) {
     add_common_options(*command, *solid);
     command->callback([pipe, solid] {
         pipe->edge_length = solid->edge_length;
-        write_solid(generate_pipe(*pipe), pipe->volume(), solid->output);
+        write_solid(geometry::generate_pipe(*pipe), pipe->volume(), solid->output);
     });
 }
 
@@ -57,12 +57,12 @@ void add_box(CLI::App& app) {
     command->add_option("--y-m", size->y(), "Length along y")->required();
     command->add_option("--z-m", size->z(), "Length along z")->required();
     add_common_options(*command, *solid);
-    command->callback([size, solid] { write_solid(generate_box(*size, solid->edge_length), size->prod(), solid->output); });
+    command->callback([size, solid] { write_solid(geometry::generate_box(*size, solid->edge_length), size->prod(), solid->output); });
 }
 
 void add_funnel(CLI::App& app) {
     auto* command = app.add_subcommand("funnel", "A funnel about the z axis: its spout ends at z = 0, the cone stands above it.");
-    const auto funnel = std::make_shared<FunnelParameters>();
+    const auto funnel = std::make_shared<geometry::FunnelParameters>();
     const auto solid = std::make_shared<Solid>();
     command->add_option("--inlet-radius-m", funnel->inlet_radius, "Inner radius of the cone's upper end")->required();
     command->add_option("--outlet-radius-m", funnel->outlet_radius, "Inner radius of the cone's lower end and of the spout")->required();
@@ -72,11 +72,11 @@ void add_funnel(CLI::App& app) {
     add_common_options(*command, *solid);
     command->callback([funnel, solid] {
         funnel->edge_length = solid->edge_length;
-        write_solid(generate_funnel(*funnel), funnel->volume(), solid->output);
+        write_solid(geometry::generate_funnel(*funnel), funnel->volume(), solid->output);
     });
 }
 
-double exact_volume(const StationarySteelParameters& p) {
+double exact_volume(const geometry::StationarySteelParameters& p) {
     const auto disc = [](double radius) { return k_pi * radius * radius; };
     const double bore = disc(p.mouth.radius);
     return (disc(p.plate_radius) - bore) * p.plate_thickness +
@@ -86,7 +86,7 @@ double exact_volume(const StationarySteelParameters& p) {
 void add_backplate(CLI::App& app) {
     auto* command =
         app.add_subcommand("backplate", "A backplate with suction mouth and pipe, one solid in the frame of a run: ring plane z = 0.");
-    const auto steel = std::make_shared<StationarySteelParameters>();
+    const auto steel = std::make_shared<geometry::StationarySteelParameters>();
     const auto azimuth_deg = std::make_shared<double>(0.0);
     const auto pipe_length = std::make_shared<double>(0.0);
     const auto solid = std::make_shared<Solid>();
@@ -108,7 +108,7 @@ void add_backplate(CLI::App& app) {
         steel->mouth.azimuth = *azimuth_deg * k_pi / 180.0;
         steel->pipe_top = steel->gap + steel->plate_thickness + *pipe_length;
         steel->edge_length = solid->edge_length;
-        write_solid(generate_stationary_steel(*steel).solid(), exact_volume(*steel), solid->output);
+        write_solid(geometry::generate_stationary_steel(*steel).solid(), exact_volume(*steel), solid->output);
     });
 }
 

@@ -7,15 +7,15 @@
 
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
-#include "cases/machine.hpp"
-#include "cases/prediction.hpp"
-#include "cases/rock_feed.hpp"
-#include "cases/study.hpp"
-#include "cases/study_case.hpp"
-#include "cases/velocity_points.hpp"
+#include "cases/runner/machine.hpp"
+#include "cases/runner/prediction.hpp"
+#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/study/study.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
+#include "cases/scenes/cutter/velocity_points.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/shell_word.hpp"
-#include "geometry/length_unit.hpp"
+#include "geometry/io/length_unit.hpp"
 
 namespace cutterflow::cli {
 namespace {
@@ -32,7 +32,7 @@ void write_new_study(const NewOptions& options) {
     require_new_file(options.study);
     if (!options.cutter.empty() && !fs::exists(options.cutter))
         throw UserError(fmt::format("--cutter {} is not there", options.cutter), "The study names a surface of a cutter", "Check the path");
-    if (options.unit) length_unit_of(*options.unit);  // refuses what is none
+    if (options.unit) geometry::length_unit_of(*options.unit);  // refuses what is none
     // The study refers to the cutter from its own folder.
     const fs::path folder = fs::absolute(options.study).parent_path();
     const fs::path cutter = options.cutter.empty() ? fs::path("cutter.stl") : fs::absolute(options.cutter).lexically_relative(folder);
@@ -77,7 +77,7 @@ void check_study_file(const CheckOptions& options) {
     cases::require_machine(options.ranks, {});
     const ParameterValues values = cases::read_study(options.study);
     const fs::path folder = fs::path(options.study).parent_path();
-    const GeometryInspection inspection = cases::import_study_cutter(values, folder);
+    const geometry::GeometryInspection inspection = cases::import_study_cutter(values, folder);
     const cases::HeadSize size = cases::head_size(*inspection.head);
     const ParameterValues resolved = cases::resolve_study(values, size);
     const std::vector<Mistake> mistakes = cases::check_study(resolved, size);
@@ -85,14 +85,14 @@ void check_study_file(const CheckOptions& options) {
 
     const cases::Study study = cases::make_study(resolved, folder);
     const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface, {options.ranks, cases::machine_slowness()});
-    const Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
+    const geometry::Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
     const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
     std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
-    for (const Mistake& warning : mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface))) warnings.push_back(warning);
+    for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface))) warnings.push_back(warning);
     if (options.json) {
-        std::cout << nlohmann::json{{"cutter", to_json(inspection)},
+        std::cout << nlohmann::json{{"cutter", geometry::to_json(inspection)},
                                     {"prediction", to_json(prediction)},
                                     {"feeds", nlohmann::json::parse(cases::feed_json(feeds, study)).at("feeds")},
                                     {"warnings", mistakes_json(warnings)}}
@@ -100,7 +100,7 @@ void check_study_file(const CheckOptions& options) {
                   << std::endl;
         return;
     }
-    std::cout << to_text(inspection) << "\n" << to_text(prediction);
+    std::cout << geometry::to_text(inspection) << "\n" << to_text(prediction);
     for (const std::string& line : cases::feed_lines(feeds)) std::cout << line << "\n";
     for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
     std::cout << fmt::format("{} is valid; next: cutterflow run {} --ranks {}\n", options.study, shell_word(options.study), options.ranks);

@@ -10,14 +10,14 @@
 
 #include "cases/cli/commands.hpp"
 #include "cases/cli/numbers.hpp"
-#include "cases/machine.hpp"
-#include "cases/run_directory.hpp"
-#include "cases/sweep.hpp"
+#include "cases/runner/machine.hpp"
+#include "cases/runner/run_directory.hpp"
+#include "cases/sweep/sweep.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
 #include "geometry/base/shell_word.hpp"
-#include "postproc/comparison_page.hpp"
+#include "postproc/pages/comparison_page.hpp"
 
 namespace cutterflow::cli {
 namespace {

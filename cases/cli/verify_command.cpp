@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
-#include "cases/verification.hpp"
+#include "validation/harness/suite/case_runs.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -16,9 +16,9 @@ namespace cutterflow::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using cases::Effort;
-using postproc::Verdict;
-using postproc::VerifiedCase;
+using validation::Effort;
+using validation::CaseVerdict;
+using validation::VerifiedCase;
 
 constexpr const char* k_docs = CUTTERFLOW_SOURCE_DIR "/docs";
 constexpr const char* k_kept = "results/validation";
@@ -30,7 +30,7 @@ struct VerifyOptions {
     bool list = false, all = false, fast = false, longest = false, json = false, resume = false, publish = false;
 };
 
-cases::VerificationPlaces places() {
+validation::VerificationPlaces places() {
     const fs::path tools = fs::read_symlink("/proc/self/exe").parent_path();
     return {CUTTERFLOW_SOURCE_DIR "/validation/cases", tools.parent_path() / "verification", tools, fs::path(k_docs) / k_kept};
 }
@@ -39,11 +39,11 @@ void say(const std::string& text) {
     std::cerr << "  " << text << std::endl;
 }
 
-void list(const std::vector<cases::VerificationCase>& all, bool json) {
+void list(const std::vector<validation::VerificationCase>& all, bool json) {
     nlohmann::json rows = nlohmann::json::array();
-    for (const cases::VerificationCase& one : all) {
-        rows.push_back({{"case", one.name}, {"title", one.title}, {"class", cases::effort_text(one.effort)}, {"needs", one.needs}});
-        if (!json) std::cout << fmt::format("{:26} {:9} {}\n", one.name, cases::effort_text(one.effort), one.title);
+    for (const validation::VerificationCase& one : all) {
+        rows.push_back({{"case", one.name}, {"title", one.title}, {"class", validation::effort_text(one.effort)}, {"needs", one.needs}});
+        if (!json) std::cout << fmt::format("{:26} {:9} {}\n", one.name, validation::effort_text(one.effort), one.title);
     }
     if (json) std::cout << rows.dump(2) << "\n";
 }
@@ -52,13 +52,13 @@ Effort effort_of(const VerifyOptions& options) {
     return options.fast ? Effort::fast : options.longest ? Effort::longest : Effort::standard;
 }
 
-std::vector<cases::VerificationCase> selected(const std::vector<cases::VerificationCase>& all, const VerifyOptions& options) {
+std::vector<validation::VerificationCase> selected(const std::vector<validation::VerificationCase>& all, const VerifyOptions& options) {
     if (!options.all && !options.fast && options.names.empty() && !options.publish)
         throw UserError("no case is named", "verify takes names, --fast or --all", "See cutterflow verify --list");
-    std::vector<cases::VerificationCase> chosen = cases::select_cases(all, options.names);
+    std::vector<validation::VerificationCase> chosen = validation::select_cases(all, options.names);
     if (!options.names.empty() || (!options.all && !options.fast)) return chosen;
     std::copy_if(all.begin(), all.end(), std::back_inserter(chosen),
-                 [&](const cases::VerificationCase& one) { return one.effort <= effort_of(options); });
+                 [&](const validation::VerificationCase& one) { return one.effort <= effort_of(options); });
     return chosen;
 }
 
@@ -70,34 +70,34 @@ std::string link_to_cases(const fs::path& from) {
 /// Results of the folder join those kept in the repository, and its pages are made from all.
 void publish(const std::vector<VerifiedCase>& results, const fs::path& scratch) {
     const fs::path docs = k_docs, kept = docs / k_kept;
-    const std::vector<VerifiedCase> all = cases::merged_verification(cases::read_verification(kept), results);
-    for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), postproc::case_json(result).dump(2) + "\n");
-    write_file(docs / "validation.md", postproc::verification_markdown(all, link_to_cases(docs)));
-    write_file(kept / "index.html", postproc::verification_page(all, link_to_cases(kept), scratch));
+    const std::vector<VerifiedCase> all = validation::merged_verification(validation::read_verification(kept), results);
+    for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), validation::case_json(result).dump(2) + "\n");
+    write_file(docs / "validation.md", validation::verification_markdown(all, link_to_cases(docs)));
+    write_file(kept / "index.html", validation::verification_page(all, link_to_cases(kept), scratch));
     say(fmt::format("published: {} and {}", (docs / "validation.md").string(), (kept / "index.html").string()));
 }
 
-void write_pages(const fs::path& folder, const cases::VerificationPlaces& where) {
-    std::vector<VerifiedCase> all = cases::read_verification(folder);  // what was found here is shown, better or worse
-    for (const VerifiedCase& published : cases::read_verification(where.kept))
+void write_pages(const fs::path& folder, const validation::VerificationPlaces& where) {
+    std::vector<VerifiedCase> all = validation::read_verification(folder);  // what was found here is shown, better or worse
+    for (const VerifiedCase& published : validation::read_verification(where.kept))
         if (std::none_of(all.begin(), all.end(), [&](const VerifiedCase& own) { return own.name == published.name; })) all.push_back(published);
     std::sort(all.begin(), all.end(), [](const VerifiedCase& a, const VerifiedCase& b) { return a.name < b.name; });
-    write_file(folder / "validation.md", postproc::verification_markdown(all, link_to_cases(folder)));
-    write_file(folder / "index.html", postproc::verification_page(all, link_to_cases(folder), folder / k_charts));
+    write_file(folder / "validation.md", validation::verification_markdown(all, link_to_cases(folder)));
+    write_file(folder / "index.html", validation::verification_page(all, link_to_cases(folder), folder / k_charts));
     say(fmt::format("the page, with earlier results of other cases: {}", (folder / "index.html").string()));
 }
 
 void verify(const VerifyOptions& options) {
-    const cases::VerificationPlaces where = places();
-    const std::vector<cases::VerificationCase> all = cases::find_verification_cases(where.cases);
+    const validation::VerificationPlaces where = places();
+    const std::vector<validation::VerificationCase> all = validation::find_verification_cases(where.cases);
     if (options.list) return list(all, options.json);
-    const std::vector<cases::VerificationCase> chosen = selected(all, options);
-    if (options.publish && chosen.empty() && cases::read_verification(options.output).empty())
+    const std::vector<validation::VerificationCase> chosen = selected(all, options);
+    if (options.publish && chosen.empty() && validation::read_verification(options.output).empty())
         throw UserError(fmt::format("{} holds no results", options.output), "What is published was run before",
                         "Name the folder of the results with -o, or cases to run");
     std::vector<VerifiedCase> results;
     try {
-        results = cases::run_verification(chosen, where, {options.output, effort_of(options), options.resume}, say);
+        results = validation::run_verification(chosen, where, {options.output, effort_of(options), options.resume}, say);
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. Finished cases are kept in {}; give the same command with --resume to go on",
                                       interrupted.what(), options.output));
@@ -105,13 +105,13 @@ void verify(const VerifyOptions& options) {
     nlohmann::json rows = nlohmann::json::array();
     std::vector<std::string> failed;
     for (const VerifiedCase& result : results) {
-        rows.push_back(postproc::case_json(result));
-        if (!options.json) std::cout << postproc::verification_text(result);
-        if (result.verdict() == Verdict::fail || result.verdict() == Verdict::not_converged) failed.push_back(result.name);
+        rows.push_back(validation::case_json(result));
+        if (!options.json) std::cout << validation::verification_text(result);
+        if (result.verdict() == CaseVerdict::fail || result.verdict() == CaseVerdict::not_converged) failed.push_back(result.name);
     }
     if (options.json) std::cout << rows.dump(2) << std::endl;
     write_pages(options.output, where);
-    if (options.publish) publish(cases::read_verification(options.output), fs::path(options.output) / k_charts);
+    if (options.publish) publish(validation::read_verification(options.output), fs::path(options.output) / k_charts);
     if (!failed.empty())
         throw CheckFailure({"", fmt::format("{} of {} cases did not pass: {}", failed.size(), results.size(), fmt::join(failed, ", ")), "",
                             fmt::format("Their logs and files are in {}", options.output)});

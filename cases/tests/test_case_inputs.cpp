@@ -1,11 +1,11 @@
-#include "cases/case_inputs.hpp"
+#include "cases/scenes/cutter/case_inputs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cases/tests/tiny_rotor_mesh.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::cases {
@@ -13,7 +13,7 @@ namespace {
 
 /// The reference model: ring radius 0.40 m at 60 rpm, 0.12 m3/s through a mouth of 0.10 m radius.
 CaseInputs model_cutter() {
-    CaseInputs inputs(Contour({-0.485, -0.2, 0.0}, {0.15, 0.38, 0.40}, 0.40, 0.03));
+    CaseInputs inputs(geometry::Contour({-0.485, -0.2, 0.0}, {0.15, 0.38, 0.40}, 0.40, 0.03));
     inputs.rotor.speed = rpm_to_rad_s(60.0);
     inputs.discharge = 0.12;
     inputs.mouth.radius = 0.10;

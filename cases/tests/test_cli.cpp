@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cases/machine.hpp"
+#include "cases/runner/machine.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/io/read_surface.hpp"
@@ -30,27 +30,27 @@ void expect_contains(const std::string& text, const std::string& part) {
 }
 
 /// The crown cutter of the example, made once for all tests by the program itself.
-const TriangleSurface& crown() {
-    static const TriangleSurface surface = [] {
+const geometry::TriangleSurface& crown() {
+    static const geometry::TriangleSurface surface = [] {
         const fs::path file = fs::temp_directory_path() / ("cutterflow_crown_" + std::to_string(::getpid()) + ".stl");
         require_child({{k_cutterflow.string(), "generate-cutter", k_crown.string(), "-o", file.string()}, {}, {}, {}});
-        TriangleSurface read = welded(read_surface(file));
+        geometry::TriangleSurface read = geometry::welded(geometry::read_surface(file));
         fs::remove(file);
         return read;
     }();
     return surface;
 }
 
-TriangleSurface scaled(const TriangleSurface& surface, double factor) {
-    return transformed(surface, Eigen::Affine3d(Eigen::Scaling(factor)));
+geometry::TriangleSurface scaled(const geometry::TriangleSurface& surface, double factor) {
+    return geometry::transformed(surface, Eigen::Affine3d(Eigen::Scaling(factor)));
 }
 
-TriangleSurface mirrored(const TriangleSurface& surface) {
-    return transformed(surface, Eigen::Affine3d(Eigen::Scaling(-1.0, 1.0, 1.0)));
+geometry::TriangleSurface mirrored(const geometry::TriangleSurface& surface) {
+    return geometry::transformed(surface, Eigen::Affine3d(Eigen::Scaling(-1.0, 1.0, 1.0)));
 }
 
-TriangleSurface inside_out(TriangleSurface surface) {
-    for (Triangle& triangle : surface.triangles) std::swap(triangle[0], triangle[1]);
+geometry::TriangleSurface inside_out(geometry::TriangleSurface surface) {
+    for (geometry::Triangle& triangle : surface.triangles) std::swap(triangle[0], triangle[1]);
     return surface;
 }
 
@@ -74,7 +74,7 @@ protected:
 
     /// A study of the crown with more lines; `cutter` is written unless it is there.
     std::string study(const std::string& more = {}, const std::string& cutter = "cutter.stl") {
-        if (!fs::exists(folder_ / cutter)) write_stl(crown(), folder_ / cutter);
+        if (!fs::exists(folder_ / cutter)) geometry::write_stl(crown(), folder_ / cutter);
         write_file(folder_ / "study.toml",
                    "[cutter]\nfile = \"" + cutter + "\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n" + more);
         return "study.toml";
@@ -139,7 +139,7 @@ TEST_F(Cli, verify_lists_its_cases_and_refuses_others) {
 }
 
 TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {
-    write_stl(crown(), folder_ / "head.stl");
+    geometry::write_stl(crown(), folder_ / "head.stl");
     EXPECT_EQ(call({"new", "--cutter", "head.stl", "mine.toml"}).code, 0);
     EXPECT_EQ(call({"check", "mine.toml"}).code, 0);
     expect_refused(call({"new", "mine.toml"}), 2, "Nothing is overwritten");
@@ -208,13 +208,13 @@ TEST_F(Cli, a_name_with_spaces_and_brackets_is_a_name_like_any_other) {
 }
 
 TEST_F(Cli, refuses_surfaces_that_bound_no_solid) {
-    TriangleSurface open = crown();
+    geometry::TriangleSurface open = crown();
     open.triangles.erase(open.triangles.begin() + 100);
-    write_stl(open, folder_ / "open.stl");
-    write_stl(inside_out(crown()), folder_ / "inside_out.stl");
+    geometry::write_stl(open, folder_ / "open.stl");
+    geometry::write_stl(inside_out(crown()), folder_ / "inside_out.stl");
     // The same head a second time, shifted: its surface cuts itself.
-    const TriangleSurface twice = joined({crown(), transformed(crown(), Eigen::Affine3d(Eigen::Translation3d(0.03, 0.01, 0.02)))});
-    write_stl(twice, folder_ / "twice.stl");
+    const geometry::TriangleSurface twice = geometry::joined({crown(), geometry::transformed(crown(), Eigen::Affine3d(Eigen::Translation3d(0.03, 0.01, 0.02)))});
+    geometry::write_stl(twice, folder_ / "twice.stl");
     write_file(folder_ / "text.stl", "no surface at all");
     for (const auto& [file, part] : std::map<std::string, std::string>{{"open.stl", "open"},
                                                                        {"inside_out.stl", "inside"},
@@ -228,11 +228,11 @@ TEST_F(Cli, refuses_surfaces_that_bound_no_solid) {
 }
 
 TEST_F(Cli, repairs_a_cutter_that_a_study_has_refused) {
-    TriangleSurface open = crown();
+    geometry::TriangleSurface open = crown();
     open.triangles.erase(open.triangles.begin() + 100);
     std::swap(open.triangles[7][0], open.triangles[7][1]);
     study();
-    write_stl(scaled(open, 1000.0), folder_ / "cutter.stl");
+    geometry::write_stl(scaled(open, 1000.0), folder_ / "cutter.stl");
     const std::string before = read_file(folder_ / "cutter.stl");
     expect_refused(call({"check", "study.toml"}), 2, "cutterflow repair");
     const Outcome repaired = call({"repair", "cutter.stl", "-o", "sound.stl", "--report", "repair.json"});
@@ -244,17 +244,17 @@ TEST_F(Cli, repairs_a_cutter_that_a_study_has_refused) {
     for (const nlohmann::json& step : report.at("steps")) counts[step.at("name")] = step.at("count");
     EXPECT_EQ(counts.at("fill holes"), 1);
     EXPECT_EQ(counts.at("orient faces"), 1);
-    EXPECT_NEAR(report.at("after").at("volume_m3").get<double>() / volume_of(crown()), 1.0, 1e-4);
+    EXPECT_NEAR(report.at("after").at("volume_m3").get<double>() / geometry::volume_of(crown()), 1.0, 1e-4);
     expect_refused(call({"repair", "cutter.stl", "-o", "sound.stl"}), 2, "Nothing is overwritten");
     study("", "sound.stl");
     EXPECT_EQ(call({"check", "study.toml"}).code, 0);
 }
 
 TEST_F(Cli, repair_says_where_it_cannot_and_shows_the_faces) {
-    TriangleSurface half{crown().points, {}};
-    for (const Triangle& t : crown().triangles)
-        if (centroid_of(crown(), t).x() > 0.0) half.triangles.push_back(t);
-    write_stl(half, folder_ / "half.stl");
+    geometry::TriangleSurface half{crown().points, {}};
+    for (const geometry::Triangle& t : crown().triangles)
+        if (geometry::centroid_of(crown(), t).x() > 0.0) half.triangles.push_back(t);
+    geometry::write_stl(half, folder_ / "half.stl");
     const Outcome outcome = call({"repair", "half.stl", "-o", "sound.stl"});
     expect_refused(outcome, 2, "a hole of");
     expect_contains(outcome.text, "Open it in ParaView");
@@ -267,7 +267,7 @@ TEST_F(Cli, repair_says_where_it_cannot_and_shows_the_faces) {
 }
 
 TEST_F(Cli, inspect_writes_a_page_with_pictures_for_heads_and_for_what_is_none) {
-    write_stl(crown(), folder_ / "head.stl");
+    geometry::write_stl(crown(), folder_ / "head.stl");
     EXPECT_EQ(call({"inspect", "head.stl", "-o", "page"}).code, 0);
     const std::string page = read_file(folder_ / "page/index.html");
     std::size_t pictures = 0;
@@ -276,9 +276,9 @@ TEST_F(Cli, inspect_writes_a_page_with_pictures_for_heads_and_for_what_is_none) 
     EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org")) << "the page needs no network";
     EXPECT_EQ(nlohmann::json::parse(read_file(folder_ / "page/inspection.json")).at("head").at("blades"), 6);
     expect_refused(call({"inspect", "head.stl", "-o", "page"}), 2, "Nothing is overwritten");
-    TriangleSurface open = crown();
+    geometry::TriangleSurface open = crown();
     open.triangles.erase(open.triangles.begin() + 100);
-    write_stl(open, folder_ / "open.stl");
+    geometry::write_stl(open, folder_ / "open.stl");
     expect_refused(call({"inspect", "open.stl", "-o", "open_page"}), 2, "open edge(s)");
     expect_contains(read_file(folder_ / "open_page/index.html"), "cutterflow repair open.stl");
 }
@@ -321,7 +321,7 @@ TEST_F(Cli, generate_solid_writes_solids_of_known_volume_and_inspect_shows_them_
 }
 
 TEST_F(Cli, refuses_millimetres_taken_as_metres_and_tells_them_when_not_said) {
-    write_stl(scaled(crown(), 1000.0), folder_ / "cutter.stl");
+    geometry::write_stl(scaled(crown(), 1000.0), folder_ / "cutter.stl");
     expect_refused(call({"check", study("", "cutter.stl")}), 0, "mm");
     write_file(folder_ / "study.toml",
                "[cutter]\nfile = \"cutter.stl\"\nunit = \"m\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
@@ -384,7 +384,7 @@ TEST_F(Cli, warns_of_a_rotor_that_carries_rock_away_and_of_rock_that_may_block) 
     EXPECT_EQ(call({"check", study()}).text.find("warning"), std::string::npos);
     const Outcome away = call({"check", study("[swing]\ndirection = \"under_cut\"\n", "cutter.stl")});
     EXPECT_EQ(away.text.find("carry rock away"), std::string::npos);
-    write_stl(mirrored(crown()), folder_ / "mirror.stl");
+    geometry::write_stl(mirrored(crown()), folder_ / "mirror.stl");
     const Outcome mirror = call({"check", study("", "mirror.stl")});
     EXPECT_EQ(mirror.code, 0);
     expect_contains(mirror.text, "warning: rotor.direction = \"right_handed\" makes the blades carry rock away from the suction side");

@@ -1,5 +1,5 @@
 // Room on the disk: refused before a run, named when it runs out. Needs a disk of its own, which only root can make.
-#include "cases/disk_space.hpp"
+#include "cases/runner/disk_space.hpp"
 
 #include <cstdlib>
 #include <fstream>

@@ -1,25 +1,25 @@
-#include "cases/flow_dictionaries.hpp"
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "cases/case_builder.hpp"
-#include "cases/tests/tiny_rotor_mesh.hpp"
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
 
 namespace cutterflow::cases {
 namespace {
 
 /// The dictionary or value behind a path of keys; fails the test when it is not there.
-const FoamValue* find(const FoamDictionary& dictionary, const std::string& key) {
-    for (const FoamEntry& entry : dictionary.entries())
+const meshing::FoamValue* find(const meshing::FoamDictionary& dictionary, const std::string& key) {
+    for (const meshing::FoamEntry& entry : dictionary.entries())
         if (entry.key == key) return &entry.values.front();
     return nullptr;
 }
 
 std::string text_of(const FoamFile& file, const std::string& key) {
-    const FoamValue* value = find(file.contents, key);
+    const meshing::FoamValue* value = find(file.contents, key);
     return value ? value->text() : "(missing " + key + ")";
 }
 
@@ -112,7 +112,7 @@ TEST(Decomposition, has_as_many_boxes_as_ranks) {
 }
 
 TEST(Coupling, is_the_flow_alone_without_rock) {
-    const FoamDictionary coupling = coupling_dictionary(test::tiny_inputs());
+    const meshing::FoamDictionary coupling = coupling_dictionary(test::tiny_inputs());
     EXPECT_EQ(find(coupling, "rock"), nullptr);
     EXPECT_NE(find(coupling, "fates"), nullptr);
     EXPECT_NE(find(coupling, "outflow"), nullptr);

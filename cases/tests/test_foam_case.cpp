@@ -5,11 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "cases/case_builder.hpp"
-#include "cases/flow_dictionaries.hpp"
-#include "cases/start_flow.hpp"
-#include "cases/tests/tiny_rotor_mesh.hpp"
-#include "meshing/foam_command.hpp"
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "cases/scenes/cutter/start_flow.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
+#include "meshing/dictionary/foam_command.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -23,7 +23,7 @@ fs::path fresh_case(const std::string& name, const CaseInputs& inputs) {
     fs::create_directories(directory);
     write_case(directory, inputs);
     test::write_tiny_block_mesh(directory);
-    require_child(foam_command(directory, "blockMesh"));
+    require_child(meshing::foam_command(directory, "blockMesh"));
     return directory;
 }
 
@@ -41,19 +41,19 @@ int count(const std::string& text, const std::string& part) {
 
 /// Adds monitors of the flow through inlet, outlet and interface to the run's controlDict.
 void monitor_flow(const fs::path& directory, const CaseInputs& inputs) {
-    FoamDictionary functions;
+    meshing::FoamDictionary functions;
     for (const char* patch : {"inlet", "outlet", "rotor_interface", "stator_interface"}) {
-        FoamDictionary sum;
+        meshing::FoamDictionary sum;
         sum.add("type", "surfaceFieldValue")
-            .add("libs", FoamValue::list({"fieldFunctionObjects"}))
+            .add("libs", meshing::FoamValue::list({"fieldFunctionObjects"}))
             .add("regionType", "patch")
             .add("name", patch);
-        sum.add("operation", "sum").add("fields", FoamValue::list({"phi"})).add("writeFields", false);
+        sum.add("operation", "sum").add("fields", meshing::FoamValue::list({"phi"})).add("writeFields", false);
         functions.add(patch, sum);
     }
     for (FoamFile file : run_system_files(inputs)) {
         if (file.path == "system/controlDict")
-            write_foam_file(directory / file.path, file.foam_class, file.contents.add("functions", functions));
+            meshing::write_foam_file(directory / file.path, file.foam_class, file.contents.add("functions", functions));
     }
 }
 
@@ -72,11 +72,11 @@ TEST(FoamCase, is_readable_by_foamDictionary) {
     int dictionaries = 0;
     for (const fs::path& file : write_case(directory, inputs)) {
         if (file.extension() == ".foam" || file.extension() == ".csv") continue;
-        EXPECT_EQ(run_child(foam_command(directory, "foamDictionary", {"-keywords", file.string()})).exit_code, 0) << file;
+        EXPECT_EQ(run_child(meshing::foam_command(directory, "foamDictionary", {"-keywords", file.string()})).exit_code, 0) << file;
         ++dictionaries;
     }
     EXPECT_EQ(dictionaries, 14);
-    require_child(foam_command(directory, "foamDictionary", {"-entry", "boundaryField/outlet/volumetricFlowRate", "-value", "0/U"}));
+    require_child(meshing::foam_command(directory, "foamDictionary", {"-entry", "boundaryField/outlet/volumetricFlowRate", "-value", "0/U"}));
     EXPECT_DOUBLE_EQ(std::stod(read_text(directory / "log.foamDictionary")), inputs.discharge);
 }
 
@@ -97,8 +97,8 @@ TEST(FoamCase, starts_frozen_on_two_ranks_and_then_turns) {
     EXPECT_NE(read_text(directory / "0/U").find("movingWallVelocity"), std::string::npos);
 
     monitor_flow(directory, inputs);
-    require_child(foam_command(directory, "decomposePar"));
-    require_child(foam_command(directory, "pimpleFoam", {}, 2));
+    require_child(meshing::foam_command(directory, "decomposePar"));
+    require_child(meshing::foam_command(directory, "pimpleFoam", {}, 2));
     const std::string log = read_text(directory / "log.pimpleFoam");
     EXPECT_GE(count(log, "\nTime = "), 2);
     EXPECT_NE(log.find("solidBody"), std::string::npos);

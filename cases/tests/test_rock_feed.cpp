@@ -1,4 +1,4 @@
-#include "cases/rock_feed.hpp"
+#include "cases/scenes/cutter/rock_feed.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cases/study_case.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/solid_search.hpp"
-#include "geometry/revolve.hpp"
+#include "geometry/surface/revolve.hpp"
 
 using namespace cutterflow;
 using namespace cutterflow::cases;
@@ -24,17 +24,17 @@ Study study_of(const std::string& feed) {
 }
 
 /// A bar across the head along x, 60 mm thick: what stands in for the cutter.
-TriangleSurface bar() {
-    TriangleSurface box;
+geometry::TriangleSurface bar() {
+    geometry::TriangleSurface box;
     for (int i = 0; i < 8; ++i) box.points.emplace_back((i & 1) ? 0.38 : -0.38, (i & 2) ? 0.03 : -0.03, (i & 4) ? -0.01 : -0.40);
     box.triangles = {{0, 3, 1}, {0, 2, 3}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                      {2, 7, 3}, {2, 6, 7}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    if (volume_of(box) < 0.0)
-        for (Triangle& triangle : box.triangles) std::swap(triangle[0], triangle[1]);
+    if (geometry::volume_of(box) < 0.0)
+        for (geometry::Triangle& triangle : box.triangles) std::swap(triangle[0], triangle[1]);
     return box;
 }
 
-Contour cylinder() {
+geometry::Contour cylinder() {
     return {{-0.485, 0.0}, {0.40, 0.40}, 0.40, 0.03};
 }
 

@@ -1,4 +1,4 @@
-#include "cases/run_progress.hpp"
+#include "cases/runner/run_progress.hpp"
 
 #include <cstdlib>
 

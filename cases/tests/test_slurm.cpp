@@ -1,5 +1,5 @@
 // Sweeps by Slurm: the script, and a real scheduler of one node that the test starts.
-#include "cases/slurm.hpp"
+#include "cases/sweep/slurm.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "cases/sweep.hpp"
+#include "cases/sweep/sweep.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 

@@ -1,4 +1,4 @@
-#include "cases/stages.hpp"
+#include "cases/runner/stages.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>

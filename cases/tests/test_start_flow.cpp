@@ -1,4 +1,4 @@
-#include "cases/start_flow.hpp"
+#include "cases/scenes/cutter/start_flow.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cases/study.hpp"
+#include "cases/study/study.hpp"
 
 #include <cmath>
 #include <cstdlib>

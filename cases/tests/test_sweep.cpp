@@ -1,4 +1,4 @@
-#include "cases/sweep.hpp"
+#include "cases/sweep/sweep.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cases/study.hpp"
+#include "cases/study/study.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/crown_cutter.hpp"
+#include "geometry/head/crown_cutter.hpp"
 #include "geometry/io/write_stl.hpp"
 
 using namespace cutterflow;
@@ -28,9 +28,9 @@ protected:
         std::string name = (fs::temp_directory_path() / "cutterflow_sweep_XXXXXX").string();
         ASSERT_NE(::mkdtemp(name.data()), nullptr);
         folder_ = name;
-        static const TriangleSurface crown =
-            generate_crown_cutter(read_crown_parameters(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/crown.toml"));
-        for (const char* file : {"a.stl", "b.stl"}) write_stl(crown, folder_ / file);
+        static const geometry::TriangleSurface crown =
+            geometry::generate_crown_cutter(geometry::read_crown_parameters(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/crown.toml"));
+        for (const char* file : {"a.stl", "b.stl"}) geometry::write_stl(crown, folder_ / file);
         write_file(folder_ / "study.toml",
                    "name = \"head\"\n[cutter]\nfile = \"a.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"
                    "[run]\nflow_revolutions = 1\n[[feed]]\ncount = 20\nseed = 7\n[[feed.class]]\ndiameter_m = 0.02\n");

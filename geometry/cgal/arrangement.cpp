@@ -14,9 +14,9 @@
 #include <CGAL/intersections.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -170,4 +170,4 @@ Arrangement arrange(const TriangleSurface& surface, const std::vector<std::pair<
     throw CheckFailure({"", "the triangles cannot be divided along their intersections", failure.message(), "Mend the surface in CAD"});
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -2,9 +2,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 /// A piece of a triangle of the old surface that no other triangle crosses.
 struct Facet {
@@ -25,4 +25,4 @@ struct Arrangement {
 /// \pre   no triangle without area, no two with the same points
 Arrangement arrange(const TriangleSurface& surface, const std::vector<std::pair<std::size_t, std::size_t>>& crossing);
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

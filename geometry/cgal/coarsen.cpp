@@ -14,7 +14,7 @@
 
 #include "geometry/cgal/convert.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -398,4 +398,4 @@ double surface_distance(const TriangleSurface& a, const TriangleSurface& b, doub
                                                                                detail::to_mesh<Mesh::Point>(b), sampling, sampling);
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -1,8 +1,8 @@
 #pragma once
 /// \file The same shape with fewer and better triangles, within a given distance.
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 /// What a coarser surface must keep to.
 struct CoarseningBounds {
@@ -22,4 +22,4 @@ TriangleSurface coarsened(const TriangleSurface& surface, const CoarseningBounds
 /// on edges and triangles. \throws CheckFailure  when triangles do not form a 2-manifold
 double surface_distance(const TriangleSurface& a, const TriangleSurface& b, double spacing);
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -5,9 +5,9 @@
 #include <CGAL/Surface_mesh.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow::detail {
+namespace cutterflow::geometry::detail {
 
 inline std::vector<std::vector<std::size_t>> polygons_of(const TriangleSurface& surface) {
     std::vector<std::vector<std::size_t>> polygons;
@@ -50,4 +50,4 @@ TriangleSurface to_surface(const CGAL::Surface_mesh<Point>& mesh) {
     return surface;
 }
 
-}  // namespace cutterflow::detail
+}  // namespace cutterflow::geometry::detail

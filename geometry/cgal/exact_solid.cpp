@@ -5,7 +5,7 @@
 
 #include "geometry/cgal/convert.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -42,4 +42,4 @@ TriangleSurface ExactSolid::surface() const {
     return sorted(detail::to_surface(impl_->mesh));
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

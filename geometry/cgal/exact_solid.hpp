@@ -2,9 +2,9 @@
 /// \file Union of solids with exact arithmetic.
 #include <memory>
 
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 /// A solid bounded by a closed surface, in exact coordinates: a sequence of unions loses nothing to rounding.
 class ExactSolid {
@@ -25,4 +25,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

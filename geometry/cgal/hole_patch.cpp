@@ -6,7 +6,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/utility.h>
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 std::vector<Triangle> triangulate_hole(const std::vector<Vec3>& loop) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -27,4 +27,4 @@ std::vector<Triangle> triangulate_hole(const std::vector<Vec3>& loop) {
     return triangles;
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -7,7 +7,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -78,4 +78,4 @@ std::vector<Triangle> triangulate_region(const std::vector<PlanarLoop>& loops) {
     return triangles;
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 /// Corners of a closed polygon, in either sense.
 using PlanarLoop = std::vector<Eigen::Vector2d>;
@@ -13,4 +13,4 @@ using PlanarLoop = std::vector<Eigen::Vector2d>;
 /// \return indices into the loops' corners, numbered through in order
 std::vector<Triangle> triangulate_region(const std::vector<PlanarLoop>& loops);
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

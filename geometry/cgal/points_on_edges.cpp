@@ -5,7 +5,7 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/box_intersection_d.h>
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
@@ -46,4 +46,4 @@ std::vector<std::vector<std::uint32_t>> find_points_on_edges(const std::vector<V
     return result;
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -11,7 +11,7 @@
 #include "geometry/cgal/convert.hpp"
 #include "geometry/cgal/remesh.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
@@ -162,4 +162,4 @@ TriangleSurface remeshed(const TriangleSurface& surface, double edge_length, dou
     throw CheckFailure({"", "the surface cannot be remeshed", "Feature lines must not nearly coincide", "Change the sizes a little"});
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

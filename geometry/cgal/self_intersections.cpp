@@ -6,7 +6,7 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -85,4 +85,4 @@ std::vector<std::pair<std::size_t, std::size_t>> find_self_intersections(const T
     return pairs;
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

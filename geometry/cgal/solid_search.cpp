@@ -10,7 +10,7 @@
 
 #include "geometry/cgal/convert.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -47,4 +47,4 @@ bool SolidSearch::contains(const Vec3& point) const {
     return impl_->side(to_cgal(point)) != CGAL::ON_UNBOUNDED_SIDE;
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

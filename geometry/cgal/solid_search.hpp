@@ -2,9 +2,9 @@
 /// \file Nearest point of a surface, and inside or outside of a solid.
 #include <memory>
 
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 struct NearestPoint {
     Vec3 point;            ///< on the surface [m]
@@ -30,4 +30,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

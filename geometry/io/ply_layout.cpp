@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 struct Property {
@@ -135,4 +135,4 @@ std::string ply_defect(const std::string& content) {
     return header.format == Format::ascii ? ascii_defect(header, content) : binary_defect(header, content);
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -16,7 +16,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/io/ply_layout.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -146,4 +146,4 @@ ImportedSurface import_cutter(const fs::path& file, std::optional<LengthUnit> gi
     }
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "geometry/length_unit.hpp"
-#include "geometry/surface.hpp"
+#include "geometry/io/length_unit.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 /// Reads a surface in the file's own unit. Polygons are cut into triangles and points with equal coordinates are joined; nothing is
 /// repaired. \throws UserError  when the file is missing, empty, truncated, no STL, OBJ or PLY, holds no triangles or coordinates that are
@@ -22,4 +22,4 @@ struct ImportedSurface {
 /// read_surface, then decide_unit, scaled to metres.
 ImportedSurface import_cutter(const std::filesystem::path& file, std::optional<LengthUnit> given);
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -8,7 +8,7 @@
 
 #include "geometry/base/error.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 void append_bytes(std::string& bytes, const void* value, std::size_t count) {
@@ -40,4 +40,4 @@ void write_stl(const TriangleSurface& surface, const std::filesystem::path& file
     if (!out) throw UserError(fmt::format("cannot write \"{}\"", file.string()), "The folder must exist and be writable", "");
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -5,7 +5,7 @@
 
 #include "geometry/base/file_content.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 
 void write_vtp(const TriangleSurface& surface, const std::map<std::string, std::vector<std::int64_t>>& cell_data,
                const std::filesystem::path& file) {
@@ -26,4 +26,4 @@ void write_vtp(const TriangleSurface& surface, const std::map<std::string, std::
     write_file(file, text);
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -4,9 +4,9 @@
 #include <map>
 
 #include "geometry/cgal/hole_patch.hpp"
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 /// An open edge as a patch would pass it.
@@ -102,4 +102,4 @@ Filled fill_holes(const TracedSurface& traced, const std::vector<Hole>& holes) {
     return filled;
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

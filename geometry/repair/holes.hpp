@@ -2,7 +2,7 @@
 /// \file Open borders of a surface and their closing.
 #include "geometry/repair/welding.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// A closed chain of open edges, each point once, in the sense in which a patch passes it (against that of the surface's triangles).
 struct Hole {
@@ -30,4 +30,4 @@ struct Filled {
 /// Closes holes by triangles of least area without new points.
 Filled fill_holes(const TracedSurface& traced, const std::vector<Hole>& holes);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "geometry/repair/winding.hpp"
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 struct Neighbour {
@@ -129,4 +129,4 @@ Stepped orient_outwards(const TracedSurface& traced) {
     return result;
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

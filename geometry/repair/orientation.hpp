@@ -1,7 +1,7 @@
 #pragma once
 #include "geometry/repair/welding.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// Within each sheet (triangles that hang together over edges of exactly two) all triangles take the sense of the larger part by area.
 /// count: triangles flipped.
@@ -11,4 +11,4 @@ Stepped orient_consistently(const TracedSurface& traced);
 /// cavities. count: triangles flipped.
 Stepped orient_outwards(const TracedSurface& traced);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -10,9 +10,9 @@
 #include "geometry/cgal/arrangement.hpp"
 #include "geometry/cgal/self_intersections.hpp"
 #include "geometry/repair/winding.hpp"
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 TriangleSurface corners_of(const Arrangement& arrangement) {
@@ -124,4 +124,4 @@ Stepped outer_boundary(const TracedSurface& traced) {
     return result;
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

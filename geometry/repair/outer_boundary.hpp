@@ -1,7 +1,7 @@
 #pragma once
 #include "geometry/repair/welding.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// More pairs of crossing triangles than this are no damage but another kind of surface; dividing them would take minutes.
 inline constexpr std::size_t k_most_crossings = 100000;
@@ -13,4 +13,4 @@ inline constexpr std::size_t k_most_crossings = 100000;
 /// \throws CheckFailure  when more than k_most_crossings pairs cross
 Stepped outer_boundary(const TracedSurface& traced);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -12,9 +12,9 @@
 #include "geometry/repair/outer_boundary.hpp"
 #include "geometry/repair/seams.hpp"
 #include "geometry/repair/welding.hpp"
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 constexpr std::size_t k_holes_named = 5;
@@ -409,4 +409,4 @@ RepairOutcome repair_surface(const TriangleSurface& surface, const RepairLimits&
     return Repair(surface, limits, name).run();
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "geometry/repair/traced_surface.hpp"
-#include "geometry/soundness.hpp"
+#include "geometry/surface/soundness.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// What a repair may do. A surface that needs more is refused.
 struct RepairLimits {
@@ -56,4 +56,4 @@ struct RepairOutcome {
 /// \param name  of the surface, in front of refusals
 RepairOutcome repair_surface(const TriangleSurface& surface, const RepairLimits& limits, const std::string& name);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

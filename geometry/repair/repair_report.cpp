@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 using nlohmann::json;
@@ -75,4 +75,4 @@ std::string to_text(const RepairOutcome& outcome, const std::string& file, const
     return text;
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

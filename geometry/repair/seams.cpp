@@ -5,9 +5,9 @@
 #include <map>
 
 #include "geometry/cgal/points_on_edges.hpp"
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 /// A triangle has three edges to divide, one a pass; pieces of an edge need none.
@@ -107,4 +107,4 @@ Stepped join_seams(const TracedSurface& traced, double distance) {
     return result;
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

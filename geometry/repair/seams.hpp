@@ -1,7 +1,7 @@
 #pragma once
 #include "geometry/repair/welding.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// Joins borders that run along each other with different points (T-junctions): an open edge is divided at every border point within
 /// `distance` [m] of it. count: edges divided.
@@ -11,4 +11,4 @@ Stepped join_seams(const TracedSurface& traced, double distance);
 /// other one gets a point of its own, `distance` [m] from it towards the middle of the fan. count: points added.
 Stepped part_touching_points(const TracedSurface& traced, double distance);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -2,9 +2,9 @@
 /// \file A surface whose triangles still know which triangle of the file they come from.
 #include <cstdint>
 
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// Source of a triangle that a repair has added (the patch of a hole).
 inline constexpr std::int64_t k_added = -1;
@@ -22,4 +22,4 @@ struct TracedSurface {
 /// The triangles for which `keep` is true, in order, with the points they use.
 TracedSurface selected(const TracedSurface& traced, const std::vector<bool>& keep);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

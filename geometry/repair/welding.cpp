@@ -7,9 +7,9 @@
 #include <set>
 #include <unordered_map>
 
-#include "geometry/topology.hpp"
+#include "geometry/surface/topology.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
 /// Points by the cells of a lattice, to find those near a place.
@@ -219,4 +219,4 @@ Stepped drop_hanging_sheets(const TracedSurface& traced) {
     }
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

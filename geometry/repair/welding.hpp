@@ -2,7 +2,7 @@
 /// \file First steps of a repair: join what nearly coincides, drop what bounds nothing.
 #include "geometry/repair/traced_surface.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// A surface after a step, and how often the step did what it does.
 struct Stepped {
@@ -25,4 +25,4 @@ Stepped drop_duplicates(const TracedSurface& traced);
 /// edge the sheet of the smallest area goes. count: triangles dropped.
 Stepped drop_hanging_sheets(const TracedSurface& traced);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

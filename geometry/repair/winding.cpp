@@ -4,7 +4,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 double solid_angle_share(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& seen_from) {
     const Vec3 u = a - seen_from;
@@ -25,4 +25,4 @@ double winding_number(const TriangleSurface& surface, const Vec3& point) {
     return sum;
 }
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

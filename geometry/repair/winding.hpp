@@ -1,7 +1,7 @@
 #pragma once
-#include "geometry/surface.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 
 /// Signed solid angle of a triangle seen from a point, over 4 pi; positive when the point sees its back (VanOosteromStrackee1983).
 /// 0 for a point in the triangle's plane outside it.
@@ -11,4 +11,4 @@ double solid_angle_share(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
 /// (Jacobson2013).
 double winding_number(const TriangleSurface& surface, const Vec3& point);
 
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -2,10 +2,10 @@
 /// \file Hand-made solids and the shipped head for the tests of geometry.
 #include <string>
 
-#include "geometry/crown_cutter.hpp"
-#include "geometry/surface.hpp"
+#include "geometry/head/crown_cutter.hpp"
+#include "geometry/surface/surface.hpp"
 
-namespace cutterflow::testing {
+namespace cutterflow::geometry::testing {
 
 /// Axis-parallel box, 12 triangles: two each on -x, +x, -y, +y, -z, +z, in this order.
 inline TriangleSurface box(const Vec3& low, const Vec3& high) {
@@ -31,4 +31,4 @@ inline CrownParameters model_crown() {
     return read_crown_parameters(std::string(CUTTERFLOW_SOURCE_DIR) + "/cases/examples/model_cutter/crown.toml");
 }
 
-}  // namespace cutterflow::testing
+}  // namespace cutterflow::geometry::testing

@@ -1,4 +1,4 @@
-#include "geometry/contact_surface.hpp"
+#include "geometry/surface/contact_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/coarsen.hpp"
-#include "geometry/revolve.hpp"
-#include "geometry/soundness.hpp"
-#include "geometry/stationary_steel.hpp"
+#include "geometry/surface/revolve.hpp"
+#include "geometry/surface/soundness.hpp"
+#include "geometry/head/stationary_steel.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 constexpr double k_degree = k_pi / 180.0;
@@ -91,4 +91,4 @@ TEST(SurfaceDistance, is_that_of_shifted_and_of_coarser_drums) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
-#include "geometry/geometry_report.hpp"
-#include "geometry/head.hpp"
-#include "geometry/revolve.hpp"
+#include "geometry/head/geometry_report.hpp"
+#include "geometry/head/head.hpp"
+#include "geometry/surface/revolve.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using testing::model_crown;
@@ -190,4 +190,4 @@ TEST(GeometryReport, holds_what_was_found_with_units_in_the_keys) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -8,10 +8,10 @@
 #include "geometry/base/error.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
-#include "geometry/soundness.hpp"
+#include "geometry/surface/soundness.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST_F(Files, an_implausible_size_is_refused_with_the_unit_that_would_fit) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -1,4 +1,4 @@
-#include "geometry/narrow_places.hpp"
+#include "geometry/head/narrow_places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/exact_solid.hpp"
-#include "geometry/head.hpp"
-#include "geometry/revolve.hpp"
+#include "geometry/head/head.hpp"
+#include "geometry/surface/revolve.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 /// Straight radial plates between a hub as wide as the head and a ring: a cage whose passages and plates are known.
@@ -78,4 +78,4 @@ TEST(Passage, shrinks_by_what_the_blades_gain_in_thickness_and_scales_with_the_h
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -14,11 +14,11 @@
 #include "geometry/repair/winding.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow::repair {
+namespace cutterflow::geometry::repair {
 namespace {
 
-using cutterflow::testing::box;
-using cutterflow::testing::unit_cube;
+using cutterflow::geometry::testing::box;
+using cutterflow::geometry::testing::unit_cube;
 
 TracedSurface traced(const TriangleSurface& surface) {
     TracedSurface result{surface, {}};
@@ -297,4 +297,4 @@ TEST(Repair, tilted_boxes_unite_to_the_volume_of_exact_corefinement_in_single_pr
 }
 
 }  // namespace
-}  // namespace cutterflow::repair
+}  // namespace cutterflow::geometry::repair

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "geometry/base/error.hpp"
-#include "geometry/head.hpp"
-#include "geometry/rock_placement.hpp"
-#include "geometry/stationary_steel.hpp"
+#include "geometry/head/head.hpp"
+#include "geometry/packing/rock_placement.hpp"
+#include "geometry/head/stationary_steel.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 /// The model head, its stationary steel and water, once for all tests.
@@ -139,4 +139,4 @@ TEST(RockPlacement, contradictions_are_all_named) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

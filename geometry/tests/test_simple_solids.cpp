@@ -2,10 +2,10 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/simple_solids.hpp"
-#include "geometry/soundness.hpp"
+#include "geometry/surface/simple_solids.hpp"
+#include "geometry/surface/soundness.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 constexpr double k_accepted = 0.005;
@@ -69,4 +69,4 @@ TEST(SimpleSolids, every_size_without_meaning_is_named) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

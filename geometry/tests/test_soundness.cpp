@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "geometry/soundness.hpp"
+#include "geometry/surface/soundness.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using testing::box;
@@ -153,4 +153,4 @@ TEST(Soundness, every_defect_of_a_surface_is_named_at_once) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

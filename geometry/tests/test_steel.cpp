@@ -10,12 +10,12 @@
 #include "geometry/cgal/planar_region.hpp"
 #include "geometry/cgal/remesh.hpp"
 #include "geometry/cgal/solid_search.hpp"
-#include "geometry/head.hpp"
-#include "geometry/soundness.hpp"
-#include "geometry/stationary_steel.hpp"
+#include "geometry/head/head.hpp"
+#include "geometry/surface/soundness.hpp"
+#include "geometry/head/stationary_steel.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using testing::box;
@@ -341,4 +341,4 @@ TEST(StationarySteel, a_mouth_outside_the_backplate_is_refused) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/revolve.hpp"
+#include "geometry/surface/revolve.hpp"
 #include "geometry/tests/solids.hpp"
 
-namespace cutterflow {
+namespace cutterflow::geometry {
 namespace {
 
 using testing::box;
@@ -72,4 +72,4 @@ TEST(Revolve, a_section_in_the_other_sense_gives_the_same_solid) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::geometry

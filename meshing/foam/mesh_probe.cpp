@@ -15,7 +15,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "geometry/base/run_names.hpp"
+#include "geometry/head/head_names.hpp"
 
 namespace {
 

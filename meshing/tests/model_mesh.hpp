@@ -1,8 +1,8 @@
 #pragma once
 /// \file The model cutter (ring radius 0.40 m) as input of the mesh tests.
-#include "meshing/mesh_plan.hpp"
+#include "meshing/cutter/mesh_plan.hpp"
 
-namespace cutterflow {
+namespace cutterflow::meshing {
 
 inline MeshInput model_mesh_input(const std::string& preset = "draft") {
     MeshInput input;
@@ -43,4 +43,4 @@ inline MeshInput scaled(MeshInput input, double factor) {
     return input;
 }
 
-}  // namespace cutterflow
+}  // namespace cutterflow::meshing

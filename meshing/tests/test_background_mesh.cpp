@@ -1,4 +1,4 @@
-#include "meshing/background_mesh.hpp"
+#include "meshing/cutter/background_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <regex>
 #include <set>
 
-#include "geometry/base/run_names.hpp"
-#include "meshing/mesh_dictionaries.hpp"
+#include "geometry/head/head_names.hpp"
+#include "meshing/cutter/mesh_dictionaries.hpp"
 #include "meshing/tests/model_mesh.hpp"
 
-namespace cutterflow {
+namespace cutterflow::meshing {
 namespace {
 
 struct Block {
@@ -153,4 +153,4 @@ TEST(OutletSelection, ends_within_the_wall_of_the_pipe) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::meshing

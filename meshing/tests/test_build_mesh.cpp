@@ -1,4 +1,4 @@
-#include "meshing/build_mesh.hpp"
+#include "meshing/cutter/build_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,18 +10,19 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/run_names.hpp"
-#include "geometry/crown_cutter.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/head/head_names.hpp"
+#include "geometry/head/crown_cutter.hpp"
 #include "geometry/io/write_stl.hpp"
 
-namespace cutterflow {
+namespace cutterflow::meshing {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// A head of four stout blades, ring radius 0.10 m.
-CrownParameters small_parameters() {
-    CrownParameters p;
+geometry::CrownParameters small_parameters() {
+    geometry::CrownParameters p;
     p.ring_radius = 0.10;
     p.ring_inner_radius = 0.07;
     p.ring_height = 0.03;
@@ -39,7 +40,7 @@ CrownParameters small_parameters() {
     return p;
 }
 
-MeshInput small_input(const TriangleSurface& cutter) {
+MeshInput small_input(const geometry::TriangleSurface& cutter) {
     MeshInput input;
     input.ring_radius = 0.10;
     input.cutter = extent_of_cutter(cutter);
@@ -71,10 +72,10 @@ protected:
     void SetUp() override {
         fs::remove_all(run);
         fs::create_directories(run / "geometry");
-        const StationarySteel steel = generate_stationary_steel(input.steel);
-        write_stl(cutter, run / names::cutter_surface);
-        write_stl(steel.backplate, run / names::backplate_surface);
-        write_stl(steel.suction_pipe, run / names::suction_pipe_surface);
+        const geometry::StationarySteel steel = geometry::generate_stationary_steel(input.steel);
+        geometry::write_stl(cutter, run / names::cutter_surface);
+        geometry::write_stl(steel.backplate, run / names::backplate_surface);
+        geometry::write_stl(steel.suction_pipe, run / names::suction_pipe_surface);
     }
 
     MeshReport build(int ranks = 1) {
@@ -84,7 +85,7 @@ protected:
 
     const fs::path run =
         fs::path(testing::TempDir()) / ("build_mesh_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    TriangleSurface cutter = generate_crown_cutter(small_parameters());
+    geometry::TriangleSurface cutter = geometry::generate_crown_cutter(small_parameters());
     MeshInput input = small_input(cutter);
     MeshPlan plan = plan_mesh(input);
 };
@@ -132,18 +133,18 @@ TEST_F(BuildMesh, shares_only_meshes_that_are_large_enough) {
 }
 
 TEST_F(BuildMesh, sees_that_steel_got_lost) {
-    CrownParameters p = small_parameters();
+    geometry::CrownParameters p = small_parameters();
     p.blade_count = 3;
-    write_stl(generate_crown_cutter(p), run / names::cutter_surface);
+    geometry::write_stl(geometry::generate_crown_cutter(p), run / names::cutter_surface);
     EXPECT_EQ(failed_gates(build()), std::vector<std::string>{"relative error of the steel's volume in the rotor zone"});
 }
 
 TEST_F(BuildMesh, sees_that_refinement_reached_the_interface) {
     const Eigen::Affine3d wider(Eigen::Scaling(1.35, 1.35, 1.0));
-    write_stl(transformed(cutter, wider), run / names::cutter_surface);
+    geometry::write_stl(geometry::transformed(cutter, wider), run / names::cutter_surface);
     const std::vector<std::string> failed = failed_gates(build());
     EXPECT_NE(std::find(failed.begin(), failed.end(), "interface faces that refinement split"), failed.end());
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::meshing

@@ -1,4 +1,4 @@
-#include "meshing/foam_dictionary.hpp"
+#include "meshing/dictionary/foam_dictionary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace cutterflow {
+namespace cutterflow::meshing {
 namespace {
 
 /// Tokens of dictionary text as OpenFOAM's reader forms them: brackets directly behind a word belong to that word.
@@ -139,4 +139,4 @@ TEST(FoamFile, names_class_and_object_and_makes_its_folder) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::meshing

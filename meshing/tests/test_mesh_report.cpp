@@ -1,6 +1,6 @@
-#include "meshing/mesh_report.hpp"
+#include "meshing/cutter/mesh_report.hpp"
 
-#include "meshing/build_mesh.hpp"
+#include "meshing/cutter/build_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/run_names.hpp"
+#include "geometry/head/head_names.hpp"
 #include "meshing/tests/model_mesh.hpp"
 
-namespace cutterflow {
+namespace cutterflow::meshing {
 namespace {
 
 // Lines of checkMesh 1912 of a good mesh and of a bad one.
@@ -257,4 +257,4 @@ TEST(MeshReport, writes_the_keys_of_its_contract) {
 }
 
 }  // namespace
-}  // namespace cutterflow
+}  // namespace cutterflow::meshing

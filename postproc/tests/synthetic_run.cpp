@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "geometry/base/axial_bins.hpp"
+#include "geometry/head/axial_bins.hpp"
 #include "geometry/base/axis_frame.hpp"
 
 namespace cutterflow::postproc::testing {
@@ -61,8 +61,8 @@ double mass_of(double diameter) {
     return k_density * k_pi / 6.0 * diameter * diameter * diameter;
 }
 
-Contour head_contour() {
-    return Contour({-0.44, -0.40, -0.25, -0.10, 0.0}, {0.10, 0.20, 0.32, 0.39, 0.40}, 0.40, 0.03);
+geometry::Contour head_contour() {
+    return geometry::Contour({-0.44, -0.40, -0.25, -0.10, 0.0}, {0.10, 0.20, 0.32, 0.39, 0.40}, 0.40, 0.03);
 }
 
 std::string event_line(const Event& event, double axial) {
@@ -134,7 +134,7 @@ std::string final_table(const std::vector<Event>& events, double time, const std
 
 std::string contour_table() {
     std::string text = "z_m,r_m\n";
-    const Contour contour = head_contour();
+    const geometry::Contour contour = head_contour();
     for (std::size_t i = 0; i < contour.z().size(); ++i) text += fmt::format("{},{}\n", contour.z()[i], contour.radius()[i]);
     return text;
 }
@@ -186,7 +186,7 @@ Triangles crown() {
     const std::vector<std::pair<double, double>> hub{{0.0, -0.44}, {0.10, -0.44}, {0.13, -0.36}, {0.07, -0.30}, {0.0, -0.30}};
     for (std::size_t i = 0; i + 1 < hub.size(); ++i)
         add_ring_wall(triangles, hub[i].first, hub[i].second, hub[i + 1].first, hub[i + 1].second);
-    const Contour contour = head_contour();
+    const geometry::Contour contour = head_contour();
     constexpr int steps = 48;
     for (int blade = 0; blade < 6; ++blade) {
         std::array<Vec3, 4> last{};
@@ -305,7 +305,7 @@ void write_static_files(const fs::path& directory, const std::string& name, doub
 
 std::string outflow_header() {
     std::string header = "time_s";
-    for (const AxialBin& bin : axial_bins(head_contour(), 0.03)) header += "," + bin.name;
+    for (const geometry::AxialBin& bin : geometry::axial_bins(head_contour(), 0.03)) header += "," + bin.name;
     return header + "\n";
 }
 
@@ -355,7 +355,7 @@ void SmallRun::write_tables(const std::string& start_folder, double from, double
     const fs::path post = directory / "postProcessing";
     std::string fates = k_fates_header, outflow = outflow_header(), loads = k_loads_header, balance = k_balance_header,
                 cost = k_cost_header;
-    const std::size_t bin_count = axial_bins(head_contour(), 0.03).size();
+    const std::size_t bin_count = geometry::axial_bins(head_contour(), 0.03).size();
     for (int step = static_cast<int>(std::lround(from / 0.01)) + 1; step <= static_cast<int>(std::lround(to / 0.01)); ++step) {
         const double time = 0.01 * step, wave = std::sin(2.0 * k_pi * time);
         fates += fates_line(events, time);
@@ -426,8 +426,8 @@ void write_realistic_run(const fs::path& directory) {
     });
 
     constexpr int rocks = 361;
-    const Contour contour = head_contour();
-    const std::vector<AxialBin> bins = axial_bins(contour, 0.03);
+    const geometry::Contour contour = head_contour();
+    const std::vector<geometry::AxialBin> bins = geometry::axial_bins(contour, 0.03);
     std::vector<Event> events;
     std::map<int, Vec3> positions;
     for (int id = 1; id <= rocks; ++id) {
@@ -438,13 +438,13 @@ void write_realistic_run(const fs::path& directory) {
             positions[id] = ring_point(contour.radius_at(z) + 0.05, azimuth, z);
             continue;
         }
-        events.push_back({1.0005, id, "head", "in", bins[bin_of(bins, z)].name});
+        events.push_back({1.0005, id, "head", "in", bins[geometry::bin_of(bins, z)].name});
         if (draw < 0.34) {
             const double depth = unit(random) < 0.12 ? -0.01 : std::min(0.43, 0.05 * -std::log(1.0 - unit(random)));
             const double exit_azimuth = std::fmod(2.0 * k_pi + 1.1 + 0.7 * normal(random), 2.0 * k_pi);
             const double time = 1.0 + 0.12 + 0.35 * -std::log(1.0 - 0.9 * unit(random));
             if (time >= 2.0) continue;
-            events.push_back({time, id, "head", "out", bins[bin_of(bins, -depth)].name, exit_azimuth});
+            events.push_back({time, id, "head", "out", bins[geometry::bin_of(bins, -depth)].name, exit_azimuth});
             positions[id] = ring_point(contour.radius_at(-depth) + 0.02 + 0.25 * unit(random), exit_azimuth + 0.4 * unit(random),
                                        -depth - 0.25 * unit(random) * unit(random));
         } else if (draw < 0.83) {
@@ -486,7 +486,7 @@ void write_realistic_run(const fs::path& directory) {
     }
     std::string event_rows = k_events_header;
     for (const Event& event : events) {
-        const auto bin = std::find_if(bins.begin(), bins.end(), [&](const AxialBin& b) { return b.name == event.bin; });
+        const auto bin = std::find_if(bins.begin(), bins.end(), [&](const geometry::AxialBin& b) { return b.name == event.bin; });
         event_rows += event_line(event, bin == bins.end() ? 0.0 : bin->z_max - 0.01);
     }
     const fs::path post = directory / "postProcessing";

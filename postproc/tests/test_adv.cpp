@@ -1,7 +1,7 @@
 // Measured velocities: reading the file, the places that the model is sampled at, and the comparison, against an analytic field.
-#include "postproc/adv_page.hpp"
-#include "postproc/adv_trend.hpp"
-#include "postproc/run_reader.hpp"
+#include "postproc/pages/adv_page.hpp"
+#include "postproc/pages/adv_trend.hpp"
+#include "postproc/run/run_reader.hpp"
 
 #include <regex>
 

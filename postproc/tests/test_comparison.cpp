@@ -1,4 +1,4 @@
-#include "postproc/comparison.hpp"
+#include "postproc/analysis/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/run_names.hpp"
-#include "postproc/comparison_figures.hpp"
-#include "postproc/comparison_page.hpp"
+#include "geometry/base/run_files.hpp"
+#include "postproc/pages/comparison_figures.hpp"
+#include "postproc/pages/comparison_page.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
@@ -64,26 +64,26 @@ TEST(Comparison, of_single_runs_has_bounds_and_no_interval) {
     EXPECT_NEAR(*difference.estimate.value, 1.0 - 11.0 / 14.0, 1e-9);
     EXPECT_NEAR(*difference.estimate.low, 14.0 / 16.0 - 13.0 / 16.0, 1e-9);
     EXPECT_NEAR(*difference.estimate.high, 1.0 - 11.0 / 16.0, 1e-9);
-    EXPECT_EQ(difference.verdict, Verdict::no_replicate);
-    EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "production"), 1).verdict, Verdict::no_replicate);
-    EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "cells"), 1).verdict, Verdict::no_interval);
+    EXPECT_EQ(difference.verdict, ComparisonVerdict::no_replicate);
+    EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "production"), 1).verdict, ComparisonVerdict::no_replicate);
+    EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "cells"), 1).verdict, ComparisonVerdict::no_interval);
 }
 
 TEST(Comparison, says_when_bounds_or_scatter_hide_a_difference) {
     // One rock more spilled, two undecided: the bounds hold zero.
     const Comparison bounded = compare_runs({variant("bounds_a", {}), variant("bounds_b", {4}, 2.0)});
-    EXPECT_EQ(difference_of(bounded, quantity_of(bounded, "ratio"), 1).verdict, Verdict::undecided);
+    EXPECT_EQ(difference_of(bounded, quantity_of(bounded, "ratio"), 1).verdict, ComparisonVerdict::undecided);
     // Three repeats each; the same mean within their scatter in what has no bounds.
     const Comparison scattered =
         compare_runs({variant("scatter_a1", {}), variant("scatter_a2", {4}), variant("scatter_a3", {4, 5}), variant("scatter_b1", {4}, 2.0),
                       variant("scatter_b2", {}, 2.0), variant("scatter_b3", {4, 5}, 2.0)});
     ASSERT_EQ(scattered.settings.size(), 2u);
-    EXPECT_EQ(difference_of(scattered, quantity_of(scattered, "spilled_at_equal_time"), 1).verdict, Verdict::equal);
+    EXPECT_EQ(difference_of(scattered, quantity_of(scattered, "spilled_at_equal_time"), 1).verdict, ComparisonVerdict::equal);
     // All repeats apart from all others.
     const Comparison apart =
         compare_runs({variant("apart_a1", {}), variant("apart_a2", {}), variant("apart_a3", {}), variant("apart_b1", {4, 5, 6}, 2.0),
                       variant("apart_b2", {4, 5, 6}, 2.0), variant("apart_b3", {4, 5, 6}, 2.0)});
-    EXPECT_EQ(difference_of(apart, quantity_of(apart, "spilled_at_equal_time"), 1).verdict, Verdict::differs);
+    EXPECT_EQ(difference_of(apart, quantity_of(apart, "spilled_at_equal_time"), 1).verdict, ComparisonVerdict::differs);
 }
 
 TEST(Comparison, is_made_at_the_time_and_the_revolutions_that_all_runs_reached) {

@@ -1,12 +1,12 @@
-#include "postproc/head_series.hpp"
+#include "postproc/draw/head_series.hpp"
 
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "postproc/indexed_surface.hpp"
-#include "postproc/report.hpp"
+#include "postproc/draw/indexed_surface.hpp"
+#include "postproc/pages/report.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "postproc/gnuplot.hpp"
-#include "postproc/html.hpp"
+#include "postproc/draw/gnuplot.hpp"
+#include "postproc/draw/html.hpp"
 
 namespace cutterflow::postproc {
 namespace {

@@ -5,10 +5,10 @@
 #include <zlib.h>
 
 #include "geometry/base/error.hpp"
-#include "postproc/image.hpp"
-#include "postproc/rendering.hpp"
+#include "postproc/draw/image.hpp"
+#include "postproc/draw/rendering.hpp"
 #include "postproc/tests/synthetic_run.hpp"
-#include "postproc/triangle_surface.hpp"
+#include "postproc/draw/triangle_surface.hpp"
 
 namespace cutterflow::postproc {
 namespace {

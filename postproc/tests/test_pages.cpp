@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "postproc/comparison.hpp"
-#include "postproc/comparison_page.hpp"
-#include "postproc/report.hpp"
+#include "postproc/analysis/comparison.hpp"
+#include "postproc/pages/comparison_page.hpp"
+#include "postproc/pages/report.hpp"
 #include "postproc/tests/chromium.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 

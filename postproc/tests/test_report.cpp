@@ -1,4 +1,4 @@
-#include "postproc/report.hpp"
+#include "postproc/pages/report.hpp"
 
 #include <cstdlib>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
-#include "postproc/figures.hpp"
-#include "postproc/not_modelled.hpp"
+#include "postproc/pages/figures.hpp"
+#include "postproc/analysis/not_modelled.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {

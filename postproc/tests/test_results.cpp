@@ -1,4 +1,4 @@
-#include "postproc/results.hpp"
+#include "postproc/analysis/results.hpp"
 
 #include <fstream>
 

@@ -1,4 +1,4 @@
-#include "postproc/run_table.hpp"
+#include "postproc/run/run_table.hpp"
 
 #include <cmath>
 

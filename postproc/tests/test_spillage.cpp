@@ -1,9 +1,9 @@
-#include "postproc/spillage.hpp"
+#include "postproc/analysis/spillage.hpp"
 
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
-#include "postproc/run_reader.hpp"
+#include "postproc/run/run_reader.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {

@@ -1,4 +1,4 @@
-#include "postproc/time_average.hpp"
+#include "postproc/analysis/time_average.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "postproc/velocity_figures.hpp"
+#include "postproc/pages/velocity_figures.hpp"
 
 #include <cmath>
 

@@ -9,11 +9,11 @@
 #include "geometry/base/error.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
-#include "solver/coupling/csv_recorder.hpp"
-#include "solver/foam/coupling_dictionary.hpp"
+#include "solver/observe/csv_recorder.hpp"
+#include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
-#include "solver/foam/foam_session.hpp"
-#include "solver/foam/pstream_communicator.hpp"
+#include "solver/foam/session/foam_session.hpp"
+#include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 
 namespace {

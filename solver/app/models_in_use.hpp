@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/coupling/run_recorder.hpp"
-#include "solver/foam/coupling_dictionary.hpp"
+#include "solver/observe/run_recorder.hpp"
+#include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
 
 namespace cutterflow {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/run_names.hpp"
+#include "geometry/base/run_files.hpp"
 
 namespace cutterflow::coupling {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/coupling/communicator.hpp"
-#include "solver/coupling/fate_tracker.hpp"
-#include "solver/coupling/rock_coupling.hpp"
-#include "solver/coupling/velocity_sets.hpp"
+#include "solver/ports/communicator.hpp"
+#include "solver/observe/head/fate_tracker.hpp"
+#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/observe/velocity/velocity_sets.hpp"
 
 namespace cutterflow::coupling {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/run_names.hpp"
+#include "geometry/base/run_files.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -52,7 +52,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     }
     if (settings.fates && mistakes.empty()) {
         try {
-            const Contour contour = read_contour(*settings.fates);
+            const geometry::Contour contour = read_contour(*settings.fates);
             const FateTracker tracker(*settings.fates, contour);
             if (settings.outflow) outflow_.emplace(contour, tracker.bins(), settings.outflow->offset);
             if (settings.has_rock) fates_ = tracker;
@@ -68,7 +68,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         }
     }
     if (!mistakes.empty()) throw UserError(mistakes);
-    if (settings.has_rock) rock_ = std::make_unique<RockCoupling>(settings, properties, fluid, *dem, communicator);
+    if (settings.has_rock) rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
 
     double cells = static_cast<double>(fluid.cells().centres.size());
     communicator.sum(gsl::span<double>(&cells, 1));
@@ -94,7 +94,7 @@ void CoupledRun::step() {
     report_cost(seconds);
 }
 
-Moment CoupledRun::now() const {
+RunInstant CoupledRun::now() const {
     return {fluid_.time(), fluid_.rotor().angle(fluid_.time())};
 }
 

@@ -7,15 +7,15 @@
 #include <set>
 
 #include "solver/coupling/checkpoint.hpp"
-#include "solver/coupling/communicator.hpp"
-#include "solver/coupling/dem_engine.hpp"
-#include "solver/coupling/fate_tracker.hpp"
-#include "solver/coupling/fluid_engine.hpp"
-#include "solver/coupling/outflow_sampler.hpp"
-#include "solver/coupling/rock_coupling.hpp"
-#include "solver/coupling/run_recorder.hpp"
-#include "solver/coupling/settings.hpp"
-#include "solver/coupling/velocity_sets.hpp"
+#include "solver/ports/communicator.hpp"
+#include "solver/ports/dem_engine.hpp"
+#include "solver/observe/head/fate_tracker.hpp"
+#include "solver/ports/fluid_engine.hpp"
+#include "solver/observe/head/outflow_sampler.hpp"
+#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/observe/run_recorder.hpp"
+#include "solver/ports/settings.hpp"
+#include "solver/observe/velocity/velocity_sets.hpp"
 
 namespace cutterflow::coupling {
 
@@ -67,7 +67,7 @@ private:
     void report();
 
     bool has_rock() const { return rock_ != nullptr; }
-    Moment now() const;
+    RunInstant now() const;
     void require_equal_angles() const;
     void follow_fates(const DemStep& moved);
     void report_loads_and_balance();
@@ -84,14 +84,14 @@ private:
     RunRecorder& recorder_;
     std::filesystem::path case_folder_;
 
-    std::unique_ptr<RockCoupling> rock_;
+    std::unique_ptr<KernelCoupling> rock_;
     std::optional<FateTracker> fates_;
     std::optional<OutflowSampler> outflow_;
     std::optional<VelocitySets> velocity_;
     std::vector<FeedRock> feed_;  // not yet handled, sorted by time
     std::vector<int> handled_feed_;
 
-    Moment step_start_;
+    RunInstant step_start_;
     DemStep moved_;
     ExchangeBalance balance_;
     CostRow cost_;  // of the step under way

@@ -2,8 +2,8 @@
 /// \file The coupling's FluidEngine on OpenFOAM.
 #include <memory>
 
-#include "solver/coupling/fluid_engine.hpp"
-#include "solver/coupling/settings.hpp"
+#include "solver/ports/fluid_engine.hpp"
+#include "solver/ports/settings.hpp"
 
 namespace cutterflow::foam {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/liggghts/contact_registration.hpp"
+#include "solver/liggghts/contacts/contact_registration.hpp"
 
 namespace cutterflow::liggghts::commands {
 

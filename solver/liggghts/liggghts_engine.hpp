@@ -4,9 +4,9 @@
 
 #include <mpi.h>
 
-#include "solver/coupling/dem_engine.hpp"
-#include "solver/coupling/dem_settings.hpp"
-#include "solver/coupling/fluid_engine.hpp"
+#include "solver/ports/dem_engine.hpp"
+#include "solver/ports/dem_settings.hpp"
+#include "solver/ports/fluid_engine.hpp"
 
 namespace cutterflow::liggghts {
 

@@ -5,7 +5,7 @@
 #include "atom.h"
 #include "update.h"
 
-#include "solver/liggghts/wall_contacts.hpp"
+#include "solver/liggghts/contacts/wall_contacts.hpp"
 
 namespace cutterflow::liggghts {
 

@@ -4,8 +4,8 @@
 
 #include "fix.h"
 
-#include "solver/coupling/dem_engine.hpp"
-#include "solver/liggghts/contact_context.hpp"
+#include "solver/ports/dem_engine.hpp"
+#include "solver/liggghts/contacts/contact_context.hpp"
 
 namespace cutterflow::liggghts {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "geometry/base/error.hpp"
-#include "solver/coupling/dem_settings.hpp"
-#include "solver/coupling/fluid_engine.hpp"
+#include "solver/ports/dem_settings.hpp"
+#include "solver/ports/fluid_engine.hpp"
 
 namespace cutterflow::liggghts {
 

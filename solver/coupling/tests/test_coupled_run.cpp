@@ -6,10 +6,10 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/coupling/coupled_run.hpp"
-#include "solver/coupling/csv_recorder.hpp"
-#include "solver/coupling/tests/fake_engines.hpp"
-#include "solver/coupling/tests/temporary_folder.hpp"
-#include "solver/coupling/tests/threaded_ranks.hpp"
+#include "solver/observe/csv_recorder.hpp"
+#include "solver/ports/testing/fake_engines.hpp"
+#include "solver/ports/testing/temporary_folder.hpp"
+#include "solver/ports/testing/threaded_ranks.hpp"
 
 namespace cutterflow::coupling {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
-#include "solver/coupling/mapping.hpp"
-#include "solver/coupling/tests/synthetic_mesh.hpp"
-#include "solver/coupling/tests/threaded_ranks.hpp"
+#include "solver/coupling/kernel/mapping.hpp"
+#include "solver/ports/testing/synthetic_mesh.hpp"
+#include "solver/ports/testing/threaded_ranks.hpp"
 #include "solver/physics/drag.hpp"
 
 namespace cutterflow::coupling {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
-#include "solver/coupling/rock_feed.hpp"
-#include "solver/coupling/tests/temporary_folder.hpp"
+#include "solver/coupling/feed/rock_feed.hpp"
+#include "solver/ports/testing/temporary_folder.hpp"
 
 namespace cutterflow::coupling {
 namespace {

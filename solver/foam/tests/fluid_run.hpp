@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solver/foam/foam_fluid_engine.hpp"
-#include "solver/foam/foam_session.hpp"
-#include "solver/foam/pstream_communicator.hpp"
+#include "solver/foam/session/foam_session.hpp"
+#include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/foam/tests/tiny_case.hpp"
 
 namespace cutterflow::foam::testing {

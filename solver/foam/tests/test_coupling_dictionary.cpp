@@ -1,9 +1,9 @@
-#include "solver/foam/coupling_dictionary.hpp"
+#include "solver/foam/dictionary/coupling_dictionary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "solver/foam/foam_session.hpp"
+#include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/tests/tiny_case.hpp"
 
 #include "Pstream.H"

@@ -1,7 +1,7 @@
 // Vorticity and stress divergence of flows that central differences resolve exactly.
 #include <gtest/gtest.h>
 
-#include "solver/foam/foam_conversions.hpp"
+#include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
 #include "dynamicFvMesh.H"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/foam/cutter_fluid.hpp"
-#include "solver/foam/foam_conversions.hpp"
+#include "solver/foam/single_phase/cutter_fluid.hpp"
+#include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
 #include "dynamicFvMesh.H"

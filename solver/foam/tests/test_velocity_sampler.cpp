@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "solver/foam/foam_conversions.hpp"
+#include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
 #include "dynamicFvMesh.H"

@@ -1,4 +1,4 @@
-#include "solver/liggghts/contact_law.hpp"
+#include "solver/liggghts/contacts/contact_law.hpp"
 
 #include <cmath>
 

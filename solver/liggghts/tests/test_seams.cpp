@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/liggghts/contact_law.hpp"
+#include "solver/liggghts/contacts/contact_law.hpp"
 #include "solver/liggghts/tests/engine_fixture.hpp"
 
 namespace cutterflow::liggghts::tests {

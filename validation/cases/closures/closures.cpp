@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "cases/study.hpp"
+#include "cases/study/study.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/physics/lift.hpp"
-#include "validation/support/reference_table.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/reference_table.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cases/rank_change.hpp"
-#include "cases/tests/tiny_rotor_mesh.hpp"
+#include "cases/runner/rank_change.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/base/run_names.hpp"
+#include "geometry/base/run_files.hpp"
 #include "solver/coupling/checkpoint.hpp"
-#include "validation/support/box_case.hpp"
-#include "validation/support/rotor_case.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/rotor_case.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

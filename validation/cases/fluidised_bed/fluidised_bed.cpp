@@ -9,10 +9,10 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "meshing/foam_command.hpp"
-#include "postproc/time_average.hpp"
-#include "validation/support/box_case.hpp"
-#include "validation/support/verification.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "postproc/analysis/time_average.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 
@@ -110,7 +110,7 @@ Result run_dpm_foam(const fs::path& folder, const Bed& bed) {
                                       "writeInterval {0}; writeFormat binary; writePrecision 6; timePrecision 6; runTimeModifiable no; functions {1}",
                                       bed.end_time, k_bed_probe));
     const double air_column = k_gravity * k_height;  // over the density, as the program's p
-    return result_of(folder, bed, require_child(foam_command(folder, "DPMFoam")).core_s, air_column);
+    return result_of(folder, bed, require_child(meshing::foam_command(folder, "DPMFoam")).core_s, air_column);
 }
 
 void write_dem_walls(const fs::path& file) {
@@ -175,7 +175,7 @@ void write_cutter_case(const fs::path& folder, const Bed& bed) {
 
 Result run_cutter_foam_bed(const fs::path& folder, const Bed& bed) {
     write_cutter_case(folder, bed);
-    return result_of(folder, bed, require_child(foam_command(folder, cutter_foam())).core_s, 0.0);
+    return result_of(folder, bed, require_child(meshing::foam_command(folder, cutter_foam())).core_s, 0.0);
 }
 
 void run(Verification& verification) {

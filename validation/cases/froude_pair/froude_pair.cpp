@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "geometry/base/file_content.hpp"
-#include "validation/support/program_run.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/program_run.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 
@@ -69,7 +69,7 @@ void compare_outflow(Verification& verification, const nlohmann::json& small, co
                           {"exact", "as many as at length 1: bin widths follow the ring radius", {}});
     if (a.size() != b.size()) return;
     double largest = 0.0, distance = 0.0;
-    postproc::ExhibitTable table{
+    ExhibitTable table{
         "Radial outflow, at length 4 over the root of 4", {"bin", "length 1, m/s", "length 4, m/s", "difference over the largest, %"}, {}};
     for (const double value : b) largest = std::max(largest, std::abs(value));
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -88,7 +88,7 @@ void compare_spillage(Verification& verification, const nlohmann::json& small, c
         "gap between the bounds of the two spillage ratios", "-",
         std::max(bound(small, "ratio_min"), bound(large, "ratio_min")) - std::min(bound(small, "ratio_max"), bound(large, "ratio_max")),
         0.0, {"exact", "below 0 they overlap; each interval holds what undecided rock may still do", {}});
-    postproc::ExhibitTable table{
+    ExhibitTable table{
         "Rock at 0.45 revolutions", {"length", "placed", "spilled", "sucked up", "in the cutter", "never entered", "spillage ratio"}, {}};
     for (const auto& [results, scale] : {std::pair(&small, 1.0), std::pair(&large, k_length_ratio)})
         table.rows.push_back({fmt::format("{:g}", scale), std::to_string(results->at("rock").at("placed").get<int>()),

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "validation/support/box_case.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cases/tests/tiny_rotor_mesh.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/axis_frame.hpp"
-#include "meshing/foam_command.hpp"
-#include "validation/support/box_case.hpp"
-#include "validation/support/rotor_case.hpp"
-#include "validation/support/verification.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/rotor_case.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 
@@ -83,7 +83,7 @@ void read_records(const fs::path& folder, double cell_size, Outcome& outcome) {
 
 Outcome run_cell(const Cell& cell, const fs::path& folder) {
     cell.prepare(folder);
-    const ChildCommand command = foam_command(folder, cutter_foam(), {}, cell.ranks);
+    const ChildCommand command = meshing::foam_command(folder, cutter_foam(), {}, cell.ranks);
     const ChildResult result = run_child(command);
     Outcome outcome;
     outcome.core_s = result.core_s;

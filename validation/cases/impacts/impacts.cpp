@@ -7,9 +7,9 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/physics/contact.hpp"
-#include "validation/support/contact_bench.hpp"
-#include "validation/support/reference_table.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/scenes/contact_bench.hpp"
+#include "validation/harness/reference_table.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

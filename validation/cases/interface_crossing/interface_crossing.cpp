@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "validation/support/box_case.hpp"
-#include "validation/support/crossing_case.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/crossing_case.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

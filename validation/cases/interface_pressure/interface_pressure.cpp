@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "validation/support/box_case.hpp"
-#include "validation/support/tank_mesh.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/tank_mesh.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "solver/coupling/mapping.hpp"
-#include "solver/coupling/tests/synthetic_mesh.hpp"
-#include "solver/coupling/tests/threaded_ranks.hpp"
+#include "solver/coupling/kernel/mapping.hpp"
+#include "solver/ports/testing/synthetic_mesh.hpp"
+#include "solver/ports/testing/threaded_ranks.hpp"
 #include "solver/physics/drag.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 /// \file Speed against error of the draft model cutter's outflow, the flow alone.
-#include "validation/support/cutter_trials.hpp"
+#include "validation/harness/scenes/cutter_trials.hpp"
 
 namespace {
 

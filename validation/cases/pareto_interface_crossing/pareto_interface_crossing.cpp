@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "meshing/foam_command.hpp"
-#include "validation/support/box_case.hpp"
-#include "validation/support/crossing_case.hpp"
-#include "validation/support/pareto.hpp"
-#include "validation/support/verification.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/crossing_case.hpp"
+#include "validation/harness/pareto.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 
@@ -68,7 +68,7 @@ Trial cross(const std::filesystem::path& folder, const Options& options) {
     box.kernel = fmt::format("gamma {}; minWidthInCells 1.5; maxSolidFraction 0.7;", options.gamma);
     box.contact = pareto_contact(options.youngs_modulus, options.dem_step);
     write_box_case(folder, box);
-    const double core_s = require_child(foam_command(folder, cutter_foam())).core_s;
+    const double core_s = require_child(meshing::foam_command(folder, cutter_foam())).core_s;
     return {core_s, rms_error_of_crossing(all_rocks(folder))};
 }
 

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "meshing/foam_command.hpp"
-#include "validation/support/box_case.hpp"
-#include "validation/support/pareto.hpp"
-#include "validation/support/verification.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/pareto.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 
@@ -52,7 +52,7 @@ Trial fall(const std::filesystem::path& folder, const Options& options) {
     box.time_step = fall_time / std::ceil(fall_time * expected / (options.travel * dx));
     box.end_time = fall_time;
     write_box_case(folder, box);
-    const double core_s = require_child(foam_command(folder, cutter_foam())).core_s;
+    const double core_s = require_child(meshing::foam_command(folder, cutter_foam())).core_s;
     return {core_s, 100.0 * std::abs(-last_rocks(folder).velocity.at(0).z() / expected - 1.0)};
 }
 

@@ -1,9 +1,9 @@
 /// A rock let go from rest: weight, buoyancy and added mass set its first acceleration.
 #include <fmt/format.h>
 
-#include "validation/support/box_case.hpp"
-#include "validation/support/falling_rock.hpp"
-#include "validation/support/verification.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/falling_rock.hpp"
+#include "validation/harness/verification.hpp"
 
 namespace {
 

@@ -1,0 +1,397 @@
+#include "cases/runner/pipeline.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/contact_surfaces.hpp"
+#include "cases/runner/disk_space.hpp"
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "cases/runner/machine.hpp"
+#include "cases/runner/prediction.hpp"
+#include "cases/runner/rank_change.hpp"
+#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/runner/run_progress.hpp"
+#include "cases/scenes/cutter/start_flow.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
+#include "cases/scenes/cutter/velocity_points.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/progress.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/head/head_names.hpp"
+#include "geometry/io/read_surface.hpp"
+#include "geometry/io/write_stl.hpp"
+#include "geometry/head/revolution_contour.hpp"
+#include "meshing/cutter/build_mesh.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "postproc/pages/adv_page.hpp"
+#include "postproc/pages/report.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Which stage a key of the study belongs to: the first that uses it. Later stages depend on earlier ones as a whole.
+std::string stage_of(const std::string& key) {
+    const std::string section = key.substr(0, key.find('.'));
+    if (section == "cutter" || section == "tank") return "geometry";
+    if (section == "suction" && key != "suction.discharge_m3_s") return "geometry";
+    if (section == "mesh") return "mesh";
+    if (section == "name" || section == "scale") return "report";
+    return "case";
+}
+
+void add_table_inputs(const ParameterValues& values, const std::string& prefix, const std::string& section,
+                      std::map<std::string, std::string>& inputs) {
+    int index = 0;
+    for (const ParameterValues& member : values.tables(section)) {
+        const std::string name = fmt::format("{}[{}]", prefix, ++index);
+        for (const Parameter& parameter : study_table()) {
+            const std::size_t dot = parameter.key.rfind('.');
+            if (!parameter.repeated || parameter.key.substr(0, dot) != section || !member.has(parameter.key)) continue;
+            inputs[name + parameter.key.substr(dot)] = toml_text(*member.find(parameter.key));
+        }
+        if (section == "feed") add_table_inputs(member, name + ".class", "feed.class", inputs);
+    }
+}
+
+geometry::RevolutionContour read_contour_csv(const fs::path& file) {
+    std::istringstream lines(read_file(file));
+    geometry::RevolutionContour contour;
+    std::string line;
+    std::getline(lines, line);
+    if (line != "z_m,r_m")
+        throw UserError(fmt::format("{} begins with \"{}\"", file.string(), line), "Its first line must be z_m,r_m", "Begin anew");
+    while (std::getline(lines, line)) {
+        double z = 0.0, radius = 0.0;
+        if (std::sscanf(line.c_str(), "%lf,%lf", &z, &radius) != 2)
+            throw UserError(fmt::format("{} has the line \"{}\"", file.string(), line), "A line must hold two numbers", "Begin anew");
+        contour.z.push_back(z);
+        contour.radius.push_back(radius);
+    }
+    if (contour.z.empty()) throw UserError(file.string() + " holds no contour", "It must have lines of two numbers", "Begin anew");
+    return contour;
+}
+
+bool is_of_the_mesh(const std::string& file) {
+    return file.rfind(std::string(meshing::k_mesh_case) + "/", 0) == 0;
+}
+
+/// Overrides of the mesh's dictionaries take effect before the mesh is made, all others last.
+std::vector<std::string> mesh_overrides(const RunDirectory& directory) {
+    std::vector<std::string> files = directory.overrides();
+    files.erase(std::remove_if(files.begin(), files.end(), [](const std::string& file) { return !is_of_the_mesh(file); }), files.end());
+    return files;
+}
+
+std::vector<std::string> case_overrides(const RunDirectory& directory) {
+    std::vector<std::string> files = directory.overrides();
+    files.erase(std::remove_if(files.begin(), files.end(), is_of_the_mesh), files.end());
+    return files;
+}
+
+bool has_checkpoint(const fs::path& directory) {
+    const fs::path checkpoints = directory / names::checkpoints;
+    return fs::is_directory(checkpoints) &&
+           std::any_of(fs::directory_iterator(checkpoints), fs::directory_iterator(),
+                       [](const fs::directory_entry& entry) { return entry.path().extension() != ".part"; });
+}
+
+bool start_is_done(const fs::path& run) {
+    if (run.empty() || !fs::exists(run / names::manifest)) return false;
+    const Manifest manifest(run / names::manifest);
+    const StageRecord* start = manifest.find("start");
+    return start != nullptr && start->state == StageState::done;
+}
+
+/// \pre the study has a feed
+double smallest_diameter(const Study& study) {
+    double smallest = std::numeric_limits<double>::max();
+    for (const FeedRequest& feed : study.feeds)
+        for (const RockClass& rock : feed.classes) smallest = std::min(smallest, rock.diameter);
+    return smallest;
+}
+
+/// What a run left that was stopped before its first checkpoint: there is nothing to go on from.
+void remove_unfinished_run(const fs::path& directory) {
+    std::vector<fs::path> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        const bool later_time = name != "0" && name.find_first_not_of("0123456789.e-+") == std::string::npos;
+        const bool processor = name.rfind("processor", 0) == 0;
+        if (entry.is_directory() && (later_time || processor || name == "postProcessing" || name == names::checkpoints))
+            left.push_back(entry);
+    }
+    for (const fs::path& folder : left) fs::remove_all(folder);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> stage_inputs(const ParameterValues& values, const fs::path& study_folder, const std::string& stage) {
+    std::map<std::string, std::string> inputs;
+    for (const Parameter& parameter : study_table())
+        if (!parameter.repeated && stage_of(parameter.key) == stage && values.has(parameter.key))
+            inputs[parameter.key] = toml_text(*values.find(parameter.key));
+    if (stage == "geometry") inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
+    if (stage == "case") add_table_inputs(values, "feed", "feed", inputs);
+    if (stage == "case" && values.has("report.adv_points"))
+        inputs["report.adv_points"] = adv_places_hash(study_folder / values.text("report.adv_points"));
+    return inputs;
+}
+
+RunHead read_run_head(const RunDirectory& directory) {
+    const fs::path file = directory.file(names::geometry_report);
+    try {
+        const nlohmann::json head = nlohmann::json::parse(read_file(file)).at("head");
+        HeadSize size;
+        size.ring_radius = head.at("ring_radius_m").get<double>();
+        size.blades = std::max(1, head.at("blades").get<int>());
+        if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m").get<double>();
+        size.thickness = head.at("thickness_m").get<double>();
+        geometry::RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
+        size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
+        size.depth = -contour.z.front();
+        return {size, std::move(contour)};
+    } catch (const nlohmann::json::exception& error) {
+        throw UserError(fmt::format("{} cannot be read: {}", file.string(), error.what()), "It must be as the geometry stage writes it",
+                        "Begin anew in another directory with -o");
+    }
+}
+
+geometry::Contour RunHead::with_backplate(double z_backplate) const {
+    return {profile.z, profile.radius, size.ring_radius, z_backplate};
+}
+
+Pipeline::Pipeline(const RunDirectory& directory, PipelineSettings settings, Say say)
+    : directory_(directory), settings_(std::move(settings)), say_(std::move(say)), values_(read_study(settings_.study_file)) {
+    require_cutter_file(values_, settings_.study_file.parent_path());
+}
+
+std::vector<Stage> Pipeline::stages() {
+    const fs::path folder = settings_.study_file.parent_path();
+    const auto inputs = [&](const char* stage) { return stage_inputs(values_, folder, stage); };
+    const std::vector<std::string> case_files = case_overrides(directory_);
+    const std::vector<std::string> mesh_files = mesh_overrides(directory_);
+    const auto with_overrides = [&](std::map<std::string, std::string> all, const std::vector<std::string>& files) {
+        for (const std::string& file : files) all["overrides/" + file] = sha256_of_file(directory_.file("overrides/" + file));
+        return all;
+    };
+    return {{"geometry", inputs("geometry"), {}, false, [this](bool) { return make_geometry(); }},
+            {"mesh", with_overrides(inputs("mesh"), mesh_files), mesh_files, false, [this](bool) { return make_mesh(); }},
+            {"case", with_overrides(inputs("case"), case_files), case_files, false, [this](bool) { return make_case(); }},
+            {"start", {}, {"0/"}, false, [this](bool) { return make_start(); }},
+            {"run", {}, {"system/decomposeParDict"}, true, [this](bool resume) { return run_solver(resume); }},
+            {"report", inputs("report"), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
+}
+
+Study Pipeline::resolved_study(const HeadSize& head) const {
+    const ParameterValues resolved = resolve_study(values_, head);
+    const std::vector<Mistake> mistakes = check_study(resolved, head);
+    if (!mistakes.empty()) throw UserError(mistakes);
+    return make_study(resolved, settings_.study_file.parent_path());
+}
+
+void Pipeline::write_resolved_study(const HeadSize& head) const {
+    const ParameterValues resolved = resolve_study(values_, head);
+    write_file(directory_.file(names::resolved_study),
+               "# Every key of the study as it was computed. Written by cutterflow: change the study, not this file.\n\n" +
+                   commented_toml(study_table(), &resolved));
+}
+
+StageOutcome Pipeline::make_geometry() {
+    const geometry::GeometryInspection inspection = import_study_cutter(values_, settings_.study_file.parent_path());
+    const geometry::Head& head = *inspection.head;
+    const HeadSize size = head_size(head);
+    const Study study = resolved_study(size);
+    for (const Mistake& warning : study_warnings(resolve_study(values_, size), size)) say_("warning: " + warning.text());
+    for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
+    for (const Mistake& warning : meshing::mesh_warnings(mesh_input_of(study, size, head.surface))) say_("warning: " + warning.text());
+    say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
+                     head.ring_radius, size.depth));
+
+    const Prediction prediction = predict(study, size, head.surface, {settings_.ranks, 1.0});  // the disk does not depend on the machine's speed
+    require_free_bytes(directory_.path(), prediction.mesh_disk + prediction.run_disk);
+
+    // A region without a free place is refused here, before the mesh costs anything.
+    place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
+
+    if (study.report.adv_points) require_adv_points(study, size, head.surface);
+
+    const geometry::StationarySteel steel = geometry::generate_stationary_steel(stationary_steel_of(study, size));
+    fs::create_directories(directory_.file("geometry"));
+    geometry::write_stl(head.surface, directory_.file(names::cutter_surface));
+    geometry::write_stl(steel.backplate, directory_.file(names::backplate_surface));
+    geometry::write_stl(steel.suction_pipe, directory_.file(names::suction_pipe_surface));
+    geometry::write_contour_csv(head.contour, directory_.file(names::contour_table));
+    write_file(directory_.file(names::geometry_report), geometry::to_json(inspection).dump(2) + "\n");
+    return {{names::cutter_surface, names::backplate_surface, names::suction_pipe_surface, names::contour_table, names::geometry_report},
+            0.0};
+}
+
+StageOutcome Pipeline::make_mesh() {
+    const RunHead head = read_run_head(directory_);
+    const geometry::TriangleSurface cutter = geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface)));
+    meshing::MeshInput input = mesh_input_of(resolved_study(head.size), head.size, cutter);
+    const bool own_dictionaries = !mesh_overrides(directory_).empty();
+    std::vector<std::string> outputs;
+    std::vector<meshing::MeshRetry> retries;
+    double core_s = 0.0;
+    for (int attempts = 1;; ++attempts) {
+        const meshing::MeshReport report = make_mesh_of(meshing::plan_mesh(input), retries, outputs);
+        core_s += report.core_s;
+        const std::optional<meshing::MeshRetry> retry = own_dictionaries ? std::nullopt : meshing::next_attempt(report, attempts, input);
+        if (!retry) {
+            meshing::require_mesh_gates(report);
+            break;
+        }
+        say_(fmt::format("a gate failed ({}); once more with {}", retry->failed_gate, retry->change));
+        retries.push_back(*retry);
+    }
+    for (const std::string& file : files_below(directory_.path(), "constant/polyMesh")) outputs.push_back(file);
+    outputs.emplace_back(names::mesh_report);
+    return {outputs, core_s};
+}
+
+meshing::MeshReport Pipeline::make_mesh_of(const meshing::MeshPlan& plan, const std::vector<meshing::MeshRetry>& retries, std::vector<std::string>& outputs) {
+    outputs.clear();
+    const int ranks = meshing::ranks_that_pay(plan, settings_.ranks);
+    for (const fs::path& file : meshing::write_mesh_case(directory_.path(), plan, ranks)) outputs.push_back(file.string());
+    for (const std::string& file : directory_.apply_overrides(mesh_overrides(directory_))) {
+        say_("override: " + file);
+        if (std::find(outputs.begin(), outputs.end(), file) == outputs.end()) outputs.push_back(file);
+    }
+    Progress progress("  mesh");
+    const meshing::MeshReport report = meshing::build_mesh(
+        directory_.path(), plan, settings_.solver.parent_path(), ranks,
+        [&](double fraction, const std::string& program) { progress.update(fraction, program); }, retries);
+    progress.finish(fmt::format("{} cells ({:.0f} were predicted), {:.2g} GB at most ({:.2g} predicted)", report.figures.cells,
+                                report.prediction.cells, 1e-9 * report.memory, 1e-9 * report.prediction.mesh_memory));
+    return report;
+}
+
+StageOutcome Pipeline::make_case() {
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    std::vector<std::string> written;
+    for (const fs::path& file :
+         write_case(directory_.path(), case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks)))
+        written.push_back(file.string());
+    write_resolved_study(head.size);
+    const geometry::TriangleSurface cutter = geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface)));
+    const Prediction prediction = predict(study, head.size, cutter, {settings_.ranks, machine_slowness()});
+    write_file(directory_.file(names::prediction), to_json(prediction).dump(2) + "\n");
+    written.insert(written.end(), {names::resolved_study, names::prediction});
+    if (!study.feeds.empty()) {
+        const std::vector<PlacedFeed> feeds =
+            place_feeds(study, feed_scene(study, head.size, head.with_backplate(study.suction.gap), cutter));
+        for (const std::string& line : feed_lines(feeds)) say_(line);
+        write_file(directory_.file(names::rock_feed), rock_feed_csv(feeds));
+        write_file(directory_.file(names::feed_report), feed_json(feeds, study));
+        written.insert(written.end(), {names::rock_feed, names::feed_report});
+        for (const WallSurfaceReport& wall : write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius))
+            say_(wall.text());
+        written.emplace_back(k_contact_surface_report);
+    }
+    for (const std::string& file : directory_.apply_overrides(case_overrides(directory_))) {
+        say_("override: " + file);
+        if (std::find(written.begin(), written.end(), file) == written.end()) written.push_back(file);
+    }
+    return {written, 0.0};
+}
+
+StageOutcome Pipeline::make_start() {
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    const CaseInputs inputs = case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks);
+    if (start_is_done(settings_.start_from)) {
+        if (const auto taken = take_start_flow(directory_.path(), settings_.start_from, inputs)) {
+            say_(fmt::format("the same as that of {}, and taken from there", settings_.start_from.string()));
+            return {files_below(directory_.path(), "0"), 0.0};
+        }
+    }
+    Progress progress("  frozen rotor");
+    const StartFlowReport report = run_start_flow(directory_.path(), inputs, k_start_iterations, [&](int iteration, int iterations) {
+        progress.update(static_cast<double>(iteration) / iterations, fmt::format("iteration {} of {}", iteration, iterations));
+    });
+    progress.finish();
+    say_(report.text());
+    return {files_below(directory_.path(), "0"), report.core_s};
+}
+
+Prediction Pipeline::predicted(const Study& study, const HeadSize& head) const {
+    return predict(study, head, geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface))), {settings_.ranks, 1.0});
+}
+
+std::optional<Mistake> Pipeline::full_disk() const {
+    if (!is_disk_full(directory_.path())) return std::nullopt;
+    try {
+        const RunHead head = read_run_head(directory_);
+        const Prediction prediction = predicted(resolved_study(head.size), head.size);
+        return cases::full_disk(directory_.path(), prediction.mesh_disk + prediction.run_disk);
+    } catch (const Failure&) {
+        return cases::full_disk(directory_.path(), 0.0);  // the disk was full before there was a geometry
+    }
+}
+
+void Pipeline::say_cost(double core_s) const {
+    const fs::path file = directory_.file(names::prediction);
+    if (!fs::exists(file)) return;  // the case is of an older version
+    const nlohmann::json prediction = nlohmann::json::parse(read_file(file));
+    say_(fmt::format("took {:.3g} core hours; {:.3g} were predicted for {:g} revolutions", core_s / 3600.0,
+                     prediction.at("core_hours").get<double>(), prediction.at("revolutions").get<double>()));
+}
+
+StageOutcome Pipeline::run_solver(bool resume) {
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    const bool goes_on = resume && has_checkpoint(directory_.path());
+    double core_s = 0.0;
+    if (goes_on) {
+        const RankChange change = move_checkpoint_to_ranks(directory_.path(), settings_.ranks);
+        core_s += change.core_s;
+        if (change.from != settings_.ranks) say_(fmt::format("the checkpoint goes from {} ranks to {}", change.from, settings_.ranks));
+        say_("going on from the last checkpoint");
+    } else {
+        remove_unfinished_run(directory_.path());
+        require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
+        core_s += decompose(directory_.path(), settings_.ranks);
+    }
+    const ChildCommand command = meshing::foam_command(directory_.path(), settings_.solver.string(), {}, settings_.ranks);
+    keep_older_log(command.log);
+    RunProgress progress(study);
+    const ChildResult result = run_child(command, [&](const std::string& line) { progress.take(line); });
+    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
+    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    progress.finish();
+    if (!goes_on) say_cost(result.core_s);
+    return {{}, core_s + result.core_s};
+}
+
+StageOutcome Pipeline::make_report() {
+    const RunHead head = read_run_head(directory_);
+    const Study study = resolved_study(head.size);
+    write_resolved_study(head.size);
+    const postproc::ReportSummary summary = postproc::write_report(directory_.path());
+    if (!summary.note.empty()) say_(summary.note);
+    if (study.report.adv_points) make_adv_report(*study.report.adv_points);
+    return {{names::resolved_study}, 0.0};  // the report itself is made anew at any time
+}
+
+void Pipeline::make_adv_report(const fs::path& points) const {
+    try {
+        const postproc::AdvComparison comparison = postproc::compare_with_measurement(directory_.path(), points);
+        say_(fmt::format("measured velocities beside the model's: {}", postproc::write_adv_report(comparison, directory_.path()).string()));
+    } catch (const UserError& error) {
+        // A run that ended before a whole revolution was averaged has its report all the same.
+        say_(fmt::format("no comparison with measured velocities: {}", error.what()));
+    }
+}
+
+}  // namespace cutterflow::cases

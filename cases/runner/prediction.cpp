@@ -1,0 +1,146 @@
+#include "cases/runner/prediction.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/scenes/cutter/case_inputs.hpp"
+#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/progress.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+constexpr double k_gravity = 9.81;
+// Core time of a coupled step over that of the flow alone, and what each rank beyond the first adds to either: fastest steps of
+// docs/results/step_cost.md, on one and two ranks.
+constexpr double k_rock_share = 1.32;
+constexpr double k_flow_per_rank = 0.10;
+constexpr double k_rock_per_rank = 0.25;
+// Rock may travel this share of a cell in a step; the smallest cells that it meets at the cutter measure this share of
+// the background's (docs/design/003-meshing.md).
+constexpr double k_travel_share = 0.25;
+constexpr double k_cell_at_rock = 0.387;
+
+// Text files of the demo (61,000 cells, two ranks): mesh in both forms, fields at the start, logs; fields with face fluxes and moved points
+// at each write; momentum carried in a checkpoint. All a little above what was measured.
+constexpr double k_mesh_bytes_per_cell = 700.0, k_mesh_bytes = 2e7;
+constexpr double k_field_bytes_per_cell = 280.0, k_carry_bytes_per_cell = 40.0, k_table_bytes_per_step = 2500.0;
+
+/// How often the run writes its fields: at write times, at checkpoints (often the same times) and at the end.
+double writes_of_fields(const Study& study) {
+    const auto [often, seldom] = std::minmax(study.run.write_interval, study.run.checkpoint_interval);
+    const bool same_times = std::abs(std::remainder(seldom, often)) < 1e-6 * often;
+    return std::floor(study.end_time() / often) + (same_times ? 0.0 : std::floor(study.end_time() / seldom)) + 1.0;
+}
+
+double first_release(const Study& study) {
+    double first = study.end_time();
+    for (const FeedRequest& feed : study.feeds) first = std::min(first, feed.start);
+    return first;
+}
+
+/// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed. Kernels are wider than a cell.
+double step_of_rock(double tip_speed, double cell_size) {
+    return k_travel_share * k_cell_at_rock * cell_size / tip_speed;
+}
+
+}  // namespace
+
+meshing::MeshInput mesh_input_of(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter) {
+    meshing::MeshInput input;
+    input.ring_radius = head.ring_radius;
+    input.cutter = meshing::extent_of_cutter(cutter);
+    input.cutter.passage = head.passage;
+    input.cutter.thickness = head.thickness;
+    input.steel = stationary_steel_of(study, head);
+    input.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
+    input.resolution = meshing::mesh_preset(study.mesh_preset);
+    input.rotation_speed = study.rotation_speed;
+    input.discharge = study.suction.discharge;
+    input.max_courant = study.run.max_courant;
+    return input;
+}
+
+Prediction predict(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter, const RunMachine& machine) {
+    Prediction prediction;
+    prediction.machine = machine;
+    const meshing::MeshPlan plan = meshing::plan_mesh(mesh_input_of(study, head, cutter));
+    const double omega = std::abs(study.rotation_speed);
+    prediction.mesh = plan.prediction;
+    prediction.revolutions = study.run.max_revolutions;
+    prediction.flow_step = std::min(plan.prediction.time_step, largest_time_step(omega));
+    prediction.rock_step = prediction.flow_step;
+    if (!study.feeds.empty()) prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size));
+    prediction.first_release = first_release(study);
+    const double flow_revolutions = prediction.first_release / study.period();
+    const double rock_revolutions = prediction.revolutions - flow_revolutions;
+    const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
+    prediction.steps = flow_revolutions * flow_steps + rock_revolutions * rock_steps;
+    const double core_hours_per_step = machine.slowness * plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
+    prediction.core_hours_per_revolution = core_hours_per_step * (1.0 + k_flow_per_rank * (machine.ranks - 1)) * flow_steps;
+    prediction.core_hours_per_revolution_with_rock =
+        core_hours_per_step * k_rock_share * (1.0 + k_rock_per_rank * (machine.ranks - 1)) * rock_steps;
+    prediction.core_hours =
+        flow_revolutions * prediction.core_hours_per_revolution + rock_revolutions * prediction.core_hours_per_revolution_with_rock;
+    prediction.mesh_disk = k_mesh_bytes + k_mesh_bytes_per_cell * plan.prediction.cells;
+    prediction.run_disk =
+        (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells + prediction.steps * k_table_bytes_per_step;
+    const double mouth = study.suction.mouth_radius;
+    prediction.tip_speed = omega * head.tip_radius;
+    prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
+    prediction.flow_number = study.suction.discharge / (omega * std::pow(head.ring_radius, 3));
+    prediction.froude = omega * omega * head.ring_radius / k_gravity;
+    for (const FeedRequest& feed : study.feeds) {
+        const std::vector<std::size_t> counts = rocks_per_class(feed);
+        prediction.rocks = std::accumulate(counts.begin(), counts.end(), prediction.rocks);
+        for (const RockClass& rock : feed.classes) prediction.settling_speeds.push_back(settling_speed(study, rock));
+    }
+    return prediction;
+}
+
+std::string to_text(const Prediction& p) {
+    std::string text = fmt::format("cells        about {:.0f}\n", p.mesh.cells);
+    text += fmt::format("time step    about {:.2g} s, with rock {:.2g} s; {:.0f} steps for {:g} revolutions\n", p.flow_step, p.rock_step,
+                        p.steps, p.revolutions);
+    text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
+                        1e-9 * p.mesh.run_memory);
+    text += fmt::format("disk         about {:.2g} GB\n", 1e-9 * (p.mesh_disk + p.run_disk));
+    text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s); this machine now takes {:.2f} times the reference's time\n",
+                        p.core_hours, duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
+    text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
+    text += fmt::format("numbers      Q/(omega R^3) = {:.3g}, omega^2 R/g = {:.3g}\n", p.flow_number, p.froude);
+    text += fmt::format("rock         {} rocks", p.rocks);
+    for (const double speed : p.settling_speeds) text += fmt::format(", settling at {:.3g} m/s", speed);
+    return text + "\n";
+}
+
+nlohmann::json to_json(const Prediction& p) {
+    return {{"cells", p.mesh.cells},
+            {"cell_size_min_m", p.mesh.cell_size_min},
+            {"time_step_s", p.flow_step},
+            {"time_step_with_rock_s", p.rock_step},
+            {"mesh_memory_bytes", p.mesh.mesh_memory},
+            {"run_memory_bytes", p.mesh.run_memory},
+            {"disk_bytes", p.mesh_disk + p.run_disk},
+            {"steps", p.steps},
+            {"core_hours", p.core_hours},
+            {"ranks", p.machine.ranks},
+            {"machine_slowness", p.machine.slowness},
+            {"core_hours_per_revolution", p.core_hours_per_revolution},
+            {"core_hours_per_revolution_with_rock", p.core_hours_per_revolution_with_rock},
+            {"first_release_s", p.first_release},
+            {"revolutions", p.revolutions},
+            {"rocks", p.rocks},
+            {"tip_speed_m_s", p.tip_speed},
+            {"mouth_speed_m_s", p.mouth_speed},
+            {"flow_number", p.flow_number},
+            {"froude", p.froude},
+            {"settling_velocity_m_s", p.settling_speeds}};
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,81 @@
+#include "cases/runner/rank_change.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_files.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> processor_folders(const fs::path& directory) {
+    std::vector<fs::path> folders;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+        if (entry.is_directory() && entry.path().filename().string().rfind("processor", 0) == 0) folders.push_back(entry);
+    return folders;
+}
+
+/// The first goes first: a case without it counts as undecomposed.
+void remove_processor_folders(const fs::path& directory) {
+    fs::remove_all(directory / "processor0");
+    for (const fs::path& folder : processor_folders(directory)) fs::remove_all(folder);
+}
+
+/// As cutterFoam writes it last among the fluid's files of a time.
+bool holds_fields(const fs::path& folder, const std::string& time) {
+    return fs::exists(folder / time / "uniform/fluidState") && fs::exists(folder / time / "U");
+}
+
+/// Number of ranks on which the fields of a time are there: 1 for the undecomposed case, 0 when they are nowhere.
+int ranks_that_hold(const fs::path& directory, const std::string& time) {
+    const std::vector<fs::path> folders = processor_folders(directory);
+    const bool all = std::all_of(folders.begin(), folders.end(), [&](const fs::path& folder) { return holds_fields(folder, time); });
+    if (all && fs::exists(directory / "processor0")) return static_cast<int>(folders.size());
+    return holds_fields(directory, time) ? 1 : 0;
+}
+
+std::string newest_checkpoint_time(const fs::path& directory) {
+    std::string newest;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory / names::checkpoints)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.path().extension() == ".part") continue;
+        if (newest.empty() || std::stod(name) > std::stod(newest)) newest = name;
+    }
+    return newest;
+}
+
+double split(const fs::path& directory, int ranks, const std::vector<std::string>& options) {
+    const FoamFile dictionary = decompose_file(ranks);
+    meshing::write_foam_file(directory / dictionary.path, dictionary.foam_class, dictionary.contents);
+    if (ranks == 1) return 0.0;
+    return require_child(meshing::foam_command(directory, "decomposePar", options)).core_s;
+}
+
+}  // namespace
+
+double decompose(const fs::path& run_directory, int ranks) {
+    return split(run_directory, ranks, {"-force"});
+}
+
+RankChange move_checkpoint_to_ranks(const fs::path& run_directory, int ranks) {
+    const std::string time = newest_checkpoint_time(run_directory);
+    RankChange change{ranks_that_hold(run_directory, time), 0.0};
+    if (change.from == ranks) return change;
+    if (change.from == 0)
+        throw UserError(fmt::format("{} holds no fields of its checkpoint {}", run_directory.string(), time),
+                        "A run is resumed from the fields of its newest checkpoint", "Begin anew in another directory with -o");
+    if (change.from > 1) change.core_s += require_child(meshing::foam_command(run_directory, "reconstructPar", {})).core_s;
+    remove_processor_folders(run_directory);
+    change.core_s += split(run_directory, ranks, {"-time", time, "-copyUniform"});
+    return change;
+}
+
+}  // namespace cutterflow::cases

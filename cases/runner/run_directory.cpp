@@ -1,0 +1,103 @@
+#include "cases/runner/run_directory.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_files.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_overrides = "overrides";
+constexpr const char* k_lock = ".lock";
+
+}  // namespace
+
+void require_openfoam_path(const fs::path& path) {
+    const std::string text = path.string();
+    const std::size_t bad = text.find_first_of(" \t\n\r\"'`\\$(){}[];#*?|<>&!");
+    if (bad == std::string::npos) return;
+    throw UserError(fmt::format("the folder \"{}\" has '{}' in its path", text, text[bad]),
+                    "OpenFOAM's programs cannot take paths with spaces, quotes, brackets or other signs of a shell",
+                    "Choose a path of letters, digits, '-', '_', '.' and '/' with -o");
+}
+
+namespace {
+
+/// Empty, holding nothing but overrides/, or a run directory already.
+bool may_hold_a_run(const fs::path& path) {
+    if (fs::exists(path / names::manifest)) return true;
+    return std::all_of(fs::directory_iterator(path), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+        return entry.path().filename() == k_overrides || entry.path().filename() == k_lock;
+    });
+}
+
+int take_lock(const fs::path& path) {
+    // Without O_CLOEXEC: children keep the lock.
+    const int lock = ::open((path / k_lock).c_str(), O_RDWR | O_CREAT, 0666);
+    if (lock < 0)
+        throw UserError(fmt::format("cannot write to {}: {}", path.string(), std::strerror(errno)), "The run directory must be writable",
+                        "Check its permissions, or choose another with -o");
+    if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+    ::close(lock);
+    throw UserError(fmt::format("{} is in use by another process", path.string()), "One process at a time works in a run directory",
+                    "Wait for it, or end it, or choose another directory with -o");
+}
+
+}  // namespace
+
+void require_usable_run_directory(const fs::path& path) {
+    require_openfoam_path(fs::absolute(path));
+    if (!fs::is_directory(path) || may_hold_a_run(path)) return;
+    throw UserError(fmt::format("{} holds files and no {}", path.string(), names::manifest),
+                    "A run directory is empty, or one that cutterflow made; nothing is overwritten", "Choose another with -o");
+}
+
+RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexically_normal()) {
+    require_usable_run_directory(path_);
+    std::error_code failed;
+    fs::create_directories(path_, failed);
+    if (failed || !fs::is_directory(path_))
+        throw UserError(fmt::format("{} cannot be a run directory", path_.string()), "It must be a folder that is there or can be made",
+                        "Choose another with -o");
+    lock_ = take_lock(path_);
+}
+
+RunDirectory::~RunDirectory() {
+    ::close(lock_);
+}
+
+std::vector<std::string> files_below(const fs::path& root, const std::string& folder) {
+    std::vector<std::string> files;
+    if (!fs::is_directory(root / folder)) return files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder))
+        if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(root).string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<std::string> RunDirectory::overrides() const {
+    std::vector<std::string> files = files_below(path_, k_overrides);
+    for (std::string& file : files) file = fs::path(file).lexically_relative(k_overrides).string();
+    return files;
+}
+
+const std::vector<std::string>& RunDirectory::apply_overrides(const std::vector<std::string>& files) const {
+    for (const std::string& relative : files) {
+        fs::create_directories(file(relative).parent_path());
+        fs::copy_file(path_ / k_overrides / relative, file(relative), fs::copy_options::overwrite_existing);
+    }
+    return files;
+}
+
+}  // namespace cutterflow::cases

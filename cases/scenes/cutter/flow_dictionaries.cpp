@@ -1,0 +1,306 @@
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geometry/head/head_names.hpp"
+#include "meshing/cutter/mesh_dictionaries.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+constexpr double k_intensity = 0.05;
+constexpr double k_length_per_ring_radius = 0.07;
+constexpr double k_c_mu = 0.09;
+constexpr double k_pressure_tolerance = 2e-8;  // keeps the flow balance well within 1e-6 of the discharge, also in the first step
+
+constexpr std::array<int, 7> k_velocity = {0, 1, -1, 0, 0, 0, 0};
+constexpr std::array<int, 7> k_pressure = {0, 2, -2, 0, 0, 0, 0};
+constexpr std::array<int, 7> k_dissipation = {0, 2, -3, 0, 0, 0, 0};
+constexpr std::array<int, 7> k_viscosity = {0, 2, -1, 0, 0, 0, 0};
+constexpr std::array<int, 7> k_acceleration = {0, 1, -2, 0, 0, 0, 0};
+
+meshing::FoamValue uniform(meshing::FoamValue value) {
+    return meshing::FoamValue::sequence({"uniform", std::move(value)});
+}
+
+meshing::FoamDictionary typed(const std::string& type) {
+    return meshing::FoamDictionary().add("type", type);
+}
+
+meshing::FoamDictionary typed(const std::string& type, meshing::FoamValue value) {
+    return typed(type).add("value", uniform(std::move(value)));
+}
+
+/// What stands on each group of patches of one field.
+struct Boundary {
+    meshing::FoamDictionary inlet, outlet, cutter, wall;
+};
+
+FoamFile field_file(const std::string& name, const std::string& foam_class, const std::array<int, 7>& dimensions, meshing::FoamValue internal,
+                    const Boundary& boundary) {
+    meshing::FoamDictionary patches;
+    patches.add(names::inlet_patch, boundary.inlet).add(names::outlet_patch, boundary.outlet).add(names::cutter_patch, boundary.cutter);
+    for (const char* wall : {names::backplate_patch, names::suction_pipe_patch, names::tank_top_patch, names::tank_bottom_patch})
+        patches.add(wall, boundary.wall);
+    for (const char* side : {names::rotor_interface_patch, names::stator_interface_patch}) patches.add(side, typed("cyclicAMI"));
+
+    meshing::FoamDictionary field;
+    field.add("dimensions", meshing::FoamValue::dimensions(dimensions))
+        .add("internalField", uniform(std::move(internal)))
+        .add("boundaryField", patches);
+    return {"0/" + name, foam_class, field};
+}
+
+/// A turbulence quantity: given where water enters, free where it leaves, a wall function on steel and bed.
+FoamFile turbulence_field(const std::string& name, const std::array<int, 7>& dimensions, double start, double inlet,
+                          const std::string& wall_function) {
+    const meshing::FoamDictionary open = typed("inletOutlet").add("inletValue", uniform(inlet)).add("value", uniform(inlet));
+    const meshing::FoamDictionary wall = typed(wall_function, start);
+    return field_file(name, "volScalarField", dimensions, start, {open, open, wall, wall});
+}
+
+FoamFile property_file(const std::string& name, meshing::FoamDictionary contents) {
+    return {"constant/" + name, "dictionary", std::move(contents)};
+}
+FoamFile system_file(const std::string& name, meshing::FoamDictionary contents) {
+    return {"system/" + name, "dictionary", std::move(contents)};
+}
+
+const char* convection_scheme(const CaseInputs& inputs) {
+    const ConvectionScheme scheme =
+        inputs.numerics.convection.value_or(inputs.rock ? ConvectionScheme::upwind : ConvectionScheme::limited_linear);
+    return scheme == ConvectionScheme::upwind ? "Gauss upwind" : "Gauss limitedLinearV 1";
+}
+
+meshing::FoamDictionary one(const std::string& key, const std::string& scheme) {
+    return meshing::FoamDictionary().add(key, meshing::FoamValue::raw(scheme));
+}
+
+/// Schemes that start and run share. `limit` is the share of the non-orthogonal correction that is kept (0 to 1).
+FoamFile schemes_file(const std::string& time_scheme, const meshing::FoamDictionary& convection, double limit) {
+    const std::string limited = fmt::format("limited corrected {}", limit);
+    meshing::FoamDictionary gradients = one("default", "Gauss linear");
+    gradients.add("grad(U)", meshing::FoamValue::raw("cellLimited Gauss linear 1"));
+    meshing::FoamDictionary schemes;
+    schemes.add("ddtSchemes", one("default", time_scheme))
+        .add("gradSchemes", gradients)
+        .add("divSchemes", convection)
+        .add("laplacianSchemes", one("default", "Gauss linear " + limited))
+        .add("interpolationSchemes", one("default", "linear"))
+        .add("snGradSchemes", one("default", limited))
+        .add("wallDist", one("method", "meshWave"));
+    return system_file("fvSchemes", schemes);
+}
+
+meshing::FoamDictionary pressure_solver(double tolerance, double relative) {
+    return meshing::FoamDictionary()
+        .add("solver", "GAMG")
+        .add("smoother", "DICGaussSeidel")
+        .add("cacheAgglomeration", true)  // both solutions of a step share it; mesh motion discards it
+        .add("tolerance", tolerance)
+        .add("relTol", relative);
+}
+
+meshing::FoamDictionary transport_solver(double tolerance, double relative) {
+    return meshing::FoamDictionary()
+        .add("solver", "smoothSolver")
+        .add("smoother", "symGaussSeidel")
+        .add("tolerance", tolerance)
+        .add("relTol", relative);
+}
+
+meshing::FoamDictionary monitor(const std::string& type, const std::string& library) {
+    meshing::FoamDictionary function = typed(type);
+    function.add("libs", meshing::FoamValue::list({library})).add("writeControl", "timeStep").add("writeInterval", 1).add("log", false);
+    return function;
+}
+
+meshing::FoamDictionary patch_monitor(const char* patch, const std::string& operation, const std::string& field) {
+    return monitor("surfaceFieldValue", "fieldFunctionObjects")
+        .add("regionType", "patch")
+        .add("name", patch)
+        .add("operation", operation)
+        .add("fields", meshing::FoamValue::list({field}))
+        .add("writeFields", false);
+}
+
+}  // namespace
+
+double Turbulence::eddy_viscosity() const {
+    return k_c_mu * k * k / epsilon;
+}
+
+Turbulence turbulence_of(double speed, double length) {
+    const double k = 1.5 * std::pow(k_intensity * speed, 2);
+    return {k, std::pow(k_c_mu, 0.75) * std::pow(k, 1.5) / length};
+}
+
+Turbulence inlet_turbulence(const CaseInputs& inputs) {
+    const double area = 2.0 * k_pi * inputs.tank.radius * (inputs.tank.z_max - inputs.tank.z_min);
+    return turbulence_of(inputs.discharge / area, k_length_per_ring_radius * inputs.contour.ring_radius());
+}
+
+Turbulence initial_turbulence(const CaseInputs& inputs) {
+    return turbulence_of(tip_speed(inputs), k_length_per_ring_radius * inputs.contour.ring_radius());
+}
+
+std::vector<FoamFile> field_files(const CaseInputs& inputs) {
+    const meshing::FoamValue zero = Vec3(0.0, 0.0, 0.0);
+    const Turbulence start = initial_turbulence(inputs);
+    const Turbulence inlet = inlet_turbulence(inputs);
+
+    const Boundary velocity = {typed("pressureInletOutletVelocity", zero),
+                               typed("flowRateOutletVelocity").add("volumetricFlowRate", inputs.discharge).add("value", uniform(zero)),
+                               typed("movingWallVelocity", zero), typed("noSlip")};
+    // Where the velocity is given: the gradient that the forces of rock on the near fluid ask for; zero without rock.
+    const meshing::FoamDictionary given_flux = typed("fixedFluxPressure", 0.0);
+    const Boundary pressure = {typed("fixedValue", 0.0), given_flux, given_flux, given_flux};
+    const meshing::FoamDictionary calculated = typed("calculated", 0.0);
+    const meshing::FoamDictionary wall_viscosity = typed("nutkWallFunction", 0.0);
+
+    return {
+        field_file("U", "volVectorField", k_velocity, zero, velocity), field_file("p", "volScalarField", k_pressure, 0.0, pressure),
+        turbulence_field("k", k_pressure, start.k, inlet.k, "kqRWallFunction"),
+        turbulence_field("epsilon", k_dissipation, start.epsilon, inlet.epsilon, "epsilonWallFunction"),
+        field_file("nut", "volScalarField", k_viscosity, start.eddy_viscosity(), {calculated, calculated, wall_viscosity, wall_viscosity})};
+}
+
+std::vector<FoamFile> property_files(const CaseInputs& inputs) {
+    meshing::FoamDictionary transport;
+    transport.add("transportModel", "Newtonian").add("nu", inputs.fluid.kinematic_viscosity).add("rho", inputs.fluid.density);
+
+    meshing::FoamDictionary model;
+    model.add("RASModel", "realizableKE").add("turbulence", true).add("printCoeffs", false);
+    meshing::FoamDictionary turbulence;
+    turbulence.add("simulationType", "RAS").add("RAS", model);
+
+    meshing::FoamDictionary gravity;
+    gravity.add("dimensions", meshing::FoamValue::dimensions(k_acceleration)).add("value", inputs.gravity);
+    return {property_file("transportProperties", transport),
+            property_file("turbulenceProperties", turbulence),
+            {"constant/g", "uniformDimensionedVectorField", gravity}};
+}
+
+FoamFile dynamic_mesh_file(const CaseInputs& inputs) {
+    meshing::FoamDictionary rotation;
+    rotation.add("origin", inputs.rotor.axis.origin).add("axis", inputs.rotor.axis.direction).add("omega", inputs.rotor.speed);
+    meshing::FoamDictionary solver;
+    solver.add("cellZone", names::rotor_zone).add("solidBodyMotionFunction", "rotatingMotion").add("rotatingMotionCoeffs", rotation);
+    meshing::FoamDictionary mesh;
+    mesh.add("dynamicFvMesh", "dynamicMotionSolverFvMesh").add("motionSolver", "solidBody").add("solidBodyCoeffs", solver);
+    return property_file("dynamicMeshDict", mesh);
+}
+
+FoamFile frozen_rotor_file(const CaseInputs& inputs) {
+    meshing::FoamDictionary zone;
+    zone.add("cellZone", names::rotor_zone)
+        .add("active", true)
+        // A cyclicAMI patch does not call itself coupled: unless it is named here, its faces count as turning steel and let nothing
+        // through.
+        .add("nonRotatingPatches", meshing::FoamValue::list({names::rotor_interface_patch, names::stator_interface_patch}))
+        .add("origin", inputs.rotor.axis.origin)
+        .add("axis", inputs.rotor.axis.direction)
+        .add("omega", inputs.rotor.speed);
+    return property_file("MRFProperties", meshing::FoamDictionary().add("rotor", zone));
+}
+
+std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
+    meshing::FoamDictionary convection = one("default", "none");
+    convection.add("div(phi,U)", meshing::FoamValue::raw(convection_scheme(inputs)))
+        .add("div(phi,k)", meshing::FoamValue::raw("Gauss upwind"))
+        .add("div(phi,epsilon)", meshing::FoamValue::raw("Gauss upwind"))
+        .add("div((nuEff*dev2(T(grad(U)))))", meshing::FoamValue::raw("Gauss linear"));
+
+    meshing::FoamDictionary solvers;
+    solvers.add("p", pressure_solver(k_pressure_tolerance, 0.02)).add("pFinal", pressure_solver(k_pressure_tolerance, 0.0));
+    solvers.add("pcorr", pressure_solver(1e-3, 0.0)).add("pcorrFinal", pressure_solver(1e-3, 0.0));
+    solvers.add_pattern("(U|k|epsilon)", transport_solver(1e-7, 0.1)).add_pattern("(U|k|epsilon)Final", transport_solver(1e-7, 0.0));
+    meshing::FoamDictionary pimple;
+    pimple.add("momentumPredictor", true)
+        .add("nOuterCorrectors", inputs.numerics.outer_correctors)
+        .add("nCorrectors", inputs.numerics.pressure_correctors)
+        .add("nNonOrthogonalCorrectors", 0)
+        .add("correctPhi", false)
+        .add("checkMeshCourantNo", false)
+        .add("turbOnFinalIterOnly", true);
+    meshing::FoamDictionary relaxation;
+    relaxation.add("equations", meshing::FoamDictionary().add_pattern(".*", 1.0));
+    meshing::FoamDictionary solution;
+    solution.add("solvers", solvers).add("PIMPLE", pimple).add("relaxationFactors", relaxation);
+
+    const RunTimes& times = inputs.times;
+    meshing::FoamDictionary control;
+    control.add("application", "cutterFoam")
+        .add("startFrom", "latestTime")
+        .add("startTime", 0)
+        .add("stopAt", "endTime")
+        .add("endTime", times.end)
+        .add("deltaT", times.first_time_step)
+        .add("adjustTimeStep", true)
+        .add("maxCo", inputs.numerics.max_courant)
+        .add("maxDeltaT", largest_time_step(inputs.rotor.speed))
+        .add("writeControl", "adjustableRunTime")
+        .add("writeInterval", times.write_interval)
+        .add("purgeWrite", 0)
+        .add("writeFormat", "binary")  // exact, so that a restart continues the same run
+        .add("writeCompression", false)
+        .add("timeFormat", "general")
+        .add("timePrecision", 8)
+        .add("runTimeModifiable", true)
+        .add("libs", meshing::FoamValue::list({}));
+
+    return {schemes_file("Euler", convection, 0.5), system_file("fvSolution", solution), system_file("controlDict", control)};
+}
+
+std::vector<FoamFile> start_system_files(const CaseInputs& inputs, int iterations) {
+    meshing::FoamDictionary convection = one("default", "none");
+    for (const char* field : {"U", "k", "epsilon"})
+        convection.add(fmt::format("div(phi,{})", field), meshing::FoamValue::raw("bounded Gauss upwind"));
+    convection.add("div((nuEff*dev2(T(grad(U)))))", meshing::FoamValue::raw("Gauss linear"));
+
+    meshing::FoamDictionary solvers;
+    solvers.add("p", pressure_solver(1e-9, 0.02)).add_pattern("(U|k|epsilon)", transport_solver(1e-9, 0.1));
+    meshing::FoamDictionary relaxation;
+    relaxation.add("fields", meshing::FoamDictionary().add("p", 0.3));
+    relaxation.add("equations", meshing::FoamDictionary().add("U", 0.7).add_pattern("(k|epsilon)", 0.5));
+    meshing::FoamDictionary solution;
+    solution.add("solvers", solvers)
+        .add("SIMPLE", meshing::FoamDictionary().add("nNonOrthogonalCorrectors", 0))
+        .add("relaxationFactors", relaxation);
+
+    meshing::FoamDictionary torque = monitor("forces", "forces");
+    torque.add("patches", meshing::FoamValue::list({names::cutter_patch}))
+        .add("rho", "rhoInf")
+        .add("rhoInf", inputs.fluid.density)
+        .add("CofR", inputs.rotor.axis.origin);
+    meshing::FoamDictionary functions;
+    functions.add("torque", torque)
+        .add("outletPressure", patch_monitor(names::outlet_patch, "areaAverage", "p"))
+        .add("outletFlow", patch_monitor(names::outlet_patch, "sum", "phi"))
+        .add("inletFlow", patch_monitor(names::inlet_patch, "sum", "phi"));
+
+    meshing::FoamDictionary control;
+    control.add("application", "simpleFoam")
+        .add("startFrom", "startTime")
+        .add("startTime", 0)
+        .add("stopAt", "endTime")
+        .add("endTime", iterations)
+        .add("deltaT", 1)
+        .add("writeControl", "timeStep")
+        .add("writeInterval", iterations)
+        .add("writeFormat", "binary")
+        .add("writeCompression", false)
+        .add("timeFormat", "general")
+        .add("runTimeModifiable", true)
+        .add("functions", functions);
+
+    return {schemes_file("steadyState", convection, 0.5), system_file("fvSolution", solution), system_file("controlDict", control)};
+}
+
+FoamFile decompose_file(int ranks) {
+    return system_file("decomposeParDict", meshing::decomposition(ranks));
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,169 @@
+#include "cases/scenes/cutter/rock_feed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/cgal/solid_search.hpp"
+#include "geometry/packing/rock_placement.hpp"
+#include "solver/physics/catalogue.hpp"
+#include "solver/physics/settling.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+// Rock starts clear of steel by this share of its diameter, so that no contact is under way at the release.
+constexpr double k_clearance_per_diameter = 0.05;
+
+double mass_of(const RockClass& rock) {
+    return rock.density * physics::sphere_volume(rock.diameter);
+}
+
+double largest_diameter(const FeedRequest& request) {
+    return std::max_element(request.classes.begin(), request.classes.end(),
+                            [](const RockClass& a, const RockClass& b) { return a.diameter < b.diameter; })
+        ->diameter;
+}
+
+/// Whole numbers that add up to `total` in the proportion of `weights`: the largest remainders are rounded up.
+std::vector<std::size_t> apportion(std::size_t total, const std::vector<double>& weights) {
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    std::vector<std::size_t> counts;
+    std::vector<double> remainders;
+    for (const double weight : weights) {
+        const double exact = static_cast<double>(total) * weight / sum;
+        counts.push_back(static_cast<std::size_t>(exact));
+        remainders.push_back(exact - std::floor(exact));
+    }
+    std::vector<std::size_t> order(weights.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
+    const std::size_t given = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    for (std::size_t i = 0; i < total - given; ++i) ++counts[order[i]];
+    return counts;
+}
+
+/// Classes of the rocks in the order of their places, drawn with the seed.
+std::vector<std::size_t> shuffled_classes(const std::vector<std::size_t>& counts, std::int64_t seed) {
+    std::vector<std::size_t> classes;
+    for (std::size_t i = 0; i < counts.size(); ++i) classes.insert(classes.end(), counts[i], i);
+    std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
+    // Fisher-Yates by hand: std::shuffle gives other orders on other standard libraries.
+    for (std::size_t i = classes.size(); i > 1; --i) std::swap(classes[i - 1], classes[generator() % i]);
+    return classes;
+}
+
+geometry::RockBatch batch_of(const FeedRequest& request, std::size_t count, const HeadSize& head) {
+    const double diameter = largest_diameter(request);
+    geometry::RockBatch batch;
+    batch.count = count;
+    batch.diameter = diameter;
+    batch.lattice_spacing = request.spacing * diameter;
+    batch.clearance = k_clearance_per_diameter * diameter;
+    batch.region = {request.azimuth_centre, request.azimuth_width, -request.depth_to, -request.depth_from, 0.0, head.tip_radius};
+    batch.seed = static_cast<std::uint64_t>(request.seed);
+    return batch;
+}
+
+PlacedFeed place_feed(const FeedRequest& request, const Study& study, const FeedScene& scene, const geometry::SolidSearch& stationary) {
+    const double angle = study.rotation_speed * request.start;
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
+    const geometry::SolidSearch cutter(geometry::transformed(scene.cutter, turn));
+    const std::vector<std::size_t> counts = rocks_per_class(request);
+    const std::size_t count = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    const geometry::WaterBody water{study.tank.radius, study.tank_bottom(scene.size), study.tank_top(scene.size)};
+    const geometry::RockPlacement placement = geometry::place_rocks(batch_of(request, count, scene.size), scene.head, water, {&cutter, &stationary});
+
+    PlacedFeed feed{request, placement.requested, {}, {}};
+    const std::vector<std::size_t> classes = shuffled_classes(counts, request.seed);
+    for (std::size_t i = 0; i < placement.positions.size(); ++i) feed.rocks.push_back({request.start, placement.positions[i], classes[i]});
+    if (placement.rejected() > 0) feed.reasons.push_back(placement.rejection_reason());
+    return feed;
+}
+
+}  // namespace
+
+std::vector<std::size_t> rocks_per_class(const FeedRequest& request) {
+    std::vector<double> numbers;  // of rocks per kilogram of the feed, times the sum of the shares
+    double shares = 0.0;
+    for (const RockClass& rock : request.classes) {
+        numbers.push_back(rock.mass_share / mass_of(rock));
+        shares += rock.mass_share;
+    }
+    if (request.count) return apportion(static_cast<std::size_t>(*request.count), numbers);
+    std::vector<std::size_t> counts;
+    for (const double number : numbers) counts.push_back(static_cast<std::size_t>(std::llround(*request.mass * number / shares)));
+    return counts;
+}
+
+FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::Contour& head, const geometry::TriangleSurface& cutter) {
+    return {head, cutter, geometry::generate_stationary_steel(stationary_steel_of(study, size)).solid(), size};
+}
+
+std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
+    std::vector<std::string> lines;
+    for (const PlacedFeed& feed : feeds) {
+        lines.push_back(fmt::format("{} rocks requested, {} placed", feed.requested, feed.rocks.size()));
+        for (const std::string& reason : feed.reasons) lines.push_back("warning: " + reason);
+    }
+    return lines;
+}
+
+std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) {
+    const geometry::SolidSearch stationary(scene.stationary);
+    std::vector<PlacedFeed> feeds;
+    for (const FeedRequest& request : study.feeds) feeds.push_back(place_feed(request, study, scene, stationary));
+    return feeds;
+}
+
+std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds) {
+    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
+    std::size_t id = 0;
+    for (const PlacedFeed& feed : feeds) {
+        for (const PlacedRock& rock : feed.rocks) {
+            const RockClass& rock_class = feed.request.classes[rock.rock_class];
+            text += fmt::format("{},{},{},{},{},{},{}\n", ++id, rock.time, rock.position.x(), rock.position.y(), rock.position.z(),
+                                rock_class.diameter, rock_class.density);
+        }
+    }
+    return text;
+}
+
+std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const PlacedFeed& feed : feeds) {
+        nlohmann::json classes = nlohmann::json::array();
+        for (std::size_t i = 0; i < feed.request.classes.size(); ++i) {
+            const RockClass& rock = feed.request.classes[i];
+            const auto count = std::count_if(feed.rocks.begin(), feed.rocks.end(), [i](const PlacedRock& r) { return r.rock_class == i; });
+            classes.push_back({{"diameter_m", rock.diameter},
+                               {"density_kg_m3", rock.density},
+                               {"count", count},
+                               {"settling_velocity_m_s", settling_speed(study, rock)}});
+        }
+        list.push_back({{"requested", feed.requested},
+                        {"placed", feed.rocks.size()},
+                        {"rejected", feed.requested - feed.rocks.size()},
+                        {"reasons", feed.reasons},
+                        {"start_s", feed.request.start},
+                        {"classes", classes}});
+    }
+    return nlohmann::json{{"feeds", list}}.dump(2) + "\n";
+}
+
+double settling_speed(const Study& study, const RockClass& rock) {
+    physics::SettlingRock settling;
+    settling.rock = {rock.diameter, study.fluid.density, study.fluid.kinematic_viscosity, 1.0, study.closures.sphericity};
+    settling.density = rock.density;
+    settling.drag = physics::find_drag_law(study.closures.drag);
+    settling.hindrance = physics::find_hindrance_law(study.closures.hindrance);
+    return physics::terminal_slip_speed(settling);
+}
+
+}  // namespace cutterflow::cases

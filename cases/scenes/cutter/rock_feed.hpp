@@ -1,0 +1,58 @@
+#pragma once
+/// \file The rock of a study, placed: constant/rockFeed.csv and feed.json.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cases/study/study.hpp"
+#include "geometry/head/contour.hpp"
+#include "geometry/surface/surface.hpp"
+
+namespace cutterflow::cases {
+
+/// One rock of constant/rockFeed.csv.
+struct PlacedRock {
+    double time = 0.0;  ///< [s]
+    Vec3 position = Vec3::Zero();
+    std::size_t rock_class = 0;  ///< index in the feed's classes
+};
+
+/// What became of one [[feed]].
+struct PlacedFeed {
+    FeedRequest request;
+    std::size_t requested = 0;
+    std::vector<PlacedRock> rocks;
+    std::vector<std::string> reasons;  ///< why rocks were rejected
+};
+
+/// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses stand in the proportion of the shares.
+/// Rounded so that a given count is kept exactly.
+std::vector<std::size_t> rocks_per_class(const FeedRequest& request);
+
+/// What the rock is placed into.
+struct FeedScene {
+    geometry::Contour head;
+    geometry::TriangleSurface cutter;      ///< at rotor angle 0, run's frame
+    geometry::TriangleSurface stationary;  ///< closed
+    HeadSize size;
+};
+
+/// The scene of a study's cutter. \param cutter  as FeedScene has it
+FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::Contour& head, const geometry::TriangleSurface& cutter);
+
+/// Places every feed of a study, the cutter turned to its angle at the release. A feed of several classes is placed on the lattice of its
+/// largest; which place gets which class is drawn with the feed's seed.
+/// \throws UserError  when a region has no free place at all
+std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene);
+
+/// What to tell the user: counts, and why rocks were rejected.
+std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds);
+
+/// Text of constant/rockFeed.csv and of feed.json (docs/design/001-contracts.md).
+std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds);
+std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study);
+
+/// Speed [m/s] at which a rock of that class settles in still water.
+double settling_speed(const Study& study, const RockClass& rock);
+
+}  // namespace cutterflow::cases

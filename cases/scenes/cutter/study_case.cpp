@@ -1,0 +1,132 @@
+#include "cases/scenes/cutter/study_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/velocity_points.hpp"
+#include "geometry/io/read_surface.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+// The pipe ends this many ring radii above the water's surface, which cuts it.
+constexpr double k_pipe_above_water = 0.25;
+constexpr double k_steel_edge_per_ring_radius = 0.05;
+// The Courant limit takes over after the first step.
+constexpr double k_first_step_per_revolution = 1e-4;
+
+Rock rock_of(const Study& study) {
+    Rock rock;
+    for (const FeedRequest& feed : study.feeds)
+        for (const RockClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
+    rock.youngs_modulus = study.rock.youngs_modulus;
+    rock.poisson_rock = study.rock.poisson_rock;
+    rock.poisson_steel = study.rock.poisson_steel;
+    rock.friction = study.rock.friction;
+    rock.restitution = study.rock.restitution;
+    rock.wet_restitution = study.rock.wet_restitution;
+    rock.time_step_fraction = study.rock.time_step_fraction;
+    rock.walls = standard_walls();
+    rock.kernel_gamma = study.kernel.gamma;
+    rock.kernel_min_width_in_cells = study.kernel.min_width_in_cells;
+    rock.max_solid_fraction = study.kernel.max_solid_fraction;
+    rock.drag = study.closures.drag;
+    rock.hindrance = study.closures.hindrance;
+    rock.added_mass = study.closures.added_mass;
+    rock.drag_modifier = study.closures.drag_modifier;
+    rock.sphericity = study.closures.sphericity;
+    rock.lift = study.closures.lift;
+    rock.viscous_force = study.closures.viscous_force;
+    return rock;
+}
+
+}  // namespace
+
+void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder) {
+    const std::filesystem::path file = study_folder / values.text("cutter.file");
+    if (!std::filesystem::exists(file))
+        throw UserError(
+            std::vector<Mistake>{{values.where("cutter.file"), fmt::format("cutter.file = \"{}\"", values.text("cutter.file")),
+                                  fmt::format("There is no file {}", std::filesystem::absolute(file).lexically_normal().string()),
+                                  "Check the name; the path is relative to the study file"}});
+}
+
+geometry::GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder) {
+    const std::filesystem::path file = study_folder / values.text("cutter.file");
+    require_cutter_file(values, study_folder);
+    std::optional<geometry::LengthUnit> unit;
+    if (values.has("cutter.unit")) unit = geometry::length_unit_of(values.text("cutter.unit"));
+    const geometry::GeometryInspection inspection = geometry::inspect_cutter(geometry::import_cutter(file, unit), file.string());
+    geometry::require_head(inspection);
+    return inspection;
+}
+
+HeadSize head_size(const geometry::Head& head) {
+    const double tip = *std::max_element(head.contour.radius.begin(), head.contour.radius.end());
+    return {head.ring_radius, tip, -head.lowest_z, head.passage, head.thickness, std::max(1, head.symmetry.blade_count)};
+}
+
+geometry::Contour head_contour(const geometry::Head& head, double z_backplate) {
+    return {head.contour.z, head.contour.radius, head.ring_radius, z_backplate};
+}
+
+geometry::StationarySteelParameters stationary_steel_of(const Study& study, const HeadSize& head) {
+    geometry::StationarySteelParameters steel;
+    steel.plate_radius = study.suction.backplate_radius;
+    steel.gap = study.suction.gap;
+    steel.plate_thickness = study.suction.backplate_thickness;
+    steel.mouth = {study.suction.mouth_radius, study.suction.mouth_offset, study.suction.mouth_azimuth};
+    steel.pipe_wall = study.suction.pipe_wall;
+    steel.pipe_top = study.tank_top(head) + k_pipe_above_water * head.ring_radius;
+    steel.edge_length = k_steel_edge_per_ring_radius * head.ring_radius;
+    return steel;
+}
+
+std::vector<Mistake> carrying_warnings(const Study& study, const geometry::Head& head) {
+    const bool positive = study.rotation_speed > 0.0;
+    const geometry::CarryingSense with_rotation = positive ? geometry::CarryingSense::positive : geometry::CarryingSense::negative;
+    if (head.carrying.sense == with_rotation) return {};
+    const std::string what = fmt::format("rotor.direction = \"{}\"", positive ? "right_handed" : "left_handed");
+    if (head.carrying.sense == geometry::CarryingSense::none)
+        return {{"", what + " turns a head whose blades push rock along the axis in neither sense",
+                 "Blades usually carry rock to the suction side", "Check the cutter"}};
+    return {{"", what + " makes the blades carry rock away from the suction side",
+             fmt::format("This head carries towards it when it turns {}", positive ? "left_handed" : "right_handed"),
+             "Check rotor.direction, or mirror the cutter"}};
+}
+
+CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geometry::Contour& contour, int ranks) {
+    CaseInputs inputs(contour);
+    inputs.rotor.speed = study.rotation_speed;
+    inputs.discharge = study.suction.discharge;
+    inputs.gravity = gravity_of(study.inclination);
+    inputs.fluid = {study.fluid.kinematic_viscosity, study.fluid.density};
+    inputs.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
+    const double azimuth = study.suction.mouth_azimuth;
+    inputs.mouth.centre = Vec3(study.suction.mouth_offset * std::cos(azimuth), study.suction.mouth_offset * std::sin(azimuth),
+                               study.suction.gap + study.suction.backplate_thickness);
+    inputs.mouth.radius = study.suction.mouth_radius;
+    inputs.numerics.max_courant = study.run.max_courant;
+    inputs.times.end = study.end_time();
+    inputs.times.write_interval = study.run.write_interval;
+    inputs.times.checkpoint_interval = study.run.checkpoint_interval;
+    inputs.times.outflow_from = study.report.outflow_start;
+    inputs.times.first_time_step = k_first_step_per_revolution * study.period();
+    inputs.fates.bin_width = study.report.bin_width;
+    inputs.fates.outflow_offset = study.report.outflow_offset;
+    inputs.blades = head.blades;
+    inputs.velocity_sets = {axial_plane(study, head), plane_under_ring(study, head)};
+    if (study.report.adv_points) inputs.velocity_sets.push_back(adv_set(study));
+    inputs.ranks = ranks;
+    if (!study.feeds.empty()) {
+        inputs.rock = rock_of(study);
+        inputs.fates.stop_undecided = study.run.stop_undecided;
+    }
+    fill_scaled_defaults(inputs);
+    return inputs;
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,98 @@
+#include "cases/scenes/cutter/velocity_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/head/head_names.hpp"
+#include "geometry/cgal/solid_search.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+// Even numbers: no point lies on the axis, where no direction is radial.
+constexpr int k_across = 60, k_up = 40, k_across_ring = 50;
+constexpr double k_under_ring = 0.3425;
+constexpr int k_angles = 180;    // at which a point is looked for in passing steel
+constexpr int k_adv_phases = 12;
+// Points keep this share of the tank's radius or height off its walls.
+constexpr double k_off_walls = 0.02;
+
+/// n values from a to b.
+std::vector<double> spaced(double a, double b, int n) {
+    std::vector<double> values;
+    for (int i = 0; i < n; ++i) values.push_back(a + (b - a) * i / (n - 1));
+    return values;
+}
+
+/// Lies a point of measurement in steel at all angles between the rotor and it?
+bool always_in_steel(const postproc::AdvPoint& point, const geometry::SolidSearch& cutter, const geometry::SolidSearch& stationary) {
+    const geometry::SolidSearch& resting = point.rotating ? cutter : stationary;  // at rest beside the point
+    const geometry::SolidSearch& passing = point.rotating ? stationary : cutter;
+    if (resting.contains(point.position())) return true;
+    for (int i = 0; i < k_angles; ++i)
+        if (!passing.contains(rotate_about({}, 2.0 * k_pi * i / k_angles, point.position()))) return false;
+    return true;
+}
+
+}  // namespace
+
+VelocitySet axial_plane(const Study& study, const HeadSize& head) {
+    const double ring = head.ring_radius, margin = k_off_walls * study.tank.height;
+    const double low = std::max(-head.depth - 0.25 * ring, study.tank_bottom(head) + margin);
+    const double high = std::min(study.suction.gap + study.suction.backplate_thickness + 0.6 * ring, study.tank_top(head) - margin);
+    const double width = std::min(1.5 * ring, (1.0 - k_off_walls) * study.tank.radius), azimuth = study.suction.mouth_azimuth;
+    VelocitySet set{names::axial_plane, 0, {}};
+    for (const double z : spaced(low, high, k_up))
+        for (const double s : spaced(-width, width, k_across)) set.points.push_back({{s * std::cos(azimuth), s * std::sin(azimuth), z}, false});
+    return set;
+}
+
+VelocitySet plane_under_ring(const Study& study, const HeadSize& head) {
+    const double width = std::min(1.4 * head.ring_radius, (1.0 - k_off_walls) * std::sqrt(0.5) * study.tank.radius);
+    VelocitySet set{names::plane_under_ring, 0, {}};
+    for (const double y : spaced(-width, width, k_across_ring))
+        for (const double x : spaced(-width, width, k_across_ring)) set.points.push_back({{x, y, -k_under_ring * head.ring_radius}, false});
+    return set;
+}
+
+VelocitySet adv_set(const Study& study) {
+    VelocitySet set{names::adv_set, k_adv_phases, {}};
+    for (const postproc::AdvPoint& point : postproc::read_adv_points(*study.report.adv_points))
+        for (const Vec3& place : postproc::adv_places(point, study.report.adv_probe)) set.points.push_back({place, point.rotating});
+    return set;
+}
+
+void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter) {
+    const geometry::SolidSearch rotor(cutter), stationary(geometry::generate_stationary_steel(stationary_steel_of(study, head)).solid());
+    const double bottom = study.tank_bottom(head), top = study.tank_top(head);
+    std::vector<Mistake> mistakes;
+    for (const postproc::AdvPoint& point : postproc::read_adv_points(*study.report.adv_points)) {
+        const Cylindrical& place = point.place;
+        const std::string what = fmt::format("point {} (r = {:.4g} m, theta = {:.4g} deg, z = {:.4g} m)", point.name, place.radius,
+                                             place.azimuth * 180.0 / k_pi, place.axial);
+        if (place.radius >= study.tank.radius || place.axial <= bottom || place.axial >= top)
+            mistakes.push_back({point.where, what + " lies outside the water",
+                                fmt::format("The water is the cylinder r < {:.4g} m, {:.4g} m < z < {:.4g} m", study.tank.radius, bottom, top),
+                                "Check the unit in the header and the frame: ring plane z = 0, the head below it"});
+        else if (always_in_steel(point, rotor, stationary))
+            mistakes.push_back({point.where, what + " lies inside steel",
+                                point.rotating ? "A point that turns with the head must be in water"
+                                               : "A still point must be in water at some angle of the rotor",
+                                "Check position, unit and frame"});
+    }
+    if (!mistakes.empty()) throw UserError(mistakes);
+}
+
+std::string adv_places_hash(const std::filesystem::path& points_file) {
+    std::string text;
+    for (const postproc::AdvPoint& point : postproc::read_adv_points(points_file))
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{}\n", point.place.radius, point.place.azimuth, point.place.axial, point.rotating);
+    return sha256(text);
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,338 @@
+#include "cases/study/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "solver/physics/catalogue.hpp"
+#include "solver/physics/contact.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+constexpr double k_degree = k_pi / 180.0;
+
+double period_of(const ParameterValues& values) {
+    return 60.0 / values.number("rotor.speed_rpm");
+}
+double end_time_of(const ParameterValues& values) {
+    return values.number("run.max_revolutions") * period_of(values);
+}
+
+void fill(ParameterValues& values, const char* key, double derived) {
+    if (!values.has(key)) values.set(key, derived);
+}
+
+/// Young's modulus [Pa] with which the densest rock at tip speed overlaps steel of the same modulus by the accepted share of its radius.
+double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head) {
+    double density = 2650.0;
+    for (const ParameterValues& feed : values.tables("feed"))
+        for (const ParameterValues& rock : feed.tables("feed.class")) density = std::max(density, rock.number("feed.class.density_kg_m3"));
+    const double inertia_density = density + values.number("closures.added_mass") * values.number("fluid.density_kg_m3");
+    const double rock = values.number("rock.poisson_rock");
+    const double steel = values.number("rock.poisson_steel");
+    const double speed = rpm_to_rad_s(values.number("rotor.speed_rpm")) * head.tip_radius;
+    return physics::youngs_modulus_for_overlap(inertia_density, speed, physics::k_largest_overlap_ratio, 2.0 - rock * rock - steel * steel);
+}
+
+double derived_outflow_start(const ParameterValues& values) {
+    const double flow_only = values.number("run.flow_revolutions") * period_of(values);
+    const double end = end_time_of(values);
+    return flow_only < end ? flow_only : 0.5 * end;
+}
+
+void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
+    fill(feed, "feed.start_revolution", study.number("run.flow_revolutions"));
+    fill(feed, "feed.azimuth_centre_deg", bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")));
+    fill(feed, "feed.depth_to_m", head.depth);
+}
+
+FeedRequest make_feed(const ParameterValues& feed, double period) {
+    FeedRequest request;
+    if (feed.has("feed.count")) request.count = feed.integer("feed.count");
+    if (feed.has("feed.mass_kg")) request.mass = feed.number("feed.mass_kg");
+    request.start = feed.number("feed.start_revolution") * period;
+    request.seed = feed.integer("feed.seed");
+    request.spacing = feed.number("feed.spacing_diameters");
+    request.azimuth_centre = feed.number("feed.azimuth_centre_deg") * k_degree;
+    request.azimuth_width = feed.number("feed.azimuth_width_deg") * k_degree;
+    request.depth_from = feed.number("feed.depth_from_m");
+    request.depth_to = feed.number("feed.depth_to_m");
+    for (const ParameterValues& rock : feed.tables("feed.class"))
+        request.classes.push_back(
+            {rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"), rock.number("feed.class.mass_share")});
+    return request;
+}
+
+/// Collects broken rules; each names the key's value and line.
+class Rules {
+public:
+    explicit Rules(const ParameterValues& values) : values_(values) {}
+
+    void require(bool kept, const std::string& key, const std::string& rule, const std::string& remedy) {
+        if (!kept) add(values_, key, rule, remedy);
+    }
+    void require(bool kept, const ParameterValues& table, const std::string& key, const std::string& rule, const std::string& remedy) {
+        if (!kept) add(table, key, rule, remedy);
+    }
+    void add(const std::string& what, const std::string& rule, const std::string& remedy) { mistakes.push_back({"", what, rule, remedy}); }
+
+    std::vector<Mistake> mistakes;
+
+private:
+    void add(const ParameterValues& table, const std::string& key, const std::string& rule, const std::string& remedy) {
+        mistakes.push_back({table.where(key), fmt::format("{} = {:.6g}", key, table.number(key)), rule, remedy});
+    }
+    const ParameterValues& values_;
+};
+
+/// What can be said of the feeds without the cutter.
+void check_feed_quantities(const ParameterValues& study, Rules& rules) {
+    int index = 0;
+    for (const ParameterValues& feed : study.tables("feed")) {
+        ++index;
+        const bool has_count = feed.has("feed.count");
+        if (has_count == feed.has("feed.mass_kg"))
+            rules.add(fmt::format("feed {} has {}", index, has_count ? "both count and mass_kg" : "neither count nor mass_kg"),
+                      "A feed's quantity is given once",
+                      has_count ? "Remove one of them" : "Add count = <number of rocks> to this [[feed]]");
+        if (feed.tables("feed.class").empty())
+            rules.add(fmt::format("feed {} has no class of rock", index), "A feed needs one or more [[feed.class]] with diameter_m",
+                      "Add [[feed.class]] with diameter_m below this [[feed]]");
+        rules.require(feed.number("feed.duration_s") == 0.0, feed, "feed.duration_s", "Only batches (duration 0) can be released so far",
+                      "Use 0, or several [[feed]] tables with different start_revolution");
+        for (const ParameterValues& rock : feed.tables("feed.class"))
+            rules.require(rock.number("feed.class.density_kg_m3") > study.number("fluid.density_kg_m3"), rock, "feed.class.density_kg_m3",
+                          fmt::format("Rock must be denser than the fluid ({} kg/m3)", study.number("fluid.density_kg_m3")),
+                          "Correct the density");
+        if (feed.has("feed.start_revolution"))
+            rules.require(feed.number("feed.start_revolution") < study.number("run.max_revolutions"), feed, "feed.start_revolution",
+                          fmt::format("Rock must be released before run.max_revolutions = {}", study.number("run.max_revolutions")),
+                          "Release it earlier or run longer");
+    }
+}
+
+void check_file_rules(const ParameterValues& study, Rules& rules) {
+    check_feed_quantities(study, rules);
+    if (!study.tables("feed").empty())
+        rules.require(
+            study.number("run.flow_revolutions") < study.number("run.max_revolutions"), "run.flow_revolutions",
+            fmt::format("It must be less than run.max_revolutions = {}, or no rock is ever released", study.number("run.max_revolutions")),
+            "Raise run.max_revolutions");
+}
+
+void check_suction(const ParameterValues& study, const HeadSize& head, Rules& rules) {
+    const double offset = study.number("suction.mouth_offset_m");
+    const double radius = study.number("suction.mouth_radius_m");
+    const double wall = study.number("suction.pipe_wall_m");
+    const double plate = study.number("suction.backplate_radius_m");
+    // The key that the file gives is the one to change.
+    const char* key = study.where("suction.mouth_radius_m").empty() ? "suction.mouth_offset_m" : "suction.mouth_radius_m";
+    rules.require(
+        offset + radius <= head.ring_radius, key,
+        fmt::format("The mouth must lie inside the ring: mouth_offset_m + mouth_radius_m = {:.4g} may be at most the ring radius {:.4g} m",
+                    offset + radius, head.ring_radius),
+        "Make the mouth smaller or move it towards the axis");
+    rules.require(
+        offset + radius + wall <= plate, "suction.backplate_radius_m",
+        fmt::format("The backplate must carry the pipe: mouth_offset_m + mouth_radius_m + pipe_wall_m = {:.4g} may be at most its radius",
+                    offset + radius + wall),
+        "Enlarge the backplate or make the pipe smaller");
+}
+
+void check_tank(const ParameterValues& study, const HeadSize& head, Rules& rules) {
+    const double steel = study.number("suction.gap_m") + study.number("suction.backplate_thickness_m");
+    const double least_height = study.number("tank.bed_clearance_m") + head.depth + steel;
+    rules.require(study.number("tank.height_m") > least_height, "tank.height_m",
+                  fmt::format("Bed clearance, head, gap and backplate take {:.4g} m of it", least_height), "Make the tank higher");
+    const double plate = study.number("suction.backplate_radius_m");
+    const double widest = std::max(head.tip_radius, plate);
+    rules.require(study.number("tank.radius_m") >= 1.5 * widest, "tank.radius_m",
+                  fmt::format("It must be at least 1.5 times the radius of head ({:.4g} m) and backplate ({:.4g} m), {:.4g} m",
+                              head.tip_radius, plate, 1.5 * widest),
+                  "Widen the tank, or check cutter.unit");
+}
+
+void check_feed_region(const ParameterValues& study, const HeadSize& head, Rules& rules) {
+    for (const ParameterValues& feed : study.tables("feed")) {
+        const double from = feed.number("feed.depth_from_m");
+        const double to = feed.number("feed.depth_to_m");
+        rules.require(to > from, feed, "feed.depth_to_m", fmt::format("It must be more than depth_from_m = {}", from),
+                      "Exchange or correct them");
+        rules.require(to <= head.depth, feed, "feed.depth_to_m", fmt::format("The head ends {:.4g} m below the ring plane", head.depth),
+                      "Keep the wedge inside the head");
+    }
+}
+
+}  // namespace
+
+double Study::period() const {
+    return 2.0 * k_pi / std::abs(rotation_speed);
+}
+double Study::end_time() const {
+    return run.max_revolutions * period();
+}
+double Study::tank_bottom(const HeadSize& head) const {
+    return -head.depth - tank.bed_clearance;
+}
+double Study::tank_top(const HeadSize& head) const {
+    return tank_bottom(head) + tank.height;
+}
+
+double bank_azimuth_deg(const std::string& swing_direction, const std::string& rotor_direction) {
+    const double rising = rotor_direction == "right_handed" ? 90.0 : -90.0;
+    return swing_direction == "under_cut" ? rising : -rising;
+}
+
+ParameterValues read_study(const std::filesystem::path& file) {
+    ParameterValues values = read_parameters(study_table(), file);
+    Rules rules(values);
+    check_file_rules(values, rules);
+    for (Mistake& mistake : rules.mistakes)
+        if (mistake.where.empty()) mistake.where = file.string();
+    if (!rules.mistakes.empty()) throw UserError(rules.mistakes);
+    return values;
+}
+
+ParameterValues resolve_study(const ParameterValues& values, const HeadSize& head) {
+    ParameterValues resolved = values;
+    const double ring = head.ring_radius;
+    fill(resolved, "suction.mouth_offset_m", 0.55 * ring);
+    fill(resolved, "suction.mouth_radius_m", 0.25 * ring);
+    fill(resolved, "suction.gap_m", 0.075 * ring);
+    fill(resolved, "suction.backplate_radius_m", ring);
+    fill(resolved, "suction.backplate_thickness_m", 0.05 * ring);
+    fill(resolved, "suction.pipe_wall_m", 0.025 * ring);
+    fill(resolved, "tank.radius_m", 6.25 * ring);
+    fill(resolved, "tank.bed_clearance_m", 0.975 * ring);
+    fill(resolved, "tank.height_m", resolved.number("tank.bed_clearance_m") + head.depth + 1.0875 * ring);
+    fill(resolved, "rock.youngs_modulus_pa", needed_youngs_modulus(values, head));
+    fill(resolved, "run.checkpoint_interval_s", 0.25 * period_of(values));
+    fill(resolved, "run.write_interval_s", 0.25 * period_of(values));
+    fill(resolved, "report.bin_width_m", 0.075 * ring);
+    fill(resolved, "report.outflow_offset_m", 0.0375 * ring);
+    fill(resolved, "report.outflow_start_s", derived_outflow_start(values));
+    if (values.has("report.adv_points")) {
+        fill(resolved, "report.adv_probe_diameter_m", 0.006);
+        fill(resolved, "report.adv_probe_length_m", 0.009);
+        fill(resolved, "report.adv_position_error_m", 0.025 * ring);
+    }
+    if (!values.tables("feed").empty())
+        for (ParameterValues& feed : resolved.tables_for_writing("feed")) resolve_feed(feed, values, head);
+    return resolved;
+}
+
+Study make_study(const ParameterValues& resolved, const std::filesystem::path& folder) {
+    const auto number = [&](const char* key) { return resolved.number(key); };
+    Study study;
+    study.name = resolved.text("name");
+    study.cutter.file = std::filesystem::absolute(folder / resolved.text("cutter.file"));
+    if (resolved.has("cutter.unit")) study.cutter.unit = resolved.text("cutter.unit");
+    const double sense = resolved.text("rotor.direction") == "right_handed" ? 1.0 : -1.0;
+    study.rotation_speed = sense * rpm_to_rad_s(number("rotor.speed_rpm"));
+    study.suction = {number("suction.discharge_m3_s"),
+                     number("suction.mouth_azimuth_deg") * k_degree,
+                     number("suction.mouth_offset_m"),
+                     number("suction.mouth_radius_m"),
+                     number("suction.gap_m"),
+                     number("suction.backplate_radius_m"),
+                     number("suction.backplate_thickness_m"),
+                     number("suction.pipe_wall_m")};
+    study.inclination = number("ladder.inclination_deg") * k_degree;
+    study.swing_direction = resolved.text("swing.direction");
+    study.tank = {number("tank.radius_m"), number("tank.bed_clearance_m"), number("tank.height_m")};
+    study.mesh_preset = resolved.text("mesh.preset");
+    study.fluid = {number("fluid.density_kg_m3"), number("fluid.kinematic_viscosity_m2_s")};
+    study.rock = {number("rock.youngs_modulus_pa"), number("rock.poisson_rock"), number("rock.poisson_steel"),
+                  number("rock.friction"),          number("rock.restitution"),  resolved.boolean("rock.wet_restitution"),
+                  number("rock.time_step_fraction")};
+    study.closures = {resolved.text("closures.drag"),  resolved.text("closures.hindrance"), number("closures.added_mass"),
+                      number("closures.drag_modifier"), number("closures.sphericity"),       resolved.text("closures.lift"),
+                      resolved.boolean("closures.viscous_force")};
+    study.kernel = {number("kernel.gamma"), number("kernel.min_width_in_cells"), number("kernel.max_solid_fraction")};
+    study.length_ratio = number("scale.length_ratio");
+    study.run = {number("run.flow_revolutions"), number("run.max_revolutions"),       number("run.stop_undecided"),
+                 number("run.max_courant"),      number("run.checkpoint_interval_s"), number("run.write_interval_s")};
+    study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s"), {}, {}};
+    if (resolved.has("report.adv_points")) {
+        study.report.adv_points = std::filesystem::absolute(folder / resolved.text("report.adv_points"));
+        study.report.adv_probe = {number("report.adv_probe_diameter_m"), number("report.adv_probe_length_m"), number("report.adv_position_error_m")};
+    }
+    for (const ParameterValues& feed : resolved.tables("feed")) study.feeds.push_back(make_feed(feed, study.period()));
+    return study;
+}
+
+std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize& head) {
+    Rules rules(resolved);
+    check_suction(resolved, head, rules);
+    check_tank(resolved, head, rules);
+    check_feed_region(resolved, head, rules);
+    rules.require(!physics::drag_law_holds_void_fraction(resolved.text("closures.drag")) ||
+                      resolved.text("closures.hindrance") == physics::k_no_closure,
+                  "closures.hindrance",
+                  fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice",
+                              resolved.text("closures.drag")),
+                  "Set closures.hindrance = \"none\"");
+    rules.require(resolved.number("report.outflow_start_s") < end_time_of(resolved), "report.outflow_start_s",
+                  fmt::format("The run ends at {:.4g} s", end_time_of(resolved)), "Start the average earlier");
+    return rules.mistakes;
+}
+
+std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
+    Rules rules(resolved);
+    const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
+    const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
+    const char* place = passage < mouth ? "between the blades" : "the suction mouth";
+    for (const ParameterValues& feed : resolved.tables("feed"))
+        for (const ParameterValues& rock : feed.tables("feed.class"))
+            rules.require(rock.number("feed.class.diameter_m") <= passage / 3.0, rock, "feed.class.diameter_m",
+                          fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place),
+                          "Check the diameter");
+    const double speed = rpm_to_rad_s(resolved.number("rotor.speed_rpm")) * head.tip_radius;
+    // Hertz' largest overlap goes with E^(-2/5).
+    const double softness = needed_youngs_modulus(resolved, head) / resolved.number("rock.youngs_modulus_pa");
+    if (!resolved.tables("feed").empty())
+        rules.require(softness <= 1.0 + 1e-9, "rock.youngs_modulus_pa",
+                      fmt::format("At a tip speed of {:.3g} m/s rock overlaps steel by {:.0f} % of its radius; {:.0f} % is accepted", speed,
+                                  100.0 * physics::k_largest_overlap_ratio * std::pow(softness, 0.4), 100.0 * physics::k_largest_overlap_ratio),
+                      "Raise it, or look at overlap_ratio_max in the report");
+    return rules.mistakes;
+}
+
+std::string study_template(const std::string& name, const std::string& cutter_file, const std::optional<std::string>& unit) {
+    ParameterValues values;
+    values.set("name", name);
+    values.set("cutter.file", cutter_file);
+    if (unit) values.set("cutter.unit", *unit);
+    values.set("rotor.speed_rpm", 60.0);
+    values.set("suction.discharge_m3_s", 0.12);
+    ParameterValues feed;
+    feed.set("feed.count", std::int64_t{368});
+    ParameterValues rock;
+    rock.set("feed.class.diameter_m", 0.02);
+    feed.tables_for_writing("feed.class").push_back(rock);
+    values.tables_for_writing("feed").push_back(feed);
+    return "# A study: one operating point of one cutter. `cutterflow check` validates it and predicts its cost.\n"
+           "# Lines without a value show what is derived when they are left so. Without [[feed]] only the flow is solved.\n\n" +
+           commented_toml(study_table(), &values);
+}
+
+std::string study_manual_page() {
+    return "# The study file\n\n"
+           "<!-- Made from the table in cases/study/study_table.cpp: build the target update_manual instead of editing this page. -->\n\n"
+           "A study is one operating point of one cutter, in TOML. Every key carries its unit in its name; an unknown key, a wrong type or "
+           "a\n"
+           "value out of bounds is refused with its line. Lengths without a value follow the ring radius. `cutterflow new` writes a "
+           "commented\n"
+           "study, `cutterflow check` validates one and predicts its cost, `cutterflow params` prints this list.\n\n"
+           "Frame: the axis points from hub to ring (suction side), the ring plane is z = 0, azimuth 0 is lowest and positive by the "
+           "right\n"
+           "hand about the axis. `[[feed]]` may stand several times, each with one or more `[[feed.class]]` below it; without `[[feed]]` "
+           "only\n"
+           "the flow is solved. The number of ranks is no property of a study: `cutterflow run --ranks`.\n" +
+           parameters_markdown(study_table());
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,136 @@
+#pragma once
+/// \file The study file: one operating point of one cutter. Its keys are declared once (study_table); reading, checks, the commented
+/// template, `cutterflow params` and the manual page come from there.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/parameter.hpp"
+#include "postproc/run/adv_points.hpp"
+
+namespace cutterflow::cases {
+
+/// What derived defaults follow: sizes of the head in the run's frame.
+struct HeadSize {
+    double ring_radius = 0.0;         ///< [m]
+    double tip_radius = 0.0;          ///< largest radius of the head [m]
+    double depth = 0.0;               ///< from the ring plane to the head's lowest point [m], > 0
+    std::optional<double> passage{};    ///< diameter of the largest sphere that passes between the blades [m]; none without blades
+    std::optional<double> thickness{};  ///< of the thinnest steel [m]
+    int blades = 1;
+};
+
+struct RockClass {
+    double diameter = 0.0;    ///< [m]
+    double density = 0.0;     ///< [kg/m3]
+    double mass_share = 0.0;  ///< of the feed, > 0; shares are relative to their sum
+};
+
+/// One batch of rock, placed on a lattice inside a wedge of the head.
+struct FeedRequest {
+    std::optional<std::int64_t> count;  ///< one of count and mass
+    std::optional<double> mass;         ///< [kg]
+    double start = 0.0;                 ///< [s]
+    std::int64_t seed = 0;
+    double spacing = 0.0;         ///< between centres, over the largest diameter
+    double azimuth_centre = 0.0;  ///< [rad], in the fixed frame when it is released
+    double azimuth_width = 0.0;   ///< [rad]
+    double depth_from = 0.0;      ///< [m] below the ring plane
+    double depth_to = 0.0;        ///< [m]
+    std::vector<RockClass> classes;
+};
+
+/// A study in SI units, radians and the run's frame (docs/design/001-contracts.md), every derived default filled in.
+struct Study {
+    std::string name;
+    struct Cutter {
+        std::filesystem::path file;       ///< absolute
+        std::optional<std::string> unit;  ///< none: told from the size
+    } cutter;
+    double rotation_speed = 0.0;  ///< [rad/s], right-handed about the axis from hub to ring
+    struct Suction {
+        double discharge = 0.0;                                                     ///< [m3/s]
+        double mouth_azimuth = 0.0;                                                 ///< [rad]
+        double mouth_offset = 0.0;                                                  ///< [m]
+        double mouth_radius = 0.0;                                                  ///< [m]
+        double gap = 0.0;                                                           ///< between ring plane and backplate [m]
+        double backplate_radius = 0.0, backplate_thickness = 0.0, pipe_wall = 0.0;  ///< [m]
+    } suction;
+    double inclination = 0.0;  ///< of the axis below horizontal [rad]
+    std::string swing_direction;
+    struct Tank {
+        double radius = 0.0, bed_clearance = 0.0, height = 0.0;  ///< [m]
+    } tank;
+    std::string mesh_preset;
+    struct Fluid {
+        double density = 0.0;              ///< [kg/m3]
+        double kinematic_viscosity = 0.0;  ///< [m2/s]
+    } fluid;
+    struct Rock {
+        double youngs_modulus = 0.0;  ///< [Pa]
+        double poisson_rock = 0.0, poisson_steel = 0.0, friction = 0.0, restitution = 0.0;
+        bool wet_restitution = true;
+        double time_step_fraction = 0.0;
+    } rock;
+    std::vector<FeedRequest> feeds;  ///< none: pure flow
+    struct Closures {
+        std::string drag, hindrance;
+        double added_mass = 0.0, drag_modifier = 0.0, sphericity = 1.0;
+        std::string lift;
+        bool viscous_force = true;
+    } closures;
+    struct Kernel {
+        double gamma = 0.0, min_width_in_cells = 0.0, max_solid_fraction = 0.0;
+    } kernel;
+    double length_ratio = 0.0;
+    struct Run {
+        double flow_revolutions = 0.0, max_revolutions = 0.0;
+        std::optional<double> stop_undecided;
+        double max_courant = 0.0;
+        double checkpoint_interval = 0.0, write_interval = 0.0;  ///< [s]
+    } run;
+    struct Report {
+        double bin_width = 0.0, outflow_offset = 0.0, outflow_start = 0.0;  ///< [m], [m], [s]
+        std::optional<std::filesystem::path> adv_points;                    ///< absolute
+        postproc::AdvProbe adv_probe;
+    } report;
+
+    double period() const;                           ///< of one revolution [s]
+    double end_time() const;                         ///< [s]
+    double tank_bottom(const HeadSize& head) const;  ///< z [m]
+    double tank_top(const HeadSize& head) const;     ///< z [m]
+};
+
+/// Every key of a study.
+const ParameterTable& study_table();
+
+/// Reads a study file; values as the file gives them, plain defaults filled in, derived ones still absent.
+/// \throws UserError  with every mistake of the file that can be seen without the cutter
+ParameterValues read_study(const std::filesystem::path& file);
+
+/// The values with every derived default written out, for a head of that size.
+ParameterValues resolve_study(const ParameterValues& values, const HeadSize& head);
+
+/// Typed study from resolved values. \param folder  to which the cutter's path is relative: the study file's
+Study make_study(const ParameterValues& resolved, const std::filesystem::path& folder);
+
+/// Rules across keys that a resolved study breaks; each names its keys and, where the file gives them, their lines.
+std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize& head);
+
+/// What is allowed and yet deserves a look.
+std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head);
+
+/// Azimuth [deg] of the side on which the bank stands: where the blades move up (under_cut) or down (over_cut).
+/// Azimuth 0 is lowest and positive by the right hand about the axis from hub to ring, so that a right-handed rotor's blades rise at 90
+/// degrees.
+double bank_azimuth_deg(const std::string& swing_direction, const std::string& rotor_direction);
+
+/// The text that `cutterflow new` writes: every key commented, with the model cutter's operating point, and one feed.
+std::string study_template(const std::string& name, const std::string& cutter_file, const std::optional<std::string>& unit);
+
+/// docs/user/study_file.md.
+std::string study_manual_page();
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,467 @@
+#include "cases/sweep/sweep.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "cases/runner/manifest.hpp"
+#include "cases/runner/run_directory.hpp"
+#include "cases/sweep/slurm.hpp"
+#include "cases/runner/stages.hpp"
+#include "cases/study/study.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/progress.hpp"
+#include "geometry/base/run_files.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_studies = "studies";
+constexpr const char* k_logs = "logs";
+
+/// OpenFOAM takes few characters in a path.
+std::string safe(std::string name) {
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+    return name;
+}
+
+/// The values of an axis, or one absent value that keeps the study's.
+template <typename T>
+std::vector<std::optional<T>> or_own(const std::vector<T>& values) {
+    if (values.empty()) return {std::nullopt};
+    return {values.begin(), values.end()};
+}
+
+/// One point of a sweep; what is absent stays as the study has it.
+struct Combination {
+    std::optional<std::string> design;
+    std::optional<double> speed, discharge;
+    int repeat = 0;
+};
+
+std::vector<Combination> combinations_of(const SweepAxes& axes) {
+    std::vector<Combination> all;
+    for (const auto& design : or_own(axes.designs))
+        for (const auto& speed : or_own(axes.speeds))
+            for (const auto& discharge : or_own(axes.discharges))
+                for (int repeat = 0; repeat < axes.repeats; ++repeat) all.push_back({design, speed, discharge, repeat});
+    return all;
+}
+
+/// "a_60rpm_0.12m3_s": what repeats of a point have in common.
+std::string setting_name(const Combination& combination, const std::string& study) {
+    std::vector<std::string> parts;
+    if (combination.design) parts.push_back(safe(fs::path(*combination.design).stem().string()));
+    if (combination.speed) parts.push_back(fmt::format("{:g}rpm", *combination.speed));
+    if (combination.discharge) parts.push_back(fmt::format("{:g}m3_s", *combination.discharge));
+    if (parts.empty()) parts.push_back(safe(study));
+    return fmt::format("{}", fmt::join(parts, "_"));
+}
+
+ParameterValues values_of(const Combination& combination, ParameterValues values, const std::string& setting) {
+    if (combination.design || combination.speed || combination.discharge)
+        values.set("name", fmt::format("{}: {}", values.text("name"), setting));
+    if (combination.speed) values.set("rotor.speed_rpm", *combination.speed);
+    if (combination.discharge) values.set("suction.discharge_m3_s", *combination.discharge);
+    return values;
+}
+
+/// A path of the user's (relative to where the command was given) as the studies in the sweep's folder name it.
+std::string from_studies(const fs::path& path, const fs::path& folder) {
+    return fs::absolute(path).lexically_normal().lexically_relative((fs::absolute(folder) / k_studies).lexically_normal()).string();
+}
+
+/// Repeat `index` of `count`: another placement, released at another angle within one passing of a blade.
+void vary_release(ParameterValues& values, int index, int count, int blades) {
+    for (ParameterValues& feed : values.tables_for_writing("feed")) {
+        const double start =
+            feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : values.number("run.flow_revolutions");
+        feed.set("feed.seed", feed.integer("feed.seed") + index);
+        if (index > 0) feed.set("feed.start_revolution", start + static_cast<double>(index) / (count * blades));
+    }
+}
+
+/// Reads cutters once each: a sweep names the same design many times.
+class Designs {
+public:
+    const geometry::Head& head_of(ParameterValues values, const fs::path& cutter) {
+        const std::string file = fs::absolute(cutter).lexically_normal().string();
+        auto found = heads_.find(file);
+        if (found == heads_.end()) {
+            values.set("cutter.file", file);
+            found = heads_.emplace(file, *import_study_cutter(values, "").head).first;
+        }
+        return found->second;
+    }
+
+private:
+    std::map<std::string, geometry::Head> heads_;
+};
+
+/// What is wrong with a design is wrong at each of its points.
+void add_once(const Mistake& mistake, std::vector<Mistake>& all) {
+    const bool known = std::any_of(all.begin(), all.end(), [&](const Mistake& other) { return other.text() == mistake.text(); });
+    if (!known) all.push_back(mistake);
+}
+
+void check_names(const std::vector<SweepPoint>& points) {
+    std::map<std::string, int> count;
+    for (const SweepPoint& point : points) ++count[point.name];
+    std::vector<Mistake> mistakes;
+    for (const auto& [name, times] : count)
+        if (times > 1)
+            mistakes.push_back({"", fmt::format("{} points are called {}", times, name), "Each point of a sweep differs from all others",
+                                "Name each value once, and give designs different file names"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
+/// Writes the studies, or finds them as they are.
+void write_studies(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    const fs::path studies = settings.folder / k_studies;
+    if (!fs::exists(studies)) {
+        if (fs::exists(settings.folder) && !fs::is_empty(settings.folder))
+            throw UserError(fmt::format("{} holds something else already", settings.folder.string()), "Nothing is overwritten",
+                            "Name another folder with -o");
+        for (const SweepPoint& point : points) write_file(studies / (point.name + ".toml"), point.text);
+        return;
+    }
+    if (!settings.resume)
+        throw UserError(fmt::format("{} holds a sweep already", settings.folder.string()), "Its runs are kept",
+                        "Add --resume to go on with it, or name another folder with -o");
+    std::vector<Mistake> mistakes;
+    std::vector<const SweepPoint*> added;
+    for (const SweepPoint& point : points) {
+        const fs::path file = studies / (point.name + ".toml");
+        if (!fs::exists(file))
+            added.push_back(&point);
+        else if (read_file(file) != point.text)
+            mistakes.push_back({file.string(), "the study of this point is another", "A point's results belong to its study",
+                                "Name another folder with -o, or change the study back"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    for (const SweepPoint* point : added) write_file(studies / (point->name + ".toml"), point->text);
+}
+
+/// Share done as "run: 42 %, ..." tells it; nothing for other lines.
+std::optional<double> share_of(const std::string& line) {
+    const std::string start = "  run: ";
+    const std::size_t percent = line.find(" %");
+    if (line.rfind(start, 0) != 0 || percent == std::string::npos) return std::nullopt;
+    return std::strtod(line.c_str() + start.size(), nullptr) / 100.0;
+}
+
+/// `cutterflow mesh` or `cutterflow run` of a point.
+ChildCommand command_of(const SweepSettings& settings, const SweepPoint& point, const std::string& what) {
+    ChildCommand command;
+    command.arguments = {settings.program.string(),
+                         what,
+                         (settings.folder / k_studies / (point.name + ".toml")).string(),
+                         "-o",
+                         (settings.folder / point.name).string(),
+                         "--ranks",
+                         std::to_string(settings.ranks)};
+    if (what == "run") command.arguments.emplace_back("--resume");
+    if (what == "run" && !point.start_donor.empty())
+        command.arguments.insert(command.arguments.end(), {"--start-from", (settings.folder / point.start_donor).string()});
+    command.log = settings.folder / k_logs / fmt::format("{}.{}.log", point.name, what);
+    return command;
+}
+
+/// The first point of each design makes the mesh; the others get a copy.
+std::map<std::string, std::string> mesh_donors(const std::vector<SweepPoint>& points) {
+    std::map<std::string, std::string> donors;
+    for (const SweepPoint& point : points) donors.emplace(point.design, point.name);
+    return donors;
+}
+
+/// Points that have to make a mesh for others.
+std::vector<SweepPoint> points_to_mesh(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    const auto donors = mesh_donors(points);
+    std::vector<SweepPoint> to_mesh;
+    for (const SweepPoint& point : points)
+        if (donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name)) to_mesh.push_back(point);
+    return to_mesh;
+}
+
+void share_meshes(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    const auto donors = mesh_donors(points);
+    for (const SweepPoint& point : points) {
+        const std::string& donor = donors.at(point.design);
+        if (donor != point.name) share_stages(settings.folder / donor, settings.folder / point.name, {"geometry", "mesh"});
+    }
+}
+
+/// How far the points of a sweep are, all together.
+class SweepProgress {
+public:
+    explicit SweepProgress(std::size_t points) : shares_(points, 0.0) {}
+    void note(std::size_t point, std::optional<double> share) {
+        if (!share) return;
+        shares_[point] = *share;
+        double sum = 0.0;
+        for (const double value : shares_) sum += value;
+        const auto done = std::count(shares_.begin(), shares_.end(), 1.0);
+        progress_.update(sum / static_cast<double>(shares_.size()), fmt::format("{} of {} points", done, shares_.size()));
+    }
+    void finish() { progress_.finish(); }
+
+private:
+    std::vector<double> shares_;
+    Progress progress_{"sweep"};
+};
+
+/// The points on this machine's cores.
+class LocalRuns {
+public:
+    LocalRuns(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::function<void(const std::string&)>& say)
+        : points_(points), settings_(settings), say_(say), order_(points.size()), progress_(points.size()) {
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        // First repeats first: the others find their start done.
+        std::stable_partition(order_.begin(), order_.end(), [&](std::size_t i) { return points_[i].start_donor.empty(); });
+    }
+
+    SweepOutcome take_all() {
+        for (const SweepPoint& point : points_to_mesh(points_, settings_)) {
+            say_(fmt::format("{}: mesh", point.name));
+            run_child(command_of(settings_, point, "mesh"));  // when it fails, the point's own run will say why
+        }
+        share_meshes(points_, settings_);
+        std::vector<std::thread> workers;
+        for (int job = 0; job < settings_.jobs; ++job) workers.emplace_back([this] { work(); });
+        for (std::thread& worker : workers) worker.join();
+        if (interrupted_) throw Interrupted(*interrupted_);
+        progress_.finish();
+        SweepOutcome outcome;
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            if (failures_.count(i) == 0) outcome.done.push_back(settings_.folder / points_[i].name);
+        for (const auto& [index, text] : failures_) outcome.failed.push_back(text);
+        return outcome;
+    }
+
+private:
+    void work() {
+        for (std::size_t n = next_++; n < points_.size(); n = next_++) {
+            const std::size_t i = order_[n];
+            {
+                const std::lock_guard<std::mutex> lock(mutex_);
+                if (interrupted_) return;
+                say_(fmt::format("{}: begins", points_[i].name));
+            }
+            take(i);
+        }
+    }
+
+    void take(std::size_t i) {
+        const ChildCommand command = command_of(settings_, points_[i], "run");
+        try {
+            const ChildResult result = run_child(command, [&](const std::string& line) { note(i, share_of(line)); });
+            const std::lock_guard<std::mutex> lock(mutex_);
+            if (result.exit_code == 0) {
+                say_(fmt::format("{}: done in {}", points_[i].name, duration_text(result.wall_s)));
+            } else {
+                failures_[i] = failure_of(command, result).text();
+                say_(fmt::format("{}: failed, the others go on; see {}", points_[i].name, command.log.string()));
+            }
+        } catch (const Interrupted& stop) {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            interrupted_ = stop.what();
+        } catch (const std::exception& error) {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            failures_[i] = fmt::format("{}: {}", points_[i].name, error.what());
+        }
+        note(i, 1.0);
+    }
+
+    void note(std::size_t i, std::optional<double> share) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        progress_.note(i, share);
+    }
+
+    const std::vector<SweepPoint>& points_;
+    const SweepSettings& settings_;
+    const std::function<void(const std::string&)>& say_;
+    std::vector<std::size_t> order_;  // in which points are taken
+    std::atomic<std::size_t> next_{0};
+    std::mutex mutex_;
+    std::map<std::size_t, std::string> failures_;
+    std::optional<std::string> interrupted_;
+    SweepProgress progress_;
+};
+
+/// Its last stage is done. What became of a job is told by its run directory: a scheduler forgets.
+bool has_report(const fs::path& run) {
+    if (!fs::exists(run / names::manifest)) return false;
+    const Manifest manifest(run / names::manifest);
+    const StageRecord* report = manifest.find("report");
+    return report != nullptr && report->state == StageState::done;
+}
+
+std::vector<SweepPoint> without_report(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    std::vector<SweepPoint> missing;
+    for (const SweepPoint& point : points)
+        if (!has_report(settings.folder / point.name)) missing.push_back(point);
+    return missing;
+}
+
+/// Writes the job array that takes `points` through `what`. \return the script
+fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::string& what) {
+    SweepSettings absolute = settings;  // a job begins where its user was when it was handed in, or elsewhere
+    absolute.folder = fs::absolute(settings.folder).lexically_normal();
+    std::vector<SlurmTask> tasks;
+    for (const SweepPoint& point : points) {
+        const ChildCommand command = command_of(absolute, point, what);
+        tasks.push_back({command.arguments, command.log});
+    }
+    fs::create_directories(absolute.folder / k_logs);
+    const fs::path script = settings.folder / (what == "run" ? "sweep.slurm" : "mesh.slurm");
+    write_file(script, slurm_script(fmt::format("cutterflow_{}", safe(absolute.folder.filename().string())), tasks, settings.ranks));
+    return script;
+}
+
+/// The points as elements of a job array.
+class SlurmRuns {
+public:
+    SlurmRuns(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::function<void(const std::string&)>& say)
+        : points_(points), settings_(settings), say_(say), progress_(points.size()) {}
+
+    SweepOutcome take_all() {
+        require_programs({"sbatch", "squeue"});
+        wait_for_earlier_job();
+        take(points_to_mesh(points_, settings_), "mesh");
+        share_meshes(points_, settings_);
+        take(without_report(points_, settings_), "run");
+        progress_.finish();
+        SweepOutcome outcome;
+        for (const SweepPoint& point : points_) {
+            if (has_report(settings_.folder / point.name))
+                outcome.done.push_back(settings_.folder / point.name);
+            else
+                outcome.failed.push_back(failure_text(point));
+        }
+        return outcome;
+    }
+
+private:
+    fs::path job_file() const { return settings_.folder / "slurm.job"; }
+
+    /// The process that handed in a job may be gone, and the job still under way.
+    void wait_for_earlier_job() {
+        if (!fs::exists(job_file())) return;
+        const std::string job = read_file(job_file());
+        say_(fmt::format("waiting for job {}, handed in before, should it still be under way", job));
+        wait(job);
+    }
+
+    void take(const std::vector<SweepPoint>& points, const std::string& what) {
+        if (points.empty()) return;
+        const std::string job = submit_to_slurm(write_slurm_script(points, settings_, what));
+        write_file(job_file(), job);
+        say_(fmt::format("job {}: {} of {} point(s); scancel {} ends it", job, what, points.size(), job));
+        wait(job);
+    }
+
+    void wait(const std::string& job) {
+        try {
+            wait_for_slurm(job, [this] { look(); });
+        } catch (const Interrupted&) {
+            throw Interrupted(fmt::format("the waiting for job {} was stopped, the job goes on (scancel {} ends it)", job, job));
+        }
+    }
+
+    void look() {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const fs::path log = command_of(settings_, points_[i], "run").log;
+            if (has_report(settings_.folder / points_[i].name))
+                progress_.note(i, 1.0);
+            else if (fs::exists(log))
+                progress_.note(i, last_share(read_file(log)));
+        }
+    }
+
+    static std::optional<double> last_share(const std::string& log) {
+        std::istringstream lines(log);
+        std::optional<double> share;
+        for (std::string line; std::getline(lines, line);)
+            if (const auto found = share_of(line)) share = std::min(*found, 0.999);
+        return share;
+    }
+
+    std::string failure_text(const SweepPoint& point) const {
+        const fs::path log = command_of(settings_, point, "run").log;
+        if (!fs::exists(log)) return fmt::format("{}: its job ended before it began", point.name);
+        return fmt::format("{}: its job ended without a report (cancelled, out of time or memory, or failed); see {}", point.name, log.string());
+    }
+
+    const std::vector<SweepPoint>& points_;
+    const SweepSettings& settings_;
+    const std::function<void(const std::string&)>& say_;
+    SweepProgress progress_;
+};
+
+}  // namespace
+
+std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axes, const fs::path& folder) {
+    const ParameterValues base = read_study(study);
+    std::vector<SweepPoint> points;
+    std::vector<Mistake> mistakes;
+    Designs designs;
+    for (const Combination& combination : combinations_of(axes)) {
+        if (combination.design && !fs::exists(*combination.design)) {
+            add_once({"", fmt::format("--design {} is not there", *combination.design), "Its path is relative to where the command is given",
+                      "Check the path"}, mistakes);
+            continue;
+        }
+        const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
+        std::string name = setting_name(combination, study.stem().string());
+        ParameterValues values = values_of(combination, base, name);
+        const std::string first = name + "_repeat1";
+        if (axes.repeats > 1) name += fmt::format("_repeat{}", combination.repeat + 1);
+        try {
+            const geometry::Head& head = designs.head_of(values, cutter);
+            vary_release(values, combination.repeat, axes.repeats, head.symmetry.blade_count);
+            values.set("cutter.file", from_studies(cutter, folder));
+            if (values.has("report.adv_points"))
+                values.set("report.adv_points", from_studies(study.parent_path() / base.text("report.adv_points"), folder));
+            const std::string text = commented_toml(study_table(), &values);
+            parse_parameters(study_table(), text, name);  // bounds of what the axes set
+            points.push_back({name, text, cutter.lexically_normal().string(), combination.repeat > 0 ? first : std::string()});
+            for (Mistake mistake : check_study(resolve_study(values, head_size(head)), head_size(head))) {
+                mistake.where = name;
+                add_once(mistake, mistakes);
+            }
+        } catch (const UserError& error) {
+            for (const Mistake& mistake : error.mistakes()) add_once(mistake, mistakes);
+        }
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    check_names(points);
+    return points;
+}
+
+SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
+                       const std::function<void(const std::string&)>& say) {
+    write_studies(points, settings);
+    if (settings.launcher == Launcher::slurm) return SlurmRuns(points, settings, say).take_all();
+    return LocalRuns(points, settings, say).take_all();
+}
+
+fs::path emit_slurm(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    write_studies(points, settings);
+    const std::vector<SweepPoint> missing = without_report(points, settings);
+    return missing.empty() ? fs::path() : write_slurm_script(missing, settings, "run");
+}
+
+}  // namespace cutterflow::cases

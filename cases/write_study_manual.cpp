@@ -1,9 +1,0 @@
-/// \file Writes docs/user/study_file.md and crown_file.md from the tables of keys.
-#include "cases/study.hpp"
-#include "geometry/base/file_content.hpp"
-#include "geometry/crown_cutter.hpp"
-
-int main() {
-    cutterflow::write_file(CUTTERFLOW_SOURCE_DIR "/docs/user/study_file.md", cutterflow::cases::study_manual_page());
-    cutterflow::write_file(CUTTERFLOW_SOURCE_DIR "/docs/user/crown_file.md", cutterflow::crown_manual_page());
-}

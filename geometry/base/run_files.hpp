@@ -1,0 +1,21 @@
+#pragma once
+/// \file Files of a run directory that two or more layers share, relative to it. docs/design/001-contracts.md says what stands in each.
+
+namespace cutterflow::names {
+
+inline constexpr const char* resolved_study = "study.resolved.toml";
+inline constexpr const char* manifest = "manifest.json";
+inline constexpr const char* geometry_report = "geometry/geometry.json";
+inline constexpr const char* mesh_report = "mesh.json";
+inline constexpr const char* prediction = "prediction.json";
+inline constexpr const char* feed_report = "feed.json";
+inline constexpr const char* rock_feed = "constant/rockFeed.csv";
+inline constexpr const char* coupling_properties = "constant/couplingProperties";
+inline constexpr const char* sample_points = "constant/samples";           ///< folder of <set>.csv, points at which velocity is averaged
+inline constexpr const char* checkpoints = "checkpoints";
+inline constexpr const char* results_json = "report/results.json";
+inline constexpr const char* report_page = "report/index.html";
+inline constexpr const char* adv_json = "report/adv.json";  ///< measured velocities beside the model's
+inline constexpr const char* adv_page = "report/adv.html";
+
+}  // namespace cutterflow::names

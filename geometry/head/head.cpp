@@ -1,0 +1,137 @@
+#include "geometry/head/head.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/head/narrow_places.hpp"
+
+namespace cutterflow::geometry {
+namespace {
+
+constexpr double k_ring_share = 0.6;  // of the largest radius: farther out is ring
+constexpr double k_ring_band = 0.02;  // of the largest radius, below the ring plane
+constexpr double k_wide = 0.75;       // of the largest radius: a ring is wider
+constexpr double k_half = 0.5;        // of the largest radius: a shaft is thinner
+constexpr int k_heights = 400;
+constexpr double k_end_contrast = 0.02;
+constexpr double k_contour_tolerance = 5e-4;  // of the ring radius
+constexpr double k_carrying_limit = 0.02;
+constexpr double k_standing_angle = 0.02 * k_pi / 180.0;
+constexpr double k_standing_shift = 1e-4;
+
+double radius_of(const Vec3& point) {
+    return std::hypot(point.x(), point.y());
+}
+
+/// Rotation by the smallest angle that brings `direction` to +z, about the origin of the axis.
+Eigen::Isometry3d upright(const RotationAxis& axis) {
+    Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+    transform.rotate(Eigen::Quaterniond::FromTwoVectors(axis.direction, Vec3::UnitZ()));
+    transform.translate(-axis.origin);
+    return transform;
+}
+
+double largest_radius(const TriangleSurface& surface) {
+    double radius = 0.0;
+    for (const Vec3& point : surface.points) radius = std::max(radius, radius_of(point));
+    return radius;
+}
+
+/// Over how much of the height the outer radius shrinks from k_wide to k_half of its largest, at the lower end less at the upper: positive
+/// when the head hangs below its ring. The ring ends at once, the blades run in to the hub; a shaft is too thin to count, and picks that
+/// stand out farther than the ring do not move it.
+double ring_is_above(const TriangleSurface& surface) {
+    const RadiusProfile profile(surface);
+    std::vector<double> radii;
+    for (int i = 0; i < k_heights; ++i)
+        radii.push_back(profile.radius_at(profile.z_min() + (profile.z_max() - profile.z_min()) * (i + 0.5) / k_heights));
+    const double largest = *std::max_element(radii.begin(), radii.end());
+    const auto first_above = [&](auto begin, auto end, double share) {
+        return std::distance(begin, std::find_if(begin, end, [&](double r) { return r >= share * largest; }));
+    };
+    const auto taper = [&](auto begin, auto end) { return first_above(begin, end, k_wide) - first_above(begin, end, k_half); };
+    return static_cast<double>(taper(radii.begin(), radii.end()) - taper(radii.rbegin(), radii.rend())) / k_heights;
+}
+
+/// Points the axis from hub to ring.
+RotationAxis directed(const TriangleSurface& surface, RotationAxis axis) {
+    const double contrast = ring_is_above(transformed(surface, upright(axis)));
+    if (std::abs(contrast) < k_end_contrast)
+        throw UserError(
+            fmt::format("hub and ring cannot be told apart: the outer radius runs in at both ends over the same height to {:.2g} % of it",
+                        100.0 * std::abs(contrast)),
+            "The head ends at once at its ring and runs in to its hub", "Check that the file holds the whole head, ring and hub");
+    if (contrast < 0.0) axis.direction = -axis.direction;
+    return axis;
+}
+
+double ring_plane(const TriangleSurface& upright_surface) {
+    const double limit = k_ring_share * largest_radius(upright_surface);
+    double z = -std::numeric_limits<double>::infinity();
+    for (const Vec3& point : upright_surface.points)
+        if (radius_of(point) >= limit) z = std::max(z, point.z());
+    return z;
+}
+
+/// The largest radius in a thin band below the ring plane, so that a chamfer does not shrink the ring.
+double ring_radius_of(const TriangleSurface& surface, const RadiusProfile& profile) {
+    const double band = k_ring_band * largest_radius(surface);
+    double radius = std::max(profile.radius_at(0.0), profile.radius_at(-band));
+    for (const Vec3& point : surface.points)
+        if (point.z() <= 0.0 && point.z() >= -band) radius = std::max(radius, radius_of(point));
+    return radius;
+}
+
+bool is_nearly_z_axis(const RotationAxis& axis, double radius) {
+    const double angle = std::acos(std::min(1.0, axis.direction.z()));
+    const Vec3 foot = axis.origin - axis.origin.z() / axis.direction.z() * axis.direction;
+    return angle < k_standing_angle && foot.norm() < k_standing_shift * radius;
+}
+
+}  // namespace
+
+Carrying carrying_sense(const TriangleSurface& surface) {
+    double push = 0.0;
+    double torque_area = 0.0;
+    for (const Triangle& triangle : surface.triangles) {
+        const Vec3 area = area_vector(surface, triangle);
+        const double size = area.norm();
+        if (size == 0.0) continue;
+        const Vec3 at = centroid_of(surface, triangle);
+        // Radius times azimuthal component of the area vector.
+        const double lever = at.x() * area.y() - at.y() * area.x();
+        push += lever * area.z() / size;
+        torque_area += std::abs(lever);
+    }
+    const double measure = torque_area > 0.0 ? push / torque_area : 0.0;
+    if (std::abs(measure) < k_carrying_limit) return {CarryingSense::none, measure};
+    return {measure > 0.0 ? CarryingSense::positive : CarryingSense::negative, measure};
+}
+
+Head understand_head(const TriangleSurface& surface) {
+    Head head;
+    head.symmetry = find_rotational_symmetry(surface);
+    head.axis = directed(surface, head.symmetry.axis);
+    if (is_nearly_z_axis(head.axis, largest_radius(surface))) head.axis = RotationAxis{};
+    head.axis.origin += ring_plane(transformed(surface, upright(head.axis))) * head.axis.direction;
+    head.to_run_frame = upright(head.axis);
+    head.symmetry.axis = head.axis;
+    head.surface = transformed(surface, head.to_run_frame);
+
+    const RadiusProfile profile(head.surface);
+    head.ring_radius = ring_radius_of(head.surface, profile);
+    head.lowest_z = profile.z_min();
+    head.steel_above_ring = std::max(0.0, profile.z_max());
+    head.carrying = carrying_sense(head.surface);
+    head.contour = fit_contour(profile, head.lowest_z, std::min(0.0, profile.z_max()), k_contour_tolerance * head.ring_radius);
+    if (head.symmetry.blade_count > 1) head.passage = passage_between_blades(head.surface, head.contour, head.symmetry.blade_count);
+    head.thickness = smallest_thickness(head.surface);
+    return head;
+}
+
+}  // namespace cutterflow::geometry

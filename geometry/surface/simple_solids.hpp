@@ -1,0 +1,39 @@
+#pragma once
+/// \file Simple solids of known volume, as verification cases need them: pipe, box, funnel.
+#include "geometry/surface/surface.hpp"
+
+namespace cutterflow::geometry {
+
+/// A pipe about the z axis from z = 0 to z = length [m]; a rod when the inner radius is 0.
+struct PipeParameters {
+    double inner_radius = 0.0;
+    double wall = 0.0;
+    double length = 0.0;
+    double edge_length = 0.0;  ///< of the surface's triangles, at most
+
+    double volume() const;  ///< exact [m3]: pi wall (2 inner_radius + wall) length
+};
+
+/// A cone about the z axis that narrows or widens from the inlet, its upper end, to a cylindrical spout below it, which ends at z = 0 and may
+/// be of no length [m].
+struct FunnelParameters {
+    double inlet_radius = 0.0;   ///< inside, at the upper end
+    double outlet_radius = 0.0;  ///< inside, of the spout
+    double cone_height = 0.0;
+    double spout_length = 0.0;
+    double wall = 0.0;  ///< measured along the radius
+    double edge_length = 0.0;
+
+    double volume() const;  ///< exact [m3]: pi wall ((inlet_radius + outlet_radius + wall) cone_height + (2 outlet_radius + wall) spout_length)
+};
+
+/// The surfaces are closed and outward oriented. Circles get 64 edges or more and are inscribed, so that volumes are up to 0.16 % smaller
+/// than the exact ones. \throws UserError  with every size that is not positive (inner radius and spout may be 0)
+TriangleSurface generate_pipe(const PipeParameters& parameters);
+TriangleSurface generate_funnel(const FunnelParameters& parameters);
+
+/// The box of `size` [m] centred on the z axis, from z = 0 up. Its volume is exact.
+/// \throws UserError  with every size that is not positive
+TriangleSurface generate_box(const Vec3& size, double edge_length);
+
+}  // namespace cutterflow::geometry

@@ -1,0 +1,507 @@
+#include "postproc/analysis/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "geometry/base/error.hpp"
+#include "postproc/analysis/not_modelled.hpp"
+#include "postproc/analysis/text.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using nlohmann::json;
+
+constexpr double k_confidence = 0.95;
+
+/// Half the width of the two-sided interval of a mean, in its standard errors.
+double student_factor(double degrees_of_freedom) {
+    return quantile(boost::math::students_t(degrees_of_freedom), 0.5 * (1.0 + k_confidence));
+}
+const double k_normal_factor = 1.959964;
+
+struct Sample {
+    double mean = 0.0;
+    double variance = 0.0;  // of one value
+    std::size_t count = 0;
+};
+
+Sample sample_of(const std::vector<double>& values) {
+    Sample sample;
+    sample.count = values.size();
+    for (const double value : values) sample.mean += value / static_cast<double>(sample.count);
+    for (const double value : values) sample.variance += (value - sample.mean) * (value - sample.mean);
+    if (sample.count > 1) sample.variance /= static_cast<double>(sample.count - 1);
+    return sample;
+}
+
+std::optional<double> half_width_of(const Sample& sample) {
+    if (sample.count < k_fewest_repeats) return std::nullopt;
+    const auto n = static_cast<double>(sample.count);
+    return student_factor(n - 1.0) * std::sqrt(sample.variance / n);
+}
+
+Estimate of_average(const std::optional<TimeAverage>& average) {
+    if (!average) return {};
+    Estimate estimate{average->mean, std::nullopt, std::nullopt, std::nullopt};
+    if (average->standard_error) estimate.half_width = k_normal_factor * *average->standard_error;
+    return estimate;
+}
+
+Estimate plain(const std::optional<double>& value) {
+    return {value, std::nullopt, std::nullopt, std::nullopt};
+}
+
+Estimate spillage_of(const SpillageRatios& ratios) {
+    return {ratios.ratio, ratios.ratio_min, ratios.ratio_max, std::nullopt};
+}
+
+Estimate production_of(const Fates& fates) {
+    if (!(fates.placed.mass > 0.0)) return {};
+    const double produced = fates.sucked_up.mass / fates.placed.mass;
+    return {produced, produced, 1.0 - fates.spilled.mass / fates.placed.mass, std::nullopt};
+}
+
+/// Energy of the drive over the volume of rock that it delivered [J/m3]; cutting is not in it.
+Estimate energy_per_volume(const Results& results) {
+    if (!results.spillage || !results.rotor.power || !(results.spillage->sucked_volume > 0.0)) return {};
+    const double duration = results.spillage->fates.time - results.spillage->feed_start;
+    return plain(results.rotor.power->mean * duration / results.spillage->sucked_volume);
+}
+
+using Evaluate = std::function<Estimate(const ComparedRun&)>;
+
+struct QuantityRule {
+    std::string key, name, unit;
+    bool of_rock;
+    Evaluate evaluate;
+};
+
+std::optional<double> as_number(const std::optional<int>& value) {
+    return value ? std::optional<double>(*value) : std::nullopt;
+}
+
+std::vector<QuantityRule> operating_rules() {
+    return {{"speed_rpm", "rotor speed", "rpm", false, [](const ComparedRun& r) { return plain(r.run.operating_point.speed_rpm); }},
+            {"discharge_m3_s", "discharge of the mixture", "m³/s", false,
+             [](const ComparedRun& r) { return plain(r.run.operating_point.discharge); }},
+            {"flow_number", "flow number Q / (ω R³)", "-", false, [](const ComparedRun& r) { return plain(r.results.scale.flow_number); }},
+            {"cells", "cells", "-", false, [](const ComparedRun& r) { return plain(as_number(r.results.cost.cells)); }}};
+}
+
+/// Ratios when `since_feed` [s] have passed since the first rock.
+std::vector<QuantityRule> equal_rules(const std::string& key, const std::string& when,
+                                      const std::function<double(const ComparedRun&)>& since_feed) {
+    const auto at = [=](const ComparedRun& r) { return ratios_after(r.run.rock->fates, r.results.spillage->feed_start, since_feed(r)); };
+    return {{"ratio_at_" + key, "spillage " + when, "-", true, [=](const ComparedRun& r) { return spillage_of(at(r).ratios); }},
+            {"spilled_at_" + key, "spilled / placed " + when, "-", true, [=](const ComparedRun& r) { return plain(at(r).ratios.ratio_min); }},
+            {"sucked_up_at_" + key, "sucked up / placed " + when, "-", true,
+             [=](const ComparedRun& r) { return plain(1.0 - at(r).ratios.ratio_max.value_or(1.0)); }},
+            {"undecided_at_" + key, "undecided " + when, "-", false,
+             [=](const ComparedRun& r) { return plain(at(r).ratios.undecided); }}};
+}
+
+std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
+    std::vector<QuantityRule> rules{
+        {"placed", "rocks placed", "-", false, [](const ComparedRun& r) { return plain(r.results.spillage->fates.placed.count); }},
+        {"ratio", "spillage: spilled / (spilled + sucked up)", "-", true,
+         [](const ComparedRun& r) { return spillage_of(r.results.spillage->ratios); }},
+        {"production", "production: sucked up / placed", "-", true,
+         [](const ComparedRun& r) { return production_of(r.results.spillage->fates); }},
+        {"undecided", "undecided", "-", false, [](const ComparedRun& r) { return plain(r.results.spillage->ratios.undecided); }},
+        {"revolutions_since_feed", "revolutions since the first rock", "-", false, [](const ComparedRun& r) {
+             return plain((r.results.spillage->fates.time - r.results.spillage->feed_start) / r.run.operating_point.revolution_s());
+         }}};
+    const auto append = [&](std::vector<QuantityRule> more) { rules.insert(rules.end(), more.begin(), more.end()); };
+    if (comparison.equal_time) {
+        const double time = *comparison.equal_time;
+        append(equal_rules("equal_time", fmt::format("after {:.3g} s", time), [=](const ComparedRun&) { return time; }));
+    }
+    if (comparison.equal_revolutions) {
+        const double turns = *comparison.equal_revolutions;
+        const std::string count = fmt::format("{:.3g}", turns);
+        append(equal_rules("equal_revolutions", fmt::format("after {} {}", count, count == "1" ? "revolution" : "revolutions"),
+                           [=](const ComparedRun& r) { return turns * r.run.operating_point.revolution_s(); }));
+    }
+    return rules;
+}
+
+std::vector<QuantityRule> load_rules(bool with_rock) {
+    std::vector<QuantityRule> rules{{"torque_flow_mean_n_m", "mean torque of the flow", "N m", false,
+                                     [](const ComparedRun& r) { return of_average(r.results.rotor.torque_flow); }}};
+    if (with_rock)
+        rules.push_back({"torque_rock_mean_n_m", "mean torque of the rock", "N m", true,
+                         [](const ComparedRun& r) { return of_average(r.results.rotor.torque_rock); }});
+    rules.push_back(
+        {"power_mean_w", "mean power of the drive", "W", false, [](const ComparedRun& r) { return of_average(r.results.rotor.power); }});
+    if (with_rock)
+        rules.push_back({"energy_per_volume_j_m3", "energy per delivered volume of rock (cutting excluded)", "J/m³", true,
+                         [](const ComparedRun& r) { return energy_per_volume(r.results); }});
+    return rules;
+}
+
+template <typename Bins>
+auto find_bin(const Bins& bins, const std::string& name) {
+    return std::find_if(bins.begin(), bins.end(), [&](const auto& item) { return item.bin.name == name; });
+}
+
+/// Bins that `bins_of` finds in every run, in the order of the first one.
+template <typename BinsOf>
+std::vector<std::string> common_bins(const std::vector<ComparedRun>& runs, BinsOf bins_of) {
+    std::vector<std::string> names;
+    for (const auto& item : bins_of(runs.front())) {
+        const std::string& name = item.bin.name;
+        const bool in_all = std::all_of(runs.begin(), runs.end(),
+                                        [&](const ComparedRun& r) { return find_bin(bins_of(r), name) != bins_of(r).end(); });
+        if (in_all) names.push_back(name);
+    }
+    return names;
+}
+
+std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
+    std::vector<QuantityRule> rules;
+    for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.outflow; })) {
+        rules.push_back({bin_key("outflow", name, "m_s"), fmt::format("radial outflow, {}", text::bin_text(name)), "m/s", false,
+                         [=](const ComparedRun& r) { return of_average(find_bin(r.results.outflow, name)->radial_velocity); }});
+    }
+    return rules;
+}
+
+std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
+    std::vector<QuantityRule> rules;
+    for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.spillage->bins; })) {
+        rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / placed, {}", text::bin_text(name)), "-", true,
+                         [=](const ComparedRun& r) {
+                             const Spillage& spillage = *r.results.spillage;
+                             if (!(spillage.fates.placed.mass > 0.0)) return Estimate{};
+                             return plain(find_bin(spillage.bins, name)->spilled.mass / spillage.fates.placed.mass);
+                         }});
+    }
+    return rules;
+}
+
+std::vector<QuantityRule> cost_rules() {
+    return {{"core_s_per_revolution", "core time per revolution", "s", false,
+             [](const ComparedRun& r) { return plain(r.results.cost.core_s_per_revolution); }},
+            {"flow_balance_max_error", "largest error of the water balance", "-", false,
+             [](const ComparedRun& r) { return plain(r.results.conservation.flow_balance); }}};
+}
+
+std::vector<double> values_of(const std::vector<Estimate>& estimates, std::optional<double> Estimate::*member) {
+    std::vector<double> values;
+    for (const Estimate& estimate : estimates)
+        if (estimate.*member) values.push_back(*(estimate.*member));
+    return values;
+}
+
+std::optional<double> mean_when_all(const std::vector<Estimate>& estimates, std::optional<double> Estimate::*member) {
+    const std::vector<double> values = values_of(estimates, member);
+    if (values.size() != estimates.size()) return std::nullopt;
+    return sample_of(values).mean;
+}
+
+std::vector<Estimate> of_repeats(const Comparison& comparison, const Setting& setting, const Evaluate& evaluate) {
+    std::vector<Estimate> estimates;
+    for (const std::size_t run : setting.runs) estimates.push_back(evaluate(comparison.runs[run]));
+    return estimates;
+}
+
+Estimate of_setting(const std::vector<Estimate>& repeats, bool of_rock) {
+    if (repeats.size() == 1) return repeats.front();
+    Estimate estimate{mean_when_all(repeats, &Estimate::value), mean_when_all(repeats, &Estimate::low),
+                      mean_when_all(repeats, &Estimate::high), std::nullopt};
+    if (!estimate.value) return estimate;
+    estimate.half_width =
+        of_rock ? half_width_of(sample_of(values_of(repeats, &Estimate::value))) : mean_when_all(repeats, &Estimate::half_width);
+    return estimate;
+}
+
+std::vector<QuantityRule> rules_of(const Comparison& comparison) {
+    const bool with_rock =
+        std::all_of(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.results.spillage.has_value(); });
+    std::vector<QuantityRule> rules = operating_rules();
+    const auto append = [&](std::vector<QuantityRule> more) { rules.insert(rules.end(), more.begin(), more.end()); };
+    if (with_rock) append(rock_rules(comparison));
+    append(load_rules(with_rock));
+    append(outflow_rules(comparison.runs));
+    if (with_rock) append(spilled_rules(comparison.runs));
+    append(cost_rules());
+    return rules;
+}
+
+std::string label_of(const RunData& run) {
+    return run.operating_point.study_name.empty() ? run.directory.filename().string() : run.operating_point.study_name;
+}
+
+std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
+    std::vector<Setting> settings;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const auto same = std::find_if(settings.begin(), settings.end(),
+                                       [&](const Setting& s) { return runs[s.runs.front()].run.setting == runs[i].run.setting; });
+        if (same == settings.end())
+            settings.push_back({label_of(runs[i].run), {i}});
+        else
+            same->runs.push_back(i);
+    }
+    for (Setting& setting : settings) {
+        std::sort(setting.runs.begin(), setting.runs.end(),
+                  [&](std::size_t a, std::size_t b) { return runs[a].run.seed < runs[b].run.seed; });
+        if (setting.runs.size() > 1) setting.label += fmt::format(" ({} repeats)", setting.runs.size());
+    }
+    return settings;
+}
+
+/// What stands behind "rocks" of a setting: sizes, densities and how many were asked for.
+std::string batch_text(const RunData& run) {
+    if (!run.feed) return "no rock";
+    std::vector<std::string> classes;
+    for (const RockClass& rock : run.feed->classes) classes.push_back(fmt::format("{:.3g} mm, {:.0f} kg/m³", 1e3 * rock.diameter, rock.density));
+    return fmt::format("{} rocks asked for: {}", run.feed->requested, fmt::join(classes, "; "));
+}
+
+/// What all runs have reached since their first rock; nothing when one of them has yet to release it.
+void find_equal_points(Comparison& comparison) {
+    for (const ComparedRun& compared : comparison.runs) {
+        if (!compared.results.spillage) return;
+        const double duration = compared.results.spillage->fates.time - compared.results.spillage->feed_start;
+        if (!(duration > 0.0)) {
+            comparison.equal_time = comparison.equal_revolutions = std::nullopt;
+            return;
+        }
+        const double turns = duration / compared.run.operating_point.revolution_s();
+        comparison.equal_time = std::min(comparison.equal_time.value_or(duration), duration);
+        comparison.equal_revolutions = std::min(comparison.equal_revolutions.value_or(turns), turns);
+    }
+}
+
+std::vector<int> seeds_of(const Comparison& comparison, const Setting& setting) {
+    std::vector<int> seeds;
+    for (const std::size_t run : setting.runs) seeds.push_back(comparison.runs[run].run.seed);
+    return seeds;
+}
+
+/// Repeats of two settings belong together one by one when both have the same seeds, each once.
+bool are_paired(const std::vector<int>& a, const std::vector<int>& b) {
+    return a == b && std::set<int>(a.begin(), a.end()).size() == a.size();
+}
+
+/// Half the width of the interval of b - a over repeats.
+std::optional<double> half_width_of_difference(const std::vector<double>& a, const std::vector<double>& b, bool paired) {
+    if (paired) {
+        std::vector<double> differences;
+        for (std::size_t i = 0; i < a.size(); ++i) differences.push_back(b[i] - a[i]);
+        return half_width_of(sample_of(differences));
+    }
+    const Sample first = sample_of(a), second = sample_of(b);
+    if (first.count < k_fewest_repeats || second.count < k_fewest_repeats) return std::nullopt;
+    const double va = first.variance / static_cast<double>(first.count), vb = second.variance / static_cast<double>(second.count);
+    if (va + vb == 0.0) return 0.0;
+    const double freedom =
+        (va + vb) * (va + vb) / (va * va / static_cast<double>(first.count - 1) + vb * vb / static_cast<double>(second.count - 1));
+    return student_factor(freedom) * std::sqrt(va + vb);
+}
+
+ComparisonVerdict verdict_of(const Estimate& difference, bool of_rock) {
+    if (difference.low && *difference.low <= 0.0 && *difference.high >= 0.0) return ComparisonVerdict::undecided;
+    if (!difference.half_width) return of_rock ? ComparisonVerdict::no_replicate : ComparisonVerdict::no_interval;
+    return std::abs(*difference.value) > *difference.half_width ? ComparisonVerdict::differs : ComparisonVerdict::equal;
+}
+
+json or_null(const std::optional<double>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+json estimate_json(const Estimate& estimate) {
+    json object{{"value", or_null(estimate.value)}};
+    if (estimate.low) object["bounds"] = {*estimate.low, *estimate.high};
+    if (estimate.half_width) object["interval_95_half_width"] = *estimate.half_width;
+    return object;
+}
+
+std::string estimate_text(const Estimate& estimate) {
+    if (!estimate.value) return "-";
+    std::string text = is_count(*estimate.value) ? fmt::format("{:.0f}", *estimate.value) : fmt::format("{:.4g}", *estimate.value);
+    if (estimate.half_width) text += fmt::format(" ± {:.2g}", *estimate.half_width);
+    if (estimate.low) text += fmt::format(" [{:.3f}, {:.3f}]", *estimate.low, *estimate.high);
+    return text;
+}
+
+/// A run is no repeat of itself, by whatever path it comes, and no copy of it is.
+void require_different(const std::vector<ComparedRun>& runs) {
+    std::vector<Mistake> mistakes;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const RunData& run = runs[i].run;
+        const auto other = std::find_if(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(i), [&](const ComparedRun& r) {
+            return std::filesystem::equivalent(r.run.directory, run.directory) ||
+                   (!run.release.empty() && r.run.setting == run.setting && r.run.release == run.release);
+        });
+        if (other == runs.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+        mistakes.push_back({"", fmt::format("{} is the same run as {}", run.directory.string(), other->run.directory.string()),
+                            "Repeats of a setting differ by seed or time of release, as `cutterflow sweep --repeats` makes them",
+                            "Name each run once"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
+}  // namespace
+
+bool is_count(double value) {
+    return std::abs(value) < 1e9 && value == std::floor(value);
+}
+
+Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
+    if (directories.size() < 2)
+        throw UserError(fmt::format("{} run given", directories.size()), "A comparison needs two or more", "Name more run directories");
+    Comparison comparison;
+    std::vector<Mistake> mistakes;
+    for (const auto& directory : directories) {
+        try {
+            RunData run = read_run(directory);
+            Results results = compute_results(run);
+            comparison.runs.push_back({std::move(run), std::move(results)});
+        } catch (const UserError& error) {
+            mistakes.insert(mistakes.end(), error.mistakes().begin(), error.mistakes().end());
+        }
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    require_different(comparison.runs);
+    comparison.settings = group(comparison.runs);
+    find_equal_points(comparison);
+    for (const QuantityRule& rule : rules_of(comparison)) {
+        Quantity quantity{rule.key, rule.name, rule.unit, rule.of_rock, {}, {}};
+        for (const Setting& setting : comparison.settings) {
+            quantity.repeats.push_back(of_repeats(comparison, setting, rule.evaluate));
+            quantity.settings.push_back(of_setting(quantity.repeats.back(), rule.of_rock));
+        }
+        comparison.quantities.push_back(std::move(quantity));
+    }
+    return comparison;
+}
+
+Difference difference_of(const Comparison& comparison, const Quantity& quantity, std::size_t index) {
+    const Estimate &a = quantity.settings.front(), &b = quantity.settings[index];
+    Difference difference;
+    if (!a.value || !b.value) return difference;
+    difference.estimate.value = *b.value - *a.value;
+    if (a.low && b.low) {
+        difference.estimate.low = *b.low - *a.high;
+        difference.estimate.high = *b.high - *a.low;
+    }
+    if (quantity.of_rock) {
+        const bool paired = are_paired(seeds_of(comparison, comparison.settings[0]), seeds_of(comparison, comparison.settings[index]));
+        difference.estimate.half_width = half_width_of_difference(values_of(quantity.repeats.front(), &Estimate::value),
+                                                                  values_of(quantity.repeats[index], &Estimate::value), paired);
+    } else if (a.half_width && b.half_width) {
+        difference.estimate.half_width = std::hypot(*a.half_width, *b.half_width);
+    }
+    difference.verdict = verdict_of(difference.estimate, quantity.of_rock);
+    return difference;
+}
+
+std::string bin_key(const std::string& what, const std::string& bin, const std::string& unit) {
+    return fmt::format("{}_{}_{}", what, bin, unit);
+}
+
+const char* verdict_text(ComparisonVerdict verdict) {
+    switch (verdict) {
+        case ComparisonVerdict::differs:
+            return "differs";
+        case ComparisonVerdict::equal:
+            return "not significant";
+        case ComparisonVerdict::undecided:
+            return "within the bounds";
+        case ComparisonVerdict::no_interval:
+            return "no interval";
+        case ComparisonVerdict::no_replicate:
+            break;
+    }
+    return "no replicate";
+}
+
+std::vector<std::string> differing_batches(const Comparison& comparison) {
+    std::vector<std::string> texts;
+    std::set<std::string> feeds;
+    std::set<std::vector<int>> seeds;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
+        const Setting& setting = comparison.settings[i];
+        feeds.insert(batch_text(comparison.runs[setting.runs.front()].run));
+        seeds.insert(seeds_of(comparison, setting));
+        texts.push_back(fmt::format("{}; seed {}", batch_text(comparison.runs[setting.runs.front()].run),
+                                    fmt::join(seeds_of(comparison, setting), ", ")));
+    }
+    return feeds.size() > 1 || seeds.size() > 1 ? texts : std::vector<std::string>{};
+}
+
+std::map<std::string, std::vector<std::string>> differing_keys(const Comparison& comparison) {
+    std::map<std::string, std::vector<std::string>> values;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i)
+        for (const auto& [key, value] : comparison.runs[comparison.settings[i].runs.front()].run.setting) {
+            values[key].resize(comparison.settings.size());
+            values[key][i] = value;
+        }
+    for (auto item = values.begin(); item != values.end();) {
+        const std::vector<std::string>& all = item->second;
+        const bool differ = std::adjacent_find(all.begin(), all.end(), std::not_equal_to<>()) != all.end();
+        item = differ ? std::next(item) : values.erase(item);
+    }
+    return values;
+}
+
+json comparison_json(const Comparison& comparison) {
+    json document{{"schema", k_comparison_schema}, {"settings", json::array()}, {"quantities", json::array()}};
+    for (const Setting& setting : comparison.settings) {
+        json runs = json::array();
+        for (const std::size_t run : setting.runs) runs.push_back(comparison.runs[run].run.directory.string());
+        document["settings"].push_back({{"label", setting.label},
+                                        {"runs", runs},
+                                        {"finished", std::all_of(setting.runs.begin(), setting.runs.end(),
+                                                                 [&](std::size_t run) { return comparison.runs[run].results.finished; })}});
+    }
+    for (const Quantity& quantity : comparison.quantities) {
+        json item{{"key", quantity.key}, {"unit", quantity.unit}, {"settings", json::array()}, {"differences", json::array()}};
+        for (std::size_t i = 0; i < quantity.settings.size(); ++i) {
+            item["settings"].push_back(estimate_json(quantity.settings[i]));
+            if (i == 0) continue;
+            const Difference difference = difference_of(comparison, quantity, i);
+            json entry = estimate_json(difference.estimate);
+            entry["verdict"] = verdict_text(difference.verdict);
+            item["differences"].push_back(entry);
+        }
+        document["quantities"].push_back(item);
+    }
+    document["differing_keys"] = differing_keys(comparison);
+    document["differing_batches"] = differing_batches(comparison);
+    document["equal_time_s"] = or_null(comparison.equal_time);
+    document["equal_revolutions"] = or_null(comparison.equal_revolutions);
+    document["not_modelled"] = json::array();
+    for (const NotModelled& item : not_modelled()) document["not_modelled"].push_back(item.name);
+    return document;
+}
+
+std::string comparison_text(const Comparison& comparison) {
+    std::vector<std::vector<std::string>> rows{{"quantity"}};
+    for (const Setting& setting : comparison.settings) rows[0].push_back(setting.label);
+    for (const Quantity& quantity : comparison.quantities) {
+        rows.push_back({quantity.unit == "-" ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit)});
+        for (const Estimate& estimate : quantity.settings) rows.back().push_back(estimate_text(estimate));
+    }
+    std::string text;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        text += fmt::format("| {} |\n", fmt::join(rows[r], " | "));
+        if (r == 0) {
+            text += "|";
+            for (std::size_t i = 0; i < rows[0].size(); ++i) text += "---|";
+            text += "\n";
+        }
+    }
+    return text +
+           "value ± half the 95 % interval (batch means in time; Student's t over three or more repeats) [bounds: whatever the undecided "
+           "rock does]\n";
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,34 @@
+#include "postproc/analysis/not_modelled.hpp"
+
+namespace cutterflow::postproc {
+
+const std::vector<NotModelled>& not_modelled() {
+    static const std::vector<NotModelled> table{
+        {"cutting process",
+         "rock is released loose between the blades; spillage by cutting (rock never taken into the head) is not counted"},
+        {"bank and breach", "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
+        {"bed", "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
+        {"hauling (swing motion)", "the head turns but does not travel; rock is not swept into the head by the swing"},
+        {"continuous feed", "one batch of rock; production and spillage do not reach a steady state as in continuous dredging"},
+        {"pick points and adapters", "only what the cutter's surface file holds; teeth left out there stir neither flow nor rock"},
+        {"lift and rock spin forces", "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source holds for grains"},
+        {"rock shape and breakage", "rocks are spheres that do not break; sizes are those of the feed"},
+        {"unresolved wakes", "rock is a smoothed body force on the flow; the wake of a single rock is in the drag law alone"},
+        {"pump and pipeline", "the discharge is imposed; it does not drop when the mixture becomes heavier"},
+    };
+    return table;
+}
+
+const std::string& scope_sentence(bool with_rock) {
+    static const std::string rock =
+        "This is spillage by mixing of loose rock in a turning head with imposed discharge: cutting, bank, hauling and continuous feed are "
+        "not "
+        "modelled, so there is no optimum over speed here as there is in practice, and this report names no best speed.";
+    static const std::string flow =
+        "This is the flow of clear water through a turning head with imposed discharge, without bank, hauling and rock; it shows where "
+        "water "
+        "leaves the head, not how much rock would, and this report names no best speed.";
+    return with_rock ? rock : flow;
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,326 @@
+#include "postproc/analysis/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/base/axis_frame.hpp"
+#include "postproc/analysis/not_modelled.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using nlohmann::json;
+
+/// Time between the passing of two blades [s].
+double blade_period(const RunData& run) {
+    return run.operating_point.revolution_s() / run.blades;
+}
+
+std::vector<BinOutflow> average_outflow(const RunData& run) {
+    std::vector<BinOutflow> outflow;
+    if (run.outflow.empty()) return outflow;
+    const std::vector<double>& times = run.outflow.number("time_s");
+    for (const geometry::AxialBin& bin : run.bins) {
+        outflow.push_back(
+            {bin, time_average(times, run.outflow.number(bin.name), run.operating_point.outflow_start, times.back(), blade_period(run))});
+    }
+    return outflow;
+}
+
+RotorLoads average_loads(const RunData& run, double start) {
+    RotorLoads rotor;
+    const std::vector<double>& times = run.loads.number("time_s");
+    rotor.revolutions = std::abs(run.loads.number("rotor_angle_rad").back()) / (2.0 * k_pi);
+    // Time steps do not fall on the mark: a twentieth of a passing short still counts as whole.
+    double passings = std::max(0.0, std::floor((times.back() - start) / blade_period(run) + 0.05));
+    if (passings > run.blades) passings = run.blades * std::floor(passings / run.blades);
+    rotor.averaged_revolutions = passings / run.blades;
+    if (passings == 0.0) return rotor;
+    const double end = start + passings * blade_period(run);
+    std::vector<double> torque_flow = run.loads.number("torque_pressure_n_m");
+    const std::vector<double>& viscous = run.loads.number("torque_viscous_n_m");
+    for (std::size_t i = 0; i < torque_flow.size(); ++i) torque_flow[i] += viscous[i];
+    rotor.torque_flow = time_average(times, torque_flow, start, end, blade_period(run));
+    rotor.torque_rock = time_average(times, run.loads.number("torque_rock_n_m"), start, end, blade_period(run));
+    rotor.power = time_average(times, run.loads.number("power_w"), start, end, blade_period(run));
+    return rotor;
+}
+
+Delivery compute_delivery(const OperatingPoint& point, const std::optional<Spillage>& spillage) {
+    Delivery delivery;
+    delivery.pipe_velocity = point.discharge / (k_pi * point.mouth_radius * point.mouth_radius);
+    if (!spillage) return delivery;
+    const double duration = spillage->fates.time - spillage->feed_start;
+    if (!(duration > 0.0)) return delivery;
+    const double concentration = spillage->sucked_volume / (point.discharge * duration);
+    const double mass_rate = spillage->fates.sucked_up.mass / (point.discharge * duration);  // per volume of mixture
+    delivery.concentration = concentration;
+    delivery.mixture_density = point.fluid_density * (1.0 - concentration) + mass_rate;
+    return delivery;
+}
+
+ScaleNumbers compute_scale(const RunData& run) {
+    const double radius = run.contour.ring_radius();
+    const double omega = run.operating_point.angular_speed();
+    ScaleNumbers scale;
+    scale.flow_number = run.operating_point.discharge / (omega * radius * radius * radius);
+    scale.froude = omega * omega * radius / k_gravity;
+    if (!run.feed || run.feed->classes.empty()) return scale;
+    double mass = 0.0, diameter = 0.0, settling = 0.0;
+    bool every_speed_known = true;
+    for (const RockClass& rock : run.feed->classes) {
+        const double share = rock.count * rock.density * rock.diameter * rock.diameter * rock.diameter;
+        mass += share;
+        diameter += share * rock.diameter;
+        settling += share * rock.settling_velocity.value_or(0.0);
+        every_speed_known = every_speed_known && rock.settling_velocity.has_value();
+    }
+    if (!(mass > 0.0)) return scale;
+    scale.size_ratio = diameter / mass / radius;
+    if (every_speed_known) scale.settling_ratio = settling / mass / (omega * radius);
+    return scale;
+}
+
+std::optional<double> largest_magnitude(const std::vector<double>& values) {
+    std::optional<double> largest;
+    for (const double value : values) {
+        if (!std::isnan(value)) largest = std::max(largest.value_or(0.0), std::abs(value));
+    }
+    return largest;
+}
+
+Conservation worst_balance(const Table& balance, bool with_rock) {
+    Conservation worst;
+    worst.flow_balance = largest_magnitude(balance.number("flow_balance_error"));
+    worst.interface_imbalance = largest_magnitude(balance.number("interface_imbalance"));
+    if (!with_rock) return worst;
+    worst.solid_volume = largest_magnitude(balance.number("solid_volume_error"));
+    worst.momentum_exchange = largest_magnitude(balance.number("momentum_exchange_error"));
+    return worst;
+}
+
+double sum(const std::vector<double>& values) {
+    double total = 0.0;
+    for (const double value : values) total += value;
+    return total;
+}
+
+std::optional<int> whole_number(const json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return std::nullopt;
+    return found->get<int>();
+}
+
+/// prediction.json holds rates with and without rock: they are taken for the time that the run went through.
+std::optional<PredictedCost> predicted_cost(const json& prediction, double end_time, double revolutions) {
+    if (prediction.empty()) return std::nullopt;
+    const double flow_time = std::min(end_time, prediction.at("first_release_s").get<double>());
+    const double flow_share = end_time > 0.0 ? flow_time / end_time : 1.0;
+    const double core_hours = revolutions * (flow_share * prediction.at("core_hours_per_revolution").get<double>() +
+                                             (1.0 - flow_share) * prediction.at("core_hours_per_revolution_with_rock").get<double>());
+    return PredictedCost{prediction.at("cells").get<double>(),
+                         flow_time / prediction.at("time_step_s").get<double>() +
+                             (end_time - flow_time) / prediction.at("time_step_with_rock_s").get<double>(),
+                         3600.0 * core_hours};
+}
+
+Cost sum_cost(const RunData& run, double end_time, double revolutions) {
+    Cost cost;
+    cost.wall_s = sum(run.cost.number("step_s"));
+    cost.steps = run.cost.rows();
+    cost.ranks = whole_number(run.cost_summary, "ranks");
+    cost.cells = whole_number(run.mesh, "cells");
+    if (!cost.cells) cost.cells = whole_number(run.cost_summary, "cells");
+    if (cost.ranks) cost.core_s = cost.wall_s * *cost.ranks;
+    cost.predicted = predicted_cost(run.prediction, end_time, revolutions);
+    if (cost.core_s && revolutions > 0.0) cost.core_s_per_revolution = *cost.core_s / revolutions;
+    for (const char* part : {"fluid", "mesh_motion", "mapping", "dem", "output"}) {
+        cost.share[part] = cost.wall_s > 0.0 ? sum(run.cost.number(std::string(part) + "_s")) / cost.wall_s : 0.0;
+    }
+    return cost;
+}
+
+template <typename T>
+json or_null(const std::optional<T>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+json mean_or_null(const std::optional<TimeAverage>& average) {
+    return average ? json(average->mean) : json(nullptr);
+}
+
+json error_or_null(const std::optional<TimeAverage>& average) {
+    return average ? or_null(average->standard_error) : json(nullptr);
+}
+
+json amount_json(const RockAmount& amount) {
+    return {{"count", amount.count}, {"mass_kg", amount.mass}};
+}
+
+json fates_json(const Fates& fates) {
+    return {{"sucked_up", amount_json(fates.sucked_up)},
+            {"spilled", amount_json(fates.spilled)},
+            {"in_cutter", amount_json(fates.in_cutter)},
+            {"never_entered", amount_json(fates.never_entered)}};
+}
+
+json ratios_json(const SpillageRatios& ratios) {
+    json object{{"ratio", or_null(ratios.ratio)},
+                {"ratio_min", or_null(ratios.ratio_min)},
+                {"ratio_max", or_null(ratios.ratio_max)},
+                {"undecided", or_null(ratios.undecided)}};
+    if (!ratios.reason.empty()) object["ratio_reason"] = ratios.reason;
+    return object;
+}
+
+json bin_json(const geometry::AxialBin& bin) {
+    return {{"name", bin.name}, {"z_min_m", std::isfinite(bin.z_min) ? json(bin.z_min) : json(nullptr)}, {"z_max_m", bin.z_max}};
+}
+
+json series_json(const std::vector<RatiosAt>& series, const char* key) {
+    json list = json::array();
+    for (const RatiosAt& point : series) {
+        json object = ratios_json(point.ratios);
+        object[key] = point.since_feed;
+        object["time_s"] = point.time;
+        object["fates"] = fates_json(point.fates);
+        list.push_back(object);
+    }
+    return list;
+}
+
+json spillage_json(const Spillage& spillage, const std::vector<BinOutflow>& outflow) {
+    json object = ratios_json(spillage.ratios);
+    object["replicates"] = "no replicate";
+    object["bins"] = json::array();
+    for (std::size_t i = 0; i < spillage.bins.size(); ++i) {
+        json bin = bin_json(spillage.bins[i].bin);
+        bin.update(amount_json(spillage.bins[i].spilled));
+        bin["radial_velocity_mean_m_s"] = outflow.empty() ? json(nullptr) : mean_or_null(outflow[i].radial_velocity);
+        object["bins"].push_back(bin);
+    }
+    object["time_s"] = spillage.fates.time;
+    object["feed_start_s"] = spillage.feed_start;
+    object["at_equal_revolutions"] = series_json(spillage.at_revolutions, "revolutions_since_feed");
+    object["at_equal_time"] = series_json(spillage.at_seconds, "seconds_since_feed");
+    return object;
+}
+
+json rock_json(const Results& results) {
+    const Fates& fates = results.spillage->fates;
+    return {{"requested", results.rock_requested},
+            {"placed", fates.placed.count},
+            {"rejected", results.rock_rejected},
+            {"fates", fates_json(fates)}};
+}
+
+json outflow_json(const std::vector<BinOutflow>& outflow) {
+    json object{{"bins", json::array()}};
+    for (const BinOutflow& item : outflow) {
+        json bin = bin_json(item.bin);
+        bin["radial_velocity_mean_m_s"] = mean_or_null(item.radial_velocity);
+        bin["radial_velocity_standard_error_m_s"] = error_or_null(item.radial_velocity);
+        object["bins"].push_back(bin);
+        if (item.radial_velocity) {
+            object["window_start_s"] = item.radial_velocity->start;
+            object["window_end_s"] = item.radial_velocity->end;
+        }
+    }
+    return object;
+}
+
+/// Predicted over actual, less 1.
+json prediction_error(double predicted, std::optional<double> actual) {
+    return actual && *actual > 0.0 ? json(predicted / *actual - 1.0) : json();
+}
+
+json predicted_json(const Cost& cost) {
+    if (!cost.predicted) return {};
+    const PredictedCost& predicted = *cost.predicted;
+    return {{"cells", predicted.cells},
+            {"steps", predicted.steps},
+            {"core_s", predicted.core_s},
+            {"error",
+             {{"cells", prediction_error(predicted.cells, cost.cells ? std::optional<double>(*cost.cells) : std::nullopt)},
+              {"steps", prediction_error(predicted.steps, static_cast<double>(cost.steps))},
+              {"core_s", prediction_error(predicted.core_s, cost.core_s)}}}};
+}
+
+json cost_json(const Cost& cost) {
+    return {{"wall_s", cost.wall_s},        {"core_s", or_null(cost.core_s)},
+            {"steps", cost.steps},          {"cells", or_null(cost.cells)},
+            {"ranks", or_null(cost.ranks)}, {"core_s_per_revolution", or_null(cost.core_s_per_revolution)},
+            {"share", cost.share},          {"predicted", predicted_json(cost)}};
+}
+
+json rotor_json(const Results& results, const RunData& run) {
+    json object{{"speed_rpm", run.operating_point.speed_rpm},
+                {"revolutions", results.rotor.revolutions},
+                {"torque_flow_mean_n_m", mean_or_null(results.rotor.torque_flow)},
+                {"torque_rock_mean_n_m", results.spillage ? mean_or_null(results.rotor.torque_rock) : json(nullptr)},
+                {"power_mean_w", mean_or_null(results.rotor.power)},
+                {"averaged_revolutions", results.rotor.averaged_revolutions}};
+    if (results.rotor.averaged_revolutions == 0.0) object["mean_reason"] = "no blade has passed yet since the start of the window";
+    return object;
+}
+
+json not_modelled_json() {
+    json list = json::array();
+    for (const NotModelled& item : not_modelled()) list.push_back(item.name);
+    return list;
+}
+
+json versions_json(const RunData& run) {
+    json versions = run.manifest.value("versions", json::object());
+    versions.update(run.cost_summary.value("versions", json::object()));
+    return versions;
+}
+
+}  // namespace
+
+Results compute_results(const RunData& run) {
+    Results results;
+    results.finished = run.finished;
+    results.end_time = run.balance.number("time_s").back();
+    if (run.rock) {
+        results.spillage = evaluate_spillage(run.rock->fates, run.rock->events, run.bins, run.operating_point.revolution_s(), run.finished);
+        const int rejected_in_run = static_cast<int>(run.rock->rejected_in_run);
+        results.rock_requested = run.feed ? run.feed->requested : results.spillage->fates.placed.count + rejected_in_run;
+        results.rock_rejected = (run.feed ? run.feed->rejected : 0) + rejected_in_run;
+    }
+    results.outflow = average_outflow(run);
+    results.rotor = average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
+    results.delivery = compute_delivery(run.operating_point, results.spillage);
+    results.scale = compute_scale(run);
+    results.conservation = worst_balance(run.balance, results.spillage.has_value());
+    results.cost = sum_cost(run, results.end_time, results.rotor.revolutions);
+    return results;
+}
+
+json results_json(const Results& results, const RunData& run) {
+    json document{{"schema", k_results_schema}};
+    document["run"] = {{"name", run.operating_point.study_name}, {"finished", results.finished}, {"end_time_s", results.end_time}};
+    document["rock"] = results.spillage ? rock_json(results) : json(nullptr);
+    document["spillage"] = results.spillage ? spillage_json(*results.spillage, results.outflow) : json(nullptr);
+    document["outflow"] = results.outflow.empty() ? json(nullptr) : outflow_json(results.outflow);
+    document["conservation"] = {{"solid_volume_max_error", or_null(results.conservation.solid_volume)},
+                                {"momentum_exchange_max_error", or_null(results.conservation.momentum_exchange)},
+                                {"flow_balance_max_error", or_null(results.conservation.flow_balance)},
+                                {"interface_imbalance_max", or_null(results.conservation.interface_imbalance)}};
+    document["rotor"] = rotor_json(results, run);
+    document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
+                             {"delivered_concentration", or_null(results.delivery.concentration)},
+                             {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};
+    document["scale"] = {{"flow_number", results.scale.flow_number},
+                         {"froude", results.scale.froude},
+                         {"settling_ratio", or_null(results.scale.settling_ratio)},
+                         {"size_ratio", or_null(results.scale.size_ratio)}};
+    document["cost"] = cost_json(results.cost);
+    document["models"] = run.cost_summary.value("models", json::array());
+    document["not_modelled"] = not_modelled_json();
+    document["mesh"] = run.mesh;
+    document["versions"] = versions_json(run);
+    return document;
+}
+
+}  // namespace cutterflow::postproc

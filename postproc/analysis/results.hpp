@@ -1,0 +1,90 @@
+#pragma once
+/// \file The numbers of a report and their JSON form, the contract `cutterflow.results/1`.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "postproc/run/run_reader.hpp"
+#include "postproc/analysis/spillage.hpp"
+#include "postproc/analysis/time_average.hpp"
+
+namespace cutterflow::postproc {
+
+inline constexpr const char* k_results_schema = "cutterflow.results/1";
+inline constexpr double k_gravity = 9.81;  ///< [m/s2]
+
+/// Radial velocity just outside the head, averaged over azimuth and over the averaging window; positive outwards [m/s].
+struct BinOutflow {
+    geometry::AxialBin bin;
+    std::optional<TimeAverage> radial_velocity;
+};
+
+/// Means over whole revolutions after the start of the window; before there is one, over whole passings of a blade, with which all
+/// that the flow does to the rotor repeats. The torques are those that flow and rock put on the cutter, about the
+/// axis from hub to ring; power is what the drive must give.
+struct RotorLoads {
+    double revolutions = 0.0;                ///< of the whole run
+    double averaged_revolutions = 0.0;       ///< 0: no blade has passed since the start, no means
+    std::optional<TimeAverage> torque_flow;  ///< [N m], pressure and viscous
+    std::optional<TimeAverage> torque_rock;  ///< [N m]
+    std::optional<TimeAverage> power;        ///< [W]
+};
+
+/// What the suction pipe carries.
+struct Delivery {
+    double pipe_velocity = 0.0;             ///< Q / (pi r_mouth^2) [m/s]
+    std::optional<double> concentration;    ///< volume of sucked up rock / (Q * time since the first rock)
+    std::optional<double> mixture_density;  ///< rho_f (1 - c) + rho_rock c [kg/m3]
+};
+
+/// Dimensionless numbers of the run; R ring radius, omega rotor speed, d and u_t mean diameter and settling velocity by mass.
+struct ScaleNumbers {
+    double flow_number = 0.0;              ///< Q / (omega R^3)
+    double froude = 0.0;                   ///< omega^2 R / g
+    std::optional<double> settling_ratio;  ///< u_t / (omega R)
+    std::optional<double> size_ratio;      ///< d / R
+};
+
+/// Largest magnitude over all steps, relative. Absent where a run without rock has none.
+struct Conservation {
+    std::optional<double> solid_volume, momentum_exchange, flow_balance, interface_imbalance;
+};
+
+/// What was predicted before the run, for the time that it ran.
+struct PredictedCost {
+    double cells = 0.0, steps = 0.0, core_s = 0.0;
+};
+
+struct Cost {
+    double wall_s = 0.0;           ///< sum over the steps
+    std::optional<double> core_s;  ///< wall_s times ranks
+    std::size_t steps = 0;
+    std::optional<int> cells, ranks;
+    std::optional<double> core_s_per_revolution;
+    std::map<std::string, double> share;  ///< of wall_s: fluid, mesh_motion, mapping, dem, output
+    std::optional<PredictedCost> predicted;
+};
+
+struct Results {
+    bool finished = false;
+    double end_time = 0.0;             ///< of the last step [s]
+    std::optional<Spillage> spillage;  ///< none: no rock
+    int rock_requested = 0, rock_rejected = 0;
+    std::vector<BinOutflow> outflow;  ///< empty when the run did not sample it
+    RotorLoads rotor;
+    Delivery delivery;
+    ScaleNumbers scale;
+    Conservation conservation;
+    Cost cost;
+};
+
+/// \throws CheckFailure  when the fates of the rock do not add up
+Results compute_results(const RunData& run);
+
+/// The contract's document. Undefined numbers are null; `*_reason` beside them says why.
+nlohmann::json results_json(const Results& results, const RunData& run);
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,79 @@
+#include "postproc/draw/gnuplot.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "geometry/base/child_process.hpp"
+#include "geometry/base/error.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Settings of every plot: quiet axes, light grid, page colours.
+constexpr const char* k_style = R"(set encoding utf8
+set border 3 lc rgb "#8a94a0" lw 1
+set tics nomirror out scale 0.5 textcolor rgb "#47525d"
+set grid lc rgb "#e3e7eb" lw 1 lt 1
+set xlabel textcolor rgb "#26303a"
+set ylabel textcolor rgb "#26303a"
+set key textcolor rgb "#26303a"
+set style fill solid 1.0 noborder
+)";
+
+std::string read_text(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// gnuplot's file as an element of a page: without prolog and tool tips, with ids of its own.
+std::string as_element(const std::string& file, const std::string& name) {
+    std::string svg = file.substr(file.find("<svg"));
+    svg = std::regex_replace(svg, std::regex("<title>[^<]*</title>|<desc>[^<]*</desc>"), "");
+    svg = std::regex_replace(svg, std::regex("id=(['\"])"), "id=$1" + name + "_");
+    svg = std::regex_replace(svg, std::regex("href=(['\"])#"), "href=$1#" + name + "_");
+    return std::regex_replace(svg, std::regex("url\\(#"), "url(#" + name + "_");
+}
+
+}  // namespace
+
+bool gnuplot_is_installed() {
+    return !find_program("gnuplot").empty();
+}
+
+std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) {
+    fs::create_directories(scratch_directory);
+    const fs::path script = scratch_directory / (plot.name + ".gp");
+    std::ofstream(script) << fmt::format("set terminal svg noenhanced size {},{} dynamic font \"sans-serif,12.5\"\nset output \"{}.svg\"\n",
+                                         plot.width, plot.height, plot.name)
+                          << k_style << plot.commands << "unset output\n";
+    // gnuplot runs in the scratch directory: no path of the user's stands in the script.
+    require_child({{"gnuplot", script.filename().string()}, scratch_directory, scratch_directory / (plot.name + ".log"), {}});
+    const std::string svg = read_text(scratch_directory / (plot.name + ".svg"));
+    if (svg.find("<svg") == std::string::npos || svg.find("</svg>") == std::string::npos) {
+        throw ToolError({"", fmt::format("gnuplot drew nothing for {}", script.string()), "It writes an SVG file",
+                         "Look into its log in the same folder"});
+    }
+    return as_element(svg, plot.name);
+}
+
+std::string data_block(const std::string& name, const std::vector<std::vector<std::string>>& rows) {
+    std::string block = fmt::format("${} << END_OF_DATA\n", name);
+    for (const auto& row : rows) block += fmt::format("{}\n", fmt::join(row, " "));
+    return block + "END_OF_DATA\n";
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c == '\n' ? ' ' : c;
+    }
+    return result + '"';
+}
+
+}  // namespace cutterflow::postproc

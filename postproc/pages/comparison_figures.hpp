@@ -1,0 +1,26 @@
+#pragma once
+/// \file The plots of a comparison.
+#include <string>
+#include <vector>
+
+#include "postproc/analysis/comparison.hpp"
+#include "postproc/draw/plot.hpp"
+
+namespace cutterflow::postproc {
+
+struct CaptionedPlot {
+    Plot plot;
+    std::string caption;  ///< markup
+};
+
+/// Spillage and production by setting, against speed and against flow number (where settings differ in them), outflow and spillage by
+/// axial bin, spillage of the top bin against its outflow. Plots of rock are left out when a run has none.
+std::vector<CaptionedPlot> comparison_plots(const Comparison& comparison);
+
+/// Colour of a setting, by its number from 0.
+const char* setting_colour(std::size_t setting);
+
+/// The quantity of a key; null when the comparison has none.
+const Quantity* find_quantity(const Comparison& comparison, const std::string& key);
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,174 @@
+#include "postproc/pages/comparison_page.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "postproc/pages/adv_trend.hpp"
+#include "postproc/pages/comparison_figures.hpp"
+#include "postproc/draw/gnuplot.hpp"
+#include "postproc/pages/head_picture.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/analysis/not_modelled.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/analysis/text.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using html::escape;
+
+std::string estimate_markup(const Estimate& estimate) {
+    if (!estimate.value) return text::k_dash;
+    std::string markup = is_count(*estimate.value) ? fmt::format("{:.0f}", *estimate.value) : text::digits_of(*estimate.value, 4);
+    if (estimate.half_width) markup += " ± " + text::digits_of(*estimate.half_width, 2);
+    if (estimate.low) markup += fmt::format("<br>{:.3f} … {:.3f}", *estimate.low, *estimate.high);
+    return markup;
+}
+
+/// What the rows are, then the number of each setting.
+std::vector<std::string> settings_header(const char* rows, const Comparison& comparison) {
+    std::vector<std::string> header{rows};
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{}", i + 1));
+    return header;
+}
+
+std::string quantities_table(const Comparison& comparison) {
+    std::vector<std::vector<std::string>> rows;
+    for (const Quantity& quantity : comparison.quantities) {
+        rows.push_back({escape(quantity.name) + (quantity.unit == "-" ? "" : " [" + quantity.unit + "]")});
+        for (const Estimate& estimate : quantity.settings) rows.back().push_back(estimate_markup(estimate));
+    }
+    return html::scrolling(html::table(settings_header("quantity", comparison), rows, true));
+}
+
+std::string differences_table(const Comparison& comparison) {
+    static const std::set<std::string> given{
+        "speed_rpm", "discharge_m3_s",        "flow_number",           "cells", "placed", "revolutions_since_feed",
+        "undecided", "core_s_per_revolution", "flow_balance_max_error"};
+    std::vector<std::string> header{"quantity"};
+    for (std::size_t i = 1; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{} − 1", i + 1));
+    std::vector<std::vector<std::string>> rows;
+    for (const Quantity& quantity : comparison.quantities) {
+        if (given.count(quantity.key) > 0) continue;
+        rows.push_back({escape(quantity.name) + (quantity.unit == "-" ? "" : " [" + quantity.unit + "]")});
+        for (std::size_t i = 1; i < comparison.settings.size(); ++i) {
+            const Difference difference = difference_of(comparison, quantity, i);
+            rows.back().push_back(difference.estimate.value
+                                      ? estimate_markup(difference.estimate) + "<br>" + verdict_text(difference.verdict)
+                                      : std::string(text::k_dash));
+        }
+    }
+    return html::scrolling(html::table(header, rows, true));
+}
+
+std::string settings_table(const Comparison& comparison) {
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
+        const Setting& setting = comparison.settings[i];
+        const RunData& run = comparison.runs[setting.runs.front()].run;
+        const bool finished =
+            std::all_of(setting.runs.begin(), setting.runs.end(), [&](std::size_t r) { return comparison.runs[r].results.finished; });
+        rows.push_back({fmt::format("<i style=\"background: {}\"></i>{}", setting_colour(i), i + 1), escape(setting.label),
+                        escape(fs::path(run.geometry.value("file", std::string())).filename().string()),
+                        escape(run.operating_point.mesh_preset), fmt::format("{}", setting.runs.size()),
+                        finished ? "yes" : "<span class=\"failed\">no</span>"});
+    }
+    return "<div class=\"legend\">" + html::table({"setting", "name", "cutter", "mesh", "runs", "finished"}, rows, false) + "</div>";
+}
+
+/// What was asked for differently; sizes that follow from it stand there, too.
+std::string studies_table(const Comparison& comparison) {
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [key, values] : differing_keys(comparison)) {
+        rows.push_back({escape(key)});
+        for (const std::string& value : values) rows.back().push_back(value.empty() ? std::string(text::k_dash) : escape(value));
+    }
+    return html::scrolling(html::table(settings_header("key", comparison), rows, true));
+}
+
+std::string heads(const Comparison& comparison) {
+    std::string content;
+    ViewSurfaces surfaces;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
+        const RunData& run = comparison.runs[comparison.settings[i].runs.front()].run;
+        const HeadPicture head = draw_head(run, surfaces);
+        const std::string rock = head.rocks_shown > 0 ? fmt::format(" Rock by fate at the end, in true size; {} of {} lie outside the picture.",
+                                                                    head.rocks_outside_view, head.rocks_shown)
+                                                      : "";
+        content += html::figure(html::replaceable(head.side_view, "head", head.view),
+                                fmt::format("Setting {}: {}.{}", i + 1, escape(comparison.settings[i].label), rock));
+    }
+    const std::string legend = find_quantity(comparison, "ratio") ? html::legend({{palette::spilled, "spilled"},
+                                                                                    {palette::in_cutter, "in cutter"},
+                                                                                    {palette::never_entered, "never entered"},
+                                                                                    {palette::sucked_up, "sucked up"}})
+                                                                    : "";
+    const std::string caption =
+        "<p>From the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two "
+        "fingers to zoom</span>.</p>";
+    return html::section("The heads and their rock", caption + legend + "<div class=\"figures\">" + content + "</div>") + surfaces.markup();
+}
+
+std::string plots(const Comparison& comparison, const fs::path& scratch) {
+    if (!gnuplot_is_installed()) return "<p class=\"notice\">Plots are missing: the program gnuplot was not found.</p>";
+    std::string content;
+    for (const CaptionedPlot& item : comparison_plots(comparison)) content += html::figure(draw_plot(item.plot, scratch), item.caption);
+    fs::remove_all(scratch);
+    return "<div class=\"figures\">" + content + "</div>";
+}
+
+/// Said on top when settings had different rock: then a difference may be that of the rock.
+std::string batches_notice(const Comparison& comparison) {
+    const std::vector<std::string> batches = differing_batches(comparison);
+    if (batches.empty()) return "";
+    std::string items;
+    for (std::size_t i = 0; i < batches.size(); ++i) items += fmt::format("<br>Setting {}: {}.", i + 1, escape(batches[i]));
+    return fmt::format(
+        "<p class=\"notice\"><b>Different batches of rock.</b> A difference between these settings may be one of their rock.{}</p>\n", items);
+}
+
+bool has_repeats(const Comparison& comparison) {
+    return std::any_of(comparison.settings.begin(), comparison.settings.end(),
+                       [](const Setting& s) { return s.runs.size() >= k_fewest_repeats; });
+}
+
+}  // namespace
+
+fs::path write_comparison(const Comparison& comparison, const fs::path& folder) {
+    const fs::path page = folder / "index.html", document = folder / "comparison.json";
+    if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(document))
+        throw UserError(fmt::format("{} holds files that are not of a comparison", folder.string()), "Nothing is overwritten",
+                        "Name another folder");
+    fs::create_directories(folder);
+    const bool with_rock = find_quantity(comparison, "ratio") != nullptr;
+    const std::string title = fmt::format("Comparison of {} settings", comparison.settings.size());
+    std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + batches_notice(comparison) + settings_table(comparison);
+    body += fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(with_rock)));
+    if (with_rock && !has_repeats(comparison))
+        body +=
+            "<p>No replicate: each setting is one batch. The ranges are bounds by the undecided rock, not intervals; three or more repeats "
+            "of a setting give intervals.</p>\n";
+    body += plots(comparison, folder / "plots.part");
+    body += html::section("The numbers",
+                          quantities_table(comparison) +
+                              "<p>± half the 95 % interval: Student’s t over repeats for what rock does, batch means in time for the flow. "
+                              "Second line: bounds, whatever the undecided rock does.</p>");
+    body += html::section("Differences from setting 1", differences_table(comparison));
+    body += html::section("What the studies differ in", studies_table(comparison));
+    std::vector<fs::path> directories;
+    for (const ComparedRun& compared : comparison.runs) directories.push_back(compared.run.directory);
+    const std::vector<AdvTrend> velocities = read_adv_trends(directories);
+    body += adv_trend_section(velocities, folder / "plots.part") + heads(comparison);
+    nlohmann::json numbers = comparison_json(comparison);
+    if (!velocities.empty()) numbers["velocities_at_points"] = adv_trend_json(velocities);
+    write_file(document, numbers.dump(2) + "\n");
+    write_file(page, html::document(title, body, fmt::format("The same numbers for programs: comparison.json ({}).", k_comparison_schema)));
+    return page;
+}
+
+}  // namespace cutterflow::postproc

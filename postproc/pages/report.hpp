@@ -1,0 +1,24 @@
+#pragma once
+/// \file The report of a run: report/results.json and report/index.html.
+#include <filesystem>
+#include <string>
+
+#include "postproc/analysis/results.hpp"
+
+namespace cutterflow::postproc {
+
+struct ReportSummary {
+    std::filesystem::path results_file;
+    std::filesystem::path page_file;
+    Results results;
+    std::string note;  ///< what the page had to leave out and why; empty when nothing
+};
+
+/// Reads a run directory, finished or not, with or without rock, and writes both files; each is written beside its place and renamed, so
+/// that a reader never sees half of one. Without gnuplot the page has tables and pictures but no plots, and says so.
+/// \throws UserError     when the directory is no run, nothing was computed yet, or a file breaks its contract
+/// \throws CheckFailure  when the fates of the rock do not add up
+/// \throws ToolError     when gnuplot is there and fails
+ReportSummary write_report(const std::filesystem::path& run_directory);
+
+}  // namespace cutterflow::postproc

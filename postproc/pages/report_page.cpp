@@ -1,0 +1,474 @@
+#include "postproc/pages/report_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "postproc/pages/figures.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/analysis/not_modelled.hpp"
+#include "postproc/pages/onset_band.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/analysis/text.hpp"
+#include "postproc/pages/velocity_figures.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using html::answer;
+using html::escape;
+using nlohmann::json;
+using namespace text;
+
+/// Value of a JSON file as markup.
+std::string json_text(const json& value) {
+    if (value.is_string()) return escape(value.get<std::string>());
+    if (value.is_number_float()) return digits_of(value.get<double>(), 5);
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return escape(value.dump());
+}
+
+/// A word of the study as people write it: "over_cut" as "over-cut".
+std::string spaced(std::string word) {
+    std::replace(word.begin(), word.end(), '_', '-');
+    return escape(word);
+}
+
+/// "cell_size_min_m" as "cell size min [m]": units stand at the end of a key.
+std::string key_text(const std::string& key) {
+    static const std::map<std::string, std::string> phrases{{"core_s", "core time [s]"},
+                                                            {"wall_s", "wall time [s]"},
+                                                            {"passage_m", "largest sphere that passes between the blades [m]"},
+                                                            {"thickness_m", "thickness of its thin parts, such as blades [m]"},
+                                                            {"memory_bytes", "memory of the mesher [MB]"},
+                                                            {"predicted_memory_bytes", "predicted memory of the mesher [MB]"}};
+    const auto phrase = phrases.find(key);
+    if (phrase != phrases.end()) return phrase->second;
+    static const std::vector<std::pair<std::string, std::string>> units{
+        {"_kg_m3", "kg/m³"}, {"_m3_s", "m³/s"}, {"_m_s", "m/s"}, {"_deg", "°"}, {"_rad", "rad"}, {"_rpm", "rpm"},
+        {"_m3", "m³"},       {"_m2", "m²"},     {"_mm", "mm"},   {"_kg", "kg"}, {"_m", "m"},     {"_s", "s"}};
+    std::string words = key, unit;
+    for (const auto& [suffix, text] : units) {
+        if (words.size() <= suffix.size() || words.compare(words.size() - suffix.size(), suffix.size(), suffix) != 0) continue;
+        words.resize(words.size() - suffix.size());
+        unit = " [" + text + "]";
+        break;
+    }
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return escape(words) + unit;
+}
+
+/// The single values of a JSON file as rows.
+std::vector<std::vector<std::string>> value_rows(const json& object) {
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [key, value] : object.items()) {
+        if (value.is_structured() || value.is_null()) continue;
+        const bool bytes = key.find("_bytes") != std::string::npos && value.is_number();
+        rows.push_back({key_text(key), bytes ? fmt::format("{:.0f}", value.get<double>() / 1e6) : json_text(value)});
+    }
+    return rows;
+}
+
+std::string fate_detail(const RockAmount& amount) {
+    return fmt::format("{} rocks, {:.4g} kg", amount.count, amount.mass);
+}
+
+std::string over_revolutions(const RotorLoads& rotor) {
+    if (rotor.averaged_revolutions == 0.0) return "no blade has passed yet since the start of the averaging window";
+    return fmt::format("mean over {:.3g} revolution{}", rotor.averaged_revolutions, rotor.averaged_revolutions == 1.0 ? "" : "s");
+}
+
+std::string plot(const PageFigures& figures, const std::string& name, const std::string& caption, const std::string& css_class = "") {
+    const auto found = figures.plots.find(name);
+    return found == figures.plots.end() ? "" : html::figure(found->second, caption, css_class);
+}
+
+const char* kind_of_run(const Results& results, const RunData& run) {
+    if (results.spillage) return "Flow-induced spillage";
+    return run.feed ? "Flow in the turning head (rock has not come in yet)" : "Flow in the turning head (no rock)";
+}
+
+std::string header(const Results& results, const RunData& run) {
+    const OperatingPoint& point = run.operating_point;
+    const std::string name = point.study_name.empty() ? std::string("Cutter head") : escape(point.study_name);
+    const std::string swing = point.swing_direction.empty() ? "" : ", " + spaced(point.swing_direction);
+    return fmt::format(
+        "<header><h1>{}</h1><p class=\"operating\">{}: {:g} rpm{}, discharge {:g} m³/s, axis {:g}° below horizontal, "
+        "ring radius {:.3g} m{}</p></header>\n",
+        name, kind_of_run(results, run), point.speed_rpm, swing, point.discharge, point.inclination_deg, run.contour.ring_radius(),
+        point.mesh_preset.empty() ? "" : fmt::format(", mesh “{}”", escape(point.mesh_preset)));
+}
+
+std::string unfinished_notice(const Results& results) {
+    if (results.finished) return "";
+    return fmt::format(
+        "<p class=\"notice\"><b>The run is not finished.</b> These are the numbers up to t = {:.4g} s ({:.2f} revolutions). "
+        "Continue it with <code>cutterflow run --resume</code>.</p>\n",
+        results.end_time, results.rotor.revolutions);
+}
+
+std::string rock_answers(const Results& results, double revolution) {
+    const Spillage& spillage = *results.spillage;
+    const SpillageRatios& ratios = spillage.ratios;
+    const double placed = spillage.fates.placed.mass;
+    const double since_feed = (spillage.fates.time - spillage.feed_start) / revolution;
+    std::string bounds = ratios.ratio_min ? fmt::format("between {} and {} whatever the undecided rock does", percent(*ratios.ratio_min),
+                                                        percent(*ratios.ratio_max))
+                                          : ratios.reason;
+    if (!ratios.ratio && ratios.ratio_min) bounds = ratios.reason + "; " + bounds;
+    std::string blocks = answer(palette::spilled, "Spillage: spilled / (spilled + sucked up), by mass", percent(ratios.ratio), bounds);
+    blocks += answer(palette::sucked_up, "Production: sucked up / placed, by mass",
+                     placed > 0.0 ? percent(spillage.fates.sucked_up.mass / placed) : "undefined", fate_detail(spillage.fates.sucked_up));
+    blocks += answer(palette::in_cutter, "Undecided: still in the cutter or never entered", percent(ratios.undecided),
+                     fmt::format("{} in the cutter, {} never entered", spillage.fates.in_cutter.count, spillage.fates.never_entered.count));
+    blocks += answer(palette::ink, "Evaluated after", fmt::format("{:.2f} rev", since_feed),
+                     fmt::format("since the first rock ({:.3g} s); {} of {} rocks placed, {:.4g} kg",
+                                 spillage.fates.time - spillage.feed_start, spillage.fates.placed.count, results.rock_requested, placed));
+    return blocks;
+}
+
+/// The mean of an average and, in small print, its error.
+std::string error_detail(const TimeAverage& average, const char* unit) {
+    return average.standard_error ? fmt::format("± {} standard error; ", number(average.standard_error, unit, 2)) : "";
+}
+
+std::string flow_answers(const Results& results) {
+    const BinOutflow* strongest = nullptr;
+    for (const BinOutflow& bin : results.outflow) {
+        if (bin.radial_velocity && (!strongest || bin.radial_velocity->mean > strongest->radial_velocity->mean)) strongest = &bin;
+    }
+    std::string blocks;
+    if (strongest) {
+        blocks +=
+            answer(palette::outflow, "Strongest mean radial velocity outside the contour", number(strongest->radial_velocity->mean, "m/s"),
+                   error_detail(*strongest->radial_velocity, "m/s") + "bin: " + bin_text(strongest->bin.name));
+    }
+    const RotorLoads& rotor = results.rotor;
+    blocks += answer(palette::flow_load, "Mean torque of the flow on the cutter", number(mean_of(rotor.torque_flow), "N m"),
+                     rotor.torque_flow ? error_detail(*rotor.torque_flow, "N m") + over_revolutions(rotor) : over_revolutions(rotor));
+    blocks += answer(palette::ink, "Revolutions computed", fmt::format("{:.2f}", rotor.revolutions),
+                     fmt::format("up to t = {:.4g} s", results.end_time));
+    return blocks;
+}
+
+std::string conservation_text(const Conservation& conservation) {
+    std::string text;
+    if (conservation.solid_volume) text += fmt::format("rock volume on the mesh {}, ", number(conservation.solid_volume, "", 2));
+    if (conservation.momentum_exchange)
+        text += fmt::format("momentum exchanged between rock and water {}, ", number(conservation.momentum_exchange, "", 2));
+    return text +
+           fmt::format("water balance {} of the discharge, rotor interface {} of the flow through it: largest relative error of all steps",
+                       number(conservation.flow_balance, "", 2), number(conservation.interface_imbalance, "", 2));
+}
+
+std::string cost_text(const Cost& cost) {
+    std::string text = fmt::format("{} wall time", duration(cost.wall_s));
+    if (cost.ranks) text += fmt::format(" on {} rank{}", *cost.ranks, *cost.ranks == 1 ? "" : "s");
+    if (cost.core_s) text += fmt::format(", {} of core time", duration(*cost.core_s));
+    if (cost.core_s_per_revolution) text += fmt::format(" ({} per revolution)", duration(*cost.core_s_per_revolution));
+    text += fmt::format("; {} time steps", cost.steps);
+    if (cost.cells) text += fmt::format(" on {} cells", *cost.cells);
+    return text;
+}
+
+std::string trust_list(const Results& results) {
+    std::string items;
+    const auto item = [&](const char* label, const std::string& text) {
+        items += fmt::format("<li><b>{}</b><span>{}</span></li>", label, text);
+    };
+    if (results.spillage) {
+        item("Statistical error",
+             "no replicate: one batch, one placement. An interval needs three or more repeats that vary placement and "
+             "release angle; the bounds above are not one, they only say what the undecided rock could still do.");
+    }
+    item("Mesh error", "not in this report: compare with the same study on a finer mesh preset before using a number as an absolute one.");
+    item("Balances", conservation_text(results.conservation));
+    item("Cost", cost_text(results.cost));
+    return fmt::format("<ul class=\"trust\">{}</ul>\n", items);
+}
+
+std::string fate_legend(const Fates& fates) {
+    const auto entry = [](const char* colour, const char* name, const RockAmount& amount) {
+        return std::pair<std::string, std::string>{colour, fmt::format("{} ({})", name, amount.count)};
+    };
+    return html::legend({entry(palette::spilled, "spilled", fates.spilled), entry(palette::in_cutter, "in cutter", fates.in_cutter),
+                         entry(palette::never_entered, "never entered", fates.never_entered),
+                         entry(palette::sucked_up, "sucked up", fates.sucked_up)});
+}
+
+std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
+    std::string content = fmt::format("<div class=\"answers\">\n{}</div>\n",
+                                      results.spillage ? rock_answers(results, run.operating_point.revolution_s()) : flow_answers(results));
+    if (results.spillage) {
+        content +=
+            plot(figures, "outcome",
+                 fate_legend(results.spillage->fates) +
+                     "Share of the placed mass. Bar below: the spillage ratio (dot) between its bounds; undecided rock separates them.");
+    }
+    return content + fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(results.spillage.has_value()))) + trust_list(results);
+}
+
+std::string head_figure(const Results& results, const PageFigures& figures) {
+    if (figures.head.side_view.empty()) return "";
+    std::string caption =
+        "Left: from the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two fingers to zoom</span>. Right: from the hub along the axis, "
+        "lowest side down. The arrow shows the sense of rotation.";
+    if (results.spillage && figures.head.rocks_shown > 0) {
+        caption += fmt::format(" Rocks in true size at the last checkpoint or the end; {} of {} lie outside the left picture.",
+                               figures.head.rocks_outside_view, figures.head.rocks_shown);
+        caption = fate_legend(results.spillage->fates) + caption;
+    }
+    return html::figure(html::replaceable(figures.head.side_view, "head", figures.head.view) + figures.head.axial_view, caption, "head wide");
+}
+
+std::string velocity_figures(const RunData& run, const PageFigures& figures) {
+    if (run.plane_axial.empty() && run.plane_under_ring.empty()) return "";
+    const std::string colours = " Colour: speed in the plane (the darkest stands for that speed and more); arrows: its direction; white: steel; orange: contour of revolution; ";
+    std::string content;
+    if (!run.plane_axial.empty()) {
+        content += plot(figures, "plane_axial",
+                        "Velocity of the water on the plane through the axis and the suction mouth’s centre." + colours +
+                            averaging_text(run.plane_axial) + ".");
+    }
+    if (!run.plane_under_ring.empty()) {
+        content += plot(figures, "plane_under_ring",
+                        fmt::format("The same on a plane {:.3g} m below the ring, seen from the hub, the lowest side down.",
+                                    -run.plane_under_ring.number("z_m").front()));
+    }
+    return content;
+}
+
+std::string figure_section(const Results& results, const RunData& run, const PageFigures& figures) {
+    std::string content = head_figure(results, figures);
+    content +=
+        plot(figures, "bins",
+             results.spillage
+                 ? "Where rock left the head for the last time, and the radial velocity there: sampled just outside the contour of "
+                   "revolution, averaged over azimuth and time (whiskers: standard error by batch means). “gap” lies between ring and "
+                   "backplate."
+                 : "Radial velocity just outside the contour of revolution, averaged over azimuth and time (whiskers: standard error by "
+                   "batch means). “gap” lies between ring and backplate.");
+    content += plot(figures, "top_bin",
+                    "Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error by batch "
+                    "means). " + onset_band_text());
+    content += velocity_figures(run, figures);
+    content += plot(figures, "first_exit",
+                    "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock "
+                    "left out). Seen from the hub, the lowest side down.",
+                    "rose");
+    content += plot(figures, "fates",
+                    "Mass of the placed rock by fate. A fate is the last state of the rock’s centre, with a hysteresis of a "
+                    "quarter of its diameter; sucked up is final.");
+    content +=
+        plot(figures, "ratio", "Spillage ratio over time with its bounds: lower, all undecided rock is sucked up; upper, all is spilled.");
+    content += plot(figures, "torque",
+                    "Torque that flow and rock put on the cutter about the axis (right-handed, hub to ring), mean over 1/100 "
+                    "revolution; dashed: mean over whole revolutions.");
+    content += plot(figures, "balance", "Errors of the balances at every step, relative.");
+    return content.empty() ? ""
+                           : html::section(results.spillage ? "Where the rock goes, and why" : "The flow through the head",
+                                           "<div class=\"figures\">" + content + "</div>");
+}
+
+std::string series_table(const Spillage& spillage) {
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const std::vector<RatiosAt>& series, const char* unit) {
+        for (const RatiosAt& at : series) {
+            rows.push_back({fmt::format("{:g} {}", at.since_feed, unit), percent(at.ratios.ratio), percent(at.ratios.ratio_min),
+                            percent(at.ratios.ratio_max), percent(at.ratios.undecided)});
+        }
+    };
+    add(spillage.at_revolutions, "rev");
+    add(spillage.at_seconds, "s");
+    if (rows.empty()) return "<p>Less than one revolution and one second since the first rock.</p>";
+    return html::table({"since the first rock", "ratio", "lower", "upper", "undecided"}, rows, true);
+}
+
+std::string bins_table(const Results& results) {
+    std::vector<std::vector<std::string>> rows;
+    const std::size_t count = results.spillage ? results.spillage->bins.size() : results.outflow.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const geometry::AxialBin& bin = results.spillage ? results.spillage->bins[i].bin : results.outflow[i].bin;
+        const std::string range =
+            std::isfinite(bin.z_min) ? fmt::format("{:.3f} to {:.3f}", bin.z_min, bin.z_max) : fmt::format("below {:.3f}", bin.z_max);
+        std::vector<std::string> row{bin_text(bin.name), range};
+        if (results.spillage) {
+            row.push_back(fmt::format("{}", results.spillage->bins[i].spilled.count));
+            row.push_back(fmt::format("{:.4g}", results.spillage->bins[i].spilled.mass));
+        }
+        row.push_back(results.outflow.empty() ? k_dash : number(results.outflow[i].radial_velocity, ""));
+        rows.push_back(row);
+    }
+    std::vector<std::string> header{"bin", "z, m"};
+    if (results.spillage) header.insert(header.end(), {"spilled rocks", "spilled, kg"});
+    header.emplace_back("radial velocity, m/s");
+    return html::table(header, rows, true);
+}
+
+std::string rock_section(const Results& results, const RunData& run) {
+    std::string content = fmt::format("<div class=\"tables\"><div><h3>By axial bin{}</h3>{}</div><div>",
+                                      results.spillage ? " (of the last exit)" : "", bins_table(results));
+    if (results.spillage) {
+        content += "<h3>At equal revolutions and at equal time</h3>" + series_table(*results.spillage);
+        content += "<h3>Feed</h3>" + html::table({},
+                                                 {{"requested", fmt::format("{} rocks", results.rock_requested)},
+                                                  {"placed", fmt::format("{} rocks", results.spillage->fates.placed.count)},
+                                                  {"rejected", fmt::format("{} rocks", results.rock_rejected)}},
+                                                 true);
+        if (run.feed) {
+            for (const std::string& reason : run.feed->reasons) content += fmt::format("<p>{}</p>", escape(reason));
+            for (const RockClass& rock : run.feed->classes) {
+                content += fmt::format("<p>{:g} rocks of {:.3g} mm, {:.0f} kg/m³, settling at {} in still water.</p>", rock.count,
+                                       1e3 * rock.diameter, rock.density, number(rock.settling_velocity, "m/s"));
+            }
+        }
+    }
+    return html::section("The numbers behind the figures", content + "</div></div>");
+}
+
+/// A row of the operating table: model value and, by Froude's law, that of the prototype: value times ratio^power.
+std::vector<std::string> scaled_row(const std::string& name, const std::string& unit, const std::optional<double>& value, double ratio,
+                                    double power) {
+    std::vector<std::string> row{fmt::format("{} [{}]", name, unit), number(value, "", 4)};
+    if (ratio != 1.0) row.push_back(value ? number(*value * std::pow(ratio, power), "", 4) : std::string(k_dash));
+    return row;
+}
+
+std::string operation_section(const Results& results, const RunData& run) {
+    const OperatingPoint& point = run.operating_point;
+    const double ratio = point.length_ratio;
+    std::vector<std::vector<std::string>> rows{
+        scaled_row("rotor speed", "rpm", point.speed_rpm, ratio, -0.5),
+        scaled_row("ring radius", "m", run.contour.ring_radius(), ratio, 1.0),
+        scaled_row("tip speed", "m/s", point.angular_speed() * run.contour.ring_radius(), ratio, 0.5),
+        scaled_row("discharge Q of the mixture", "m³/s", point.discharge, ratio, 2.5),
+        scaled_row("velocity in the suction pipe", "m/s", results.delivery.pipe_velocity, ratio, 0.5),
+        scaled_row("mean torque of the flow", "N m", mean_of(results.rotor.torque_flow), ratio, 4.0)};
+    if (results.spillage) rows.push_back(scaled_row("mean torque of the rock", "N m", mean_of(results.rotor.torque_rock), ratio, 4.0));
+    rows.push_back(scaled_row("mean power of the drive", "W", mean_of(results.rotor.power), ratio, 3.5));
+    if (results.spillage) {
+        rows.push_back(scaled_row("delivered concentration by volume", "-", results.delivery.concentration, ratio, 0.0));
+        rows.push_back(scaled_row("mixture density", "kg/m³", results.delivery.mixture_density, ratio, 0.0));
+        rows.push_back(scaled_row("placed rock", "kg", results.spillage->fates.placed.mass, ratio, 3.0));
+    }
+    const std::string cutter = std::filesystem::path(run.geometry.value("file", std::string())).filename().string();
+    const std::vector<std::vector<std::string>> layout{
+        {"cutter", cutter.empty() ? k_dash : escape(cutter)},
+        {"rotor direction about hub to ring", spaced(point.rotor_direction)},
+        {"swing direction", point.swing_direction.empty() ? k_dash : spaced(point.swing_direction)},
+        {"axis below horizontal", number(point.inclination_deg, "°", 4)},
+        {"suction mouth: radius", number(point.mouth_radius, "m")},
+        {"suction mouth: distance from the axis", number(point.mouth_offset, "m")},
+        {"suction mouth: azimuth (0 lowest)", number(point.mouth_azimuth_deg, "°", 4)},
+        {"gap between ring and backplate", number(run.contour.z_backplate(), "m")}};
+    std::vector<std::string> header{"quantity", "as computed"};
+    if (ratio != 1.0) header.push_back(fmt::format("Froude-scaled {:g}:1", ratio));
+    const std::vector<std::vector<std::string>> numbers{{"flow number Q / (ω R³)", number(results.scale.flow_number)},
+                                                        {"Froude number ω² R / g", number(results.scale.froude)},
+                                                        {"settling ratio u<sub>t</sub> / (ω R)", number(results.scale.settling_ratio)},
+                                                        {"size ratio d / R", number(results.scale.size_ratio)}};
+    std::string content = "<div class=\"tables\"><div><h3>Quantities</h3>" + html::table(header, rows, true) +
+                          "</div><div><h3>Scale numbers</h3>" + html::table({}, numbers, true);
+    content += "<h3>Layout</h3>" + html::table({}, layout, true);
+    content += "<p>R ring radius, ω rotor speed, u<sub>t</sub> settling velocity and d diameter of the rock (mean by mass). ";
+    if (results.spillage) content += "Delivered concentration: volume of sucked up rock over the mixture discharged since the first rock. ";
+    content += fmt::format("Torques and power: {}.</p>", over_revolutions(results.rotor));
+    return html::section("Operating point and scale", content + "</div></div>");
+}
+
+std::string mesh_section(const RunData& run) {
+    std::string content;
+    if (!run.mesh.empty()) content += "<div>" + html::table({"mesh", ""}, value_rows(run.mesh), true) + "</div>";
+    std::vector<std::vector<std::string>> gates;
+    for (const json& gate : run.mesh.value("gates", json::array())) {
+        const bool passed = gate.value("passed", false);
+        gates.push_back({escape(gate.value("name", "")), json_text(gate.value("value", json())), json_text(gate.value("limit", json())),
+                         passed ? "<span class=\"passed\">passed</span>" : "<span class=\"failed\">failed</span>"});
+    }
+    std::string right;
+    if (!gates.empty()) right += html::table({"gate", "value", "limit", ""}, gates, true);
+    for (const char* part : {"head", "surface"}) {
+        const json values = run.geometry.value(part, json::object());
+        if (!values.empty()) right += html::table({fmt::format("cutter: {}", part), ""}, value_rows(values), true);
+    }
+    return html::section("Mesh quality and geometry", "<div class=\"tables\">" + content + "<div>" + right + "</div></div>");
+}
+
+std::string model_section(const RunData& run) {
+    std::vector<std::vector<std::string>> on, off;
+    for (const json& model : run.cost_summary.value("models", json::array())) {
+        on.push_back({escape(model.value("name", "")), escape(model.value("why", ""))});
+    }
+    for (const NotModelled& item : not_modelled()) off.push_back({escape(item.name), escape(item.consequence)});
+    std::string content =
+        on.empty() ? "<p>The run has not yet written which models were on.</p>" : html::table({"model that was on", "why"}, on, false);
+    content += "<h3>What is not modelled</h3>" + html::table({"", "what that means for the result"}, off, false);
+    return html::section("Models", content);
+}
+
+std::string prediction_table(const Cost& cost) {
+    if (!cost.predicted) return "";
+    const auto row = [](const char* name, const std::string& predicted, const std::string& actual, double error) {
+        return std::vector<std::string>{name, predicted, actual, fmt::format("{:+.0f} %", 100.0 * error)};
+    };
+    std::vector<std::vector<std::string>> rows;
+    const PredictedCost& p = *cost.predicted;
+    if (cost.cells) rows.push_back(row("cells", fmt::format("{:.0f}", p.cells), fmt::format("{}", *cost.cells), p.cells / static_cast<double>(*cost.cells) - 1.0));
+    rows.push_back(row("time steps", fmt::format("{:.0f}", p.steps), fmt::format("{}", cost.steps), p.steps / static_cast<double>(cost.steps) - 1.0));
+    if (cost.core_s) rows.push_back(row("core time of the steps", duration(p.core_s), duration(*cost.core_s), p.core_s / *cost.core_s - 1.0));
+    return html::table({"for the time that the run went through", "predicted", "actual", "error"}, rows, true);
+}
+
+std::string cost_section(const Results& results, const RunData& run, const PageFigures& figures) {
+    std::vector<std::pair<std::string, std::string>> shares;
+    double rest = 1.0;
+    for (const CostPart& part : cost_parts()) {
+        const double share = results.cost.share.at(part.key);
+        rest -= share;
+        shares.emplace_back(part.colour, fmt::format("{} ({})", part.title, percent(share)));
+    }
+    shares.emplace_back("transparent", fmt::format("not assigned ({})", percent(std::max(0.0, rest))));
+    const std::string legend = html::legend(shares);
+    std::string content = plot(figures, "cost", legend + "Share of the time steps’ wall time by part of the solver (slowest rank).");
+    if (content.empty()) content = legend;
+    content += prediction_table(results.cost);
+    std::vector<std::vector<std::string>> stages;
+    const json recorded = run.manifest.value("stages", json::object());
+    for (const char* name : {"geometry", "mesh", "case", "start", "run", "report"}) {
+        const json stage = recorded.value(name, json());
+        if (!stage.is_object()) continue;
+        const bool done = stage.value("state", json()) == "done";
+        const auto seconds = [&stage, done](const char* key) {
+            const auto found = stage.find(key);
+            return done && found != stage.end() && found->is_number() ? duration(found->get<double>()) : std::string(k_dash);
+        };
+        stages.push_back({name, json_text(stage.value("state", json(""))), seconds("wall_s"), seconds("core_s")});
+    }
+    if (!stages.empty()) content += html::table({"stage", "state", "wall time", "core time"}, stages, true);
+    return html::section("Cost by part", content);
+}
+
+std::string version_section(const json& versions) {
+    if (versions.empty()) return "";
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [name, version] : versions.items()) rows.push_back({escape(name), json_text(version)});
+    return html::section("Versions", html::table({}, rows, false));
+}
+
+}  // namespace
+
+std::string report_page(const Results& results, const RunData& run, const PageFigures& figures) {
+    const std::string title = run.operating_point.study_name.empty() ? std::string("Cutter head") : escape(run.operating_point.study_name);
+    std::string page = header(results, run);
+    page += unfinished_notice(results);
+    page += answer_section(results, run, figures);
+    if (!figures.note.empty()) page += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
+    page += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
+    page += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
+    page += version_section(results_json(results, run).at("versions")) + figures.surfaces.markup();
+    return html::document(title, page, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));
+}
+
+}  // namespace cutterflow::postproc

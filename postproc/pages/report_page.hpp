@@ -1,0 +1,21 @@
+#pragma once
+/// \file The report's page: one HTML file that needs no network and can be read without scripts.
+#include <map>
+#include <string>
+
+#include "postproc/pages/head_picture.hpp"
+#include "postproc/analysis/results.hpp"
+
+namespace cutterflow::postproc {
+
+/// What the page shows besides numbers. A plot that is absent is left out.
+struct PageFigures {
+    std::map<std::string, std::string> plots;  ///< as draw_plot gives them, by the plot's name
+    HeadPicture head;
+    ViewSurfaces surfaces;  ///< of the head's view
+    std::string note;  ///< why plots are missing; empty when none are
+};
+
+std::string report_page(const Results& results, const RunData& run, const PageFigures& figures);
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,339 @@
+#include "postproc/run/run_reader.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/head/head_names.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* k_rerun = "Make the run anew with this version of Cutterflow";
+
+/// Object of a JSON file; empty object when the file is absent.
+json read_json(const fs::path& file) {
+    if (!fs::exists(file)) return json::object();
+    std::ifstream stream(file);
+    json value = json::parse(stream, nullptr, false);
+    if (!value.is_object()) throw UserError(fmt::format("{} is not a JSON object", file.string()), "", k_rerun);
+    return value;
+}
+
+/// Collects what is wrong with the values of a file, so that all of it is said at once.
+class StudyReader {
+public:
+    explicit StudyReader(fs::path file) : file_(std::move(file)) {
+        if (!fs::exists(file_))
+            throw UserError(fmt::format("{} is no run directory", file_.parent_path().string()),
+                            fmt::format("A run directory holds {}, which `cutterflow run` writes", file_.filename().string()),
+                            "Check the path, or make the run first");
+        try {
+            root_ = toml::parse_file(file_.string());
+        } catch (const toml::parse_error& error) {
+            throw UserError(fmt::format("{} cannot be read as TOML: {}", file_.string(), error.description()), "",
+                            "Give the directory of a run that `cutterflow run` made");
+        }
+    }
+    double number(const std::string& key) {
+        const std::optional<double> value = root_.at_path(key).value<double>();
+        if (!value) miss(key, "is missing or not a number");
+        return value.value_or(1.0);
+    }
+    double positive(const std::string& key) {
+        const double value = number(key);
+        if (!(value > 0.0)) miss(key, fmt::format("= {} is not positive", value));
+        return value;
+    }
+    double number_or(const std::string& key, double standard) const { return root_.at_path(key).value<double>().value_or(standard); }
+    std::string text(const std::string& key, bool required) {
+        const std::optional<std::string> value = root_.at_path(key).value<std::string>();
+        if (!value && required) miss(key, "is missing or not a text");
+        return value.value_or("");
+    }
+    /// The study but for its name, what repeats of a run vary, and what changes no result; equal for equal values, however they are written.
+    /// \param cutter  what tells the cutter's content; empty: the study's own name of the file
+    std::map<std::string, std::string> setting(const std::string& cutter) const {
+        toml::table study = root_;
+        study.erase("name");
+        erase_keys(study["report"].as_table(), {"adv_points", "adv_probe_diameter_m", "adv_probe_length_m", "adv_position_error_m"});
+        erase_keys(study["run"].as_table(), {"checkpoint_interval_s", "write_interval_s"});
+        for_each_feed(study, [](toml::table& feed) { erase_keys(&feed, k_release_keys); });
+        std::map<std::string, std::string> values;
+        add_values(study, "", values);
+        if (!cutter.empty()) {
+            values.erase("cutter.file");
+            values["cutter, SHA-256"] = cutter.substr(0, 12);
+        }
+        return values;
+    }
+    /// What tells repeats apart: seed and angle of release of each feed; empty without rock.
+    std::string release() const {
+        std::ostringstream text;
+        toml::table study = root_;
+        for_each_feed(study, [&](toml::table& feed) {
+            for (const char* key : k_release_keys) text << key << feed[key].value_or(0.0) << ";";
+        });
+        return text.str();
+    }
+    int seed() const { return root_["feed"][0]["seed"].value_or(0); }
+    void require_all() {
+        if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
+    }
+
+private:
+    static constexpr std::initializer_list<const char*> k_release_keys{"seed", "start_revolution"};
+
+    static void erase_keys(toml::table* table, std::initializer_list<const char*> keys) {
+        if (table)
+            for (const char* key : keys) table->erase(key);
+    }
+    template <typename Each>
+    static void for_each_feed(toml::table& study, const Each& each) {
+        if (toml::array* feeds = study["feed"].as_array())
+            for (toml::node& feed : *feeds)
+                if (toml::table* table = feed.as_table()) each(*table);
+    }
+    /// Every value by its path, as "feed[1].class[1].count"; 60 and 60.0 are the same number.
+    static void add_values(const toml::node& node, const std::string& path, std::map<std::string, std::string>& values) {
+        if (const toml::table* table = node.as_table())
+            for (auto&& [key, value] : *table) add_values(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), values);
+        else if (const toml::array* array = node.as_array())
+            for (std::size_t i = 0; i < array->size(); ++i) add_values(*array->get(i), fmt::format("{}[{}]", path, i + 1), values);
+        else if (node.is_number())
+            values[path] = fmt::format("{:.9g}", node.value_or(0.0));
+        else if (node.is_boolean())
+            values[path] = node.value_or(false) ? "true" : "false";
+        else
+            values[path] = node.value_or(std::string());
+    }
+    void miss(const std::string& key, const std::string& what) {
+        mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report computes with it", k_rerun});
+    }
+    fs::path file_;
+    toml::table root_;
+    std::vector<Mistake> mistakes_;
+};
+
+OperatingPoint read_operating_point(StudyReader& study) {
+    OperatingPoint point;
+    point.study_name = study.text("name", false);
+    point.speed_rpm = study.positive("rotor.speed_rpm");
+    point.rotor_direction = study.text("rotor.direction", true);
+    point.discharge = study.positive("suction.discharge_m3_s");
+    point.mouth_radius = study.positive("suction.mouth_radius_m");
+    point.mouth_offset = study.number("suction.mouth_offset_m");
+    point.mouth_azimuth_deg = study.number("suction.mouth_azimuth_deg");
+    point.inclination_deg = study.number("ladder.inclination_deg");
+    point.fluid_density = study.positive("fluid.density_kg_m3");
+    point.outflow_start = study.number("report.outflow_start_s");
+    point.length_ratio = study.positive("scale.length_ratio");
+    point.swing_direction = study.text("swing.direction", false);
+    point.mesh_preset = study.text("mesh.preset", false);
+    return point;
+}
+
+AdvProbe read_adv_probe(const StudyReader& study) {
+    const AdvProbe standard;
+    return {study.number_or("report.adv_probe_diameter_m", standard.diameter), study.number_or("report.adv_probe_length_m", standard.length),
+            study.number_or("report.adv_position_error_m", standard.position_error)};
+}
+
+double required_number(const json& object, const char* key, const fs::path& file) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) {
+        throw UserError({{file.string(), fmt::format("{} is missing or not a number", key), "The report computes with it", k_rerun}});
+    }
+    return found->get<double>();
+}
+
+geometry::Contour read_contour(const fs::path& directory, const json& geometry, double gap) {
+    const double ring_radius = required_number(geometry.value("head", json::object()), "ring_radius_m", directory / names::geometry_report);
+    const fs::path file = directory / names::contour_table;
+    const Table table = read_table(file, {{"z_m", "r_m"}, {}, {}, k_rerun});
+    try {
+        return geometry::Contour(table.number("z_m"), table.number("r_m"), ring_radius, gap);
+    } catch (const std::exception& error) {
+        throw UserError(fmt::format("{} is not a contour: {}", file.string(), error.what()), "", k_rerun);
+    }
+}
+
+int read_blades(const json& geometry) {
+    const json blades = geometry.value("head", json::object()).value("blades", json(1));
+    return blades.is_number_integer() ? std::max(1, blades.get<int>()) : 1;
+}
+
+std::optional<FeedSummary> read_feed(const fs::path& file) {
+    if (!fs::exists(file)) return std::nullopt;
+    const json report = read_json(file);
+    FeedSummary summary;
+    for (const json& feed : report.value("feeds", json::array())) {
+        summary.requested += static_cast<int>(required_number(feed, "requested", file));
+        summary.rejected += static_cast<int>(required_number(feed, "rejected", file));
+        for (const json& reason : feed.value("reasons", json::array())) summary.reasons.push_back(reason.get<std::string>());
+        for (const json& item : feed.value("classes", json::array())) {
+            RockClass rock_class{required_number(item, "diameter_m", file), required_number(item, "density_kg_m3", file),
+                                 required_number(item, "count", file), std::nullopt};
+            if (const auto speed = item.find("settling_velocity_m_s"); speed != item.end() && speed->is_number()) {
+                rock_class.settling_velocity = speed->get<double>();
+            }
+            summary.classes.push_back(rock_class);
+        }
+    }
+    return summary;
+}
+
+TableRules event_rules() {
+    return {{"time_s", "id", "x_m", "y_m", "z_m", "rotor_angle_rad", "azimuth_rad", "axial_m", "diameter_m", "density_kg_m3"},
+            {"surface", "direction", "bin"},
+            {},
+            k_rerun};
+}
+
+TableRules fate_rules() {
+    return {{"time_s", "placed_count", "placed_kg", "sucked_up_count", "sucked_up_kg", "spilled_count", "spilled_kg", "in_cutter_count",
+             "in_cutter_kg", "never_entered_count", "never_entered_kg"},
+            {},
+            {},
+            k_rerun};
+}
+
+TableRules final_rules() {
+    return {{"id", "first_exit_time_s", "first_exit_azimuth_rad", "x_m", "y_m", "z_m", "diameter_m", "density_kg_m3"},
+            {"fate", "last_exit_bin"},
+            {"first_exit_time_s", "first_exit_azimuth_rad"},
+            k_rerun};
+}
+
+TableRules balance_rules() {
+    const std::vector<std::string> rock{
+        "solid_volume_error", "momentum_exchange_error", "solid_fraction_max", "overlap_ratio_max", "dem_substeps", "rocks", "contacts"};
+    TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "continuity_error", "outlet_flow_m3_s",
+                      "outlet_pressure_m2_s2", "courant_max"},
+                     {},
+                     rock,
+                     k_rerun};
+    rules.numbers.insert(rules.numbers.end(), rock.begin(), rock.end());
+    return rules;
+}
+
+/// The last folder's table that exists, for tables that are rewritten as a whole.
+Table read_newest_table(const fs::path& directory, const std::string& what, const std::string& file, const TableRules& rules) {
+    Table newest;
+    for (const auto& [start, folder] : start_folders(directory, what)) {
+        if (!fs::exists(folder / file)) continue;
+        Table table = read_table(folder / file, rules);
+        if (!table.columns().empty()) newest = std::move(table);
+    }
+    return newest;
+}
+
+Table read_plane(const fs::path& directory, const std::string& file) {
+    const std::vector<std::string> in_water{"u_radial_m_s",  "u_tangential_m_s",  "u_axial_m_s",
+                                            "se_radial_m_s", "se_tangential_m_s", "se_axial_m_s"};
+    TableRules rules{{"x_m", "y_m", "z_m", "revolutions", "from_s", "to_s"}, {}, in_water, k_rerun};
+    rules.numbers.insert(rules.numbers.end(), in_water.begin(), in_water.end());
+    return read_newest_table(directory, "velocity", file, rules);
+}
+
+std::optional<RockTables> read_rock(const fs::path& directory) {
+    RockTables rock;
+    rock.fates = read_joined_table(directory, "rock", "fates.csv", fate_rules());
+    if (rock.fates.empty()) return std::nullopt;
+    rock.events = read_joined_table(directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
+    rock.final_state = read_newest_table(directory, "rock", "final.csv", final_rules());
+    rock.rejected_in_run = read_joined_table(directory, "rock", "rejected.csv", {{"time_s", "id"}, {"reason"}, {}, k_rerun}, {"id"}).rows();
+    return rock;
+}
+
+void require_computed(const RunData& run) {
+    if (!run.balance.empty() && !run.cost.empty() && !run.loads.empty()) return;
+    throw UserError(fmt::format("{} holds no computed time step", (run.directory / "postProcessing").string()),
+                    "A report needs the tables balance, cost and loads of cutterFoam",
+                    "Start or continue the run: cutterflow run --resume");
+}
+
+/// A finished run wrote its last rows at its end; a table that ends before lost a part, as by a copy that was broken off.
+void require_whole(const RunData& run) {
+    if (!run.finished) return;
+    const fs::path folder = run.directory / "postProcessing";
+    std::vector<std::pair<const char*, const Table*>> tables{{"balance", &run.balance}, {"loads", &run.loads}, {"cost", &run.cost}};
+    if (run.rock) tables.emplace_back("rock", &run.rock->fates);
+    double end = 0.0;
+    for (const auto& [name, table] : tables) end = std::max(end, table->number("time_s").back());
+    std::vector<Mistake> mistakes;
+    for (const auto& [name, table] : tables)
+        if (const double last = table->number("time_s").back(); last < end * (1.0 - 1e-6))
+            mistakes.push_back({(folder / name).string(), fmt::format("ends at {:g} s, the run at {:g} s", last, end),
+                                "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
+    if (!run.rock && run.feed && run.feed->requested > run.feed->rejected)
+        mistakes.push_back({(folder / "rock").string(), "holds no fates", "The study feeds rock", "Copy the run directory again as a whole"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
+/// SHA-256 of the cutter's file as the run took it; empty when the manifest does not tell.
+std::string cutter_of(const json& manifest) {
+    const json::json_pointer place("/stages/geometry/inputs/cutter.file");
+    return manifest.contains(place) && manifest.at(place).is_string() ? manifest.at(place).get<std::string>() : "";
+}
+
+}  // namespace
+
+RunData read_run(const fs::path& directory) {
+    StudyReader study(directory / names::resolved_study);
+    const OperatingPoint point = read_operating_point(study);
+    const double bin_width = study.positive("report.bin_width_m");
+    const double gap = study.positive("suction.gap_m");
+    study.require_all();
+    const json geometry = read_json(directory / names::geometry_report);
+    const geometry::Contour contour = read_contour(directory, geometry, gap);
+    RunData run{directory,
+                point,
+                contour,
+                geometry::axial_bins(contour, bin_width),
+                read_feed(directory / names::feed_report),
+                read_rock(directory),
+                {},
+                {},
+                {},
+                {},
+                read_plane(directory, "plane_axial.csv"),
+                read_plane(directory, "plane_under_ring.csv"),
+                geometry,
+                read_json(directory / names::mesh_report),
+                read_json(directory / names::manifest),
+                {},
+                read_blades(geometry),
+                read_adv_probe(study)};
+    run.prediction = read_json(directory / names::prediction);
+    run.setting = study.setting(cutter_of(run.manifest));
+    run.release = study.release();
+    run.seed = study.seed();
+    std::vector<std::string> bin_names;
+    for (const geometry::AxialBin& bin : run.bins) bin_names.push_back(bin.name);
+    bin_names.insert(bin_names.begin(), "time_s");
+    run.outflow = read_joined_table(directory, "outflow", "contour_velocity.csv",
+                                    {bin_names, {}, {}, "Make the report with the bin width of the run (report.bin_width_m)"});
+    run.loads = read_joined_table(
+        directory, "loads", "loads.csv",
+        {{"time_s", "rotor_angle_rad", "torque_pressure_n_m", "torque_viscous_n_m", "torque_rock_n_m", "power_w"}, {}, {}, k_rerun});
+    run.balance = read_joined_table(directory, "balance", "balance.csv", balance_rules());
+    run.cost = read_joined_table(directory, "cost", "cost.csv",
+                                 {{"time_s", "step_s", "fluid_s", "mesh_motion_s", "mapping_s", "dem_s", "output_s"}, {}, {}, k_rerun});
+    require_computed(run);
+    const auto cost_folders = start_folders(directory, "cost");
+    run.cost_summary = read_json(cost_folders.back().second / "cost.json");
+    run.finished = !run.cost_summary.empty();
+    require_whole(run);
+    return run;
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,87 @@
+#pragma once
+/// \file What a run directory holds, read for the report. Which file has what: docs/design/001-contracts.md.
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/head/axial_bins.hpp"
+#include "geometry/head/contour.hpp"
+#include "postproc/run/adv_points.hpp"
+#include "postproc/run/run_table.hpp"
+
+namespace cutterflow::postproc {
+
+/// The study's values that the report computes with or shows; SI units.
+struct OperatingPoint {
+    std::string study_name;
+    double speed_rpm = 0.0;  ///< of the rotor, > 0
+    std::string rotor_direction;
+    double discharge = 0.0;     ///< of the mixture [m3/s], > 0
+    double mouth_radius = 0.0;  ///< [m], > 0
+    double mouth_offset = 0.0;  ///< of the mouth's centre from the rotor's axis [m]
+    double mouth_azimuth_deg = 0.0;
+    double inclination_deg = 0.0;
+    double fluid_density = 0.0;   ///< [kg/m3], > 0
+    double outflow_start = 0.0;   ///< start of the averaging window of outflow and loads [s]
+    double length_ratio = 1.0;    ///< prototype length over model length, > 0
+    std::string swing_direction;  ///< may be empty
+    std::string mesh_preset;      ///< may be empty
+    double revolution_s() const { return 60.0 / speed_rpm; }
+    double angular_speed() const { return 2.0 * 3.14159265358979323846 * speed_rpm / 60.0; }  ///< [rad/s], > 0
+};
+
+/// Rock of one size in a feed.
+struct RockClass {
+    double diameter = 0.0;  ///< [m]
+    double density = 0.0;   ///< [kg/m3]
+    double count = 0.0;
+    std::optional<double> settling_velocity;  ///< of a single rock in still water [m/s]
+};
+
+/// What feed.json says, summed over the feeds.
+struct FeedSummary {
+    int requested = 0;
+    int rejected = 0;
+    std::vector<std::string> reasons;
+    std::vector<RockClass> classes;
+};
+
+/// Tables of the rock; present once rock was put in.
+struct RockTables {
+    Table events;
+    Table fates;
+    Table final_state;  ///< one row per rock, as of the last checkpoint or of the end
+    std::size_t rejected_in_run = 0;
+};
+
+struct RunData {
+    std::filesystem::path directory;
+    OperatingPoint operating_point;
+    geometry::Contour contour;
+    std::vector<geometry::AxialBin> bins;
+    std::optional<FeedSummary> feed;  ///< none: a pure flow run
+    std::optional<RockTables> rock;
+    Table outflow;  ///< may be empty
+    Table loads;
+    Table balance;
+    Table cost;
+    Table plane_axial, plane_under_ring;  ///< mean velocity on planes; empty when the run did not sample them
+    nlohmann::json geometry, mesh, manifest, cost_summary;  ///< objects, empty when the file is absent
+    int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
+    AdvProbe adv_probe;  ///< with which the run sampled its places of measurement, if it has any
+    bool finished = false;                                  ///< the run came to its end
+    std::map<std::string, std::string> setting{};  ///< values by key: the study without its name and what repeats vary (seed and time of release), the cutter by its content; equal for repeats
+    std::string release{};  ///< seed and time of release of each feed: what tells repeats apart; empty without rock
+    int seed = 0;         ///< of the first feed
+    nlohmann::json prediction{};  ///< of the run's cost, before it; empty when the file is absent
+};
+
+/// Reads a run directory, finished or not.
+/// \throws UserError  when it is not a run directory, nothing was computed yet, or a file breaks its contract
+RunData read_run(const std::filesystem::path& run_directory);
+
+}  // namespace cutterflow::postproc

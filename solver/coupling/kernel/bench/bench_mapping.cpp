@@ -1,0 +1,70 @@
+// Cost of mapping 368 rocks on a mesh of the draft cutter's size: two stencils per step (old and new positions on the moved mesh).
+//   build/bin/bench_mapping
+#include <random>
+
+#include <benchmark/benchmark.h>
+
+#include "solver/coupling/kernel/mapping.hpp"
+#include "solver/ports/testing/synthetic_mesh.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+/// Rocks on a lattice in two of the spaces between the blades, as a batch that is released on the swing side.
+struct Batch {
+    std::vector<int> id;
+    std::vector<Vec3> position, velocity;
+    std::vector<double> diameter;
+    explicit Batch(int count) {
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> s(0.15, 0.95), t(0.0, 1.0), a(0.25, 0.8), v(-0.5, 0.5);
+        for (int i = 0; i < count; ++i) {
+            const double along = s(random);
+            const double r = 0.1 + 0.2 * along + t(random) * 0.12;
+            const double azimuth = (i % 2 + a(random)) * k_pi / 3.0 + along * 70.0 * k_pi / 180.0;
+            id.push_back(i + 1);
+            position.emplace_back(r * std::cos(azimuth), r * std::sin(azimuth), -0.44 + 0.44 * along);
+            velocity.emplace_back(v(random), v(random), v(random));
+            diameter.push_back(0.02);
+        }
+    }
+    RockShapes shapes() const { return {id, position, diameter}; }
+    RockShapes shapes(const std::vector<Vec3>& at) const { return {id, at, diameter}; }
+};
+
+/// range(0): cell size in the head [mm]; range(1): percent of the rotor's speed that the rocks turn with.
+void map_one_step(benchmark::State& state) {
+    const double dx = 1e-3 * static_cast<double>(state.range(0));
+    const double share = 0.01 * static_cast<double>(state.range(1));
+    const testing::SyntheticMesh mesh = testing::draft_cutter(dx);
+    SerialCommunicator serial;
+    const RotationAxis axis;
+    Mapping mapping(mesh.cells(), mesh.steel(), axis, KernelSettings{}, serial);
+    Batch batch(368);
+    const double dt = 5e-4, speed = rpm_to_rad_s(60.0);
+    double angle = 0.0;
+    Stencils before, after;
+    std::size_t entries = 0, steps = 0;
+    for (auto _ : state) {
+        const std::vector<Vec3> old = batch.position;
+        for (std::size_t p = 0; p < old.size(); ++p)
+            batch.position[p] = rotate_about(axis, share * speed * dt, old[p]) + dt * batch.velocity[p];
+        angle += speed * dt;
+        mapping.set_rotor_angle(angle);
+        mapping.build(batch.shapes(old), before);
+        mapping.build(batch.shapes(), after);
+        entries += before.cell.size() + after.cell.size();
+        ++steps;
+    }
+    state.counters["cells"] = static_cast<double>(mesh.size());
+    state.counters["triangles"] = static_cast<double>(mesh.rotor_steel.size() + mesh.stator_steel.size());
+    state.counters["entries_per_rock"] = static_cast<double>(entries) / (2.0 * 368.0 * static_cast<double>(steps));
+    state.counters["tests_per_step"] = static_cast<double>(mapping.visibility().tests()) / static_cast<double>(steps);
+    state.counters["nodes"] = static_cast<double>(mapping.visibility().kept_nodes());
+}
+BENCHMARK(map_one_step)->ArgsProduct({{12, 18}, {50, 90}})->Iterations(40)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace cutterflow::coupling
+
+BENCHMARK_MAIN();

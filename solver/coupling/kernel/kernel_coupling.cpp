@@ -1,0 +1,403 @@
+#include "solver/coupling/kernel/kernel_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+/// Share of the carry that a step hands to the fluid. All of it at once rings where drag is stiff (K dt above the void fraction alpha, as in a gas):
+/// with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
+constexpr double k_carry_share = 0.5;
+
+/// Rock and interface travel at most this share of kernel width and cell size per step.
+constexpr double k_travel_share = 0.25;
+
+std::vector<double> volumes_of(const Rocks& rocks) {
+    std::vector<double> volumes;
+    for (const double d : rocks.diameter) volumes.push_back(physics::sphere_volume(d));
+    return volumes;
+}
+
+std::vector<double> void_fraction_of(const std::vector<double>& solid_fraction) {
+    std::vector<double> void_fraction(solid_fraction.size());
+    std::transform(solid_fraction.begin(), solid_fraction.end(), void_fraction.begin(), [](double f) { return 1.0 - f; });
+    return void_fraction;
+}
+
+/// A cell that is all but full of rock leaves the fluid's equations without a meaning.
+constexpr double k_solvable_solid_fraction = 0.95;
+
+double largest_of(const std::vector<double>& solid_fraction, Communicator& communicator) {
+    double largest = 0.0;
+    for (const double f : solid_fraction) largest = std::max(largest, f);
+    communicator.max(gsl::span<double>(&largest, 1));
+    return largest;
+}
+
+/// \throws CheckFailure  when redistribution found no room
+void require_room(double largest_solid_fraction, double limit) {
+    if (largest_solid_fraction <= k_solvable_solid_fraction) return;
+    throw CheckFailure(
+        {"", fmt::format("a cell holds a solid fraction of {:.3f}", largest_solid_fraction),
+         fmt::format("Rock is spread until no cell holds more than kernel.maxSolidFraction = {}; here all cells in reach are full", limit),
+         "Place less rock there, or widen kernel.gamma"});
+}
+
+/// The rocks to place, sorted by id.
+Rocks rocks_of(const std::vector<FeedRock>& due) {
+    std::vector<const FeedRock*> sorted;
+    for (const FeedRock& rock : due) sorted.push_back(&rock);
+    std::sort(sorted.begin(), sorted.end(), [](const FeedRock* a, const FeedRock* b) { return a->id < b->id; });
+    Rocks rocks;
+    for (const FeedRock* rock : sorted) {
+        rocks.id.push_back(rock->id);
+        rocks.position.push_back(rock->position);
+        rocks.velocity.push_back(rock->velocity.value_or(Vec3::Zero()));
+        rocks.angular_velocity.push_back(Vec3::Zero());
+        rocks.diameter.push_back(rock->diameter);
+        rocks.density.push_back(rock->density);
+    }
+    return rocks;
+}
+
+}  // namespace
+
+KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
+                           Communicator& communicator)
+    : settings_(settings),
+      properties_(properties),
+      fluid_(fluid),
+      dem_(dem),
+      communicator_(communicator),
+      drag_(physics::find_drag_law(settings.closures.drag)),
+      hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
+      lift_(physics::find_lift_law(settings.closures.lift)),
+      mapping_(fluid.cells(), fluid.steel(), fluid.rotor().axis, settings.kernel, communicator),
+      interface_passage_time_(mapping_.sizes().interface_passage_time(fluid.rotor())),
+      carry_(fluid.cells().centres.size(), Vec3::Zero()) {
+    map_present_rock();
+}
+
+RockShapes KernelCoupling::shapes(const std::vector<Vec3>& position) const {
+    return {dem_.rocks().id, position, dem_.rocks().diameter};
+}
+
+void KernelCoupling::map_present_rock() {
+    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    mapping_.build(shapes(dem_.rocks().position), present_);
+}
+
+void KernelCoupling::restore(std::vector<Vec3> carry, const BookedExchange& booked) {
+    carry_ = std::move(carry);
+    booked_ = booked;
+    map_present_rock();
+}
+
+std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
+    Rocks candidates = rocks_of(due);
+    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    mapping_.build({candidates.id, candidates.position, candidates.diameter}, present_);
+    std::vector<FlowAtRock> flow;
+    sample_with(present_, flow);
+    for (const FeedRock& rock : due) {
+        const auto p =
+            static_cast<std::size_t>(std::lower_bound(candidates.id.begin(), candidates.id.end(), rock.id) - candidates.id.begin());
+        if (!rock.velocity) candidates.velocity[p] = flow[p].velocity;
+    }
+    const std::vector<int> inserted = dem_.insert(candidates);
+    std::vector<int> rejected;
+    for (std::size_t p = 0; p < candidates.size(); ++p) {
+        if (std::find(inserted.begin(), inserted.end(), candidates.id[p]) == inserted.end()) {
+            rejected.push_back(candidates.id[p]);
+            continue;
+        }
+        const double volume = physics::sphere_volume(candidates.diameter[p]);
+        booked_.volume += volume;
+        booked_.momentum += properties_.density * volume * flow[p].velocity;
+    }
+
+    map_present_rock();
+    Stencils* const stencils[] = {&present_};
+    const auto fractions =
+        redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, settings_.kernel.max_solid_fraction, communicator_);
+    require_room(largest_of(fractions[0], communicator_), settings_.kernel.max_solid_fraction);
+    fluid_.reset_void_fraction(void_fraction_of(fractions[0]));
+    return rejected;
+}
+
+void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const {
+    const FluidFields fields = fluid_.fields();
+    const gsl::span<const double> volumes = mapping_.cells().volumes;
+    std::vector<std::pair<gsl::span<const Vec3>, Vec3 FlowAtRock::*>> vectors{{fields.velocity, &FlowAtRock::velocity},
+                                                                              {fields.material_acceleration, &FlowAtRock::acceleration}};
+    if (lift_ != nullptr) vectors.emplace_back(fluid_.vorticity(), &FlowAtRock::vorticity);
+    if (!settings_.closures.viscous_force) vectors.emplace_back(fluid_.stress_divergence(), &FlowAtRock::stress_divergence);
+    const std::size_t n = 3 * vectors.size() + 1;
+    std::vector<double> sums(n * stencils.size(), 0.0);
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        FlowAtRock sum;
+        sum.void_fraction = 0.0;
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(stencils.cell[i]);
+            const double weight = stencils.sample[i] * volumes[c];
+            for (const auto& [field, member] : vectors) sum.*member += weight * field[c];
+            sum.void_fraction += weight * fields.void_fraction[c];
+        }
+        for (std::size_t k = 0; k < vectors.size(); ++k) std::copy_n((sum.*vectors[k].second).data(), 3, &sums[n * p + 3 * k]);
+        sums[n * p + n - 1] = sum.void_fraction;
+    }
+    communicator_.sum(sums);
+    flow.assign(stencils.size(), {});
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        for (std::size_t k = 0; k < vectors.size(); ++k) flow[p].*vectors[k].second = Eigen::Map<const Vec3>(&sums[n * p + 3 * k]);
+        flow[p].void_fraction = sums[n * p + n - 1];
+    }
+}
+
+void KernelCoupling::sample() {
+    sample_with(present_, flow_);
+}
+
+double KernelCoupling::travel_limit() const {
+    const Rocks& rocks = dem_.rocks();
+    if (rocks.size() == 0) return std::numeric_limits<double>::infinity();
+    const RotorMotion rotor_motion = fluid_.rotor();
+    double limit = k_travel_share * interface_passage_time_;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        Vec3 cell_velocity = Vec3::Zero();
+        if (present_.in_rotor[p] != 0)
+            cell_velocity = rotor_motion.speed * rotor_motion.axis.direction.cross(rocks.position[p] - rotor_motion.axis.origin);
+        const double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
+        const double length = std::min(present_.width[p], present_.cell_size[p]);
+        if (speed > 0.0) limit = std::min(limit, k_travel_share * length / speed);
+    }
+    return limit;
+}
+
+/// The part of the force that does not follow the rock's velocity.
+Vec3 KernelCoupling::steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const {
+    const double volume = physics::sphere_volume(rock.diameter);
+    Vec3 force = physics::fluid_acceleration_force(volume, properties_.density, settings_.closures.added_mass, flow.acceleration);
+    if (!settings_.closures.viscous_force) force -= physics::viscous_force(volume, properties_.density, flow.stress_divergence);
+    return force;
+}
+
+const DemStep& KernelCoupling::move() {
+    before_ = dem_.rocks();
+    std::vector<physics::RockInFluid> rock(before_.size());
+    std::vector<Vec3> steady(before_.size());
+    for (std::size_t p = 0; p < before_.size(); ++p) {
+        rock[p] = rock_in_fluid(before_.diameter[p], flow_[p]);
+        steady[p] = steady_force(rock[p], flow_[p]);
+    }
+    const HydrodynamicForce force = [&](std::size_t p, const Vec3& velocity) -> Vec3 {
+        const Vec3 slip = flow_[p].velocity - velocity;
+        Vec3 total = drag_per_slip(rock[p], slip.norm()) * slip + steady[p];
+        if (lift_ != nullptr) total += physics::lift_force(rock[p], slip, flow_[p].vorticity, lift_);
+        return total;
+    };
+    step_ = dem_.advance(fluid_.time_step(), force);
+
+    index_before_.clear();
+    for (const int id : dem_.rocks().id)
+        index_before_.push_back(static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), id) - before_.id.begin()));
+    return step_;
+}
+
+void KernelCoupling::map() {
+    const Rocks& rocks = dem_.rocks();
+    const gsl::span<const double> cell_volume = mapping_.cells().volumes;
+    const double dt = fluid_.time_step();
+    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+
+    // Both void fractions hold the same set of rock: those that are still here.
+    std::vector<Vec3> old_position, velocity_change;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        old_position.push_back(before_.position[index_before_[p]]);
+        velocity_change.push_back(rocks.velocity[p] - before_.velocity[index_before_[p]]);
+    }
+    mapping_.build(shapes(old_position), old_);
+    mapping_.build(shapes(rocks.position), present_);
+    const std::vector<double> volumes = volumes_of(rocks);
+    Stencils* const both[] = {&old_, &present_};
+    const auto fractions = redistribute(both, volumes, cell_volume, settings_.kernel.max_solid_fraction, communicator_);
+    void_fraction_old_ = void_fraction_before(volumes);
+    void_fraction_new_ = void_fraction_of(fractions[1]);
+
+    source_.resize(carry_.size());
+    std::transform(carry_.begin(), carry_.end(), source_.begin(), [dt](const Vec3& carry) -> Vec3 { return k_carry_share * carry / dt; });
+    rock_momentum_.setZero();
+    gross_impulse_ = 0.0;
+    add_impulses(present_, step_.impulse, velocity_change, volumes);
+    if (!step_.left_domain.empty()) follow_departures();
+
+    std::vector<double> drag(rocks.size());
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const FlowAtRock& flow = flow_[index_before_[p]];
+        drag[p] = drag_per_slip(rock_in_fluid(rocks.diameter[p], flow), (flow.velocity - rocks.velocity[p]).norm()) / properties_.density;
+    }
+    drag_rate_.assign(carry_.size(), 0.0);
+    deposit(present_, drag, drag_rate_);
+    even_out_within_kernels(drag);
+    inertia_.resize(carry_.size());
+    const double factor = 1.0 + settings_.closures.added_mass;
+    std::transform(fractions[1].begin(), fractions[1].end(), inertia_.begin(), [factor](double f) { return factor * f; });
+
+    check_ranges();
+    balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
+    balance_.solid_fraction_max = std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_));
+    require_room(balance_.solid_fraction_max, settings_.kernel.max_solid_fraction);
+}
+
+/// The part of the target that only moves drag between the cells of a kernel: sum_p w_p D_p (ubar_p - u_old) / rho_f. Velocities are taken
+/// relative to what the rock saw, so that in a uniform stream, where all differences are rounding, so is what is moved.
+/// \param drag  D_p / rho_f [m3/s]
+void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
+    const gsl::span<const Vec3> velocity = fluid_.fields().velocity;
+    const auto relative = [&](std::size_t p, std::size_t c) -> Vec3 { return velocity[c] - flow_[index_before_[p]].velocity; };
+    std::vector<double> mean(3 * drag.size(), 0.0);
+    for (std::size_t p = 0; p < drag.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(present_.cell[i]);
+            Eigen::Map<Vec3>(&mean[3 * p]) += present_.deposit[i] * mapping_.cells().volumes[c] * relative(p, c);
+        }
+    communicator_.sum(mean);
+    for (std::size_t p = 0; p < drag.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(present_.cell[i]);
+            source_[c] += present_.deposit[i] * drag[p] * (Eigen::Map<const Vec3>(&mean[3 * p]) - relative(p, c));
+        }
+}
+
+/// The old void fraction on the cells as they stand now. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
+/// displace is sum alpha_w v.S, and the rock of the swept space, sum (1 - alpha_w) v.S dt, was there before and is no more. So the old
+/// kernel of each rock holds, on the present cells, its volume less what was swept:
+///   V_old = V (1 + dt sum_c w_c v.S_c).
+/// Without it a blade that passes rock would be a source of fluid.
+std::vector<double> KernelCoupling::void_fraction_before(std::vector<double> volume) const {
+    const gsl::span<const double> retreat = fluid_.wall_retreat();
+    std::vector<double> swept(volume.size(), 0.0);
+    for (std::size_t p = 0; p < present_.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i)
+            swept[p] += present_.deposit[i] * retreat[static_cast<std::size_t>(present_.cell[i])];
+    communicator_.sum(swept);
+    for (std::size_t p = 0; p < volume.size(); ++p) volume[p] *= 1.0 + fluid_.time_step() * swept[p];
+    std::vector<double> solid_fraction(retreat.size(), 0.0);
+    deposit(old_, volume, solid_fraction);
+    return void_fraction_of(solid_fraction);
+}
+
+physics::RockInFluid KernelCoupling::rock_in_fluid(double diameter, const FlowAtRock& flow) const {
+    return {diameter, properties_.density, properties_.kinematic_viscosity, flow.void_fraction, settings_.closures.sphericity};
+}
+
+double KernelCoupling::drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const {
+    return physics::drag_coefficient_per_slip(rock, slip_speed, drag_, hindrance_, settings_.closures.drag_modifier);
+}
+
+void KernelCoupling::check_ranges() {
+    const Rocks& rocks = dem_.rocks();
+    std::vector<const physics::Closure*> in_use{&physics::find_closure(physics::ClosureKind::drag, settings_.closures.drag)};
+    if (settings_.closures.hindrance != physics::k_no_closure)
+        in_use.push_back(&physics::find_closure(physics::ClosureKind::hindrance, settings_.closures.hindrance));
+    if (lift_ != nullptr) in_use.push_back(&physics::find_closure(physics::ClosureKind::lift, settings_.closures.lift));
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const FlowAtRock& flow = flow_[index_before_[p]];
+        const double d_over_nu = rocks.diameter[p] / properties_.kinematic_viscosity;
+        physics::RockNumbers numbers;
+        numbers.reynolds = (flow.velocity - rocks.velocity[p]).norm() * d_over_nu;
+        numbers.particle_reynolds = flow.void_fraction * numbers.reynolds;
+        numbers.shear_reynolds = flow.vorticity.norm() * rocks.diameter[p] * d_over_nu;
+        numbers.void_fraction = flow.void_fraction;
+        numbers.sphericity = settings_.closures.sphericity;
+        for (const physics::Closure* closure : in_use) check_range(*closure, numbers, rocks.id[p]);
+    }
+    if (mapping_.hidden_rocks() > 0)
+        warn_once("hidden",
+                  "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ)");
+}
+
+void KernelCoupling::check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id) {
+    for (const physics::ClosureRange& range : closure.ranges) {
+        const double value = numbers.named(range.argument);
+        // Below their range Reynolds numbers lead to Stokes' drag and constant hindrance: only the upper ends mislead.
+        const bool below = value < range.minimum && range.argument.substr(0, 2) != "Re";
+        if (below || value > range.maximum)
+            warn_once(std::string(closure.name) + std::string(range.argument),
+                      fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
+                                  range.argument, value, id, range.minimum, range.maximum, closure.citation));
+    }
+}
+
+void KernelCoupling::warn_once(const std::string& subject, const std::string& text) {
+    if (warned_.insert(subject).second) warnings_.push_back(text);
+}
+
+/// Adds what the fluid is to receive of rocks that got `impulse` [N s] from it and changed their velocity [m/s].
+void KernelCoupling::add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
+                                gsl::span<const double> volume) {
+    const double dt = fluid_.time_step();
+    std::vector<Vec3> amount;
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        const Vec3 received = impulse[p] - settings_.closures.added_mass * properties_.density * volume[p] * velocity_change[p];
+        rock_momentum_ += received;
+        gross_impulse_ += received.norm();
+        amount.push_back(-received / (properties_.density * dt));
+    }
+    deposit(stencils, amount, source_);
+}
+
+/// Rocks that left in the step: their impulse goes back where they were when it began, and fluid takes their place without a source.
+void KernelCoupling::follow_departures() {
+    std::vector<int> id;
+    std::vector<Vec3> position, impulse, velocity_change;
+    std::vector<double> diameter, volume;
+    for (std::size_t k = 0; k < step_.left_domain.size(); ++k) {
+        const auto p =
+            static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), step_.left_domain[k]) - before_.id.begin());
+        id.push_back(before_.id[p]);
+        position.push_back(before_.position[p]);
+        diameter.push_back(before_.diameter[p]);
+        volume.push_back(physics::sphere_volume(before_.diameter[p]));
+        impulse.push_back(step_.left_impulse[k]);
+        velocity_change.push_back(step_.left_velocity[k] - before_.velocity[p]);
+        booked_.volume -= volume.back();
+        booked_.momentum -= properties_.density * volume.back() * flow_[p].velocity;
+    }
+    mapping_.build({id, position, diameter}, old_);
+    add_impulses(old_, impulse, velocity_change, volume);
+}
+
+double KernelCoupling::volume_error(const std::vector<double>& solid_fraction, const std::vector<double>& rock_volume) const {
+    double sum = 0.0, rock = 0.0;
+    for (std::size_t c = 0; c < solid_fraction.size(); ++c) sum += solid_fraction[c] * mapping_.cells().volumes[c];
+    communicator_.sum(gsl::span<double>(&sum, 1));
+    for (const double volume : rock_volume) rock += volume;
+    return rock > 0.0 ? std::abs(sum - rock) / rock : 0.0;
+}
+
+ExchangeBalance KernelCoupling::book() {
+    const gsl::span<const Vec3> received = fluid_.received();
+    const gsl::span<const double> volumes = mapping_.cells().volumes;
+    const double dt = fluid_.time_step();
+    Eigen::Vector4d sums = Eigen::Vector4d::Zero();  // momentum of fluid and change of carry over rho_f; gross carry
+    for (std::size_t c = 0; c < carry_.size(); ++c) {
+        const Vec3 rest = (1.0 - k_carry_share) * carry_[c] + (source_[c] - received[c]) * dt;
+        sums.head<3>() += (received[c] * dt + rest - carry_[c]) * volumes[c];
+        sums[3] += carry_[c].norm() * volumes[c];
+        carry_[c] = rest;
+    }
+    communicator_.sum(gsl::span<double>(sums.data(), 4));
+    sums *= properties_.density;
+    const double gross = gross_impulse_ + sums[3];
+    balance_.momentum_exchange_error = gross > 0.0 ? (rock_momentum_ + sums.head<3>()).norm() / gross : 0.0;
+    return balance_;
+}
+
+}  // namespace cutterflow::coupling

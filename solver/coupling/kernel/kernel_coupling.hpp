@@ -1,0 +1,137 @@
+#pragma once
+/// \file What fluid and rock exchange over one step: void fraction, forces on rock, momentum for the fluid.
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/ports/communicator.hpp"
+#include "solver/ports/dem_engine.hpp"
+#include "solver/ports/fluid_engine.hpp"
+#include "solver/coupling/kernel/mapping.hpp"
+#include "solver/coupling/feed/rock_feed.hpp"
+#include "solver/ports/settings.hpp"
+#include "solver/physics/catalogue.hpp"
+
+namespace cutterflow::coupling {
+
+/// The flow at a rock, sampled with psi; it stays as it is over one step.
+struct FlowAtRock {
+    Vec3 velocity = Vec3::Zero();      ///< u [m/s]
+    Vec3 acceleration = Vec3::Zero();  ///< Du/Dt [m/s2]
+    double void_fraction = 1.0;        ///< [-]
+    Vec3 vorticity = Vec3::Zero();          ///< [1/s], with lift only
+    Vec3 stress_divergence = Vec3::Zero();  ///< div(tau) [m/s2], without viscous force only
+};
+
+/// How well one step conserved, and what it held.
+struct ExchangeBalance {
+    double solid_volume_error = 0.0;       ///< |volume on the mesh - volume of rock| / volume of rock
+    double momentum_exchange_error = 0.0;  ///< |rock + fluid + carry| / sum |impulse|
+    double solid_fraction_max = 0.0;
+};
+
+/// Fluid that rock has taken the place of at insertion, less what flowed back where rock left; no source in the fluid's equations.
+struct BookedExchange {
+    double volume = 0.0;           ///< [m3]
+    Vec3 momentum = Vec3::Zero();  ///< of that fluid [N s]
+};
+
+/// One step's exchange. Call in order: insert (when rock is due), sample, move, map, book.
+///
+/// With D the drag per slip velocity, V a rock's volume, J the impulse of drag and Du/Dt parts on it over the step, dv the change of its
+/// velocity (with contacts and weight), the fluid is to receive per cell, over rho_f and mixture volume,
+///   target = sum_p w_p (-J_p / (rho_f dt) + C_AM V_p dv_p / dt + D_p (ubar_p - u_old) / rho_f) + carry / (2 dt)       [m/s2],
+/// where ubar_p = sum_c w_p u_old V_c: drag slows down each part of the fluid in a kernel by its own slip, which adds up to nothing over the
+/// cells of a rock. The fluid receives target - K (u_new - u_old) - M (Du/Dt_new - Du/Dt_old), K = sum_p w_p D_p / rho_f, M = (1 + C_AM)
+/// solid fraction, because drag and Du/Dt parts lagged by a step would be unstable. What is still owed, carry = carry_old / 2 + (target - received) dt, goes
+/// into the next targets by halves: momentum is exchanged to the last bit, part of it some steps late.
+class KernelCoupling {
+public:
+    KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
+                 Communicator& communicator);
+
+    /// Puts rock into the run at the present time; rock without a velocity gets the local fluid velocity. The void fraction is replaced
+    /// with that of all rock, without a source. \return ids of `due` that found no place
+    /// \throws CheckFailure  when cells are so full of rock that no fluid is left (also of map)
+    std::vector<int> insert(const std::vector<FeedRock>& due);
+
+    /// Samples the flow at every rock on the present mesh.
+    void sample();
+
+    /// Longest step [s] in which rock travels a quarter of its kernel width and of the cells around it, seen from the cells of either zone,
+    /// and the rotor interface a quarter of a cell; infinity without rock.
+    double travel_limit() const;
+
+    /// Moves the rocks over the fluid's time step with the sampled flow.
+    const DemStep& move();
+
+    /// Builds both void fractions and the momentum exchange on the moved mesh.
+    void map();
+
+    gsl::span<const double> void_fraction_old() const { return void_fraction_old_; }
+    gsl::span<const double> void_fraction_new() const { return void_fraction_new_; }
+    MomentumExchange exchange() const { return {source_, drag_rate_, inertia_}; }
+
+    /// Takes note of what the fluid received.
+    ExchangeBalance book();
+
+    /// What came up since the last call and was not told before: closures outside their range, rock whose centre lies in steel.
+    std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
+
+    const std::vector<FlowAtRock>& flow() const { return flow_; }
+    const Mapping& mapping() const { return mapping_; }
+    const BookedExchange& booked() const { return booked_; }
+
+    /// Momentum per mixture volume over rho_f that this rank's cells have yet to receive [m/s]; with `booked` all that a checkpoint needs.
+    const std::vector<Vec3>& carry() const { return carry_; }
+    void restore(std::vector<Vec3> carry, const BookedExchange& booked);
+
+private:
+    void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
+    void map_present_rock();
+    void follow_departures();
+    void add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
+                      gsl::span<const double> volume);
+    void even_out_within_kernels(const std::vector<double>& drag);
+    std::vector<double> void_fraction_before(std::vector<double> volume) const;
+    physics::RockInFluid rock_in_fluid(double diameter, const FlowAtRock& flow) const;
+    double drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const;
+    Vec3 steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const;
+    void check_ranges();
+    void check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id);
+    void warn_once(const std::string& subject, const std::string& text);
+    double volume_error(const std::vector<double>& solid_fraction, const std::vector<double>& rock_volume) const;
+    RockShapes shapes(const std::vector<Vec3>& position) const;
+
+    CouplingSettings settings_;
+    FluidProperties properties_;
+    FluidEngine& fluid_;
+    DemEngine& dem_;
+    Communicator& communicator_;
+    physics::DragLaw drag_;
+    physics::HindranceLaw hindrance_;
+    physics::LiftLaw lift_;  // null: none
+    Mapping mapping_;
+    double interface_passage_time_;
+
+    Stencils present_;                       // of dem_.rocks() on the present mesh
+    Stencils old_;                           // of the same rocks where they were when the step began
+    std::vector<FlowAtRock> flow_;           // at the rocks when the step began
+    Rocks before_;                           // the rocks when the step began
+    DemStep step_;                           // what moved them
+    std::vector<std::size_t> index_before_;  // of each rock of dem_.rocks() in before_
+
+    std::vector<double> void_fraction_old_, void_fraction_new_;
+    std::vector<Vec3> source_;  // the target
+    std::vector<double> drag_rate_, inertia_;
+    std::vector<Vec3> carry_;
+    Vec3 rock_momentum_ = Vec3::Zero();  // that the rocks got from the fluid over the step [N s]
+    double gross_impulse_ = 0.0;
+    BookedExchange booked_;
+    ExchangeBalance balance_;
+    std::set<std::string> warned_;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,236 @@
+#include "solver/coupling/kernel/mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/physics/kernels.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+// Spacing of the visibility's lattice over the kernel width. What a rock sees is interpolated between nodes and changes by 1/h per metre at
+// most, its Gaussian by exp(-1/2)/sigma: from h = 0.82 sigma on a cell that comes in view fills at most twice as fast as one in open water.
+constexpr double k_lattice_spacing = 0.85;
+
+}  // namespace
+
+void Stencils::clear() {
+    cell_size.clear();
+    width.clear();
+    in_rotor.clear();
+    first.assign(1, 0);
+    cell.clear();
+    deposit.clear();
+    sample.clear();
+}
+
+Mapping::Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator)
+    : trees_(cells), sizes_(cells, communicator), visibility_(steel, trees_), axis_(axis), kernel_(kernel), communicator_(communicator) {
+    visibility_.set_frames(frames_);
+}
+
+void Mapping::set_rotor_angle(double angle) {
+    if (angle == angle_) return;
+    angle_ = angle;
+    frames_ = ZoneFrames(axis_, angle);
+    visibility_.set_frames(frames_);
+    has_turned_ = true;
+    last_ = {};
+}
+
+bool Mapping::Kept::are_of(const RockShapes& rocks) const {
+    const auto equal = [](const auto& kept, const auto& given) { return std::equal(kept.begin(), kept.end(), given.begin(), given.end()); };
+    return equal(id, rocks.id) && equal(position, rocks.position) && equal(diameter, rocks.diameter);
+}
+
+void Mapping::build(const RockShapes& rocks, Stencils& stencils) {
+    if (has_turned_) return build_anew(rocks, stencils);
+    if (last_.is_present && last_.are_of(rocks)) {
+        std::swap(stencils, last_.stencils);
+        last_.is_present = false;
+        return;
+    }
+    build_anew(rocks, stencils);
+    last_.is_present = true;
+    last_.id.assign(rocks.id.begin(), rocks.id.end());
+    last_.position.assign(rocks.position.begin(), rocks.position.end());
+    last_.diameter.assign(rocks.diameter.begin(), rocks.diameter.end());
+    last_.stencils = stencils;
+}
+
+void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
+    stencils.clear();
+    std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p]);
+        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * mesh.size);
+        const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
+        stencils.cell_size.push_back(mesh.size);
+        stencils.width.push_back(width);
+        stencils.in_rotor.push_back(mesh.nearest_zone == rotor ? 1 : 0);
+        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
+        add_entries(rocks, p, stencils, sums);
+    }
+    communicator_.sum(sums);
+
+    std::vector<std::size_t> hidden;
+    for (std::size_t p = 0; p < rocks.size(); ++p)
+        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) hidden.push_back(p);
+    if (!hidden.empty()) replace_hidden(rocks, hidden, stencils, sums);
+
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const double deposit_scale = 1.0 / sums[2 * p], sample_scale = 1.0 / sums[2 * p + 1];
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            stencils.deposit[i] *= deposit_scale;
+            stencils.sample[i] *= sample_scale;
+        }
+    }
+}
+
+/// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's sums.
+void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums) {
+    const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
+    const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
+    double deposit_sum = 0.0, sample_sum = 0.0;
+    for (const Zone zone : k_zones) {
+        found_.clear();
+        trees_.of(zone).within(frames_.from_absolute(zone, rocks.position[rock]), physics::k_kernel_reach * width, found_);
+        for (const Neighbour& n : found_) {
+            const double visible = visibility_.visible_fraction(n.index);
+            if (visible == 0.0) continue;
+            const double q = n.squared_distance * inverse_width2;
+            const double gaussian = physics::gaussian_weight(q);
+            const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(q, gaussian, quadratic_share);
+            const double volume = trees_.cells().volumes[static_cast<std::size_t>(n.index)];
+            stencils.cell.push_back(n.index);
+            stencils.deposit.push_back(deposit);
+            stencils.sample.push_back(sample);
+            deposit_sum += deposit * volume;
+            sample_sum += sample * volume;
+        }
+    }
+    stencils.first.push_back(stencils.cell.size());
+    sums[2 * rock] = deposit_sum;
+    sums[2 * rock + 1] = sample_sum;
+}
+
+/// Rocks that see no cell (the mesh's steel and the DEM's walls differ a little, and the centre of a small rock can lie inside the mesh's
+/// steel): they look from the centre of the nearest cell.
+void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils,
+                             std::vector<double>& sums) {
+    hidden_rocks_ += hidden.size();
+    Stencils replaced;
+    replaced.first.push_back(0);
+    replaced.cell_size = stencils.cell_size;
+    replaced.width = stencils.width;
+    replaced.in_rotor = stencils.in_rotor;
+    std::vector<double> new_sums(sums.size(), 0.0);
+    auto next = hidden.begin();
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        if (next != hidden.end() && *next == p) {
+            visibility_.look_from_point(sizes_.around(frames_, rocks.position[p]).nearest_centre,
+                                        physics::k_kernel_reach * 2.0 * stencils.width[p]);
+            add_entries(rocks, p, replaced, new_sums);
+            ++next;
+            continue;
+        }
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            replaced.cell.push_back(stencils.cell[i]);
+            replaced.deposit.push_back(stencils.deposit[i]);
+            replaced.sample.push_back(stencils.sample[i]);
+        }
+        replaced.first.push_back(replaced.cell.size());
+    }
+    communicator_.sum(new_sums);
+    for (const std::size_t p : hidden) {
+        sums[2 * p] = new_sums[2 * p];
+        sums[2 * p + 1] = new_sums[2 * p + 1];
+        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) {
+            const Vec3& x = rocks.position[p];
+            throw CheckFailure({"",
+                                fmt::format("rock {} at ({:.6g} {:.6g} {:.6g}) m has no cell of the mesh within {:.3g} m", rocks.id[p],
+                                            x[0], x[1], x[2], physics::k_kernel_reach * stencils.width[p]),
+                                "Rock must stay where the fluid is", "Let rock.domain end inside the mesh"});
+        }
+    }
+    stencils = std::move(replaced);
+}
+
+void deposit(const Stencils& stencils, gsl::span<const double> amount, gsl::span<double> cell_values) {
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i)
+            cell_values[static_cast<std::size_t>(stencils.cell[i])] += stencils.deposit[i] * amount[p];
+}
+
+void deposit(const Stencils& stencils, gsl::span<const Vec3> amount, gsl::span<Vec3> cell_values) {
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i)
+            cell_values[static_cast<std::size_t>(stencils.cell[i])] += stencils.deposit[i] * amount[p];
+}
+
+namespace {
+
+// Overfull cells are brought this much below the limit, so that the passes, which approach it from above, end below it.
+constexpr double k_below_limit = 1e-3;
+constexpr int k_most_passes = 200;
+
+/// Shrinks the weights in overfull cells; local. \return sums of w V per rock
+std::vector<double> shrink(Stencils& stencils, const std::vector<double>& solid_fraction, gsl::span<const double> cell_volume,
+                           double target) {
+    std::vector<double> sums(stencils.size(), 0.0);
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(stencils.cell[i]);
+            if (solid_fraction[c] > target) stencils.deposit[i] *= target / solid_fraction[c];
+            sums[p] += stencils.deposit[i] * cell_volume[c];
+        }
+    return sums;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> redistribute(gsl::span<Stencils* const> stencils, gsl::span<const double> rock_volume,
+                                              gsl::span<const double> cell_volume, double limit, Communicator& communicator) {
+    std::vector<std::vector<double>> fractions(stencils.size());
+    const auto refill = [&] {
+        double largest = 0.0;
+        for (std::size_t s = 0; s < stencils.size(); ++s) {
+            fractions[s].assign(cell_volume.size(), 0.0);
+            deposit(*stencils[s], rock_volume, fractions[s]);
+            for (const double f : fractions[s]) largest = std::max(largest, f);
+        }
+        communicator.max(gsl::span<double>(&largest, 1));
+        return largest;
+    };
+    const double target = (1.0 - k_below_limit) * limit;
+    double largest = refill();
+    for (int pass = 0; largest > limit && pass < k_most_passes; ++pass) {
+        for (std::size_t s = 0; s < stencils.size(); ++s) {
+            std::vector<double> sums = shrink(*stencils[s], fractions[s], cell_volume, target);
+            communicator.sum(sums);
+            for (std::size_t p = 0; p < stencils[s]->size(); ++p)
+                for (std::size_t i = stencils[s]->first[p]; i < stencils[s]->first[p + 1]; ++i) stencils[s]->deposit[i] /= sums[p];
+        }
+        largest = refill();
+    }
+    return fractions;
+}
+
+double normalisation_error(const Stencils& stencils, gsl::span<const double> cell_volume, Communicator& communicator) {
+    std::vector<double> sums(2 * stencils.size(), 0.0);
+    for (std::size_t p = 0; p < stencils.size(); ++p)
+        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
+            const double volume = cell_volume[static_cast<std::size_t>(stencils.cell[i])];
+            sums[2 * p] += stencils.deposit[i] * volume;
+            sums[2 * p + 1] += stencils.sample[i] * volume;
+        }
+    communicator.sum(sums);
+    double worst = 0.0;
+    for (const double sum : sums) worst = std::max(worst, std::abs(sum - 1.0));
+    return worst;
+}
+
+}  // namespace cutterflow::coupling

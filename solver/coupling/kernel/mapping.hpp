@@ -1,0 +1,100 @@
+#pragma once
+/// \file Mapping between rocks and the cells of this rank: one stencil per rock serves every field in both directions.
+#include <cstdint>
+#include <vector>
+
+#include "solver/ports/communicator.hpp"
+#include "solver/ports/settings.hpp"
+#include "solver/space/size_field.hpp"
+#include "solver/space/visibility.hpp"
+
+namespace cutterflow::coupling {
+
+/// Positions and diameters of the rocks to be mapped, the same on every rank.
+struct RockShapes {
+    gsl::span<const int> id;
+    gsl::span<const Vec3> position;    ///< [m], absolute
+    gsl::span<const double> diameter;  ///< [m]
+    std::size_t size() const { return id.size(); }
+};
+
+/// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]).
+/// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights.
+struct Stencils {
+    std::vector<double> cell_size;       ///< dx at each rock [m]
+    std::vector<double> width;           ///< sigma of each rock [m]
+    std::vector<std::uint8_t> in_rotor;  ///< 1 when the nearest cell of a rock is a rotor cell
+    std::vector<std::size_t> first;      ///< one more than rocks
+    std::vector<std::int32_t> cell;      ///< of each entry
+    std::vector<double> deposit;         ///< w: from rock to fluid [1/m3]
+    std::vector<double> sample;          ///< psi: from fluid to rock [1/m3]
+    std::size_t size() const { return width.size(); }
+    /// Of no rock, in the same memory.
+    void clear();
+};
+
+/// Builds stencils: kernels on geometric distance over both zones and all ranks, times the visible fraction of the rock.
+class Mapping {
+public:
+    /// Keeps references to the engine's arrays.
+    Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator);
+
+    /// The mesh stands at this rotor angle [rad] from now on.
+    void set_rotor_angle(double angle);
+
+    /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are kept and handed out once
+    /// more: what is new in one step is old in the next. Collective.
+    /// \param stencils  what it held is lost, its memory is used again: a step would spend more on asking for it than on some of its sums
+    /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
+    void build(const RockShapes& rocks, Stencils& stencils);
+
+    const SizeField& sizes() const { return sizes_; }
+    const Cells& cells() const { return trees_.cells(); }
+    /// Rocks (of all builds so far) that saw no cell and were mapped from the nearest cell's centre instead.
+    std::size_t hidden_rocks() const { return hidden_rocks_; }
+    const Visibility& visibility() const { return visibility_; }
+
+private:
+    /// Stencils and the rocks that they belong to.
+    struct Kept {
+        bool is_present = false;
+        std::vector<int> id;
+        std::vector<Vec3> position;
+        std::vector<double> diameter;
+        Stencils stencils;
+        bool are_of(const RockShapes& rocks) const;
+    };
+
+    void build_anew(const RockShapes& rocks, Stencils& stencils);
+    void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
+    void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
+
+    CellTrees trees_;
+    SizeField sizes_;
+    Visibility visibility_;
+    RotationAxis axis_;
+    KernelSettings kernel_;
+    Communicator& communicator_;
+    ZoneFrames frames_;
+    double angle_ = 0.0;
+    Kept last_;  // of no use once the mesh has turned
+    bool has_turned_ = false;
+    std::size_t hidden_rocks_ = 0;
+    std::vector<Neighbour> found_;
+};
+
+/// Adds amount[p] * w to each cell: solid_fraction from volumes [m3] and so on.
+void deposit(const Stencils& stencils, gsl::span<const double> amount, gsl::span<double> cell_values);
+void deposit(const Stencils& stencils, gsl::span<const Vec3> amount, gsl::span<Vec3> cell_values);
+
+/// Moves solid out of cells that hold more than `limit`: weights of every rock shrink in overfull cells in proportion and are normalised
+/// again, until no cell holds more. Volume of every rock stays exact; the result is continuous in the rocks' positions. All `stencils`
+/// (old and new positions of one step) take the same number of passes. Collective.
+/// \return solid fraction of each of them, per cell; the largest value stays above `limit` only where the rocks' reach holds no more room
+std::vector<std::vector<double>> redistribute(gsl::span<Stencils* const> stencils, gsl::span<const double> rock_volume,
+                                              gsl::span<const double> cell_volume, double limit, Communicator& communicator);
+
+/// Largest |sum of w * V - 1| over the rocks and both weights. Collective.
+double normalisation_error(const Stencils& stencils, gsl::span<const double> cell_volume, Communicator& communicator);
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,182 @@
+#include "solver/foam/dictionary/coupling_dictionary.hpp"
+
+#include "geometry/base/run_files.hpp"
+#include "solver/foam/dictionary/dictionary_section.hpp"
+#include "solver/foam/session/foam_conversions.hpp"
+#include "solver/foam/session/foam_session.hpp"
+
+#include "IOdictionary.H"
+#include "Time.H"
+#include "uniformDimensionedFields.H"
+
+namespace cutterflow::foam {
+namespace {
+
+using Presence = DictionarySection::Presence;
+constexpr Presence k_required = Presence::required;
+constexpr Presence k_optional = Presence::optional;
+
+Foam::IOobject in_constant(const Foam::word& name, const Foam::Time& time) {
+    return Foam::IOobject(name, time.constant(), time, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false);
+}
+
+/// Reads the section of `key` with `read(DictionarySection&)`. \return whether there is one
+template <class Read>
+bool read_section(DictionarySection& parent, const std::string& key, Presence presence, Read read) {
+    const Foam::dictionary* dict = parent.section(key, presence);
+    if (!dict) return false;
+    DictionarySection section = parent.below(*dict, key);
+    read(section);
+    section.finish();
+    return true;
+}
+
+/// As read_section, into settings that exist only with their section.
+template <class Settings, class Read>
+void read_optional(DictionarySection& parent, const std::string& key, std::optional<Settings>& settings, Read read) {
+    Settings values;
+    if (read_section(parent, key, k_optional, [&](DictionarySection& section) { read(section, values); })) settings = values;
+}
+
+void read_contact(DictionarySection& section, coupling::ContactSettings& contact) {
+    section.read("youngsModulus", contact.youngs_modulus, k_required);
+    section.read("poissonRock", contact.poisson_rock, k_optional);
+    section.read("poissonSteel", contact.poisson_steel, k_optional);
+    section.read("friction", contact.friction, k_optional);
+    section.read("restitution", contact.restitution, k_optional);
+    section.read("wetRestitution", contact.wet_restitution, k_optional);
+    section.read("timeStepFraction", contact.time_step_fraction, k_optional);
+    section.read("maxSpeed", contact.max_speed, k_required);
+}
+
+coupling::WallSettings read_wall(DictionarySection& section, const std::filesystem::path& folder) {
+    coupling::WallSettings wall;
+    section.read("name", wall.name, k_required);
+    section.read("file", wall.file, folder, k_required);
+    section.read("rotating", wall.rotating, k_required);
+    return wall;
+}
+
+void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
+    section.read("radius", domain.radius, k_required);
+    section.read("zMin", domain.z_min, k_required);
+    section.read("zMax", domain.z_max, k_required);
+    section.read("zMinWall", domain.z_min_is_wall, k_optional);
+    section.read("zMaxWall", domain.z_max_is_wall, k_optional);
+}
+
+void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
+    coupling::DemSettings dem;
+    section.read("feed", result.coupling.rock_feed, folder, k_required);
+    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, dem.contact); });
+    for (const Foam::dictionary& dict : section.sections("walls", k_required)) {
+        DictionarySection wall = section.below(dict, "walls");
+        dem.walls.push_back(read_wall(wall, folder));
+        wall.finish();
+    }
+    read_section(section, "domain", k_required, [&](DictionarySection& domain) { read_domain(domain, dem.domain); });
+    result.coupling.has_rock = true;
+    result.dem = dem;
+}
+
+void read_kernel(DictionarySection& section, coupling::KernelSettings& kernel) {
+    section.read("gamma", kernel.gamma, k_optional);
+    section.read("minWidthInCells", kernel.min_width_in_cells, k_optional);
+    section.read("maxSolidFraction", kernel.max_solid_fraction, k_optional);
+}
+
+void read_closures(DictionarySection& section, coupling::ClosureSettings& closures) {
+    section.read("drag", closures.drag, k_optional);
+    section.read("hindrance", closures.hindrance, k_optional);
+    section.read("addedMass", closures.added_mass, k_optional);
+    section.read("dragModifier", closures.drag_modifier, k_optional);
+    section.read("sphericity", closures.sphericity, k_optional);
+    section.read("lift", closures.lift, k_optional);
+    section.read("viscousForce", closures.viscous_force, k_optional);
+}
+
+void read_mouth(DictionarySection& section, coupling::MouthSettings& mouth) {
+    section.read("centre", mouth.centre, k_required);
+    section.read("direction", mouth.direction, k_required);
+    section.read("radius", mouth.radius, k_required);
+    section.read("depth", mouth.depth, k_required);
+}
+
+void read_fates(DictionarySection& section, const std::filesystem::path& folder, coupling::FateSettings& fates) {
+    section.read("contour", fates.contour, folder, k_required);
+    section.read("ringRadius", fates.ring_radius, k_required);
+    section.read("zBackplate", fates.z_backplate, k_required);
+    section.read("hysteresis", fates.hysteresis, k_optional);
+    read_section(section, "mouth", k_required, [&](DictionarySection& mouth) { read_mouth(mouth, fates.mouth); });
+    section.read("binWidth", fates.bin_width, k_required);
+}
+
+void read_velocity(DictionarySection& section, const std::filesystem::path& folder, coupling::VelocitySettings& velocity) {
+    section.read("startTime", velocity.start_time, k_required);
+    section.read("interval", velocity.interval, k_optional);
+    section.read("blades", velocity.blades, k_optional);
+    for (const Foam::dictionary& dict : section.sections("sets", k_required)) {
+        DictionarySection entry = section.below(dict, "sets");
+        coupling::VelocitySetSettings set;
+        entry.read("name", set.name, k_required);
+        entry.read("file", set.file, folder, k_required);
+        entry.read("phases", set.phases, k_optional);
+        entry.finish();
+        velocity.sets.push_back(set);
+    }
+}
+
+/// Gravity and the fluid; the other keys of these files are OpenFOAM's.
+void read_surroundings(const Foam::Time& time, coupling::DemSettings& dem, std::vector<Mistake>& mistakes) {
+    const Foam::uniformDimensionedVectorField gravity(in_constant("g", time));
+    dem.gravity = to_vec3(gravity.value());
+    const Foam::IOdictionary transport(in_constant("transportProperties", time));
+    DictionarySection fluid(transport, "", "constant/transportProperties", mistakes);
+    fluid.read_dimensioned("rho", dem.fluid.density, k_required);
+    fluid.read_dimensioned("nu", dem.fluid.kinematic_viscosity, k_required);
+}
+
+void read_file(DictionarySection& file, const std::filesystem::path& folder, CouplingDictionary& result) {
+    coupling::CouplingSettings& settings = result.coupling;
+    read_section(file, "rock", k_optional, [&](DictionarySection& section) { read_rock(section, folder, result); });
+    read_section(file, "kernel", k_optional, [&](DictionarySection& section) { read_kernel(section, settings.kernel); });
+    read_section(file, "closures", k_optional, [&](DictionarySection& section) { read_closures(section, settings.closures); });
+    read_optional(file, "fates", settings.fates,
+                  [&](DictionarySection& section, coupling::FateSettings& fates) { read_fates(section, folder, fates); });
+    read_optional(file, "outflow", settings.outflow, [](DictionarySection& section, coupling::OutflowSettings& outflow) {
+        section.read("offset", outflow.offset, k_required);
+        section.read("startTime", outflow.start_time, k_required);
+    });
+    read_optional(file, "velocity", settings.velocity,
+                  [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
+    read_optional(file, "stop", settings.stop, [](DictionarySection& section, coupling::StopSettings& stop) {
+        section.read("undecided", stop.undecided, k_required);
+    });
+    read_optional(file, "checkpoint", settings.checkpoint, [](DictionarySection& section, coupling::CheckpointSettings& checkpoint) {
+        section.read("interval", checkpoint.interval, k_required);
+        section.read("keep", checkpoint.keep, k_optional);
+    });
+}
+
+}  // namespace
+
+CouplingDictionary read_coupling_dictionary(FoamSession& session) {
+    CouplingDictionary result;
+    const Foam::Time& time = session.time();
+    Foam::IOobject header = in_constant("couplingProperties", time);
+    if (!header.typeHeaderOk<Foam::IOdictionary>(true)) return result;
+
+    const Foam::IOdictionary dict(header);
+    std::vector<Mistake> mistakes;
+    DictionarySection file(dict, "", names::coupling_properties, mistakes);
+    read_file(file, session.case_folder(), result);
+    file.finish();
+    if (result.dem) {
+        result.dem->added_mass = result.coupling.closures.added_mass;
+        read_surroundings(time, *result.dem, mistakes);
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    return result;
+}
+
+}  // namespace cutterflow::foam

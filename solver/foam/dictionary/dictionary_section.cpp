@@ -1,0 +1,164 @@
+#include "solver/foam/dictionary/dictionary_section.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/base/parameter.hpp"
+
+#include "ITstream.H"
+#include "Switch.H"
+
+namespace cutterflow::foam {
+
+DictionarySection::DictionarySection(const Foam::dictionary& dict, std::string name, std::string file, std::vector<Mistake>& mistakes)
+    : dict_(dict), name_(std::move(name)), file_(std::move(file)), mistakes_(mistakes) {}
+
+void DictionarySection::read(const std::string& key, double& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    if (value->size() == 1 && value->first().isNumber()) {
+        target = value->first().number();
+    } else {
+        report_type(key, "a number");
+    }
+}
+
+void DictionarySection::read_dimensioned(const std::string& key, double& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    if (!value->empty() && value->last().isNumber()) {
+        target = value->last().number();
+    } else {
+        report_type(key, "a number, with or without dimensions before it");
+    }
+}
+
+void DictionarySection::read(const std::string& key, int& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    if (value->size() == 1 && value->first().isLabel()) {
+        target = value->first().labelToken();
+    } else {
+        report_type(key, "a whole number");
+    }
+}
+
+void DictionarySection::read(const std::string& key, bool& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    const bool is_word = value->size() == 1 && value->first().isWord();
+    const Foam::Switch parsed = is_word ? Foam::Switch(value->first().wordToken(), true) : Foam::Switch(Foam::Switch::INVALID);
+    if (parsed.valid()) {
+        target = bool(parsed);
+    } else {
+        report_type(key, "true or false");
+    }
+}
+
+void DictionarySection::read(const std::string& key, std::string& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    const bool single = value->size() == 1;
+    if (single && value->first().isWord()) {
+        target = value->first().wordToken();
+    } else if (single && value->first().isString()) {
+        target = value->first().stringToken();
+    } else {
+        report_type(key, "one word or a text in quotes");
+    }
+}
+
+void DictionarySection::read(const std::string& key, Vec3& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    const Foam::tokenList& t = *value;
+    const bool is_vector = t.size() == 5 && t[0].isPunctuation() && t[1].isNumber() && t[2].isNumber() && t[3].isNumber() && t[4].isPunctuation();
+    if (is_vector) {
+        target = Vec3(t[1].number(), t[2].number(), t[3].number());
+    } else {
+        report_type(key, "a vector (x y z)");
+    }
+}
+
+void DictionarySection::read(const std::string& key, std::filesystem::path& target, const std::filesystem::path& folder, Presence presence) {
+    std::string text;
+    read(key, text, presence);
+    if (!text.empty()) target = folder / text;
+}
+
+const Foam::dictionary* DictionarySection::section(const std::string& key, Presence presence) {
+    known_.push_back(key);
+    if (!dict_.found(key, Foam::keyType::LITERAL)) {
+        report_missing(key, presence);
+        return nullptr;
+    }
+    const Foam::dictionary* found = dict_.findDict(key, Foam::keyType::LITERAL);
+    if (!found) report_type(key, "a section { ... }");
+    return found;
+}
+
+std::vector<Foam::dictionary> DictionarySection::sections(const std::string& key, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return {};
+    const bool is_list = value->size() >= 2 && value->first() == Foam::token(Foam::token::BEGIN_LIST) &&
+                         ((*value)[1] == Foam::token(Foam::token::BEGIN_BLOCK) || value->size() == 2);
+    if (!is_list) {
+        report_type(key, "a list of sections ( { ... } { ... } )");
+        return {};
+    }
+    Foam::ITstream stream(dict_.lookup(key, Foam::keyType::LITERAL));
+    const Foam::List<Foam::dictionary> list(stream);
+    return std::vector<Foam::dictionary>(list.begin(), list.end());
+}
+
+DictionarySection DictionarySection::below(const Foam::dictionary& dict, const std::string& key) {
+    return DictionarySection(dict, full_name(key), file_, mistakes_);
+}
+
+void DictionarySection::finish() {
+    for (const Foam::word& key : dict_.toc()) {
+        if (key == "FoamFile" || std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+        const std::string nearest = nearest_word(key, known_);
+        mistakes_.push_back({where(key), fmt::format("{} is unknown", full_name(key)),
+                             fmt::format("The keys {} are {}", name_.empty() ? "of the file" : "of " + name_, fmt::join(known_, ", ")),
+                             nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
+    }
+}
+
+const Foam::tokenList* DictionarySection::tokens(const std::string& key, Presence presence) {
+    known_.push_back(key);
+    const Foam::entry* entry = dict_.findEntry(key, Foam::keyType::LITERAL);
+    if (!entry) {
+        report_missing(key, presence);
+        return nullptr;
+    }
+    if (!entry->isStream()) {
+        report_type(key, "a value, not a section");
+        return nullptr;
+    }
+    return &entry->stream();
+}
+
+void DictionarySection::report_missing(const std::string& key, Presence presence) {
+    if (presence == Presence::optional) return;
+    mistakes_.push_back({where(""), fmt::format("{} is missing", full_name(key)), "The key is required", "Add it"});
+}
+
+void DictionarySection::report_type(const std::string& key, const std::string& expected) {
+    const Foam::entry* entry = dict_.findEntry(key, Foam::keyType::LITERAL);
+    const std::string value = entry->isStream() ? std::string(entry->stream().toString()) : std::string("{ ... }");
+    mistakes_.push_back({where(key), fmt::format("{} = {}", full_name(key), value), "It must be " + expected, "Correct the value"});
+}
+
+std::string DictionarySection::full_name(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
+
+/// "file:line" of a key, of the section when the key has none.
+std::string DictionarySection::where(const std::string& key) const {
+    const Foam::entry* entry = key.empty() ? nullptr : dict_.findEntry(key, Foam::keyType::LITERAL);
+    const Foam::label line = entry ? entry->startLineNumber() : dict_.startLineNumber();
+    return line > 0 ? fmt::format("{}:{}", file_, line) : file_;
+}
+
+}  // namespace cutterflow::foam

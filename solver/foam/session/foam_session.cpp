@@ -1,0 +1,130 @@
+#include "solver/foam/session/foam_session.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "solver/coupling/checkpoint.hpp"
+#include "solver/foam/session/foam_conversions.hpp"
+
+#include "IFstream.H"
+#include "IOdictionary.H"
+#include "Pstream.H"
+#include "Time.H"
+#include "argList.H"
+#include "dynamicFvMesh.H"
+#include "sigFpe.H"
+
+namespace cutterflow::foam {
+namespace {
+
+void finish_mpi() {
+    int finished = 0;
+    MPI_Finalized(&finished);
+    if (!finished) MPI_Finalize();
+}
+
+/// OpenFOAM leaves MPI alone in serial and LIGGGHTS needs it, so it is always started here.
+void start_mpi() {
+    int started = 0;
+    MPI_Initialized(&started);
+    if (started) return;
+    MPI_Init(nullptr, nullptr);
+    std::atexit(finish_mpi);
+}
+
+void start_parallel_run_without_command_line() {
+    start_mpi();
+    int ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (ranks == 1 || Foam::UPstream::parRun()) return;
+    int argc = 0;
+    char** argv = nullptr;
+    Foam::UPstream::init(argc, argv, false);
+}
+
+/// The arguments live to the end of the process: argList's destructor would end it.
+const Foam::argList& parse_arguments(int argc, char** argv) {
+    start_mpi();
+    Foam::argList::addNote(
+        "Transient flow and rock in a rotating cutter head: volume-averaged incompressible flow on a moving mesh, coupled with a DEM when "
+        "constant/couplingProperties has a rock section.");
+    auto* arguments = new Foam::argList(argc, argv);
+    if (!arguments->checkRootCase()) Foam::FatalError.exit();
+    return *arguments;
+}
+
+/// A directory name holds few digits of the time; the exact value and time step stand in uniform/time. Without them a restarted rotor
+/// would stand at another angle than the one it was stopped at.
+void restore_exact_time(Foam::Time& time) {
+    const Foam::IOdictionary saved(Foam::IOobject("time", time.timeName(), "uniform", time, Foam::IOobject::READ_IF_PRESENT,
+                                                  Foam::IOobject::NO_WRITE, false));
+    Foam::string name;
+    Foam::scalar value = 0.0;
+    if (!saved.readIfPresent("name", name) || name != time.timeName() || !saved.readIfPresent("value", value)) return;
+    time.setTime(Foam::instant(value, time.timeName()), time.timeIndex());
+}
+
+}  // namespace
+
+namespace {
+
+/// A run that goes on from its latest time goes on from its newest checkpoint: what was written after it is dropped, before the time is
+/// picked. Collective.
+void go_back_to_checkpoint(const std::filesystem::path& case_folder) {
+    if (Foam::UPstream::master()) {
+        Foam::IFstream stream(Foam::fileName((case_folder / "system" / "controlDict").string()));
+        const Foam::dictionary control(stream);
+        if (control.getOrDefault<Foam::word>("startFrom", "latestTime") == "latestTime")
+            for (const std::filesystem::path& folder : coupling::drop_times_after_checkpoint(case_folder))
+                Foam::Info << "Dropped " << folder.string() << ", which is later than the newest checkpoint" << Foam::endl;
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
+}  // namespace
+
+struct FoamSession::Parts {
+    std::filesystem::path case_folder;
+    std::unique_ptr<Foam::Time> time;
+    Foam::autoPtr<Foam::dynamicFvMesh> mesh;
+
+    void open_mesh() {
+        restore_exact_time(*time);
+        Foam::Info << "Create mesh for time = " << time->timeName() << Foam::nl << Foam::endl;
+        mesh = Foam::dynamicFvMesh::New(Foam::IOobject(Foam::polyMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
+    }
+};
+
+FoamSession::FoamSession(int argc, char** argv) : parts_(std::make_unique<Parts>()) {
+    const Foam::argList& arguments = parse_arguments(argc, argv);
+    parts_->case_folder = to_path(arguments.rootPath() / arguments.globalCaseName());
+    go_back_to_checkpoint(parts_->case_folder);
+    Foam::Info << "Create time\n" << Foam::endl;
+    parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, arguments);
+    parts_->open_mesh();
+}
+
+FoamSession::FoamSession(const std::filesystem::path& case_folder) : parts_(std::make_unique<Parts>()) {
+    start_parallel_run_without_command_line();
+    Foam::sigFpe::set();
+    parts_->case_folder = std::filesystem::absolute(case_folder);
+    const Foam::fileName root(parts_->case_folder.parent_path().string());
+    Foam::fileName name(parts_->case_folder.filename().string());
+    if (Foam::UPstream::parRun()) name = name / ("processor" + std::to_string(Foam::UPstream::myProcNo()));
+    parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, root, name);
+    parts_->open_mesh();
+}
+
+FoamSession::~FoamSession() {
+    if (std::uncaught_exceptions() == 0) Foam::Info << "End\n" << Foam::endl;
+}
+
+Foam::Time& FoamSession::time() { return *parts_->time; }
+Foam::dynamicFvMesh& FoamSession::mesh() { return parts_->mesh(); }
+const std::filesystem::path& FoamSession::case_folder() const { return parts_->case_folder; }
+
+}  // namespace cutterflow::foam

@@ -1,0 +1,31 @@
+#include "solver/foam/session/pstream_communicator.hpp"
+
+#include <mpi.h>
+
+namespace cutterflow::foam {
+namespace {
+
+/// Reduced on one rank and then sent to all: MPI promises the same bits everywhere only for this pair, not for MPI_Allreduce.
+void reduce_for_all(gsl::span<double> values, MPI_Op operation, int rank) {
+    const int count = static_cast<int>(values.size());
+    const void* send = rank == 0 ? MPI_IN_PLACE : values.data();
+    MPI_Reduce(send, values.data(), count, MPI_DOUBLE, operation, 0, MPI_COMM_WORLD);
+    MPI_Bcast(values.data(), count, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+}
+
+}  // namespace
+
+PstreamCommunicator::PstreamCommunicator() {
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+}
+
+void PstreamCommunicator::sum(gsl::span<double> values) {
+    if (size_ > 1) reduce_for_all(values, MPI_SUM, rank_);
+}
+
+void PstreamCommunicator::max(gsl::span<double> values) {
+    if (size_ > 1) reduce_for_all(values, MPI_MAX, rank_);
+}
+
+}  // namespace cutterflow::foam

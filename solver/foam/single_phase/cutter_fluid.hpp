@@ -1,0 +1,145 @@
+#pragma once
+/// \file The fluid solver: volume-averaged incompressible flow on a moving mesh. Only for .cpp files of this folder.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gsl/span>
+
+#include "solver/ports/fluid_engine.hpp"
+
+#include "PhaseIncompressibleTurbulenceModel.H"
+#include "dynamicFvMesh.H"
+#include "fvMatrices.H"
+#include "pimpleControl.H"
+#include "singlePhaseTransportModel.H"
+#include "surfaceFields.H"
+#include "volFields.H"
+
+namespace cutterflow::foam {
+
+/// Whether rock shares the domain with the fluid. Without rock the void fraction stays 1 and no field of the exchange is kept.
+enum class Rock { absent, present };
+
+/// Patches on both sides of sliding interfaces; none on a mesh without one.
+std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
+
+/// Solves, for the interstitial velocity u and p* = p/rho - g.x,
+///
+///   d(alpha)/dt + div(alpha u) = 0,
+///   alpha Du/Dt = -grad p* + div(alpha tau) + S - K (u - u_old) - M (Du/Dt - Du/Dt_old)              [m/s2]
+///
+/// with void fraction alpha, S, K, M of coupling::MomentumExchange and tau the laminar and turbulent stress over density. The pressure
+/// gradient is not weighted by alpha: buoyancy is no part of the exchange (seeds S0-01, C0-02).
+///
+/// On a moving mesh cells keep their u while alpha, which belongs to the rock, does not travel with them. Both void fractions are given on
+/// the moved mesh, so the flux through cell faces that the mesh sweeps must be taken out of the old one: with
+///
+///   alpha_old* V_old = alpha_old V - dt sum(alpha_f meshPhi)
+///
+/// the pair {alpha_old*, alpha_f (phi - meshPhi)} obeys the same discrete continuity as {alpha_old, alpha_f phi}: a uniform velocity
+/// stays uniform, rock at rest in the turning zone raises no flow, and transport equations of turbulence see no source.
+class CutterFluid {
+public:
+    CutterFluid(Foam::dynamicFvMesh& mesh, Rock rock);
+
+    bool running();
+
+    /// Picks the time step (as coupling::FluidEngine::begin_step says), advances the time and moves the mesh.
+    void begin_step(double travel_limit, double stop_time);
+
+    /// Solves the step. Arrays have one entry per cell; without rock all are empty.
+    void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
+                  const coupling::MomentumExchange& exchange);
+
+    void reset_void_fraction(gsl::span<const double> void_fraction);
+
+    bool write_if_due();  ///< \return true when it wrote
+    void write_now();
+
+    const Foam::dynamicFvMesh& mesh() const { return mesh_; }
+    const Foam::volVectorField& velocity() const { return U_; }
+    const Foam::volScalarField& pressure() const { return p_; }
+    const Foam::surfaceScalarField& relative_flux() const { return phi_; }        ///< of u, relative to the mesh [m3/s]
+    const Foam::surfaceScalarField& relative_fluid_flux() const { return alphaPhi_; }  ///< of alpha u, relative to the mesh [m3/s]
+    const Foam::volScalarField& void_fraction() const { return alpha_; }
+    const Foam::volVectorField& material_acceleration() const { return DuDt_; }
+    const Foam::vectorField& received() const { return received_; }
+    Foam::tmp<Foam::volScalarField> effective_viscosity() const { return turbulence_->nuEff(); }
+    Foam::tmp<Foam::vectorField> vorticity() const;          ///< curl u [1/s]
+    Foam::tmp<Foam::vectorField> stress_divergence() const;  ///< div(tau) [m/s2]
+    /// As turbulenceProperties selects it: "realizableKE", "laminar" ...
+    std::string turbulence_model() const;
+    double density() const { return density_; }      ///< [kg/m3]
+    double viscosity() const { return viscosity_; }  ///< of the fluid at the start [m2/s]
+    double courant_max() const { return courant_max_; }
+
+    /// Residual of continuity in each cell, times its volume [m3/s].
+    Foam::tmp<Foam::scalarField> continuity_residual() const;
+
+private:
+    using TurbulenceModel = Foam::PhaseIncompressibleTurbulenceModel<Foam::singlePhaseTransportModel>;
+
+    void create_face_velocity();
+    void start_old_times();
+    void evaluate_flux_conditions();
+    void require_case_for_rock() const;
+    void update_courant_number();
+    void choose_time_step(double travel_limit, double stop_time);
+    double next_write_time() const;
+    void warn_of_long_step(double travel_limit);
+    void move_mesh();
+    void take_void_fraction(gsl::span<const double> old_values, gsl::span<const double> new_values);
+    void take_exchange(const coupling::MomentumExchange& exchange);
+    Foam::tmp<Foam::fvVectorMatrix> momentum_matrix();
+    Foam::tmp<Foam::fvVectorMatrix> viscous_matrix();
+    void add_exchange(Foam::fvVectorMatrix& momentum);
+    void predict_velocity(Foam::fvVectorMatrix& momentum);
+    void correct_pressure(Foam::fvVectorMatrix& momentum);
+    Foam::tmp<Foam::surfaceScalarField> predicted_flux(const Foam::volVectorField& HbyA, const Foam::volScalarField& rAU) const;
+    void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
+    void close_domain(Foam::surfaceScalarField& flux);
+    void close_interface(Foam::surfaceScalarField& flux, const Foam::surfaceScalarField& alpha_rAtUf) const;
+    Foam::dimensionedScalar domain_surplus(const Foam::surfaceScalarField& flux) const;
+    void report_continuity();
+    void correct_turbulence();
+    void update_material_acceleration();
+    void update_received();
+    void restore_state();
+    void save_state();
+
+    Foam::dynamicFvMesh& mesh_;
+    Foam::Time& time_;
+    const Rock rock_;
+    Foam::pimpleControl pimple_;
+    const std::optional<double> write_interval_;  // [s]
+
+    Foam::volScalarField p_;
+    Foam::volVectorField U_;
+    Foam::surfaceScalarField phi_;       // relative to the mesh outside correct_pressure
+    Foam::volScalarField alpha_;
+    Foam::surfaceScalarField alphaf_;
+    Foam::surfaceScalarField alphaPhi_;  // alphaf * phi; carries the name phi so that ordinary fvSchemes hold for it
+    Foam::autoPtr<Foam::surfaceVectorField> Uf_;
+    Foam::volVectorField DuDt_;
+
+    Foam::singlePhaseTransportModel transport_;
+    Foam::autoPtr<TurbulenceModel> turbulence_;
+    double density_;
+    double viscosity_;
+
+    Foam::volScalarField::Internal alpha_rate_;  // d(alpha)/dt
+    Foam::volVectorField::Internal explicit_source_;
+    Foam::volScalarField::Internal drag_rate_;
+    Foam::volScalarField inertia_;
+    Foam::vectorField received_;
+
+    Foam::IOdictionary state_;
+    Foam::label p_ref_cell_ = 0;
+    Foam::scalar p_ref_value_ = 0.0;
+    double courant_max_ = 0.0;
+    bool long_step_warned_ = false;
+    double continuity_cumulative_ = 0.0;
+};
+
+}  // namespace cutterflow::foam

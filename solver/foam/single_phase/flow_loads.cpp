@@ -1,0 +1,107 @@
+#include "solver/foam/single_phase/flow_loads.hpp"
+
+#include <cmath>
+
+#include "geometry/head/head_names.hpp"
+#include "solver/foam/session/foam_conversions.hpp"
+
+#include "cyclicAMIFvPatch.H"
+#include "wallFvPatch.H"
+
+namespace cutterflow::foam {
+
+using namespace Foam;
+
+namespace {
+
+struct Torque {
+    double pressure = 0.0;
+    double viscous = 0.0;
+};
+
+/// Of the fluid on the rotor's wall faces of one patch, per density [m5/s2]. The wall moves rigidly, so its velocity gradient is known and
+/// only the difference of the fluid's normal gradient from it shears.
+Torque wall_torque(const CutterFluid& fluid, const volScalarField& viscosity, label patch, gsl::span<const std::uint8_t> in_rotor,
+                   const coupling::RotorMotion& motion) {
+    const fvPatch& faces = fluid.mesh().boundary()[patch];
+    const labelUList& cells = faces.faceCells();
+    const vector origin = to_foam(motion.axis.origin);
+    const vector axis = to_foam(motion.axis.direction);
+    const vectorField normal(faces.nf());
+    const vectorField gradient(fluid.velocity().boundaryField()[patch].snGrad());
+    const scalarField& pressure = fluid.pressure().boundaryField()[patch];
+    const scalarField weighted_viscosity(viscosity.boundaryField()[patch] * fluid.void_fraction().boundaryField()[patch]);
+    Torque torque;
+    forAll(cells, i) {
+        if (!in_rotor[cells[i]]) continue;
+        const vector arm = axis ^ (faces.Cf()[i] - origin);
+        const vector shear = gradient[i] - motion.speed * (axis ^ normal[i]);
+        const vector traction = -weighted_viscosity[i] * (shear + (shear & normal[i]) * normal[i]);
+        torque.pressure += pressure[i] * (arm & faces.Sf()[i]);
+        torque.viscous += faces.magSf()[i] * (arm & traction);
+    }
+    return torque;
+}
+
+void add_torque(const CutterFluid& fluid, gsl::span<const std::uint8_t> in_rotor, const coupling::RotorMotion& motion,
+                coupling::FluidLoads& loads) {
+    const volScalarField viscosity(fluid.effective_viscosity());
+    forAll(fluid.mesh().boundary(), patch) {
+        if (!isA<wallFvPatch>(fluid.mesh().boundary()[patch])) continue;
+        const Torque torque = wall_torque(fluid, viscosity, patch, in_rotor, motion);
+        loads.torque_pressure += fluid.density() * torque.pressure;
+        loads.torque_viscous += fluid.density() * torque.viscous;
+    }
+    reduce(loads.torque_pressure, sumOp<scalar>());
+    reduce(loads.torque_viscous, sumOp<scalar>());
+}
+
+/// Net and gross flow through boundary patches and through the two sides of sliding interfaces.
+struct BoundaryFlows {
+    double net = 0.0;
+    double gross = 0.0;
+    double interface_net = 0.0;
+    double interface_gross = 0.0;  // both sides
+};
+
+BoundaryFlows sum_boundary_flows(const surfaceScalarField& flux) {
+    BoundaryFlows flows;
+    forAll(flux.boundaryField(), patch) {
+        const fvsPatchScalarField& of_patch = flux.boundaryField()[patch];
+        const double net = sum(of_patch);
+        const double gross = sum(mag(of_patch));
+        if (isA<cyclicAMIFvPatch>(of_patch.patch())) {
+            flows.interface_net += net;
+            flows.interface_gross += gross;
+        } else if (!of_patch.coupled()) {
+            flows.net += net;
+            flows.gross += gross;
+        }
+    }
+    for (double* value : {&flows.net, &flows.gross, &flows.interface_net, &flows.interface_gross}) reduce(*value, sumOp<scalar>());
+    return flows;
+}
+
+void add_outlet(const CutterFluid& fluid, coupling::FluidLoads& loads) {
+    const label patch = fluid.mesh().boundaryMesh().findPatchID(names::outlet_patch);
+    if (patch < 0) return;
+    const scalarField& area = fluid.mesh().magSf().boundaryField()[patch];
+    loads.outlet_flow = gSum(fluid.relative_flux().boundaryField()[patch]);
+    loads.outlet_pressure = gSum(area * fluid.pressure().boundaryField()[patch]) / gSum(area);
+}
+
+}  // namespace
+
+coupling::FluidLoads compute_loads(const CutterFluid& fluid, gsl::span<const std::uint8_t> in_rotor, const coupling::RotorMotion& motion) {
+    coupling::FluidLoads loads;
+    add_torque(fluid, in_rotor, motion, loads);
+    add_outlet(fluid, loads);
+    const BoundaryFlows flows = sum_boundary_flows(fluid.relative_fluid_flux());
+    loads.boundary_flow = flows.net + flows.interface_net;
+    loads.interface_imbalance = std::abs(flows.interface_net) / (0.5 * flows.interface_gross + VSMALL);
+    loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (flows.gross + VSMALL);
+    loads.courant_max = fluid.courant_max();
+    return loads;
+}
+
+}  // namespace cutterflow::foam

@@ -1,0 +1,122 @@
+#include "solver/foam/single_phase/velocity_sampler.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include <nanoflann.hpp>
+
+#include "solver/foam/session/foam_conversions.hpp"
+
+#include "fvcGrad.H"
+
+namespace cutterflow::foam {
+
+/// A cell that may hold a point. Cells that hold it come before all others, then the nearer centre counts.
+struct VelocitySampler::Candidate {
+    Foam::label cell = -1;
+    double distance = std::numeric_limits<double>::max();  // to the cell's centre [m], less k_inside when the point lies in the cell
+};
+
+namespace {
+
+constexpr std::size_t k_neighbours = 8;  // centres that are tried for holding a point
+constexpr double k_inside = 1e9;         // [m], larger than any distance
+
+struct CentreCloud {
+    std::vector<Vec3> centres;
+    std::vector<Foam::label> cells;
+    std::size_t kdtree_get_point_count() const { return centres.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return centres[i][static_cast<Eigen::Index>(axis)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+}  // namespace
+
+class VelocitySampler::ZoneTree {
+public:
+    ZoneTree(const coupling::Cells& cells, bool rotor) : cloud_(collect(cells, rotor)), tree_(3, cloud_) { tree_.buildIndex(); }
+
+    /// Cells with the nearest centres, nearest first; `point` in the zone's frame.
+    std::size_t nearest(const Vec3& point, std::array<Foam::label, k_neighbours>& cells, std::array<double, k_neighbours>& distance) const {
+        std::array<std::size_t, k_neighbours> index;
+        std::array<double, k_neighbours> squared;
+        const std::size_t found = cloud_.centres.empty() ? 0 : tree_.knnSearch(point.data(), k_neighbours, index.data(), squared.data());
+        for (std::size_t i = 0; i < found; ++i) {
+            cells[i] = cloud_.cells[index[i]];
+            distance[i] = std::sqrt(squared[i]);
+        }
+        return found;
+    }
+
+private:
+    static CentreCloud collect(const coupling::Cells& cells, bool rotor) {
+        CentreCloud cloud;
+        for (std::size_t i = 0; i < cells.centres.size(); ++i) {
+            if ((cells.in_rotor[i] != 0) != rotor) continue;
+            cloud.centres.push_back(cells.centres[i]);
+            cloud.cells.push_back(static_cast<Foam::label>(i));
+        }
+        return cloud;
+    }
+
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, CentreCloud>, CentreCloud, 3, std::size_t>;
+    CentreCloud cloud_;
+    Tree tree_;
+};
+
+VelocitySampler::VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, const coupling::RotorMotion& motion)
+    : mesh_(mesh), motion_(motion), rotor_(std::make_unique<ZoneTree>(cells, true)), stator_(std::make_unique<ZoneTree>(cells, false)) {}
+
+VelocitySampler::~VelocitySampler() = default;
+
+VelocitySampler::Candidate VelocitySampler::find_cell(const Vec3& point, double time) const {
+    const Foam::point where = to_foam(point);
+    Candidate best;
+    for (const ZoneTree* zone : {rotor_.get(), stator_.get()}) {
+        const bool turns = zone == rotor_.get();
+        std::array<Foam::label, k_neighbours> cells;
+        std::array<double, k_neighbours> distance;
+        const std::size_t found =
+            zone->nearest(turns ? rotate_about(motion_.axis, -motion_.angle(time), point) : point, cells, distance);
+        for (std::size_t i = 0; i < found; ++i) {
+            const bool inside = mesh_.pointInCell(where, cells[i], Foam::polyMesh::FACE_PLANES);
+            const double rank = inside ? distance[i] - k_inside : distance[i];
+            if (rank < best.distance) best = {cells[i], rank};
+        }
+    }
+    return best;
+}
+
+void VelocitySampler::sample(const Foam::volVectorField& velocity, double time, coupling::Communicator& communicator,
+                             gsl::span<const Vec3> points, gsl::span<Vec3> result) const {
+    const Foam::volTensorField gradient(Foam::fvc::grad(velocity));
+    std::vector<Candidate> candidates(points.size());
+    std::vector<double> nearest(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        candidates[i] = find_cell(points[i], time);
+        nearest[i] = -candidates[i].distance;
+    }
+    communicator.max(nearest);
+
+    // Several ranks may be equally near: the lowest one speaks.
+    std::vector<double> speaker(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) speaker[i] = -candidates[i].distance == nearest[i] ? -communicator.rank() : -1e9;
+    communicator.max(speaker);
+
+    std::vector<double> values(3 * points.size(), 0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Foam::label cell = candidates[i].cell;
+        if (cell < 0 || speaker[i] != -communicator.rank()) continue;
+        const Foam::vector at_point = velocity[cell] + ((to_foam(points[i]) - mesh_.C()[cell]) & gradient[cell]);
+        for (Foam::direction component = 0; component < 3; ++component) values[3 * i + component] = at_point[component];
+    }
+    communicator.sum(values);
+    for (std::size_t i = 0; i < points.size(); ++i) result[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+}
+
+}  // namespace cutterflow::foam

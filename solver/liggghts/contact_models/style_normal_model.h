@@ -1,1 +1,0 @@
-#include "solver/liggghts/contact_models/rock_pair_model.hpp"

@@ -1,0 +1,47 @@
+#include "solver/liggghts/contacts/contact_context.hpp"
+
+#include <algorithm>
+
+#include "solver/physics/contact.hpp"
+
+namespace cutterflow::liggghts {
+
+namespace {
+
+std::map<const LAMMPS_NS::LAMMPS*, ContactContext*>& contexts() {
+    static std::map<const LAMMPS_NS::LAMMPS*, ContactContext*> instances;
+    return instances;
+}
+
+}  // namespace
+
+ContactContext::ContactContext(const coupling::DemSettings& settings, const RotationAxis& rotor_axis)
+    : contact(settings.contact),
+      fluid(settings.fluid),
+      added_mass(settings.added_mass),
+      axis(rotor_axis),
+      rock_rock(elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_rock)),
+      rock_steel(elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_steel)),
+      dry_damping_factor(physics::hertz_damping_factor(contact.restitution)) {}
+
+double ContactContext::mass_with_added_mass(double mass, double radius) const {
+    return mass + added_mass * fluid.density * 4.0 / 3.0 * k_pi * radius * radius * radius;
+}
+
+double ContactContext::damping_factor(double impact_speed, double diameter, double density) const {
+    if (!contact.wet_restitution) return dry_damping_factor;
+    const double stokes = physics::impact_stokes(density / fluid.density, added_mass, impact_speed, diameter, fluid.kinematic_viscosity);
+    return physics::hertz_damping_factor(std::max(physics::wet_restitution(contact.restitution, stokes), physics::k_smallest_restitution));
+}
+
+ContactContext& ContactContext::of(const LAMMPS_NS::LAMMPS* lammps) {
+    return *contexts().at(lammps);
+}
+void ContactContext::set(const LAMMPS_NS::LAMMPS* lammps, ContactContext* context) {
+    contexts()[lammps] = context;
+}
+void ContactContext::clear(const LAMMPS_NS::LAMMPS* lammps) {
+    contexts().erase(lammps);
+}
+
+}  // namespace cutterflow::liggghts

@@ -1,0 +1,75 @@
+#include "solver/liggghts/contacts/contact_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/physics/contact.hpp"
+
+namespace cutterflow::liggghts {
+
+namespace {
+
+/// Part of the contact's radius that one spring covers [m].
+struct Part {
+    double inner = 0.0, outer = 0.0;
+    double length() const { return outer - inner; }
+};
+
+Part covered_by(int spring, double width, double contact_radius) {
+    const double inner = std::min(spring * width, contact_radius);
+    const double outer = spring + 1 < k_springs ? std::min((spring + 1) * width, contact_radius) : contact_radius;
+    return {inner, outer};
+}
+
+/// Share of the normal force: the integral of 3/2 (1 - x^2) over x = inner/a to outer/a.
+double pressure_share(const Part& part, double contact_radius) {
+    const double x = part.inner / contact_radius, y = part.outer / contact_radius;
+    return 1.5 * (y - x) - 0.5 * (y * y * y - x * x * x);
+}
+
+/// Force [N] of one spring and its damper, at most `limit` [N]. What slips carries the limit in the spring alone.
+Vec3 spring_force(double stiffness, double damping, const Vec3& slip_velocity, double limit, Vec3& stretch) {
+    const double elastic = stiffness * stretch.norm();
+    if (elastic > limit) {
+        stretch *= limit / elastic;
+        return -stiffness * stretch;
+    }
+    const Vec3 force = -stiffness * stretch - damping * slip_velocity;
+    const double size = force.norm();
+    return size > limit ? force * (limit / size) : force;
+}
+
+}  // namespace
+
+ElasticPair elastic_pair(double youngs_modulus, double poisson_a, double poisson_b) {
+    const auto compliance = [&](double poisson) { return (1.0 - poisson * poisson) / youngs_modulus; };
+    const auto shear_compliance = [&](double poisson) { return 2.0 * (2.0 - poisson) * (1.0 + poisson) / youngs_modulus; };
+    return {1.0 / (compliance(poisson_a) + compliance(poisson_b)), 1.0 / (shear_compliance(poisson_a) + shear_compliance(poisson_b))};
+}
+
+Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory) {
+    const double contact_radius = std::sqrt(contact.radius * contact.overlap);
+    const double normal_stiffness = 4.0 / 3.0 * contact.elastic.youngs * contact_radius;
+    const double damping = contact.damping_factor * std::sqrt(contact.mass * normal_stiffness);
+    const double normal_force = std::max(0.0, normal_stiffness * contact.overlap - damping * contact.normal_speed);
+
+    const physics::Impact impact{contact.mass, contact.radius, contact.elastic.youngs, contact.impact_speed};
+    const double width = std::sqrt(contact.radius * physics::hertz_largest_overlap(impact)) / k_springs;
+    SlipMemory now;
+    now.contact_radius = contact_radius;
+    Vec3 force = normal_force * contact.normal;
+    for (int i = 0; i < k_springs; ++i) {
+        const Part part = covered_by(i, width, contact_radius);
+        if (part.length() <= 0.0) continue;
+        const double kept = std::min(1.0, covered_by(i, width, memory.contact_radius).length() / part.length());
+        Vec3 stretch = kept * Vec3(memory.stretch[i]) + contact.slip_velocity * time_step;
+        stretch -= contact.normal * contact.normal.dot(stretch);
+        force += spring_force(8.0 * contact.elastic.shear * part.length(), damping * part.length() / contact_radius, contact.slip_velocity,
+                              contact.friction * normal_force * pressure_share(part, contact_radius), stretch);
+        std::copy_n(stretch.data(), 3, now.stretch[i]);
+    }
+    if (time_step > 0.0) memory = now;
+    return force;
+}
+
+}  // namespace cutterflow::liggghts

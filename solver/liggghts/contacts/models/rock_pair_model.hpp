@@ -1,0 +1,114 @@
+/// \file Contact of two rocks as a LIGGGHTS model: normal and tangential force of contact_law.hpp.
+#ifdef NORMAL_MODEL
+NORMAL_MODEL(ROCK_PAIR, rock, 40)
+#else
+#ifndef CUTTERFLOW_ROCK_PAIR_MODEL
+#define CUTTERFLOW_ROCK_PAIR_MODEL
+
+#include <algorithm>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "atom.h"
+#include "normal_model_base.h"
+#include "update.h"
+
+#include "solver/liggghts/contacts/contact_context.hpp"
+
+namespace LIGGGHTS {
+namespace ContactModels {
+
+/// What the pair's history keeps from the first touch until the rocks separate, in the order in which the model declares it.
+struct RockPairRecord {
+    double impact_speed = 0.0;  ///< [m/s]; 0: never used
+    double last_touch = 0.0;    ///< step
+    double damping_factor = 0.0;
+    cutterflow::liggghts::SlipMemory slip;
+};
+
+/// The restitution follows from the impact speed.
+template <>
+class NormalModel<ROCK_PAIR> : public NormalModelBase {
+public:
+    NormalModel(LAMMPS* lammps, IContactHistorySetup* history, ContactModelBase* model)
+        : NormalModelBase(lammps, history, model),
+          context_(cutterflow::liggghts::ContactContext::of(lammps)),
+          offset_(history->add_history_value("impact_speed", "0")) {
+        history->add_history_value("last_touch", "0");
+        history->add_history_value("damping_factor", "0");
+        history->add_history_value("contact_radius", "0");
+        for (int k = 0; k < cutterflow::liggghts::k_springs; ++k)
+            for (const char axis : {'x', 'y', 'z'}) history->add_history_value("stretch_" + std::to_string(k) + axis, "1");
+    }
+
+    void registerSettings(Settings&) override {}
+    void postSettings(IContactHistorySetup*, ContactModelBase*) override {}
+    void connectToProperties(PropertyRegistry&) override {}
+    double stressStrainExponent() override { return 1.5; }
+    void surfacesClose(SurfacesCloseData&, ForceData&, ForceData&) override {}
+    void beginPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
+    void endPass(SurfacesIntersectData&, ForceData&, ForceData&) override {}
+
+    void surfacesIntersect(SurfacesIntersectData& pair, ForceData& on_i, ForceData& on_j) override {
+        using cutterflow::Vec3;
+        if (pair.contact_flags) *pair.contact_flags |= CONTACT_NORMAL_MODEL;
+        const double mass_i = context_.mass_with_added_mass(pair.mi, pair.radi);
+        const double mass_j = context_.mass_with_added_mass(pair.mj, pair.radj);
+        const bool keep = pair.computeflag && pair.shearupdate;
+        auto& record = *reinterpret_cast<RockPairRecord*>(pair.contact_history + offset_);
+        update_record(record, pair, keep);
+
+        cutterflow::liggghts::Contact contact;
+        contact.normal = Vec3(pair.en);
+        contact.overlap = pair.deltan;
+        contact.normal_speed = pair.vn;
+        contact.impact_speed = record.impact_speed;
+        contact.slip_velocity = Vec3(pair.vtr1, pair.vtr2, pair.vtr3);
+        contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
+        contact.mass = mass_i * mass_j / (mass_i + mass_j);
+        contact.elastic = context_.rock_rock;
+        contact.damping_factor = record.damping_factor;
+        contact.friction = context_.contact.friction;
+        const Vec3 force = contact_force(contact, keep ? update->dt : 0.0, record.slip);
+
+        const Vec3 moment = -contact.normal.cross(force);  // per unit of lever arm, the same on both
+        for (int k = 0; k < 3; ++k) {
+            on_i.delta_F[k] += force[k];
+            on_j.delta_F[k] -= force[k];
+            on_i.delta_torque[k] += pair.cri * moment[k];
+            on_j.delta_torque[k] += pair.crj * moment[k];
+        }
+        const bool shared = pair.j >= atom->nlocal;
+        context_.tally.add(shared ? 0.5 : 1.0, pair.deltan / std::min(pair.radi, pair.radj));
+    }
+
+private:
+    /// A first touch stores the approach speed and forgets all slip. LIGGGHTS clears the history of a pair that separates only when it
+    /// happens to see it close by, therefore the step of the last touch decides.
+    void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, bool keep) const {
+        const double step = static_cast<double>(update->ntimestep);
+        const bool first_touch = record.impact_speed == 0.0 || record.last_touch < step - 1.0;
+        if (first_touch) {
+            record.impact_speed = std::max(-pair.vn, cutterflow::liggghts::k_smallest_impact_speed);
+            record.damping_factor = damping_factor(pair, record.impact_speed);
+            record.slip = {};
+        }
+        if (keep) record.last_touch = step;
+    }
+
+    /// Harmonic mean of the diameters, mean of the densities: for equal rocks the rock's own, as on a wall.
+    double damping_factor(const SurfacesIntersectData& pair, double impact_speed) const {
+        const double diameter = 4.0 * pair.radi * pair.radj / (pair.radi + pair.radj);
+        return context_.damping_factor(impact_speed, diameter, 0.5 * (atom->density[pair.i] + atom->density[pair.j]));
+    }
+
+    cutterflow::liggghts::ContactContext& context_;
+    int offset_;
+};
+
+}  // namespace ContactModels
+}  // namespace LIGGGHTS
+
+#endif
+#endif

@@ -1,0 +1,1 @@
+#include "solver/liggghts/contacts/models/rock_pair_model.hpp"

@@ -1,0 +1,148 @@
+#include "solver/liggghts/contacts/wall_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "atom.h"
+#include "fix_property_atom.h"
+#include "lammps.h"
+#include "update.h"
+
+namespace cutterflow::liggghts {
+
+namespace {
+
+constexpr double k_same_contact = 0.93969262078590838;   // cos 20 degrees
+constexpr double k_other_contact = 0.81915204428899179;  // cos 35 degrees
+constexpr double k_continues = 0.70710678118654752;      // cos 45 degrees
+
+/// Share of a touch that a deeper one leaves, by the cosine of the angle between their normals.
+double share_beside(double cosine) {
+    return std::clamp((k_same_contact - cosine) / (k_same_contact - k_other_contact), 0.0, 1.0);
+}
+
+bool is_live(const WallContactRecord& record, double step) {
+    return record.impact_speed > 0.0 && record.last_touch >= step - 1.0;
+}
+
+using Records = std::array<WallContactRecord*, WallContacts::max_contacts>;
+
+/// The record of the step before that a touch goes on in, else null.
+WallContactRecord* continued(const Records& records, const Records& taken, const WallTouch& touch, double step) {
+    WallContactRecord* best = nullptr;
+    double nearest = k_continues;
+    for (WallContactRecord* record : records) {
+        if (!is_live(*record, step) || static_cast<int>(record->body) != touch.body) continue;
+        if (std::find(taken.begin(), taken.end(), record) != taken.end()) continue;
+        const double cosine = touch.normal.dot(Vec3(record->normal));
+        if (cosine <= nearest) continue;
+        nearest = cosine;
+        best = record;
+    }
+    return best;
+}
+
+/// A record for a new contact: one whose contact has ended, else one that no touch continues.
+WallContactRecord* unused(const Records& records, const Records& taken, double step) {
+    const auto is_free = [&](const WallContactRecord* record) { return std::find(taken.begin(), taken.end(), record) == taken.end(); };
+    const auto has_ended = [&](const WallContactRecord* record) { return is_free(record) && !is_live(*record, step); };
+    const auto ended = std::find_if(records.begin(), records.end(), has_ended);
+    return ended != records.end() ? *ended : *std::find_if(records.begin(), records.end(), is_free);
+}
+
+/// Impact speed that the body has with this rock already, 0 without one.
+double known_impact_speed(const Records& records, int body, double step) {
+    for (const WallContactRecord* record : records)
+        if (is_live(*record, step) && static_cast<int>(record->body) == body) return record->impact_speed;
+    return 0.0;
+}
+
+}  // namespace
+
+void WallContacts::resolve() {
+    const auto by_rock_and_depth = [](const WallTouch& a, const WallTouch& b) {
+        return a.rock != b.rock ? a.rock < b.rock : a.overlap > b.overlap;
+    };
+    std::sort(touches_.begin(), touches_.end(), by_rock_and_depth);
+    for (auto first = touches_.begin(); first != touches_.end();) {
+        const auto last = std::find_if(first, touches_.end(), [&](const WallTouch& touch) { return touch.rock != first->rock; });
+        apply(merge({first, last}));
+        first = last;
+    }
+    touches_.clear();
+}
+
+/// \param touches  of one rock, the deepest first
+std::vector<WallContacts::Weighted> WallContacts::merge(std::vector<WallTouch> touches) {
+    std::vector<Weighted> contacts;
+    for (const WallTouch& touch : touches) {
+        double weight = 1.0;
+        for (const Weighted& deeper : contacts) weight *= share_beside(touch.normal.dot(deeper.touch.normal));
+        if (weight > 0.0 && contacts.size() < max_contacts) contacts.push_back({touch, weight});
+    }
+    return contacts;
+}
+
+/// \param contacts  of one rock
+void WallContacts::apply(const std::vector<Weighted>& contacts) {
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    const double step = static_cast<double>(lammps_->update->ntimestep);
+    auto* row = reinterpret_cast<WallContactRecord*>(records_->array_atom[contacts.front().touch.rock]);
+    Records records{}, taken{};
+    for (int k = 0; k < max_contacts; ++k) records[k] = row + k;
+
+    for (std::size_t k = 0; k < contacts.size(); ++k) taken[k] = continued(records, taken, contacts[k].touch, step);
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        if (taken[k]) continue;
+        const WallTouch& touch = contacts[k].touch;
+        const double known = known_impact_speed(records, touch.body, step);
+        const double approach = touch.normal.dot(touch.wall_velocity - Vec3(atom.v[touch.rock]));
+        taken[k] = unused(records, taken, step);
+        *taken[k] = WallContactRecord{};
+        taken[k]->body = touch.body;
+        taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
+        taken[k]->damping_factor = context_.damping_factor(taken[k]->impact_speed, 2.0 * atom.radius[touch.rock], atom.density[touch.rock]);
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k]);
+}
+
+void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    const WallTouch& touch = weighted.touch;
+    const int rock = touch.rock;
+    const double radius = atom.radius[rock];
+    const Vec3 arm = -(radius - 0.5 * touch.overlap) * touch.normal;
+    const Vec3 centre_velocity = Vec3(atom.v[rock]) - touch.wall_velocity;
+    const Vec3 surface_velocity = centre_velocity + Vec3(atom.omega[rock]).cross(arm);
+
+    Contact contact;
+    contact.normal = touch.normal;
+    contact.overlap = touch.overlap;
+    contact.normal_speed = touch.normal.dot(centre_velocity);
+    contact.impact_speed = record.impact_speed;
+    contact.slip_velocity = surface_velocity - touch.normal * touch.normal.dot(surface_velocity);
+    contact.radius = radius;
+    contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius);
+    contact.elastic = context_.rock_steel;
+    contact.damping_factor = record.damping_factor;
+    contact.friction = context_.contact.friction;
+
+    const bool setting_up = lammps_->update->setupflag != 0;
+    const Vec3 force = weighted.weight * contact_force(contact, setting_up ? 0.0 : lammps_->update->dt, record.slip);
+    const Vec3 torque = arm.cross(force);
+    std::copy_n(touch.normal.data(), 3, record.normal);
+    if (!setting_up) record.last_touch = static_cast<double>(lammps_->update->ntimestep);
+
+    Eigen::Map<Vec3>(atom.f[rock]) += force;
+    Eigen::Map<Vec3>(atom.torque[rock]) += torque;
+    context_.tally.add(1.0, touch.overlap / radius);
+    if (touch.rotating) {
+        const Vec3 from_axis = Vec3(atom.x[rock]) - context_.axis.origin;
+        context_.tally.torque -= context_.axis.direction.dot(from_axis.cross(force) + torque);
+    }
+}
+
+}  // namespace cutterflow::liggghts

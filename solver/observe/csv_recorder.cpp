@@ -1,0 +1,210 @@
+#include "solver/observe/csv_recorder.hpp"
+
+#include <iostream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/head/axial_bins.hpp"
+#include "solver/observe/velocity/velocity_tables.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+constexpr const char* k_rock = "rock";
+
+std::string time_name(double time) {
+    return fmt::format("{:.6g}", time);
+}
+
+std::string optional_number(const std::optional<double>& value) {
+    return value ? fmt::format("{:.9g}", *value) : std::string();
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file) {
+    throw std::runtime_error(file.string() + ": the file cannot be written. Check permissions and free space.");
+}
+
+}  // namespace
+
+CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time)
+    : root_(case_folder / "postProcessing"), start_(time_name(start_time)) {
+    loads_ = open("loads", "loads.csv", "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w");
+    balance_ = open("balance", "balance.csv",
+                    "time_s,solid_volume_error,momentum_exchange_error,flow_balance_error,interface_imbalance,continuity_error,"
+                    "outlet_flow_m3_s,outlet_pressure_m2_s2,solid_fraction_max,courant_max,overlap_ratio_max,dem_substeps,rocks,contacts,"
+                    "exchanged_volume_m3,exchanged_momentum_n_s");
+    cost_ = open("cost", "cost.csv", "time_s,step_s,fluid_s,mesh_motion_s,mapping_s,dem_s,output_s");
+    if (settings.outflow && settings.fates) {
+        std::string header = "time_s";
+        for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings.fates), settings.fates->bin_width)) header += "," + bin.name;
+        outflow_ = open("outflow", "contour_velocity.csv", header);
+    }
+    if (!settings.has_rock) return;
+    events_ = open(k_rock, "events.csv",
+                   "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,"
+                   "density_kg_m3,bin");
+    fates_ = open(k_rock, "fates.csv",
+                  "time_s,placed_count,placed_kg,sucked_up_count,sucked_up_kg,spilled_count,spilled_kg,in_cutter_count,in_cutter_kg,"
+                  "never_entered_count,never_entered_kg");
+    rejected_ = open(k_rock, "rejected.csv", "id,time_s,reason");
+
+    // Pictures of an earlier part of the run stay in the series.
+    const std::filesystem::path pictures = root_ / k_rock / "vtk";
+    std::filesystem::create_directories(pictures);
+    for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
+        const std::string name = entry.path().stem().string();
+        const double time = name.rfind("rocks_", 0) == 0 ? std::strtod(name.c_str() + 6, nullptr) : start_time + 1.0;
+        if (time <= start_time) pictures_[time] = "vtk/" + entry.path().filename().string();
+    }
+}
+
+void CsvRecorder::describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions) {
+    models_ = std::move(models);
+    versions_ = std::move(versions);
+}
+
+std::filesystem::path CsvRecorder::folder(const std::string& what) const {
+    return root_ / what / start_;
+}
+
+std::ofstream CsvRecorder::open(const std::string& what, const std::string& file, const std::string& header) const {
+    std::filesystem::create_directories(folder(what));
+    std::ofstream stream(folder(what) / file);
+    stream << header << '\n';
+    if (!stream) fail_to_write(folder(what) / file);
+    return stream;
+}
+
+void CsvRecorder::event(const RockEvent& e) {
+    fmt::print(events_, "{:.9g},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", e.time, e.id,
+               surface_name(e.surface), direction_name(e.direction), e.position[0], e.position[1], e.position[2], e.velocity[0],
+               e.velocity[1], e.velocity[2], e.rotor_angle, e.azimuth, e.axial, e.diameter, e.density, e.bin);
+}
+
+void CsvRecorder::rejected(const RejectedRock& rock) {
+    fmt::print(rejected_, "{},{:.9g},{}\n", rock.id, rock.time, rock.reason);
+}
+
+void CsvRecorder::fates(double time, const FateTotals& totals) {
+    fmt::print(fates_, "{:.9g},{},{:.9g}", time, totals.placed.count, totals.placed.mass);
+    for (const Fate fate : {Fate::sucked_up, Fate::spilled, Fate::in_cutter, Fate::never_entered})
+        fmt::print(fates_, ",{},{:.9g}", totals.of(fate).count, totals.of(fate).mass);
+    fates_ << '\n';
+}
+
+void CsvRecorder::outflow(double time, gsl::span<const double> radial_velocity) {
+    fmt::print(outflow_, "{:.9g}", time);
+    for (const double velocity : radial_velocity) fmt::print(outflow_, ",{:.6g}", velocity);
+    outflow_ << '\n';
+}
+
+void CsvRecorder::loads(const LoadsRow& row) {
+    fmt::print(loads_, "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.time, row.rotor_angle, row.torque_pressure, row.torque_viscous,
+               row.torque_rock, row.power);
+}
+
+void CsvRecorder::balance(const BalanceRow& row) {
+    fmt::print(balance_, "{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{},{},{},{:.9g},{:.9g}\n", row.time,
+               row.solid_volume_error, row.momentum_exchange_error, row.flow_balance_error, row.interface_imbalance, row.continuity_error,
+               row.outlet_flow, row.outlet_pressure, row.solid_fraction_max, row.courant_max, row.overlap_ratio_max, row.dem_substeps,
+               row.rocks, row.contacts, row.exchanged_volume, row.exchanged_momentum);
+}
+
+void CsvRecorder::cost(const CostRow& row) {
+    fmt::print(cost_, "{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.time, row.step, row.fluid, row.mesh_motion, row.mapping,
+               row.dem, row.output);
+}
+
+void CsvRecorder::picture(const RockPicture& picture) {
+    const std::string file = fmt::format("vtk/rocks_{}.vtp", time_name(picture.time));
+    std::ofstream stream(root_ / k_rock / file);
+    const std::size_t n = static_cast<std::size_t>(picture.id.size());
+    const auto array = [&](const char* type, const char* name, int components, const auto& write_values) {
+        fmt::print(stream, "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", type, name, components);
+        for (std::size_t p = 0; p < n; ++p) write_values(p);
+        stream << "</DataArray>\n";
+    };
+    const auto vector = [&](const Vec3& v) { fmt::print(stream, "{:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]); };
+    fmt::print(
+        stream,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+        "<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+        n);
+    array("Float64", "Points", 3, [&](std::size_t p) { vector(picture.position[p]); });
+    stream << "</Points>\n<Verts>\n";
+    array("Int32", "connectivity", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", p); });
+    array("Int32", "offsets", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", p + 1); });
+    stream << "</Verts>\n<PointData>\n";
+    array("Int32", "id", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", picture.id[p]); });
+    array("Float64", "diameter", 1, [&](std::size_t p) { fmt::print(stream, "{:.9g}\n", picture.diameter[p]); });
+    array("Float64", "velocity", 3, [&](std::size_t p) { vector(picture.velocity[p]); });
+    array("Float64", "hydrodynamic_force", 3, [&](std::size_t p) { vector(picture.hydrodynamic_force[p]); });
+    array("Float64", "contact_force", 3, [&](std::size_t p) { vector(picture.contact_force[p]); });
+    array("Int32", "fate", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", static_cast<int>(picture.fate[p])); });
+    stream << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    if (!stream) fail_to_write(root_ / k_rock / file);
+    pictures_[picture.time] = file;
+    write_series();
+}
+
+void CsvRecorder::write_series() const {
+    std::ofstream stream(root_ / k_rock / "rocks.pvd");
+    stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const auto& [time, file] : pictures_) fmt::print(stream, "<DataSet timestep=\"{:.9g}\" file=\"{}\"/>\n", time, file);
+    stream << "</Collection>\n</VTKFile>\n";
+}
+
+void CsvRecorder::outcomes(gsl::span<const RockOutcome> outcomes) {
+    std::ofstream stream(folder(k_rock) / "final.csv");
+    stream << "id,fate,last_exit_bin,first_exit_time_s,first_exit_azimuth_rad,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
+    for (const RockOutcome& rock : outcomes)
+        fmt::print(stream, "{},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", rock.id, fate_name(rock.fate), rock.last_exit_bin,
+                   optional_number(rock.first_exit_time), optional_number(rock.first_exit_azimuth), rock.position[0], rock.position[1],
+                   rock.position[2], rock.diameter, rock.density);
+    if (!stream) fail_to_write(folder(k_rock) / "final.csv");
+}
+
+void CsvRecorder::velocity(const VelocitySets& sets, double time) {
+    std::filesystem::create_directories(folder("velocity"));
+    write_velocity_tables(folder("velocity"), sets, time);
+}
+
+void CsvRecorder::finished(const RunCost& cost) {
+    nlohmann::json json;
+    json["ranks"] = cost.ranks;
+    json["cells"] = static_cast<std::int64_t>(cost.cells);
+    json["steps"] = cost.steps;
+    json["wall_s"] = cost.wall;
+    json["core_s"] = cost.wall * cost.ranks;
+    const double total = cost.totals.fluid + cost.totals.mesh_motion + cost.totals.mapping + cost.totals.dem + cost.totals.output;
+    const auto share = [total](double part) { return total > 0.0 ? part / total : 0.0; };
+    json["share"] = {{"fluid", share(cost.totals.fluid)},
+                     {"mesh_motion", share(cost.totals.mesh_motion)},
+                     {"mapping", share(cost.totals.mapping)},
+                     {"dem", share(cost.totals.dem)},
+                     {"output", share(cost.totals.output)}};
+    json["models"] = nlohmann::json::array();
+    for (const ModelNote& model : models_) json["models"].push_back({{"name", model.name}, {"why", model.why}});
+    json["versions"] = versions_;
+    json["warnings"] = warnings_;
+    std::ofstream stream(folder("cost") / "cost.json");
+    stream << json.dump(2) << '\n';
+    if (!stream) fail_to_write(folder("cost") / "cost.json");
+}
+
+void CsvRecorder::warning(double time, const std::string& text) {
+    warnings_.push_back(fmt::format("time {:.6g} s: {}", time, text));
+    std::cerr << "cutterFoam: warning: " << warnings_.back() << std::endl;
+}
+
+void CsvRecorder::flush() {
+    for (std::ofstream* stream : {&events_, &rejected_, &fates_, &outflow_, &loads_, &balance_, &cost_}) {
+        stream->flush();
+        if (!*stream) fail_to_write(root_);
+    }
+}
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,53 @@
+#pragma once
+/// \file The files of postProcessing/ that a run writes (docs/design/001-contracts.md).
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "solver/observe/run_recorder.hpp"
+#include "solver/ports/settings.hpp"
+
+namespace cutterflow::coupling {
+
+/// Writes rows as they come, into folders named by the start time of this (re)started run. For one rank only.
+class CsvRecorder final : public RunRecorder {
+public:
+    /// \param start_time  of the run [s]; files of an earlier start at the same time are replaced
+    /// \throws std::runtime_error  when a file cannot be written
+    CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time);
+
+    /// What stands in cost.json beside the numbers: the sub-models that are on, and versions by program.
+    void describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions);
+
+    void event(const RockEvent& event) override;
+    void rejected(const RejectedRock& rock) override;
+    void fates(double time, const FateTotals& totals) override;
+    void outflow(double time, gsl::span<const double> radial_velocity) override;
+    void loads(const LoadsRow& row) override;
+    void balance(const BalanceRow& row) override;
+    void cost(const CostRow& row) override;
+    void picture(const RockPicture& picture) override;
+    void outcomes(gsl::span<const RockOutcome> outcomes) override;
+    void velocity(const VelocitySets& sets, double time) override;
+    void finished(const RunCost& cost) override;
+    /// Goes to standard error at once and into cost.json.
+    void warning(double time, const std::string& text) override;
+    void flush() override;
+
+private:
+    std::filesystem::path folder(const std::string& what) const;
+    std::ofstream open(const std::string& what, const std::string& file, const std::string& header) const;
+    void write_series() const;
+
+    std::filesystem::path root_;
+    std::string start_;
+    std::ofstream events_, rejected_, fates_, outflow_, loads_, balance_, cost_;
+    std::map<double, std::string> pictures_;  // files of the rock series by time
+    std::vector<ModelNote> models_;
+    std::vector<std::string> warnings_;
+    std::map<std::string, std::string> versions_;
+};
+
+}  // namespace cutterflow::coupling

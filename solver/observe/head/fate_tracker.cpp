@@ -1,0 +1,160 @@
+#include "solver/observe/head/fate_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/base/axis_frame.hpp"
+#include "solver/physics/drag.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+double azimuth_of(const Vec3& position) {
+    return to_cylindrical(RotationAxis{}, Vec3::UnitX(), position).azimuth;
+}
+
+RunInstant between(const RunInstant& before, const RunInstant& after, double share) {
+    return {before.time + share * (after.time - before.time), before.rotor_angle + share * (after.rotor_angle - before.rotor_angle)};
+}
+
+/// Share of the step at which a quantity that goes from a to b passes `level`; the step's end when it does not change.
+double crossing(double a, double b, double level) {
+    return a == b ? 1.0 : std::clamp((level - a) / (b - a), 0.0, 1.0);
+}
+
+}  // namespace
+
+Fate TrackedRock::fate() const {
+    if (sucked_up) return Fate::sucked_up;
+    if (inside) return Fate::in_cutter;
+    return was_inside ? Fate::spilled : Fate::never_entered;
+}
+
+double TrackedRock::mass() const {
+    return density * physics::sphere_volume(diameter);
+}
+
+FateTracker::FateTracker(const FateSettings& settings, geometry::Contour contour)
+    : settings_(settings),
+      contour_(std::move(contour)),
+      bins_(geometry::axial_bins(contour_, settings.bin_width)),
+      pipe_direction_(settings.mouth.direction.normalized()) {
+    // The pipe is prolonged down to the ring plane, so that no gap is left between the head's volume and the mouth.
+    const double rise = pipe_direction_[2];
+    pipe_start_ = rise > 0.0 ? std::min(0.0, (contour_.z_ring() - settings.mouth.centre[2]) / rise) : 0.0;
+}
+
+FateTracker::PipePlace FateTracker::place_in_pipe(const Vec3& position) const {
+    const Vec3 arm = position - settings_.mouth.centre;
+    const double depth = arm.dot(pipe_direction_);
+    return {depth, (arm - depth * pipe_direction_).norm()};
+}
+
+double FateTracker::signed_distance(const Vec3& position) const {
+    const double to_head = contour_.signed_distance(std::hypot(position[0], position[1]), position[2]);
+    const PipePlace place = place_in_pipe(position);
+    const double to_pipe = std::max(place.radius - settings_.mouth.radius, pipe_start_ - place.depth);
+    return std::min(to_head, to_pipe);
+}
+
+RockEvent FateTracker::event(const TrackedRock& rock, EventSurface surface, EventDirection direction, const Vec3& position,
+                             const Vec3& velocity, const RunInstant& moment) const {
+    RockEvent e{moment.time,          rock.id,     surface,       direction,    position, velocity, moment.rotor_angle,
+                azimuth_of(position), position[2], rock.diameter, rock.density, ""};
+    if (surface == EventSurface::head) e.bin = bins_[geometry::bin_of(bins_, position[2])].name;
+    return e;
+}
+
+RockEvent FateTracker::place(int id, double diameter, double density, const Vec3& position, const Vec3& velocity, const RunInstant& now) {
+    TrackedRock rock;
+    rock.id = id;
+    rock.diameter = diameter;
+    rock.density = density;
+    rock.position = position;
+    rock.inside = rock.was_inside = signed_distance(position) < 0.0;
+    const PipePlace pipe = place_in_pipe(position);
+    rock.sucked_up = pipe.depth >= settings_.mouth.depth && pipe.radius <= settings_.mouth.radius;
+    rocks_[id] = rock;
+    return event(rock, EventSurface::feed, EventDirection::in, position, velocity, now);
+}
+
+std::vector<RockEvent> FateTracker::follow(TrackedRock& rock, const Vec3& position, const Vec3& velocity, const RunInstant& before,
+                                           const RunInstant& after) {
+    std::vector<RockEvent> events;
+    const auto at = [&](double share) -> Vec3 { return rock.position + share * (position - rock.position); };
+    if (!rock.sucked_up) {
+        const PipePlace from = place_in_pipe(rock.position), to = place_in_pipe(position);
+        if (to.depth >= settings_.mouth.depth && to.radius <= settings_.mouth.radius) {
+            const double share = crossing(from.depth, to.depth, settings_.mouth.depth);
+            events.push_back(event(rock, EventSurface::mouth, EventDirection::in, at(share), velocity, between(before, after, share)));
+            rock.sucked_up = true;
+        }
+    }
+    const double margin = settings_.hysteresis * rock.diameter;
+    const double level = rock.inside ? margin : -margin;
+    const double from = signed_distance(rock.position), to = signed_distance(position);
+    const bool crosses = rock.inside ? to > level : to < level;
+    if (crosses && !rock.sucked_up) {
+        const double share = crossing(from, to, level);
+        const EventDirection direction = rock.inside ? EventDirection::out : EventDirection::in;
+        const RockEvent e = event(rock, EventSurface::head, direction, at(share), velocity, between(before, after, share));
+        events.push_back(e);
+        rock.inside = !rock.inside;
+        rock.was_inside = true;
+        if (direction == EventDirection::out) {
+            rock.last_exit_bin = geometry::bin_of(bins_, e.axial);
+            if (!rock.first_exit_time) {
+                rock.first_exit_time = e.time;
+                rock.first_exit_azimuth = e.azimuth;
+            }
+        }
+    }
+    rock.position = position;
+    return events;
+}
+
+std::vector<RockEvent> FateTracker::move(const Rocks& rocks, const RunInstant& before, const RunInstant& after) {
+    std::vector<RockEvent> events;
+    for (std::size_t p = 0; p < rocks.size(); ++p)
+        for (RockEvent& e : follow(rocks_.at(rocks.id[p]), rocks.position[p], rocks.velocity[p], before, after))
+            events.push_back(std::move(e));
+    std::stable_sort(events.begin(), events.end(), [](const RockEvent& a, const RockEvent& b) { return a.time < b.time; });
+    return events;
+}
+
+std::vector<RockEvent> FateTracker::leave(int id, const Vec3& position, const Vec3& velocity, const RunInstant& before, const RunInstant& after) {
+    TrackedRock& rock = rocks_.at(id);
+    std::vector<RockEvent> events = follow(rock, position, velocity, before, after);
+    const PipePlace place = place_in_pipe(position);
+    if (!rock.sucked_up && place.depth > 0.0 && place.radius <= settings_.mouth.radius) {
+        // The pipe ends before the depth that counts; sucked up rock is told by its mouth event all the same.
+        rock.sucked_up = true;
+        events.push_back(event(rock, EventSurface::mouth, EventDirection::in, position, velocity, after));
+    }
+    rock.in_run = false;
+    events.push_back(event(rock, EventSurface::domain, EventDirection::out, position, velocity, after));
+    return events;
+}
+
+FateTotals FateTracker::totals() const {
+    FateTotals totals;
+    for (const auto& [id, rock] : rocks_) {
+        CountAndMass& share = totals.by_fate[static_cast<std::size_t>(rock.fate())];
+        const double mass = rock.mass();
+        ++totals.placed.count;
+        totals.placed.mass += mass;
+        ++share.count;
+        share.mass += mass;
+    }
+    return totals;
+}
+
+std::vector<RockOutcome> FateTracker::outcomes() const {
+    std::vector<RockOutcome> outcomes;
+    for (const auto& [id, rock] : rocks_)
+        outcomes.push_back({id, rock.fate(), rock.last_exit_bin ? bins_[*rock.last_exit_bin].name : "", rock.first_exit_time,
+                            rock.first_exit_azimuth, rock.position, rock.diameter, rock.density});
+    return outcomes;
+}
+
+}  // namespace cutterflow::coupling

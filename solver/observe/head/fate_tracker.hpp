@@ -1,0 +1,85 @@
+#pragma once
+/// \file What becomes of every rock: fates, crossings and last exits, decided from the motion of its centre.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/head/axial_bins.hpp"
+#include "geometry/head/contour.hpp"
+#include "solver/ports/dem_engine.hpp"
+#include "solver/observe/run_recorder.hpp"
+#include "solver/ports/settings.hpp"
+
+namespace cutterflow::coupling {
+
+/// State of one placed rock. Plain numbers: a checkpoint writes it out.
+struct TrackedRock {
+    int id = 0;
+    double diameter = 0.0, density = 0.0;
+    Vec3 position = Vec3::Zero();  ///< last known [m]
+    bool in_run = true;            ///< false once it left the domain
+    bool inside = false;           ///< in the head's volume, with hysteresis
+    bool was_inside = false;       ///< has been in it at some time
+    bool sucked_up = false;        ///< final
+    std::optional<std::size_t> last_exit_bin;
+    std::optional<double> first_exit_time, first_exit_azimuth;  ///< [s], [rad]
+
+    Fate fate() const;
+    double mass() const;
+};
+
+/// One moment of the rocks' motion, for the interpolation of crossings within a step.
+struct RunInstant {
+    double time = 0.0;         ///< [s]
+    double rotor_angle = 0.0;  ///< [rad]
+};
+
+/// Follows every rock. The head's volume is that of geometry::Contour, joined with the mouth and the pipe behind it, so that rock on its way up the
+/// pipe has not left. A rock changes sides once its centre is `hysteresis` diameters beyond the boundary; the event stands where it passes
+/// that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.
+class FateTracker {
+public:
+    FateTracker(const FateSettings& settings, geometry::Contour contour);
+
+    const std::vector<geometry::AxialBin>& bins() const { return bins_; }
+
+    /// A rock is in the run from now on. \return its feed event
+    RockEvent place(int id, double diameter, double density, const Vec3& position, const Vec3& velocity, const RunInstant& now);
+
+    /// Takes the rocks' new positions. \return crossings in order of time
+    std::vector<RockEvent> move(const Rocks& rocks, const RunInstant& before, const RunInstant& after);
+
+    /// A rock left the domain at `position`; inside the suction pipe that is sucked up. \return its events
+    std::vector<RockEvent> leave(int id, const Vec3& position, const Vec3& velocity, const RunInstant& before, const RunInstant& after);
+
+    FateTotals totals() const;
+    std::vector<RockOutcome> outcomes() const;
+    Fate fate_of(int id) const { return rocks_.at(id).fate(); }
+
+    /// All rocks ever placed, by id; what a checkpoint keeps.
+    const std::map<int, TrackedRock>& rocks() const { return rocks_; }
+    void restore(std::map<int, TrackedRock> rocks) { rocks_ = std::move(rocks); }
+
+    /// Signed distance [m] to the head's volume with mouth and pipe; negative inside.
+    double signed_distance(const Vec3& position) const;
+
+private:
+    /// Where a point stands about the mouth's axis [m].
+    struct PipePlace {
+        double depth, radius;
+    };
+    PipePlace place_in_pipe(const Vec3& position) const;
+    std::vector<RockEvent> follow(TrackedRock& rock, const Vec3& position, const Vec3& velocity, const RunInstant& before, const RunInstant& after);
+    RockEvent event(const TrackedRock& rock, EventSurface surface, EventDirection direction, const Vec3& position, const Vec3& velocity,
+                    const RunInstant& moment) const;
+
+    FateSettings settings_;
+    geometry::Contour contour_;
+    std::vector<geometry::AxialBin> bins_;
+    Vec3 pipe_direction_;
+    double pipe_start_;  // depth at which pipe and head overlap
+    std::map<int, TrackedRock> rocks_;
+};
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,58 @@
+#include "solver/observe/head/outflow_sampler.hpp"
+
+#include <cmath>
+
+#include "geometry/base/axis_frame.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+constexpr int k_azimuths = 72;
+constexpr int k_circles = 4;
+
+/// Outward normal (radial, axial) of the contour at z, from its slope over a thousandth of its height.
+Eigen::Vector2d outward_normal(const geometry::Contour& contour, double z) {
+    const double h = 1e-3 * (contour.z_ring() - contour.z_hub());
+    const double slope = (contour.radius_at(z + h) - contour.radius_at(z - h)) / (2.0 * h);
+    return Eigen::Vector2d(1.0, -slope).normalized();
+}
+
+}  // namespace
+
+OutflowSampler::OutflowSampler(const geometry::Contour& contour, const std::vector<geometry::AxialBin>& bins, double offset) : bins_(bins.size()) {
+    for (const geometry::AxialBin& bin : bins) {
+        for (int i = 0; i < k_circles; ++i) {
+            const double share = (i + 0.5) / k_circles;
+            if (!std::isfinite(bin.z_min)) {
+                add_circle(std::max(contour.radius_at(contour.z_hub()), offset) * std::sqrt(share), contour.z_hub() - offset);
+                continue;
+            }
+            const double z = bin.z_min + share * (bin.z_max - bin.z_min);
+            if (bin.z_min >= contour.z_ring()) {
+                add_circle(contour.ring_radius() + offset, z);
+                continue;
+            }
+            const Eigen::Vector2d place = Eigen::Vector2d(contour.radius_at(z), z) + offset * outward_normal(contour, z);
+            add_circle(place[0], place[1]);
+        }
+    }
+}
+
+void OutflowSampler::add_circle(double radius, double z) {
+    for (int j = 0; j < k_azimuths; ++j) {
+        const double azimuth = 2.0 * k_pi * j / k_azimuths;
+        outward_.emplace_back(std::cos(azimuth), std::sin(azimuth), 0.0);
+        points_.push_back(radius * outward_.back() + Vec3(0.0, 0.0, z));
+    }
+}
+
+std::vector<double> OutflowSampler::sample(FluidEngine& fluid) const {
+    std::vector<Vec3> velocity(points_.size());
+    fluid.sample_velocity(points_, velocity);
+    constexpr std::size_t per_bin = k_azimuths * k_circles;
+    std::vector<double> mean(bins_, 0.0);
+    for (std::size_t i = 0; i < points_.size(); ++i) mean[i / per_bin] += velocity[i].dot(outward_[i]) / static_cast<double>(per_bin);
+    return mean;
+}
+
+}  // namespace cutterflow::coupling

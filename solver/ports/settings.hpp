@@ -1,0 +1,107 @@
+#pragma once
+/// \file What the coupled algorithm needs to know, as plain numbers. solver/foam fills it from constant/couplingProperties.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/head/contour.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::coupling {
+
+/// The carrier fluid.
+struct FluidProperties {
+    double density = 0.0;              ///< [kg/m3]
+    double kinematic_viscosity = 0.0;  ///< [m2/s]
+};
+
+/// Width of the mapping's kernels, sigma = max(gamma d, min_width_in_cells dx), and the largest solid fraction of a cell.
+struct KernelSettings {
+    double gamma = 1.0;               ///< [-]
+    double min_width_in_cells = 1.5;  ///< [-]
+    double max_solid_fraction = 0.7;  ///< [-]
+};
+
+/// Names as physics::catalogue() has them.
+struct ClosureSettings {
+    std::string drag = "brown_lawler";
+    std::string hindrance = "di_felice";
+    double added_mass = 0.5;     ///< C_AM [-]
+    double drag_modifier = 1.0;  ///< factor on the drag of every rock [-]
+    double sphericity = 1.0;     ///< of every rock [-], for drag laws that ask for it
+    std::string lift = "none";
+    bool viscous_force = true;   ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
+};
+
+/// The suction mouth: rock is sucked up for good once it is `depth` beyond the centre along `direction`, within `radius` of the mouth's
+/// axis.
+struct MouthSettings {
+    Vec3 centre = Vec3::Zero();      ///< [m]
+    Vec3 direction = Vec3::UnitZ();  ///< into the pipe
+    double radius = 0.0;             ///< [m]
+    double depth = 0.0;              ///< [m]
+};
+
+struct FateSettings {
+    std::filesystem::path contour;  ///< CSV z_m,r_m
+    double ring_radius = 0.0;       ///< [m]
+    double z_backplate = 0.0;       ///< [m]
+    double hysteresis = 0.25;       ///< of the rock's diameter
+    MouthSettings mouth;
+    double bin_width = 0.0;  ///< [m]
+};
+
+/// Sampling of the radial velocity just outside the contour.
+struct OutflowSettings {
+    double offset = 0.0;      ///< [m] outside the contour
+    double start_time = 0.0;  ///< [s], from which the report averages
+};
+
+/// A set of points at which the velocity is averaged.
+struct VelocitySetSettings {
+    std::string name;            ///< of the result's file; letters, digits, '-' and '_'
+    std::filesystem::path file;  ///< CSV x_m,y_m,z_m,rotating
+    int phases = 0;              ///< bins of rotor angle for phase averages; 0: none, and nothing by revolution either
+};
+
+/// Averages of the velocity at points, over whole revolutions.
+struct VelocitySettings {
+    double start_time = 0.0;  ///< [s], averaged from here on
+    double interval = 3.0;    ///< of rotor angle between samples [deg]
+    int blades = 1;           ///< phases at still points repeat with every blade
+    std::vector<VelocitySetSettings> sets;
+};
+
+/// The run ends when the undecided share of the placed mass is this small and every feed has been inserted.
+struct StopSettings {
+    double undecided = 0.0;  ///< [-]
+};
+
+struct CheckpointSettings {
+    double interval = 0.0;  ///< of simulated time [s]
+    int keep = 2;           ///< newest ones that stay
+};
+
+/// Everything that couplingProperties says to the coupled algorithm. Without rock only `outflow`, `velocity`, `checkpoint` and,
+/// for the outflow's bins, `fates` count.
+struct CouplingSettings {
+    bool has_rock = false;
+    std::filesystem::path rock_feed;  ///< CSV, with rock
+    KernelSettings kernel;
+    ClosureSettings closures;
+    std::optional<FateSettings> fates;  ///< needed with rock and with outflow
+    std::optional<OutflowSettings> outflow;
+    std::optional<VelocitySettings> velocity;
+    std::optional<StopSettings> stop;
+    std::optional<CheckpointSettings> checkpoint;
+};
+
+/// Every mistake of the settings (not of the files they name); `where` stands in front of each, as "constant/couplingProperties".
+std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where);
+
+/// Reads the contour `z_m,r_m`. \throws UserError with every mistake of the file
+geometry::Contour read_contour(const FateSettings& fates);
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,225 @@
+#pragma once
+/// \file A fluid and a DEM that do what a test needs, and no more.
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "solver/ports/dem_engine.hpp"
+#include "solver/ports/testing/synthetic_mesh.hpp"
+#include "solver/physics/drag.hpp"
+
+namespace cutterflow::coupling::testing {
+
+/// Cells that exchange momentum with rock and with nothing else: alpha du/dt = received, each for itself, so that a part of what rock hands
+/// over stays behind (drag implicit). A prescribed flow replaces that when `flow` is set.
+class FakeFluid final : public FluidEngine {
+public:
+    FakeFluid(SyntheticMesh m, RotorMotion rotor_motion, double step) : mesh(std::move(m)), motion(rotor_motion), time_step_(step) {
+        velocity.assign(mesh.size(), Vec3::Zero());
+        acceleration.assign(mesh.size(), Vec3::Zero());
+        void_fraction.assign(mesh.size(), 1.0);
+        retreat.assign(mesh.size(), 0.0);
+        curl.assign(mesh.size(), Vec3::Zero());
+        stress.assign(mesh.size(), Vec3::Zero());
+        received_.assign(mesh.size(), Vec3::Zero());
+    }
+
+    Cells cells() const override { return mesh.cells(); }
+    Steel steel() const override { return mesh.steel(); }
+    RotorMotion rotor() const override { return motion; }
+    FluidFields fields() const override { return {velocity, acceleration, void_fraction}; }
+    gsl::span<const Vec3> vorticity() override { return curl; }
+    gsl::span<const Vec3> stress_divergence() override { return stress; }
+    double time() const override { return time_; }
+    std::string time_name() const override {
+        std::ostringstream name;
+        name << time_;
+        return name.str();
+    }
+    double time_step() const override { return step_; }
+    bool running() override { return time_ < end_time - 1e-12; }
+
+    void begin_step(double travel_limit, double stop_time) override {
+        log += "begin ";
+        travel_limits.push_back(travel_limit);
+        step_ = std::min({time_step_, travel_limit, stop_time - time_});
+        time_ += step_;
+    }
+
+    gsl::span<const double> wall_retreat() const override { return retreat; }
+
+    void end_step(gsl::span<const double> old_values, gsl::span<const double> new_values, const MomentumExchange& exchange) override {
+        log += "end ";
+        if (new_values.empty()) return;
+        void_fraction_old.assign(old_values.begin(), old_values.end());
+        void_fraction.assign(new_values.begin(), new_values.end());
+        for (std::size_t c = 0; c < mesh.size(); ++c) {
+            const Vec3 before = velocity[c], acceleration_before = acceleration[c];
+            const double rate = exchange.drag_rate[c], inertia = exchange.inertia[c];
+            if (flow) {
+                velocity[c] = flow(mesh.centres[c], time_);
+            } else {
+                // alpha (u - u0)/dt = S - K (u - u0) - M ((u - u0)/dt - a0)
+                velocity[c] +=
+                    (exchange.explicit_source[c] + inertia * acceleration_before) * step_ / (void_fraction[c] + rate * step_ + inertia);
+            }
+            acceleration[c] = (velocity[c] - before) / step_;
+            received_[c] = exchange.explicit_source[c] - rate * (velocity[c] - before) - inertia * (acceleration[c] - acceleration_before);
+        }
+    }
+
+    void reset_void_fraction(gsl::span<const double> values) override {
+        log += "reset ";
+        void_fraction.assign(values.begin(), values.end());
+    }
+    gsl::span<const Vec3> received() const override { return received_; }
+    void sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> values) override {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(points.size()); ++i) values[i] = flow ? flow(points[i], time_) : Vec3::Zero();
+    }
+    FluidLoads loads() override { return given_loads; }
+    bool write_if_due() override { return writes_fields; }
+    void write_now() override { log += "write "; }
+
+    /// Starts again at a time, as a resumed run does.
+    void restart_at(double time) { time_ = time; }
+
+    SyntheticMesh mesh;
+    RotorMotion motion;
+    double end_time = std::numeric_limits<double>::infinity();
+    std::function<Vec3(const Vec3& position, double time)> flow;
+    std::vector<Vec3> velocity, acceleration;
+    std::vector<double> void_fraction, void_fraction_old;
+    std::vector<Vec3> curl, stress;  // of the flow, as a test wants them
+    std::vector<double> retreat;  // of walls, as a test wants it
+    std::vector<double> travel_limits;
+    FluidLoads given_loads;
+    bool writes_fields = false;
+    std::string log;
+
+private:
+    std::vector<Vec3> received_;
+    double time_ = 0.0;
+    double time_step_;
+    double step_ = 0.0;
+};
+
+/// Rocks without contacts: half kick, drift, half kick with added mass in the inertia.
+class FakeDem final : public DemEngine {
+public:
+    FakeDem(RotorMotion rotor_motion, double added_mass, double fluid_density)
+        : motion_(rotor_motion), added_mass_(added_mass), fluid_density_(fluid_density) {}
+
+    const Rocks& rocks() const override { return rocks_; }
+    double largest_time_step() const override { return 1e-4; }
+
+    std::vector<int> insert(const Rocks& rocks) override {
+        std::vector<int> inserted;
+        for (std::size_t p = 0; p < rocks.size(); ++p) {
+            if (refuses && refuses(rocks.id[p])) continue;
+            const auto at = std::lower_bound(rocks_.id.begin(), rocks_.id.end(), rocks.id[p]) - rocks_.id.begin();
+            rocks_.id.insert(rocks_.id.begin() + at, rocks.id[p]);
+            rocks_.position.insert(rocks_.position.begin() + at, rocks.position[p]);
+            rocks_.velocity.insert(rocks_.velocity.begin() + at, rocks.velocity[p]);
+            rocks_.angular_velocity.insert(rocks_.angular_velocity.begin() + at, rocks.angular_velocity[p]);
+            rocks_.diameter.insert(rocks_.diameter.begin() + at, rocks.diameter[p]);
+            rocks_.density.insert(rocks_.density.begin() + at, rocks.density[p]);
+            inserted.push_back(rocks.id[p]);
+        }
+        return inserted;
+    }
+    void remove(gsl::span<const int> ids) override {
+        for (const int id : ids)
+            erase(static_cast<std::size_t>(std::lower_bound(rocks_.id.begin(), rocks_.id.end(), id) - rocks_.id.begin()));
+    }
+
+    DemStep advance(double duration, const HydrodynamicForce& force) override {
+        DemStep step;
+        step.substeps = std::max(1, static_cast<int>(std::ceil(duration / largest_time_step())));
+        const double dt = duration / step.substeps;
+        for (std::size_t p = 0; p < rocks_.size(); ++p) {
+            const double volume = physics::sphere_volume(rocks_.diameter[p]);
+            const double inertia = (rocks_.density[p] + added_mass_ * fluid_density_) * volume;
+            const Vec3 weight = (rocks_.density[p] - fluid_density_) * volume * gravity;
+            Vec3 impulse = Vec3::Zero();
+            Vec3& v = rocks_.velocity[p];
+            for (int i = 0; i < step.substeps; ++i) {
+                const Vec3 first = force(p, v);
+                v += 0.5 * dt * (first + weight) / inertia;
+                rocks_.position[p] += dt * v;
+                const Vec3 second = force(p, v);
+                v += 0.5 * dt * (second + weight) / inertia;
+                impulse += 0.5 * dt * (first + second);
+            }
+            step.impulse.push_back(impulse);
+            step.contact_impulse.push_back(Vec3::Zero());  // its rocks never touch
+        }
+        time_ += duration;
+        for (std::size_t p = rocks_.size(); p-- > 0;) {
+            if (!leaves || !leaves(rocks_.position[p])) continue;
+            step.left_domain.push_back(rocks_.id[p]);
+            step.left_position.push_back(rocks_.position[p]);
+            step.left_velocity.push_back(rocks_.velocity[p]);
+            step.left_impulse.push_back(step.impulse[p]);
+            step.impulse.erase(step.impulse.begin() + static_cast<std::ptrdiff_t>(p));
+            step.contact_impulse.pop_back();
+            erase(p);
+        }
+        return step;
+    }
+
+    double rotor_angle() const override { return std::remainder(motion_.angle(time_) + angle_error, 2.0 * k_pi); }
+
+    void write_checkpoint(const std::filesystem::path& folder) override {
+        std::ofstream file(folder / "dem.restart", std::ios::binary);
+        const std::size_t n = rocks_.size();
+        file.write(reinterpret_cast<const char*>(&n), sizeof n);
+        file.write(reinterpret_cast<const char*>(&time_), sizeof time_);
+        each_array([&](void* data, std::size_t size) { file.write(static_cast<const char*>(data), static_cast<std::streamsize>(size)); });
+    }
+    void read_checkpoint(const std::filesystem::path& folder) override {
+        std::ifstream file(folder / "dem.restart", std::ios::binary);
+        std::size_t n = 0;
+        file.read(reinterpret_cast<char*>(&n), sizeof n);
+        file.read(reinterpret_cast<char*>(&time_), sizeof time_);
+        rocks_.id.resize(n);
+        rocks_.position.resize(n);
+        rocks_.velocity.resize(n);
+        rocks_.angular_velocity.resize(n);
+        rocks_.diameter.resize(n);
+        rocks_.density.resize(n);
+        each_array([&](void* data, std::size_t size) { file.read(static_cast<char*>(data), static_cast<std::streamsize>(size)); });
+    }
+
+    Vec3 gravity = Vec3::Zero();
+    std::function<bool(int id)> refuses;
+    std::function<bool(const Vec3& position)> leaves;
+    double angle_error = 0.0;
+
+private:
+    void erase(std::size_t p) {
+        const auto at = static_cast<std::ptrdiff_t>(p);
+        rocks_.id.erase(rocks_.id.begin() + at);
+        rocks_.position.erase(rocks_.position.begin() + at);
+        rocks_.velocity.erase(rocks_.velocity.begin() + at);
+        rocks_.angular_velocity.erase(rocks_.angular_velocity.begin() + at);
+        rocks_.diameter.erase(rocks_.diameter.begin() + at);
+        rocks_.density.erase(rocks_.density.begin() + at);
+    }
+    template <class Visit>
+    void each_array(const Visit& visit) {
+        const std::size_t n = rocks_.size();
+        visit(rocks_.id.data(), n * sizeof(int));
+        visit(rocks_.position.data(), n * sizeof(Vec3));
+        visit(rocks_.velocity.data(), n * sizeof(Vec3));
+        visit(rocks_.angular_velocity.data(), n * sizeof(Vec3));
+        visit(rocks_.diameter.data(), n * sizeof(double));
+        visit(rocks_.density.data(), n * sizeof(double));
+    }
+
+    RotorMotion motion_;
+    double added_mass_, fluid_density_;
+    Rocks rocks_;
+    double time_ = 0.0;
+};
+
+}  // namespace cutterflow::coupling::testing

@@ -1,0 +1,91 @@
+// Settings: good ones pass, bad ones name every key.
+#include <gtest/gtest.h>
+
+#include "solver/ports/settings.hpp"
+#include "solver/ports/testing/temporary_folder.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+CouplingSettings good_settings() {
+    CouplingSettings settings;
+    settings.has_rock = true;
+    settings.rock_feed = "constant/rockFeed.csv";
+    FateSettings fates;
+    fates.contour = "constant/contour.csv";
+    fates.ring_radius = 0.4;
+    fates.z_backplate = 0.03;
+    fates.mouth = {Vec3(0.22, 0, 0.05), Vec3::UnitZ(), 0.1, 0.2};
+    fates.bin_width = 0.03;
+    settings.fates = fates;
+    settings.outflow = OutflowSettings{0.015, 1.0};
+    settings.stop = StopSettings{0.05};
+    settings.checkpoint = CheckpointSettings{0.25, 2};
+    return settings;
+}
+
+const FluidProperties k_water{998.2, 1.0034e-6};
+
+TEST(Settings, of_the_contract_pass) {
+    EXPECT_TRUE(check_settings(good_settings(), k_water, "x").empty());
+}
+
+TEST(Settings, of_a_pure_flow_run_need_nothing) {
+    EXPECT_TRUE(check_settings(CouplingSettings{}, k_water, "x").empty());
+}
+
+TEST(Settings, name_every_mistake) {
+    CouplingSettings settings = good_settings();
+    settings.kernel.gamma = 0.0;
+    settings.closures.drag = "stokes";
+    settings.closures.drag_modifier = -1.0;
+    settings.fates->bin_width = 0.0;
+    settings.stop->undecided = 1.5;
+    settings.checkpoint->keep = 0;
+    settings.rock_feed.clear();
+    const auto mistakes = check_settings(settings, {0.0, 1e-6}, "constant/couplingProperties");
+    ASSERT_EQ(mistakes.size(), 8u);
+    for (const Mistake& mistake : mistakes) {
+        EXPECT_EQ(mistake.where, "constant/couplingProperties");
+        EXPECT_FALSE(mistake.rule.empty());
+        EXPECT_FALSE(mistake.remedy.empty());
+    }
+    const auto names = [&](const std::string& what) {
+        return std::any_of(mistakes.begin(), mistakes.end(), [&](const Mistake& m) { return m.what.find(what) != std::string::npos; });
+    };
+    EXPECT_TRUE(names("closures.drag = stokes"));
+    EXPECT_TRUE(names("kernel.gamma = 0"));
+    EXPECT_TRUE(names("checkpoint.keep = 0"));
+}
+
+TEST(Settings, count_the_void_fraction_once) {
+    CouplingSettings settings = good_settings();
+    settings.closures.drag = "gidaspow";
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
+    settings.closures.hindrance = "none";
+    settings.closures.lift = "mei";
+    EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
+    settings.closures.sphericity = 1.2;
+    settings.closures.lift = "magnus";
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 2u);
+}
+
+TEST(Settings, outflow_and_rock_need_the_contour) {
+    CouplingSettings settings;
+    settings.outflow = OutflowSettings{0.015, 0.0};
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
+}
+
+TEST(Contour, is_read_and_a_bad_one_named) {
+    const testing::TemporaryFolder folder;
+    FateSettings fates = *good_settings().fates;
+    fates.contour = folder.write("contour.csv", "z_m,r_m\n-0.485,0\n-0.4,0.2\n0,0.4\n");
+    EXPECT_NEAR(read_contour(fates).radius_at(-0.2), 0.3, 1e-15);
+    fates.contour = folder.write("down.csv", "z_m,r_m\n0,0.4\n-0.4,0.2\n");
+    EXPECT_THROW(read_contour(fates), UserError);
+    fates.contour = folder.path() / "absent.csv";
+    EXPECT_THROW(read_contour(fates), UserError);
+}
+
+}  // namespace
+}  // namespace cutterflow::coupling

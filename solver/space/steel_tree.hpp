@@ -1,0 +1,56 @@
+#pragma once
+/// \file Line of sight past triangles: a bounding volume hierarchy that answers "does anything stand between" and "how far is the nearest".
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <gsl/span>
+
+#include "geometry/base/vec3.hpp"
+#include "solver/ports/fluid_engine.hpp"
+
+namespace cutterflow::coupling {
+
+class SteelTree {
+public:
+    explicit SteelTree(gsl::span<const SteelTriangle> triangles);
+
+    bool empty() const { return triangles_.empty(); }
+
+    /// True when a triangle meets the segment from a to b [m]. Edges count, so that no segment slips between two triangles that share one.
+    bool blocks(const Vec3& a, const Vec3& b) const;
+
+    /// True when the point [m] lies inside the solid that the triangles bound: a ray from it crosses them an odd number of times. The ray
+    /// rises by a thousandth, so that floor and cover of a tank, which may be among the triangles, do not meet it.
+    /// \pre  the triangles close their solids, but for openings above or below
+    bool contains(const Vec3& point) const;
+
+    /// Distance [m] from a point to the nearest triangle, or `limit` when none is nearer.
+    double distance(const Vec3& point, double limit) const;
+
+private:
+    struct Box {
+        Vec3 lower, upper;
+    };
+    struct Node {
+        Box box;
+        std::int32_t first;  // leaf: its first triangle; else its second child (the first one follows the node)
+        std::int32_t count;  // leaf: number of triangles; else 0
+    };
+    struct Triangle {
+        Vec3 corner, edge1, edge2;
+    };
+    struct Item;  // a triangle while the tree is built
+
+    void build(std::vector<Item>& items, std::size_t begin, std::size_t end);
+    static bool meets(const Triangle& triangle, const Vec3& origin, const Vec3& direction, double edge_slack);
+    /// Calls `each(triangle)` for the triangles whose boxes the segment passes, until it returns true. \return whether it did
+    template <class Each>
+    bool along(const Vec3& origin, const Vec3& direction, const Each& each) const;
+    static double squared_distance(const Triangle& triangle, const Vec3& point);
+
+    std::vector<Node> nodes_;
+    std::vector<Triangle> triangles_;
+};
+
+}  // namespace cutterflow::coupling

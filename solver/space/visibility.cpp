@@ -1,0 +1,206 @@
+#include "solver/space/visibility.hpp"
+
+#include <cmath>
+
+namespace cutterflow::coupling {
+namespace {
+
+/// Below this sum of the nodes' weights the rock's centre is a source of its own, so that a rock in a tight corner still sees.
+constexpr double k_least_node_weight = 0.1;
+/// Kept hidden cells (4 bytes each) above which nodes that are out of use are dropped.
+constexpr std::size_t k_most_kept_cells = 32u << 20;
+/// A kept list reaches this much further than asked, because a rock's kernel widens gradually into coarser cells.
+constexpr double k_list_margin = 1.1;
+
+/// The vertices of an icosahedron on the unit sphere and its centre: where a rock's surroundings look from.
+const std::array<Vec3, 13>& view_points() {
+    static const std::array<Vec3, 13> points = [] {
+        std::array<Vec3, 13> p;
+        const double golden = 0.5 * (1.0 + std::sqrt(5.0));
+        std::size_t n = 0;
+        p[n++] = Vec3::Zero();
+        for (const double a : {-1.0, 1.0})
+            for (const double b : {-golden, golden})
+                for (int shift = 0; shift < 3; ++shift) {
+                    Vec3 v;
+                    v[shift] = 0.0;
+                    v[(shift + 1) % 3] = a;
+                    v[(shift + 2) % 3] = b;
+                    p[n++] = v.normalized();
+                }
+        return p;
+    }();
+    return points;
+}
+
+/// Where the lattice's nodes stand between whole multiples of its spacing. Steel likes round coordinates: a node in the plane of a face would
+/// see past it or not by rounding.
+const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);
+
+std::uint64_t key_of(int level, const std::array<std::int64_t, 3>& index) {
+    std::uint64_t key = static_cast<std::uint64_t>(level + 128);
+    for (const std::int64_t i : index) key = key << 18 | (static_cast<std::uint64_t>(i) & 0x3ffff);
+    return key;
+}
+
+}  // namespace
+
+CellTrees::CellTrees(const Cells& cells) : cells_(cells), trees_{PointTree({}), PointTree({})} {
+    std::array<std::vector<Vec3>, 2> centres;
+    std::array<std::vector<std::int32_t>, 2> indices;
+    for (std::size_t c = 0; c < cells.centres.size(); ++c) {
+        const Zone zone = cells.in_rotor[c] != 0 ? rotor : stator;
+        centres[zone].push_back(cells.centres[c]);
+        indices[zone].push_back(static_cast<std::int32_t>(c));
+    }
+    for (const Zone zone : k_zones) trees_[zone] = PointTree(std::move(centres[zone]), std::move(indices[zone]));
+}
+
+Visibility::Visibility(const Steel& steel, const CellTrees& trees)
+    : trees_(trees), steel_{SteelTree(steel.stator), SteelTree(steel.rotor)} {
+    for (const Zone zone : k_zones) hidden_[zone].assign(trees.cells().centres.size(), 0.0);
+}
+
+void Visibility::set_frames(const ZoneFrames& frames) {
+    frames_ = frames;
+    ++stamp_;
+    if (kept_cells_ > k_most_kept_cells) drop_old_nodes();
+}
+
+void Visibility::forget() {
+    for (const Zone zone : k_zones) {
+        for (const std::int32_t c : touched_[zone]) hidden_[zone][static_cast<std::size_t>(c)] = 0.0;
+        touched_[zone].clear();
+    }
+}
+
+void Visibility::look_from(const Vec3& position, double reach, double spacing) {
+    forget();
+    for (const Zone zone : k_zones) {
+        if (steel_[zone].empty()) continue;
+        const Vec3 here = frames_.from_absolute(zone, position);
+        const double clearance = steel_[zone].distance(here, reach);
+        if (clearance < reach) look_past(zone, here, clearance, reach, spacing);
+    }
+}
+
+void Visibility::look_from_point(const Vec3& position, double reach) {
+    forget();
+    for (const Zone zone : k_zones) {
+        SamplePoint point;
+        point.position = frames_.from_absolute(zone, position);
+        add_hidden(zone, point, 1.0, reach);
+        release(point);
+    }
+}
+
+void Visibility::look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing) {
+    const int level = static_cast<int>(std::lround(4.0 * std::log2(spacing)));
+    const double h = std::exp2(0.25 * level);
+    std::array<std::int64_t, 3> base;
+    Vec3 fraction;
+    for (int i = 0; i < 3; ++i) {
+        const double x = position[i] / h - k_lattice_offset[i];
+        base[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(x));
+        fraction[i] = x - std::floor(x);
+    }
+    std::array<Source, 9> sources;
+    std::size_t count = 0;
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        double weight = 1.0;
+        std::array<std::int64_t, 3> index = base;
+        for (int i = 0; i < 3; ++i) {
+            const bool upper = (corner >> i & 1) != 0;
+            weight *= upper ? fraction[i] : 1.0 - fraction[i];
+            if (upper) ++index[static_cast<std::size_t>(i)];
+        }
+        if (weight == 0.0) continue;
+        SamplePoint& point = node(steel, level, index, h);
+        weight *= seen_share(steel, position, clearance, h, point.position);
+        if (weight == 0.0) continue;
+        sources[count++] = {&point, weight};
+        sum += weight;
+    }
+    SamplePoint centre;
+    centre.position = position;
+    if (sum < k_least_node_weight) {
+        sources[count++] = {&centre, k_least_node_weight - sum};
+        sum = k_least_node_weight;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        add_hidden(steel, *sources[i].point, sources[i].weight / sum, reach + (sources[i].point->position - position).norm());
+    release(centre);
+}
+
+Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing) {
+    SamplePoint& point = nodes_[steel][key_of(level, index)];
+    if (point.last_used == 0)
+        point.position =
+            spacing * (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) + k_lattice_offset);
+    point.last_used = stamp_;
+    return point;
+}
+
+/// Share of the points around the rock (in the steel-free ball about its centre) that see a node.
+double Visibility::seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const Vec3& node) const {
+    if ((node - position).norm() <= clearance) return 1.0;
+    const double radius = std::min(clearance, spacing);
+    int seen = 0;
+    for (const Vec3& direction : view_points())
+        if (!steel_[steel].blocks(position + radius * direction, node)) ++seen;
+    return static_cast<double>(seen) / static_cast<double>(view_points().size());
+}
+
+void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, double reach) {
+    if (point.clearance_limit < reach) {
+        point.clearance_limit = k_list_margin * reach;
+        point.clearance = steel_[steel].distance(point.position, point.clearance_limit);
+    }
+    if (point.clearance >= reach) return;
+    for (const Zone cells : k_zones) {
+        for (const std::int32_t c : hidden_cells(steel, point, cells, reach)) {
+            double& share = hidden_[steel][static_cast<std::size_t>(c)];
+            if (share == 0.0) touched_[steel].push_back(c);
+            share += weight;
+        }
+    }
+}
+
+const std::vector<std::int32_t>& Visibility::hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach) {
+    HiddenCells& list = point.hidden[cells];
+    const bool moves = cells != steel;
+    if (list.reach >= reach && (!moves || list.stamp == stamp_)) return list.cells;
+    kept_cells_ -= list.cells.size();
+    list.cells.clear();
+    list.reach = moves ? reach : k_list_margin * reach;
+    list.stamp = stamp_;
+    found_.clear();
+    trees_.of(cells).within(frames_.change(steel, cells, point.position), list.reach, found_);
+    for (const Neighbour& n : found_) {
+        if (n.squared_distance <= point.clearance * point.clearance) continue;
+        const Vec3 centre = frames_.change(cells, steel, trees_.cells().centres[static_cast<std::size_t>(n.index)]);
+        ++tests_;
+        if (steel_[steel].blocks(point.position, centre)) list.cells.push_back(n.index);
+    }
+    kept_cells_ += list.cells.size();
+    return list.cells;
+}
+
+void Visibility::release(const SamplePoint& point) {
+    for (const HiddenCells& list : point.hidden) kept_cells_ -= list.cells.size();
+}
+
+void Visibility::drop_old_nodes() {
+    for (Lattice& lattice : nodes_)
+        for (auto i = lattice.begin(); i != lattice.end();) {
+            if (i->second.last_used + 2 >= stamp_) {
+                ++i;
+                continue;
+            }
+            release(i->second);
+            i = lattice.erase(i);
+        }
+}
+
+}  // namespace cutterflow::coupling

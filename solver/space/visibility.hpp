@@ -1,0 +1,102 @@
+#pragma once
+/// \file Which part of a rock a cell sees past the steel, so that nothing is mapped through a thin blade.
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "solver/ports/fluid_engine.hpp"
+#include "solver/space/point_tree.hpp"
+#include "solver/space/steel_tree.hpp"
+#include "solver/space/zone_frames.hpp"
+
+namespace cutterflow::coupling {
+
+/// This rank's cells for searches: one tree per zone, in the zone's own frame, built once.
+class CellTrees {
+public:
+    explicit CellTrees(const Cells& cells);
+    const PointTree& of(Zone zone) const { return trees_[zone]; }
+    const Cells& cells() const { return cells_; }
+
+private:
+    Cells cells_;
+    std::array<PointTree, 2> trees_;
+};
+
+/// Visible fraction of a rock from each cell around it.
+///
+/// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: the eight nodes around its centre with
+/// trilinear weights, which pass smoothly from node to node as the rock moves. A cell is hidden from a node when a triangle stands between
+/// the two. Nodes, steel and cells of one zone do not move against each other, so a node's hidden cells are found once and kept; cells of
+/// the other zone are looked at anew for every mesh position. A node that the rock's surroundings cannot see (beyond a blade, inside steel)
+/// loses its weight in proportion, the others take it over. The visible fraction is the product over the steel of both zones.
+/// Where no steel is within reach nothing of this is done.
+class Visibility {
+public:
+    Visibility(const Steel& steel, const CellTrees& trees);
+
+    /// The mesh stands at this position from now on.
+    void set_frames(const ZoneFrames& frames);
+
+    /// Looks from a rock at `position` [m, absolute] at all cells within `reach` [m]. \param spacing  of the lattice [m]; it is rounded to
+    /// quarter octaves, so that rocks of one size share their nodes. Replaces what was seen before.
+    void look_from(const Vec3& position, double reach, double spacing);
+
+    /// As look_from, from the position alone (no lattice).
+    void look_from_point(const Vec3& position, double reach);
+
+    /// Visible fraction [-] of the rock from a cell of this rank within reach.
+    double visible_fraction(std::int32_t cell) const {
+        const auto c = static_cast<std::size_t>(cell);
+        const double fraction = (1.0 - hidden_[stator][c]) * (1.0 - hidden_[rotor][c]);
+        return fraction > k_rounding ? fraction : 0.0;
+    }
+
+    /// Numbers of kept nodes and of line-of-sight tests so far, for measurements.
+    std::size_t kept_nodes() const { return nodes_[stator].size() + nodes_[rotor].size(); }
+    std::size_t tests() const { return tests_; }
+
+private:
+    static constexpr double k_rounding = 1e-12;  // of the sum of a hidden cell's shares
+
+    struct HiddenCells {
+        double reach = -1.0;      // that the list is complete for
+        std::uint64_t stamp = 0;  // of the mesh position that it holds for (cells of the other zone)
+        std::vector<std::int32_t> cells;
+    };
+    struct SamplePoint {
+        Vec3 position;
+        double clearance = 0.0;  // distance to the steel, or the reach that was asked for
+        double clearance_limit = -1.0;
+        std::array<HiddenCells, 2> hidden;  // by the cells' zone
+        std::uint64_t last_used = 0;
+    };
+    struct Source {
+        SamplePoint* point;
+        double weight;
+    };
+    using Lattice = std::unordered_map<std::uint64_t, SamplePoint>;
+
+    void forget();
+    void look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing);
+    SamplePoint& node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing);
+    double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const Vec3& node) const;
+    void add_hidden(Zone steel, SamplePoint& point, double weight, double reach);
+    const std::vector<std::int32_t>& hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach);
+    void release(const SamplePoint& point);
+    void drop_old_nodes();
+
+    const CellTrees& trees_;
+    std::array<SteelTree, 2> steel_;
+    ZoneFrames frames_;
+    std::uint64_t stamp_ = 1;
+    std::array<Lattice, 2> nodes_;  // by the steel's zone
+    std::size_t kept_cells_ = 0;
+    std::size_t tests_ = 0;
+    std::array<std::vector<double>, 2> hidden_;         // hidden share per cell, by the steel's zone
+    std::array<std::vector<std::int32_t>, 2> touched_;  // cells whose share is not 0
+    std::vector<Neighbour> found_;
+};
+
+}  // namespace cutterflow::coupling

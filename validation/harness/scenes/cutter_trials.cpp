@@ -1,0 +1,87 @@
+#include "validation/harness/scenes/cutter_trials.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "cases/runner/stages.hpp"
+#include "geometry/base/file_content.hpp"
+#include "validation/harness/pareto.hpp"
+#include "validation/harness/program_run.hpp"
+
+namespace cutterflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_crown = CUTTERFLOW_SOURCE_DIR "/cases/examples/model_cutter/crown.toml";
+constexpr const char* k_top_bin = "60-90mm";  // the first below the ring, whose steel reaches down to 50 mm
+constexpr const char* k_default = "default";
+
+/// The model cutter at 60 rpm, a revolution a second.
+std::string study(const CutterOptions& options) {
+    constexpr double k_twelfth = 1.0 / 12.0;
+    std::string text = "[cutter]\nfile = \"../cutter.stl\"\nunit = \"m\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n";
+    text += fmt::format("[report]\noutflow_start_s = {}\n", k_twelfth);
+    text += fmt::format("[run]\nflow_revolutions = {}\nmax_revolutions = {}\nstop_undecided = 0\n", k_twelfth,
+                        (options.rock ? 2.0 : 3.0) * k_twelfth);
+    if (options.max_courant) text += fmt::format("max_courant = {}\n", *options.max_courant);
+    if (!options.rock) return text;
+    if (options.gamma) text += fmt::format("[kernel]\ngamma = {}\n", *options.gamma);
+    text += "[rock]\n";
+    if (options.dem_step) text += fmt::format("time_step_fraction = {}\n", *options.dem_step);
+    if (options.youngs_modulus) text += fmt::format("youngs_modulus_pa = {}\n", *options.youngs_modulus);
+    return text + "[[feed]]\ncount = 60\n[[feed.class]]\ndiameter_m = 0.02\n";
+}
+
+double top_outflow(const nlohmann::json& results) {
+    for (const nlohmann::json& bin : results.at("outflow").at("bins"))
+        if (bin.at("name") == k_top_bin) return bin.at("radial_velocity_mean_m_s");
+    throw std::runtime_error(std::string("the run has no bin ") + k_top_bin);
+}
+
+/// \return its cost; the outflow [m/s] stands in the place of the error
+Trial run_trial(const fs::path& folder, const CutterOptions& options) {
+    write_file(folder / "study.toml", study(options));
+    const fs::path common = folder.parent_path(), donor = common / k_default / "run";
+    if (!fs::exists(common / "cutter.stl")) run_cutterflow(common, {"generate-cutter", k_crown, "-o", "cutter.stl"});
+    const bool first = folder.filename() == k_default;
+    if (!first) cases::share_stages(donor, folder / "run", {"geometry", "mesh"});
+    const double outflow = top_outflow(run_study(folder, first ? fs::path() : donor));
+    return {stage_core_s(folder / "run", "run"), outflow};
+}
+
+void show(Verification& verification, const std::string& title, const std::vector<CutterValue>& values, const std::vector<Trial>& trials) {
+    Chart chart{title, "core seconds", "distance of the outflow from the finest run, %", {}};
+    ExhibitTable table{
+        fmt::format("Outflow {} below the ring plane: {}", k_top_bin, title), {"value", "core seconds", "outflow, m/s"}, {}};
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        const double distance = 100.0 * std::abs(trials[v].error / trials.back().error - 1.0);
+        chart.points.push_back({values[v].label, trials[v].core_s, distance, values[v].standard});
+        table.rows.push_back({values[v].label, fmt::format("{:.1f}", trials[v].core_s), fmt::format("{:.5f}", trials[v].error)});
+        if (values[v].standard)
+            verification.report("distance of the default's outflow from the finest run: " + title, "%", distance, {},
+                                {"exact", "first bin below the ring, " + std::string(k_top_bin), {}});
+    }
+    verification.table(table);
+    verification.chart(chart);
+}
+
+}  // namespace
+
+void run_cutter_sweeps(Verification& verification, const CutterOptions& standard, const std::vector<CutterSweep>& sweeps) {
+    const Trial of_defaults = finished_or_run<CutterOptions>(verification.folder(k_default), standard, run_trial);
+    for (std::size_t s = 0; s < sweeps.size(); ++s) {
+        std::vector<Trial> trials;
+        for (std::size_t v = 0; v < sweeps[s].values.size(); ++v) {
+            const CutterValue& value = sweeps[s].values[v];
+            trials.push_back(value.standard ? of_defaults
+                                            : finished_or_run<CutterOptions>(verification.folder(fmt::format("run_{}_{}", s, v)),
+                                                                             value.options, run_trial));
+        }
+        show(verification, sweeps[s].title, sweeps[s].values, trials);
+    }
+}
+
+}  // namespace cutterflow::validation

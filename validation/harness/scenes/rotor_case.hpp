@@ -1,0 +1,16 @@
+#pragma once
+/// \file The smallest case with a sliding interface: two lumps of steel that turn in a cylinder of water (cases/testing/tiny_rotor_mesh.hpp).
+#include <filesystem>
+#include <string>
+
+#include "cases/scenes/cutter/case_inputs.hpp"
+
+namespace cutterflow::validation {
+
+/// Writes the case into `folder` (absent) and makes its mesh, water at rest. Walls that inputs.rock names are added to the rotor's own
+/// steel; their surfaces must be put into the folder afterwards.
+/// \param inputs  as cases::test::tiny_inputs() with changes; without inputs.rock flow alone
+/// \param feed    content of constant/rockFeed.csv, with rock
+void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed);
+
+}  // namespace cutterflow::validation

@@ -1,0 +1,59 @@
+#pragma once
+/// \file The verification suite: finds its cases, starts their programs, keeps and publishes what they found.
+/// docs/design/009-verification.md is the contract with the programs.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "validation/harness/suite/case_results.hpp"
+#include "validation/harness/suite/effort.hpp"
+
+namespace cutterflow::validation {
+
+
+/// One folder of validation/cases, as the head of its README.md tells it.
+struct VerificationCase {
+    std::string name;                ///< of the folder and of the program
+    std::string title;               ///< the README's first line
+    Effort effort = Effort::fast;    ///< the least effort at which it has something to check
+    std::vector<std::string> needs;  ///< programs without which it is skipped
+    bool resumes = false;            ///< its program goes on with what it finds in its folder
+};
+
+/// Where things stand.
+struct VerificationPlaces {
+    std::filesystem::path cases;     ///< validation/cases
+    std::filesystem::path programs;  ///< one program a case
+    std::filesystem::path tools;     ///< folder of cutterFoam
+    std::filesystem::path kept;      ///< published results, <case>.json
+};
+
+/// All cases, by name. \throws UserError  with every README whose head is wrong
+std::vector<VerificationCase> find_verification_cases(const std::filesystem::path& folder);
+
+/// Cases by name. \throws UserError  for names that are not there; it lists those that are
+std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& all, const std::vector<std::string>& names);
+
+struct VerificationSettings {
+    std::filesystem::path folder;  ///< receives <case>.json, <case>/ (what the case wrote), <case>.log, the pages
+    Effort effort = Effort::standard;
+    bool resume = false;  ///< cases finished with the same programs and at least this effort are kept; begun ones that can go on do so
+};
+
+/// Runs cases one after the other; each finished one is kept in the folder at once. A case that fails is told of and the others go on.
+/// \return results of these cases, in their order
+/// \throws UserError    when the folder holds something else
+/// \throws Interrupted  when the user stops it; what is finished is kept
+std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& cases, const VerificationPlaces& places,
+                                                     const VerificationSettings& settings,
+                                                     const std::function<void(const std::string&)>& say);
+
+/// The results that lie in a folder as <case>.json, by name of the case; empty when there is no such folder.
+std::vector<VerifiedCase> read_verification(const std::filesystem::path& folder);
+
+/// `newer` in the place of what `older` has of the same cases, unless that was run with more effort; by name.
+std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& older,
+                                                        const std::vector<VerifiedCase>& newer);
+
+}  // namespace cutterflow::validation

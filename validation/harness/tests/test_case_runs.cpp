@@ -1,0 +1,237 @@
+/// The suite's runner with shell scripts in the place of cases.
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "validation/harness/suite/case_runs.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::string quantity(const std::string& verdict) {
+    return R"({"quantity":"speed","unit":"m/s","reference":1.0,"value":1.1,"error":0.1,"tolerance":0.2,"aim":0.05,)"
+           R"("rule":"relative","verdict":")" + verdict + R"(","source":"Legendre2006","note":"a cause"})";
+}
+
+class VerificationRun : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+        root_ = fs::temp_directory_path() / ("cutterflow_verify_" + std::string(test->name()));
+        fs::remove_all(root_);
+        places_ = {root_ / "cases", root_ / "programs", root_ / "bin", root_ / "kept"};
+        settings_.folder = root_ / "results";
+        fs::create_directories(places_.programs);
+    }
+    void TearDown() override { fs::remove_all(root_); }
+
+    void add_case(const std::string& name, const std::string& script, const std::string& head = "- class: fast\n") {
+        write_file(places_.cases / name / "README.md", "# Case " + name + "\n\n" + head + "\nText.\n");
+        if (script.empty()) return;
+        write_file(places_.programs / name, "#!/bin/sh\n" + script + "\n");
+        fs::permissions(places_.programs / name, fs::perms::owner_all);
+    }
+    /// A case that finds one quantity and adds a line to a file each time it runs.
+    void add_case_with(const std::string& name, const std::string& verdict) {
+        add_case(name, fmt::format("echo run >> {}\necho '[{}]' > $2/quantities.json\n{}", (root_ / (name + ".runs")).string(),
+                                   quantity(verdict), verdict == "fail" ? "exit 4" : "exit 0"));
+    }
+    std::size_t times_run(const std::string& name) const {
+        return fs::exists(root_ / (name + ".runs")) ? fs::file_size(root_ / (name + ".runs")) / 4 : 0;
+    }
+    std::vector<VerifiedCase> run() {
+        return run_verification(find_verification_cases(places_.cases), places_, settings_, [](const std::string&) {});
+    }
+
+    fs::path root_;
+    VerificationPlaces places_;
+    VerificationSettings settings_;
+};
+
+TEST_F(VerificationRun, tells_each_case_by_what_its_program_found) {
+    add_case_with("bad", "fail");
+    add_case_with("good", "pass");
+    add_case_with("loose", "not converged");
+    const auto results = run();
+    ASSERT_EQ(results.size(), 3u);
+    EXPECT_EQ(results[0].verdict(), CaseVerdict::fail);
+    EXPECT_EQ(results[1].verdict(), CaseVerdict::pass);
+    EXPECT_EQ(results[1].title, "Case good");
+    EXPECT_EQ(results[1].quantities.at(0).value, 1.1);
+    EXPECT_EQ(results[2].verdict(), CaseVerdict::not_converged);
+    EXPECT_EQ(read_verification(settings_.folder).size(), 3u) << "every case has its file";
+}
+
+TEST_F(VerificationRun, skips_what_cannot_run_here_and_never_passes_it) {
+    add_case("unbuilt", "");
+    add_case("bare", "exit 0", "- class: fast\n- needs: sh, noSuchSolver\n");
+    for (const VerifiedCase& result : run()) {
+        EXPECT_EQ(result.verdict(), CaseVerdict::skipped);
+        EXPECT_FALSE(result.reason.empty());
+    }
+    EXPECT_THAT(read_verification(settings_.folder)[0].reason, HasSubstr("noSuchSolver not found"));
+}
+
+TEST_F(VerificationRun, a_program_that_breaks_or_says_nothing_fails) {
+    add_case("crash", "echo 'the mesh is gone'; exit 3");
+    add_case("killed", "kill -9 $$");
+    for (const VerifiedCase& result : run()) EXPECT_EQ(result.verdict(), CaseVerdict::fail);
+    const auto kept = read_verification(settings_.folder);
+    EXPECT_EQ(kept[0].verdict(), CaseVerdict::fail);
+    EXPECT_THAT(kept[0].reason, HasSubstr("the mesh is gone"));
+    add_case("silent", "exit 0");
+    EXPECT_EQ(run().back().verdict(), CaseVerdict::fail);
+}
+
+TEST_F(VerificationRun, resume_keeps_what_the_same_programs_finished) {
+    add_case_with("one", "pass");
+    run();
+    settings_.resume = true;
+    add_case_with("two", "pass");
+    run();
+    EXPECT_EQ(times_run("one"), 1u);
+    EXPECT_EQ(times_run("two"), 1u);
+    settings_.effort = Effort::longest;  // asks for more than what was done
+    run();
+    EXPECT_EQ(times_run("one"), 2u);
+    write_file(places_.tools / "cutterFoam", "another solver");
+    run();
+    EXPECT_EQ(times_run("one"), 3u);
+    settings_.resume = false;
+    run();
+    EXPECT_EQ(times_run("two"), 4u);
+}
+
+TEST_F(VerificationRun, replaces_no_result_with_one_of_less_effort) {
+    add_case_with("one", "pass");
+    settings_.effort = Effort::standard;
+    run();
+    settings_.effort = Effort::fast;
+    EXPECT_THROW(run(), UserError);
+    EXPECT_EQ(read_verification(settings_.folder).at(0).effort, "standard");
+    settings_.resume = true;
+    run();
+    EXPECT_EQ(times_run("one"), 1u);
+}
+
+TEST_F(VerificationRun, refuses_what_a_case_refuses_and_passes_over_files_of_others) {
+    add_case("bad_reference", "echo 'reference.csv:3: \"nan\"'; exit 2");
+    try {
+        run();
+        FAIL() << "taken";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("reference.csv:3"));
+    }
+    write_file(settings_.folder / "all.json", "[]");
+    write_file(settings_.folder / "empty.json", "");
+    EXPECT_TRUE(read_verification(settings_.folder).empty());
+}
+
+TEST_F(VerificationRun, resume_leaves_the_begun_work_of_cases_that_go_on_with_it) {
+    // Each start finds one file more, as long as it may go on.
+    const std::string script = fmt::format("touch $2/part_$(ls $2 | grep -c part)\nls $2 | grep -c part > {}/$(basename $2).parts\nkill -9 $$",
+                                           root_.string());
+    add_case("goes_on", script, "- class: fast\n- resumes: yes\n");
+    add_case("begins_anew", script);
+    const auto parts = [&](const std::string& name) { return read_file(root_ / (name + ".parts")); };
+    // As if the suite itself had been killed: there are no results yet.
+    const auto start_again = [&] {
+        for (const char* name : {"goes_on", "begins_anew"}) fs::remove(settings_.folder / (std::string(name) + ".json"));
+        run();
+    };
+    run();
+    settings_.resume = true;
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "2\n");
+    EXPECT_EQ(parts("begins_anew"), "1\n");
+    write_file(places_.tools / "cutterFoam", "another solver");
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "1\n");
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "2\n");
+    settings_.resume = false;
+    start_again();
+    EXPECT_EQ(parts("goes_on"), "1\n");
+}
+
+TEST_F(VerificationRun, refuses_unknown_names_wrong_heads_and_folders_of_others) {
+    add_case_with("settling", "pass");
+    add_case_with("couette", "pass");
+    const auto all = find_verification_cases(places_.cases);
+    EXPECT_EQ(select_cases(all, {"settling"}).at(0).name, "settling");
+    try {
+        select_cases(all, {"setling", "x"});
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 2u);
+        EXPECT_THAT(error.what(), HasSubstr("The cases are couette, settling"));
+        EXPECT_THAT(error.what(), HasSubstr("Did you mean settling?"));
+    }
+    write_file(root_ / "thesis/chapter.tex", "mine");
+    settings_.folder = root_ / "thesis";
+    EXPECT_THROW(run(), UserError);
+    add_case("headless", "exit 0", "- class: quick\n");
+    EXPECT_THROW(find_verification_cases(places_.cases), UserError);
+}
+
+TEST_F(VerificationRun, keeps_the_result_that_was_run_with_more_effort) {
+    VerifiedCase older, newer;
+    older.name = newer.name = "settling";
+    older.effort = "standard";
+    newer.effort = "fast";
+    older.quantities = newer.quantities = {quantity_from_json(nlohmann::json::parse(quantity("pass")), "here")};
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard");
+    EXPECT_EQ(merged_verification({newer}, {older}).at(0).effort, "standard");
+    newer.quantities = {quantity_from_json(nlohmann::json::parse(quantity("fail")), "here")};
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).verdict(), CaseVerdict::fail) << "a failure gives way to nothing";
+    newer.quantities = older.quantities;
+    newer.effort = "long";
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "long");
+    newer.quantities.clear();
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard") << "a skipped case replaces nothing";
+}
+
+TEST_F(VerificationRun, pages_name_every_shortfall_with_its_cause) {
+    add_case_with("bad", "fail");
+    add_case_with("good", "pass");
+    add_case("unbuilt", "");
+    const auto results = run();
+    const std::string markdown = verification_markdown(results, "../cases/");
+    EXPECT_THAT(markdown, HasSubstr("1 of 2 quantities of 3 cases pass"));
+    EXPECT_THAT(markdown, HasSubstr("[bad](#bad), speed [m/s], **fail**: 10 % where ≤ 20 % is asked. a cause"));
+    EXPECT_THAT(markdown, HasSubstr("[unbuilt](#unbuilt), skipped: its program"));
+    EXPECT_THAT(markdown, HasSubstr("(../cases/good/README.md)"));
+    const std::string page = verification_page(results, "../cases/", root_ / "charts");
+    EXPECT_THAT(page, HasSubstr("<span class=\"failed\">fail</span>: 10 % where ≤ 20 % is asked. a cause"));
+    EXPECT_THAT(page, HasSubstr("not built"));
+    EXPECT_THAT(page, HasSubstr("<a href=\"#good\">good</a>, speed [m/s]: 10 % where ≤ 5 % is the aim"));
+    EXPECT_THAT(markdown, HasSubstr("[good](#good), speed [m/s]: 10 % where ≤ 5 % is the aim"));
+}
+
+TEST_F(VerificationRun, shows_tables_and_charts_and_keeps_them_with_the_result) {
+    Exhibits exhibits;
+    exhibits.tables = {{"Matrix", {"what", "outcome"}, {{"d/dx 0.2", "stable | slow"}}}};
+    exhibits.charts = {{"kernel width", "core seconds", "error, %", {{"0.5", 10.0, 2.5, false}, {"1", 20.0, 0.0, true}}}};
+    add_case("shows", fmt::format("echo '[{}]' > $2/quantities.json\necho '{}' > $2/exhibits.json", quantity("pass"),
+                                  exhibits_json(exhibits).dump()));
+    run();
+    const auto results = read_verification(settings_.folder);
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(exhibits_json(results[0].exhibits), exhibits_json(exhibits));
+    const std::string markdown = verification_markdown(results, "../cases/");
+    EXPECT_THAT(markdown, HasSubstr("### Matrix"));
+    EXPECT_THAT(markdown, HasSubstr("| d/dx 0.2 | stable \\| slow |"));
+    EXPECT_THAT(markdown, HasSubstr("| 1 (default) | 20 | 0 |"));
+    const std::string page = verification_page(results, "../cases/", root_ / "charts");
+    EXPECT_THAT(page, HasSubstr("stable | slow"));
+    if (postproc::gnuplot_is_installed()) EXPECT_THAT(page, HasSubstr("1 (default)"));
+}
+
+}  // namespace
+}  // namespace cutterflow::validation

@@ -1,0 +1,233 @@
+/// Rock between the blades of a turning rotor, in small: 2,928 cells, 20 rocks, a sliding interface, walls that push both. What must hold
+/// in every step of every run is held here: volume, momentum and flow balances, a batch that enters without a blow, a killed run that
+/// resumes.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "cases/runner/rank_change.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/head/head_names.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "postproc/draw/head_series.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/rotor_case.hpp"
+
+namespace cutterflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int k_rocks = 20;
+constexpr double k_rock_diameter = 0.02;
+constexpr double k_release = 0.05;  // [s]
+constexpr double k_end = 0.3;
+
+/// Rock in the gap ahead of a lump of steel and in its lee.
+std::string feed_table() {
+    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
+    for (int i = 0; i < k_rocks; ++i) {
+        const double azimuth = (66.0 + 26.0 * (i % 4)) * k_pi / 180.0 + 2.0 * k_pi * k_release;
+        const double radius = 0.1275;
+        text += fmt::format("{},{},{},{},{},{},2650\n", i + 1, k_release, radius * std::cos(azimuth), radius * std::sin(azimuth),
+                            -0.2 + 0.045 * (i / 4), k_rock_diameter);
+    }
+    return text;
+}
+
+fs::path rotor_case(const std::string& name, const std::string& feed = feed_table(), double end = k_end) {
+    const fs::path folder = scratch_folder(name);
+    cases::CaseInputs inputs = cases::test::tiny_inputs();
+    inputs.times.end = end;
+    inputs.times.checkpoint_interval = 0.05;
+    inputs.times.write_interval = 0.1;
+    inputs.rock.emplace();
+    write_rotor_case(folder, inputs, feed);
+    return folder;
+}
+
+using Table = std::map<std::string, std::vector<double>>;
+
+Table table_of(const fs::path& folder, const std::string& name) {
+    const std::string file = name.substr(name.find('/') + 1);
+    return read_columns(folder / "postProcessing" / name.substr(0, name.find('/')) / "0" / file);
+}
+
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
+
+class Rotor : public ::testing::TestWithParam<int> {};
+
+TEST_P(Rotor, conserves_volume_momentum_and_flow_with_rock_between_its_blades) {
+    const fs::path folder = rotor_case(fmt::format("rotor_{}", GetParam()));
+    run_cutter_foam(folder, GetParam());
+    const Table balance = table_of(folder, "balance/balance.csv");
+    ASSERT_NEAR(balance.at("time_s").back(), k_end, 1e-9);
+    EXPECT_EQ(balance.at("rocks").back(), k_rocks);
+    EXPECT_GT(largest(balance.at("contacts")), 0);
+    EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
+    EXPECT_LE(largest(balance.at("momentum_exchange_error")), 1e-10);
+
+    double flow_balance = 0.0;
+    const auto& time = balance.at("time_s");
+    for (std::size_t i = 0; i < time.size(); ++i)
+        if (time[i] > k_release) flow_balance = std::max(flow_balance, balance.at("flow_balance_error")[i]);
+    EXPECT_LE(flow_balance, 1e-6);
+
+    const Table fates = table_of(folder, "rock/fates.csv");
+    double placed = 0.0;
+    for (const char* fate : {"sucked_up_count", "spilled_count", "in_cutter_count", "never_entered_count"}) placed += fates.at(fate).back();
+    EXPECT_EQ(placed, k_rocks);
+    // test_paraview opens this run; surfaceMeshExtract wrote text where a run has a binary file.
+    run_in_case(folder, {"surfaceConvert", names::cutter_surface, "geometry/binary.stlb"});
+    fs::rename(folder / "geometry/binary.stlb", folder / names::cutter_surface);
+    postproc::write_head_series(folder);
+    fmt::print(
+        "rotor on {} rank(s): {} steps, solid volume error {:.1e}, momentum exchange error {:.1e}, flow balance {:.1e} of Q, spilled {}\n",
+        GetParam(), time.size(), largest(balance.at("solid_volume_error")), largest(balance.at("momentum_exchange_error")), flow_balance,
+        fates.at("spilled_count").back());
+}
+
+TEST_P(Rotor, takes_a_batch_of_rock_without_a_blow) {
+    // What the step of insertion changes outlet flow and pressure by is no more than what steps with the same rock change them by later.
+    const fs::path folder = rotor_case(fmt::format("rotor_batch_{}", GetParam()));
+    run_cutter_foam(folder, GetParam());
+    const Table balance = table_of(folder, "balance/balance.csv");
+    const auto& time = balance.at("time_s");
+    const auto& pressure = balance.at("outlet_pressure_m2_s2");
+    double at_insertion = 0.0, later = 0.0;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+        const double change = std::abs(pressure[i] - pressure[i - 1]);
+        if (balance.at("rocks")[i - 1] == 0 && balance.at("rocks")[i] > 0) at_insertion = change;
+        if (balance.at("rocks")[i - 1] > 0) later = std::max(later, change);
+        EXPECT_NEAR(balance.at("outlet_flow_m3_s")[i], 0.01, 1e-8);
+    }
+    fmt::print("change of outlet pressure in a step: {:.3g} at insertion, up to {:.3g} later [m2/s2]\n", at_insertion, later);
+    EXPECT_GT(at_insertion, 0.0);
+    EXPECT_LE(at_insertion, later);
+    EXPECT_LE(later, 0.9);  // of the order of the tip speed squared: no step of these is a blow itself
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, Rotor, ::testing::Values(1, 2));
+
+/// Starts cutterFoam and kills it once it has gone on for some steps after its first checkpoint with rock.
+void run_and_kill(const fs::path& folder) {
+    const ChildCommand command = meshing::foam_command(folder, cutter_foam());
+    const pid_t child = fork();
+    if (child == 0) {
+        if (chdir(folder.c_str()) != 0) _exit(1);
+        for (const auto& [name, value] : command.environment) setenv(name.c_str(), value.c_str(), 1);
+        if (freopen("log.killed", "w", stdout) == nullptr) _exit(1);
+        execl(command.arguments[0].c_str(), command.arguments[0].c_str(), nullptr);
+        _exit(127);
+    }
+    const fs::path checkpoint = folder / names::checkpoints / "0.1";
+    for (int wait = 0; wait < 6000 && !fs::exists(checkpoint); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(fs::exists(checkpoint));
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the run ended before it could be killed";
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+    std::vector<std::string> lines;
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+/// Lines of a table of all starts of a run, in order, without headers.
+std::vector<std::string> rows_of(const fs::path& folder, const std::string& file) {
+    std::map<double, fs::path> starts;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        char* end = nullptr;
+        const std::string name = entry.path().filename().string();
+        const double start = std::strtod(name.c_str(), &end);
+        if (*end == '\0') starts[start] = entry.path() / file;
+    }
+    std::vector<std::string> rows;
+    for (const auto& [start, path] : starts) {
+        const std::vector<std::string> lines = lines_of(path);
+        rows.insert(rows.end(), lines.begin() + 1, lines.end());
+    }
+    return rows;
+}
+
+/// Rock, surface and direction of an event.
+std::string what_happened(const std::string& event) {
+    const std::size_t first = event.find(',');
+    std::size_t end = first;
+    for (int field = 0; field < 3; ++field) end = event.find(',', end + 1);
+    return event.substr(first, end - first);
+}
+
+TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
+    const fs::path whole = rotor_case("rotor_whole");
+    run_cutter_foam(whole);
+    const fs::path killed = rotor_case("rotor_killed");
+    run_and_kill(killed);
+    run_cutter_foam(killed);
+
+    const std::vector<std::string> events = rows_of(killed / "postProcessing/rock", "events.csv");
+    EXPECT_EQ(std::set<std::string>(events.begin(), events.end()).size(), events.size());
+    const std::vector<std::string> uninterrupted_events = rows_of(whole / "postProcessing/rock", "events.csv");
+    ASSERT_EQ(events.size(), uninterrupted_events.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        EXPECT_EQ(what_happened(events[i]), what_happened(uninterrupted_events[i]));
+        EXPECT_NEAR(std::stod(events[i]), std::stod(uninterrupted_events[i]), 1e-6);
+    }
+    EXPECT_EQ(rows_of(killed / "postProcessing/rock", "fates.csv").size(), rows_of(whole / "postProcessing/rock", "fates.csv").size());
+
+    const RockPicture resumed = last_rocks(killed), uninterrupted = last_rocks(whole);
+    ASSERT_EQ(resumed.position.size(), static_cast<std::size_t>(k_rocks));
+    double apart = 0.0;
+    for (std::size_t p = 0; p < resumed.position.size(); ++p)
+        apart = std::max(apart, (resumed.position[p] - uninterrupted.position[p]).norm());
+    fmt::print("resumed and uninterrupted run end {:.1e} m apart\n", apart);
+    EXPECT_LE(apart, 1e-3 * k_rock_diameter);
+}
+
+/// The run as it was at its checkpoint of 0.1 s, gone on with from there on another number of ranks.
+RockPicture gone_on_with(const fs::path& whole, int ranks) {
+    const fs::path folder = scratch_folder(fmt::format("rotor_on_{}_ranks", ranks));
+    fs::copy(whole, folder, fs::copy_options::recursive);
+    fs::remove_all(folder / names::checkpoints / "0.14");
+    EXPECT_EQ(cases::move_checkpoint_to_ranks(folder, ranks).from, 2);
+    run_cutter_foam(folder, ranks);
+    EXPECT_TRUE(fs::exists(folder / "postProcessing/rock/0.1/fates.csv"));
+    return last_rocks(folder);
+}
+
+TEST(Restart, goes_on_on_another_number_of_ranks) {
+    // Two rocks that touch nothing.
+    const std::string feed = fmt::format(
+        "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,{0},0,0.18,-0.1,0.02,2650\n2,{0},-0.05,0.23,0,0.02,2650\n", k_release);
+    const fs::path whole = rotor_case("rotor_two_rocks", feed, 0.14);
+    run_cutter_foam(whole, 2);
+    const RockPicture uninterrupted = last_rocks(whole);
+    ASSERT_EQ(uninterrupted.position.size(), 2u);
+    for (const int ranks : {1, 2}) {
+        const RockPicture resumed = gone_on_with(whole, ranks);
+        ASSERT_EQ(resumed.position.size(), 2u);
+        double apart = 0.0;
+        for (std::size_t p = 0; p < 2; ++p) apart = std::max(apart, (resumed.position[p] - uninterrupted.position[p]).norm());
+        fmt::print("begun on 2 ranks, resumed on {}: rock ends {:.1e} m apart\n", ranks, apart);
+        EXPECT_LE(apart, 1e-10 * 2.0 * cases::test::k_tiny_tank_radius);
+    }
+}
+
+}  // namespace
+}  // namespace cutterflow::validation
