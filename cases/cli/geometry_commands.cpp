@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
-#include "cases/cli/new_file.hpp"
 #include "cases/cli/inspection_page.hpp"
+#include "cases/cli/new_file.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/head/crown_cutter.hpp"
 #include "geometry/head/geometry_report.hpp"
@@ -65,8 +65,9 @@ void add_inspect(CLI::App& app) {
     auto* command = app.add_subcommand("inspect", "Inspect a cutter: unit, soundness, axis, blades, contour.");
     const auto options = std::make_shared<InspectOptions>();
     command->add_option("cutter", options->cutter, "STL, OBJ or PLY file")->required();
-    command->add_option("--unit", options->unit,
-                        "Its unit of length (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives a plausible size");
+    command->add_option(
+        "--unit", options->unit,
+        "Its unit of length (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives a plausible size");
     command->add_option("-o,--output", options->output, "Folder to write inspection.json and index.html (pictures, contour) to");
     command->add_option("--contour", options->contour, "CSV file to write the contour of revolution to");
     command->add_flag("--json", options->json, "Print JSON");

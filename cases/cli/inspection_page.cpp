@@ -18,20 +18,21 @@ namespace fs = std::filesystem;
 namespace html = postproc::html;
 namespace palette = postproc::palette;
 
-constexpr int k_picture = 560;       ///< pixels, square
-constexpr double k_margin = 1.12;    ///< of a picture, over the surface's size
-constexpr double k_mark = 0.012;     ///< radius of a defect's mark, of the largest extent
+constexpr int k_picture = 560;     ///< pixels, square
+constexpr double k_margin = 1.12;  ///< of a picture, over the surface's size
+constexpr double k_mark = 0.012;   ///< radius of a defect's mark, of the largest extent
 constexpr int k_plot_width = 1116;
 constexpr const char* k_mark_colour = "#d5301a";
 
 postproc::TriangleSurface corners_of(const geometry::TriangleSurface& surface) {
     postproc::TriangleSurface triangles;
-    for (const geometry::Triangle& t : surface.triangles) triangles.push_back({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]});
+    for (const geometry::Triangle& t : surface.triangles)
+        triangles.push_back({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]});
     return triangles;
 }
 
 std::vector<const geometry::Defect*> defect_kinds(const geometry::SoundnessReport& report) {
-    return {&report.degenerate_triangles, &report.duplicate_triangles,  &report.border_edges,     &report.non_manifold_edges,
+    return {&report.degenerate_triangles, &report.duplicate_triangles, &report.border_edges,      &report.non_manifold_edges,
             &report.misoriented_edges,    &report.non_manifold_points, &report.self_intersections};
 }
 
@@ -61,7 +62,8 @@ std::string scale_bar(const postproc::View& view) {
         y - 5.0, y + 5.0, y, 16.0 + pixels, palette::ink, 24.0 + pixels, y + 5.0, length);
 }
 
-std::string picture(const postproc::Scene& scene, const geometry::Bounds& bounds, const Vec3& towards, const Vec3& upwards, const std::string& label) {
+std::string picture(const postproc::Scene& scene, const geometry::Bounds& bounds, const Vec3& towards, const Vec3& upwards,
+                    const std::string& label) {
     const Vec3 toward = towards.normalized();
     const Vec3 up = (upwards - upwards.dot(toward) * toward).normalized();
     postproc::View view{0.5 * (bounds.min + bounds.max), up.cross(toward), up, toward, 1.0, k_picture, k_picture};
@@ -71,7 +73,8 @@ std::string picture(const postproc::Scene& scene, const geometry::Bounds& bounds
             reach = std::max({reach, std::abs((corner - view.centre).dot(view.right)), std::abs((corner - view.centre).dot(view.up))});
     view.height_m = 2.0 * k_margin * reach;
     const std::string image = fmt::format(
-        "<svg viewBox=\"0 0 {0} {0}\" role=\"img\" aria-label=\"{1}\"><image width=\"{0}\" height=\"{0}\" href=\"data:image/png;base64,{2}\"/>{3}</svg>",
+        "<svg viewBox=\"0 0 {0} {0}\" role=\"img\" aria-label=\"{1}\"><image width=\"{0}\" height=\"{0}\" "
+        "href=\"data:image/png;base64,{2}\"/>{3}</svg>",
         k_picture, label, postproc::base64(postproc::png_bytes(postproc::render(scene, view))), scale_bar(view));
     return html::figure(image, label);
 }
@@ -115,8 +118,9 @@ std::string contour_section(const geometry::Head& head, const fs::path& folder) 
     const fs::path scratch = folder / "plots";
     const std::string svg = postproc::draw_svg(plot, scratch);
     fs::remove_all(scratch);
-    return html::section(title, html::figure(svg, fmt::format("Largest radius of the steel at each height z; {} nodes, within {:.2g} m of the surface.",
-                                                              head.contour.z.size(), head.contour.error)));
+    return html::section(
+        title, html::figure(svg, fmt::format("Largest radius of the steel at each height z; {} nodes, within {:.2g} m of the surface.",
+                                             head.contour.z.size(), head.contour.error)));
 }
 
 std::string answers(const geometry::GeometryInspection& inspection) {
@@ -129,7 +133,8 @@ std::string answers(const geometry::GeometryInspection& inspection) {
                                      sound ? "yes" : "no", comment);
     if (inspection.head) {
         const geometry::Head& head = *inspection.head;
-        boxes += html::answer(palette::flow_load, "Ring radius", fmt::format("{:.4g} m", head.ring_radius), fmt::format("head height {:.4g} m", -head.lowest_z));
+        boxes += html::answer(palette::flow_load, "Ring radius", fmt::format("{:.4g} m", head.ring_radius),
+                              fmt::format("head height {:.4g} m", -head.lowest_z));
         boxes += html::answer(palette::flow_load, "Blades", fmt::format("{}", head.symmetry.blade_count),
                               fmt::format("repeat within {:.2g} m (RMS)", head.symmetry.residual));
     } else {
@@ -138,7 +143,8 @@ std::string answers(const geometry::GeometryInspection& inspection) {
                               fmt::format("{:.4g} × {:.4g} × {:.4g} m", extent.x(), extent.y(), extent.z()));
     }
     if (report.closed())
-        boxes += html::answer(palette::flow_load, "Volume of steel", fmt::format("{:.4g} m³", report.volume), fmt::format("area {:.4g} m²", report.area));
+        boxes += html::answer(palette::flow_load, "Volume of steel", fmt::format("{:.4g} m³", report.volume),
+                              fmt::format("area {:.4g} m²", report.area));
     return "<div class=\"answers\">" + boxes + "</div>\n";
 }
 
@@ -146,7 +152,8 @@ std::string defect_section(const geometry::GeometryInspection& inspection) {
     const std::vector<Mistake> defects = geometry::defects_of(inspection.soundness, "");
     if (defects.empty()) return "";
     std::vector<std::vector<std::string>> rows;
-    for (const Mistake& defect : defects) rows.push_back({html::escape(defect.what), html::escape(defect.rule), html::escape(defect.remedy)});
+    for (const Mistake& defect : defects)
+        rows.push_back({html::escape(defect.what), html::escape(defect.rule), html::escape(defect.remedy)});
     return html::section("Defects", html::table({"what", "rule", "remedy"}, rows, false) +
                                         fmt::format("<p>Red balls in the pictures mark the first places of each kind. To have it repaired: "
                                                     "<code>cutterflow repair {} -o repaired.stl</code></p>",
@@ -171,34 +178,33 @@ std::string numbers_section(const geometry::GeometryInspection& inspection) {
     const geometry::SoundnessReport& r = inspection.soundness;
     const auto row = [](const char* name, const std::string& value) { return std::vector<std::string>{name, value}; };
     const auto yes = [](bool value) { return std::string(value ? "yes" : "no"); };
-    const std::string surface = html::table({},
-                                            {row("triangles", fmt::format("{}", r.triangles)),
-                                             row("points", fmt::format("{}", r.points)),
-                                             row("components", fmt::format("{}", r.components.size())),
-                                             row("closed", yes(r.closed())),
-                                             row("consistently oriented", yes(r.consistently_oriented())),
-                                             row("crossing pairs of triangles", fmt::format("{}", r.self_intersections.count)),
-                                             row("bounds from, m", vector_text(r.bounds.min)),
-                                             row("bounds to, m", vector_text(r.bounds.max))},
-                                            true);
+    const std::string surface =
+        html::table({},
+                    {row("triangles", fmt::format("{}", r.triangles)), row("points", fmt::format("{}", r.points)),
+                     row("components", fmt::format("{}", r.components.size())), row("closed", yes(r.closed())),
+                     row("consistently oriented", yes(r.consistently_oriented())),
+                     row("crossing pairs of triangles", fmt::format("{}", r.self_intersections.count)),
+                     row("bounds from, m", vector_text(r.bounds.min)), row("bounds to, m", vector_text(r.bounds.max))},
+                    true);
     std::string content = "<div class=\"tables\"><div><h3>Surface, in the file’s frame</h3>" + surface + "</div>";
     if (inspection.head) {
         const geometry::Head& head = *inspection.head;
         const char* sense = head.carrying.sense == geometry::CarryingSense::none       ? "neither way"
                             : head.carrying.sense == geometry::CarryingSense::positive ? "right-handed"
-                                                                            : "left-handed";
-        content += "<div><h3>Head</h3>" +
-                   html::table({},
-                               {row("axis through, m", vector_text(head.axis.origin)),
-                                row("axis direction, hub to ring", vector_text(head.axis.direction)),
-                                row("steel above the ring plane", fmt::format("{:.4g} m", head.steel_above_ring)),
-                                row("largest rock that gets between two blades", head.passage ? fmt::format("{:.3g} m", *head.passage) : "–"),
-                                row("thinnest steel", fmt::format("{:.3g} m", head.thickness)),
-                                row("turns so to carry rock to the suction side", sense),
-                                row("measure of carrying (−1 to 1)", fmt::format("{:.3g}", head.carrying.measure)),
-                                row("contrast of the symmetry (0 to 1)", fmt::format("{:.3g}", head.symmetry.contrast))},
-                               true) +
-                   "</div>";
+                                                                                       : "left-handed";
+        content +=
+            "<div><h3>Head</h3>" +
+            html::table(
+                {},
+                {row("axis through, m", vector_text(head.axis.origin)),
+                 row("axis direction, hub to ring", vector_text(head.axis.direction)),
+                 row("steel above the ring plane", fmt::format("{:.4g} m", head.steel_above_ring)),
+                 row("largest rock that gets between two blades", head.passage ? fmt::format("{:.3g} m", *head.passage) : "–"),
+                 row("thinnest steel", fmt::format("{:.3g} m", head.thickness)), row("turns so to carry rock to the suction side", sense),
+                 row("measure of carrying (−1 to 1)", fmt::format("{:.3g}", head.carrying.measure)),
+                 row("contrast of the symmetry (0 to 1)", fmt::format("{:.3g}", head.symmetry.contrast))},
+                true) +
+            "</div>";
     }
     return html::section("Numbers", content + "</div>");
 }
@@ -215,7 +221,8 @@ void write_inspection(const geometry::GeometryInspection& inspection, const geom
     require_empty(folder);
     write_file(folder / "inspection.json", geometry::to_json(inspection).dump(2) + "\n");
     const std::string title = html::escape(fs::path(inspection.file).filename().string());
-    std::string body = fmt::format("<header><h1>{}</h1><p class=\"operating\">{}</p></header>\n", title, html::escape(inspection.unit.reason));
+    std::string body =
+        fmt::format("<header><h1>{}</h1><p class=\"operating\">{}</p></header>\n", title, html::escape(inspection.unit.reason));
     body += answers(inspection) + defect_section(inspection) + no_head_section(inspection) + pictures(inspection, surface);
     if (inspection.head) body += contour_section(*inspection.head, folder);
     body += numbers_section(inspection);

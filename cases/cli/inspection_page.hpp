@@ -11,6 +11,7 @@ namespace cutterflow::cases {
 /// \param surface  in the file's frame [m]
 /// \param folder   made when it is not there
 /// \throws UserError  when the folder holds anything already
-void write_inspection(const geometry::GeometryInspection& inspection, const geometry::TriangleSurface& surface, const std::filesystem::path& folder);
+void write_inspection(const geometry::GeometryInspection& inspection, const geometry::TriangleSurface& surface,
+                      const std::filesystem::path& folder);
 
 }  // namespace cutterflow::cases

@@ -69,7 +69,8 @@ int main(int argc, char** argv) {
         std::cerr << "cutterflow: " << interrupted.what() << std::endl;
         return k_interrupted;
     } catch (const std::filesystem::filesystem_error& error) {
-        const UserError told(error.what(), "Folders and files that are named must be there, or be ones that can be made", "Check the path and its permissions");
+        const UserError told(error.what(), "Folders and files that are named must be there, or be ones that can be made",
+                             "Check the path and its permissions");
         std::cerr << "cutterflow: " << told.what() << std::endl;
         return static_cast<int>(told.code());
     } catch (const std::exception& error) {

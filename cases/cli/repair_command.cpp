@@ -59,7 +59,8 @@ geometry::repair::RepairLimits limits_of(const RepairOptions& options, const geo
     if (!outcome.bad_faces.faces.surface.triangles.empty())
         mistakes.push_back({bad_faces.string(),
                             fmt::format("holds the {} face(s) concerned, in metres", outcome.bad_faces.faces.surface.triangles.size()),
-                            "Each carries its number in the file (source_face, -1: added by the repair) and what is wrong with it", "Open it in ParaView"});
+                            "Each carries its number in the file (source_face, -1: added by the repair) and what is wrong with it",
+                            "Open it in ParaView"});
     throw UserError(std::move(mistakes));
 }
 
@@ -69,7 +70,8 @@ void run_repair(const RepairOptions& options) {
     std::optional<geometry::LengthUnit> unit;
     if (options.unit) unit = geometry::length_unit_of(*options.unit);
     const geometry::ImportedSurface imported = geometry::import_cutter(options.input, unit);
-    const geometry::repair::RepairOutcome outcome = geometry::repair::repair_surface(imported.surface, limits_of(options, imported.surface), options.input);
+    const geometry::repair::RepairOutcome outcome =
+        geometry::repair::repair_surface(imported.surface, limits_of(options, imported.surface), options.input);
 
     const fs::path bad_faces = bad_faces_file(options.output);
     nlohmann::json report = geometry::repair::to_json(outcome, options.input, imported.unit);
@@ -95,8 +97,12 @@ void add_repair(CLI::App& app) {
     const auto options = std::make_shared<RepairOptions>();
     command->add_option("cutter", options->input, "STL, OBJ or PLY file; it is not touched")->required();
     command->add_option("-o,--output", options->output, "STL file to write, in metres")->required();
-    command->add_option("--unit", options->unit, "Unit of length of the file (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives a plausible size");
-    command->add_option("--weld-distance-m", options->weld_distance_m, "Points nearer than this are joined; default 1e-5 of the largest extent")
+    command->add_option("--unit", options->unit,
+                        "Unit of length of the file (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives "
+                        "a plausible size");
+    command
+        ->add_option("--weld-distance-m", options->weld_distance_m,
+                     "Points nearer than this are joined; default 1e-5 of the largest extent")
         ->check(k_positive);
     command->add_option("--hole-size-m", options->hole_size_m, "Holes up to this size are filled; default 0.05 of the largest extent")
         ->check(k_not_negative);
@@ -105,7 +111,8 @@ void add_repair(CLI::App& app) {
                      "Volume that repairing may change or leave uncertain (uniting shells apart)")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
-    command->add_option("--area-change-percent", options->area_change_percent, "Area that patches and resolved self-intersections may change")
+    command
+        ->add_option("--area-change-percent", options->area_change_percent, "Area that patches and resolved self-intersections may change")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     command->add_option("--report", options->report, "JSON file to write the report to");

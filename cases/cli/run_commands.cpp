@@ -137,7 +137,8 @@ void report(const ReportOptions& options) {
     if (options.adv_points) return adv_report(options);
     const postproc::ReportSummary summary = postproc::write_report(options.folder);
     if (!summary.note.empty()) say(summary.note);
-    std::cout << (options.json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string())) << std::flush;
+    std::cout << (options.json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string()))
+              << std::flush;
 }
 
 void add_run_options(CLI::App& command, RunOptions& options) {
@@ -171,9 +172,12 @@ void add_report(CLI::App& app) {
     auto* command = app.add_subcommand("report", "Make the report of a run directory anew, finished or not.");
     const auto options = std::make_shared<ReportOptions>();
     command->add_option("run_directory", options->folder, "The run directory");
-    auto* points = command->add_option("--adv", options->adv_points,
-                                       "Compare with velocities measured at the points of this CSV file, which the run sampled (report.adv_points)");
-    command->add_option("--revolutions", options->revolutions, "Average over the last so many revolutions of the run; without it all whole ones")
+    auto* points =
+        command->add_option("--adv", options->adv_points,
+                            "Compare with velocities measured at the points of this CSV file, which the run sampled (report.adv_points)");
+    command
+        ->add_option("--revolutions", options->revolutions,
+                     "Average over the last so many revolutions of the run; without it all whole ones")
         ->needs(points);
     command->add_flag("--adv-template", options->adv_template, "Print a CSV file of points to fill in");
     command->add_flag("--json", options->json, "Print results.json, or adv.json");

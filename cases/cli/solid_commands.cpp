@@ -10,9 +10,9 @@
 #include "cases/cli/numbers.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/head/stationary_steel.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "geometry/surface/simple_solids.hpp"
-#include "geometry/head/stationary_steel.hpp"
 
 namespace cutterflow::cli {
 namespace {
@@ -21,7 +21,8 @@ void write_solid(const geometry::TriangleSurface& surface, double exact_volume, 
     require_new_file(output);
     geometry::write_stl(surface, output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3, {:.2g} % less than the exact solid, in metres\n", output,
-                             surface.triangles.size(), geometry::volume_of(surface), 100.0 * std::max(0.0, 1.0 - geometry::volume_of(surface) / exact_volume));
+                             surface.triangles.size(), geometry::volume_of(surface),
+                             100.0 * std::max(0.0, 1.0 - geometry::volume_of(surface) / exact_volume));
 }
 
 /// Options that every solid has.

@@ -10,9 +10,9 @@
 #include "cases/runner/machine.hpp"
 #include "cases/runner/prediction.hpp"
 #include "cases/scenes/cutter/rock_feed.hpp"
-#include "cases/study/study.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
+#include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/shell_word.hpp"
 #include "geometry/io/length_unit.hpp"
@@ -90,7 +90,8 @@ void check_study_file(const CheckOptions& options) {
     const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
     std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
-    for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface))) warnings.push_back(warning);
+    for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface)))
+        warnings.push_back(warning);
     if (options.json) {
         std::cout << nlohmann::json{{"cutter", geometry::to_json(inspection)},
                                     {"prediction", to_json(prediction)},

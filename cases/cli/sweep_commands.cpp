@@ -51,7 +51,8 @@ void require_known_axes(const std::vector<std::string>& words) {
                                             : fmt::format("Did you mean {}?", nearest)});
     }
     if (mistakes.empty() && !words.empty())
-        mistakes.push_back({"", fmt::format("\"{}\" belongs to no option", words.front()), "A sweep takes one study, and options", "Remove it"});
+        mistakes.push_back(
+            {"", fmt::format("\"{}\" belongs to no option", words.front()), "A sweep takes one study, and options", "Remove it"});
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
@@ -69,9 +70,12 @@ void sweep(const SweepOptions& options) {
                                         options.resume, local ? cases::Launcher::local : cases::Launcher::slurm};
     if (options.emit) {
         const fs::path script = cases::emit_slurm(points, settings);
-        std::cout << (script.empty() ? std::string("no point is missing\n")
-                                     : fmt::format("the job array: {0}\nnext: sbatch {1}; then this command with --launcher slurm --resume collects and compares\n",
-                                                   script.string(), shell_word(script.string())));
+        std::cout
+            << (script.empty()
+                    ? std::string("no point is missing\n")
+                    : fmt::format(
+                          "the job array: {0}\nnext: sbatch {1}; then this command with --launcher slurm --resume collects and compares\n",
+                          script.string(), shell_word(script.string())));
         return;
     }
     if (local)
@@ -114,9 +118,7 @@ void add_sweep(CLI::App& app) {
     const auto options = std::make_shared<SweepOptions>();
     command->add_option("study", options->study, "The study that all points begin from")->required();
     command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(k_positive);
-    command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")
-        ->delimiter(',')
-        ->check(k_positive);
+    command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")->delimiter(',')->check(k_positive);
     command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
     command
         ->add_option("--repeats", options->axes.repeats,
@@ -130,8 +132,10 @@ void add_sweep(CLI::App& app) {
     command->add_option("--launcher", options->launcher, "Who runs the points: this machine, or Slurm as a job array")
         ->check(CLI::IsMember({"local", "slurm"}))
         ->capture_default_str();
-    command->add_option_function<std::string>("--emit", [options](const std::string&) { options->emit = true; },
-                                              "Only write the job array (slurm) of the points that have no report yet")
+    command
+        ->add_option_function<std::string>(
+            "--emit", [options](const std::string&) { options->emit = true; },
+            "Only write the job array (slurm) of the points that have no report yet")
         ->check(CLI::IsMember({"slurm"}));
     command->allow_extras();
     command->callback([options, command] {

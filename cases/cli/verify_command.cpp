@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
-#include "validation/harness/suite/case_runs.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "validation/harness/suite/case_runs.hpp"
 
 namespace cutterflow::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using validation::Effort;
 using validation::CaseVerdict;
+using validation::Effort;
 using validation::VerifiedCase;
 
 constexpr const char* k_docs = CUTTERFLOW_SOURCE_DIR "/docs";
@@ -80,7 +80,8 @@ void publish(const std::vector<VerifiedCase>& results, const fs::path& scratch) 
 void write_pages(const fs::path& folder, const validation::VerificationPlaces& where) {
     std::vector<VerifiedCase> all = validation::read_verification(folder);  // what was found here is shown, better or worse
     for (const VerifiedCase& published : validation::read_verification(where.kept))
-        if (std::none_of(all.begin(), all.end(), [&](const VerifiedCase& own) { return own.name == published.name; })) all.push_back(published);
+        if (std::none_of(all.begin(), all.end(), [&](const VerifiedCase& own) { return own.name == published.name; }))
+            all.push_back(published);
     std::sort(all.begin(), all.end(), [](const VerifiedCase& a, const VerifiedCase& b) { return a.name < b.name; });
     write_file(folder / "validation.md", validation::verification_markdown(all, link_to_cases(folder)));
     write_file(folder / "index.html", validation::verification_page(all, link_to_cases(folder), folder / k_charts));
@@ -99,8 +100,8 @@ void verify(const VerifyOptions& options) {
     try {
         results = validation::run_verification(chosen, where, {options.output, effort_of(options), options.resume}, say);
     } catch (const Interrupted& interrupted) {
-        throw Interrupted(fmt::format("{}. Finished cases are kept in {}; give the same command with --resume to go on",
-                                      interrupted.what(), options.output));
+        throw Interrupted(fmt::format("{}. Finished cases are kept in {}; give the same command with --resume to go on", interrupted.what(),
+                                      options.output));
     }
     nlohmann::json rows = nlohmann::json::array();
     std::vector<std::string> failed;
@@ -131,7 +132,8 @@ void add_verify(CLI::App& app) {
     command->add_flag("--list", options->list, "List the cases");
     command->add_option("-o,--output", options->output, "Folder of the results")->capture_default_str();
     command->add_flag("--resume", options->resume, "Keep the cases of the folder that were finished with the same programs");
-    command->add_flag("--publish", options->publish, "Keep the folder's results in docs/results/validation and make docs/validation.md anew");
+    command->add_flag("--publish", options->publish,
+                      "Keep the folder's results in docs/results/validation and make docs/validation.md anew");
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->callback([options] {
         for (const std::string& name : options->pareto) options->names.push_back("pareto_" + name);

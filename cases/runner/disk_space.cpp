@@ -50,10 +50,15 @@ bool is_disk_full(const fs::path& folder) {
 
 Mistake full_disk(const fs::path& folder, double needed) {
     const double written = bytes_below(folder);
-    if (needed <= 0.0) return {"", fmt::format("the disk of {} is full", folder.string()), "A run writes its mesh, fields and tables there", "Free space, or choose a folder on another disk with -o"};
-    return {"", fmt::format("the disk of {} is full: {} are written, {} free", folder.string(), size_text(written), size_text(free_bytes(folder))),
-            fmt::format("The run is predicted to write about {} in all, {} more", size_text(needed), size_text(std::max(0.0, needed - written))),
-            "Free space and go on with --resume; what is done is kept up to the last checkpoint"};
+    if (needed <= 0.0)
+        return {"", fmt::format("the disk of {} is full", folder.string()), "A run writes its mesh, fields and tables there",
+                "Free space, or choose a folder on another disk with -o"};
+    return {
+        "",
+        fmt::format("the disk of {} is full: {} are written, {} free", folder.string(), size_text(written), size_text(free_bytes(folder))),
+        fmt::format("The run is predicted to write about {} in all, {} more", size_text(needed),
+                    size_text(std::max(0.0, needed - written))),
+        "Free space and go on with --resume; what is done is kept up to the last checkpoint"};
 }
 
 }  // namespace cutterflow::cases

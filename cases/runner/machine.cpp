@@ -33,8 +33,8 @@ void require_ranks(int ranks) {
                     fmt::format("Use --ranks {}, or a machine with more cores", cores));
 }
 
-constexpr std::uint32_t k_lattice = 64;       // cells along an edge
-constexpr int k_sweeps = 15;                  // some of them in every phase of what else the machine does
+constexpr std::uint32_t k_lattice = 64;          // cells along an edge
+constexpr int k_sweeps = 15;                     // some of them in every phase of what else the machine does
 constexpr double k_reference_ns_per_cell = 8.4;  // median of a sweep on the reference machine
 
 /// The faces between the cells of a cubic lattice, as OpenFOAM addresses a matrix.

@@ -9,7 +9,8 @@ namespace cutterflow::cases {
 int available_cores();
 
 /// Core time of a fixed piece of work, of the kind that the flow's solvers spend theirs on, over that on the machine on which costs were
-/// measured (docs/design/003-meshing.md): above 1 on a slower machine, and while other programs share its memory. Takes a tenth of a second.
+/// measured (docs/design/003-meshing.md): above 1 on a slower machine, and while other programs share its memory. Takes a tenth of a
+/// second.
 double machine_slowness();
 
 /// Refuses what would fail later.

@@ -8,15 +8,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cases/scenes/cutter/case_builder.hpp"
-#include "cases/scenes/cutter/contact_surfaces.hpp"
 #include "cases/runner/disk_space.hpp"
-#include "cases/scenes/cutter/flow_dictionaries.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/prediction.hpp"
 #include "cases/runner/rank_change.hpp"
-#include "cases/scenes/cutter/rock_feed.hpp"
 #include "cases/runner/run_progress.hpp"
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/contact_surfaces.hpp"
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "cases/scenes/cutter/rock_feed.hpp"
 #include "cases/scenes/cutter/start_flow.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
@@ -25,9 +25,9 @@
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
+#include "geometry/head/revolution_contour.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
-#include "geometry/head/revolution_contour.hpp"
 #include "meshing/cutter/build_mesh.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 #include "postproc/pages/adv_page.hpp"
@@ -216,7 +216,8 @@ StageOutcome Pipeline::make_geometry() {
     say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
                      head.ring_radius, size.depth));
 
-    const Prediction prediction = predict(study, size, head.surface, {settings_.ranks, 1.0});  // the disk does not depend on the machine's speed
+    const Prediction prediction =
+        predict(study, size, head.surface, {settings_.ranks, 1.0});  // the disk does not depend on the machine's speed
     require_free_bytes(directory_.path(), prediction.mesh_disk + prediction.run_disk);
 
     // A region without a free place is refused here, before the mesh costs anything.
@@ -259,7 +260,8 @@ StageOutcome Pipeline::make_mesh() {
     return {outputs, core_s};
 }
 
-meshing::MeshReport Pipeline::make_mesh_of(const meshing::MeshPlan& plan, const std::vector<meshing::MeshRetry>& retries, std::vector<std::string>& outputs) {
+meshing::MeshReport Pipeline::make_mesh_of(const meshing::MeshPlan& plan, const std::vector<meshing::MeshRetry>& retries,
+                                           std::vector<std::string>& outputs) {
     outputs.clear();
     const int ranks = meshing::ranks_that_pay(plan, settings_.ranks);
     for (const fs::path& file : meshing::write_mesh_case(directory_.path(), plan, ranks)) outputs.push_back(file.string());

@@ -53,7 +53,8 @@ private:
     StageOutcome make_geometry();
     StageOutcome make_mesh();
     /// One attempt. `outputs` receives the files of the mesh's case.
-    meshing::MeshReport make_mesh_of(const meshing::MeshPlan& plan, const std::vector<meshing::MeshRetry>& retries, std::vector<std::string>& outputs);
+    meshing::MeshReport make_mesh_of(const meshing::MeshPlan& plan, const std::vector<meshing::MeshRetry>& retries,
+                                     std::vector<std::string>& outputs);
     StageOutcome make_case();
     StageOutcome make_start();
     StageOutcome run_solver(bool resume);

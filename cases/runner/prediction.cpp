@@ -81,15 +81,16 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     const double rock_revolutions = prediction.revolutions - flow_revolutions;
     const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
     prediction.steps = flow_revolutions * flow_steps + rock_revolutions * rock_steps;
-    const double core_hours_per_step = machine.slowness * plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
+    const double core_hours_per_step =
+        machine.slowness * plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
     prediction.core_hours_per_revolution = core_hours_per_step * (1.0 + k_flow_per_rank * (machine.ranks - 1)) * flow_steps;
     prediction.core_hours_per_revolution_with_rock =
         core_hours_per_step * k_rock_share * (1.0 + k_rock_per_rank * (machine.ranks - 1)) * rock_steps;
     prediction.core_hours =
         flow_revolutions * prediction.core_hours_per_revolution + rock_revolutions * prediction.core_hours_per_revolution_with_rock;
     prediction.mesh_disk = k_mesh_bytes + k_mesh_bytes_per_cell * plan.prediction.cells;
-    prediction.run_disk =
-        (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells + prediction.steps * k_table_bytes_per_step;
+    prediction.run_disk = (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells +
+                          prediction.steps * k_table_bytes_per_step;
     const double mouth = study.suction.mouth_radius;
     prediction.tip_speed = omega * head.tip_radius;
     prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
@@ -110,8 +111,9 @@ std::string to_text(const Prediction& p) {
     text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
                         1e-9 * p.mesh.run_memory);
     text += fmt::format("disk         about {:.2g} GB\n", 1e-9 * (p.mesh_disk + p.run_disk));
-    text += fmt::format("cost         about {:.2g} core hours: {} on {} rank(s); this machine now takes {:.2f} times the reference's time\n",
-                        p.core_hours, duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
+    text +=
+        fmt::format("cost         about {:.2g} core hours: {} on {} rank(s); this machine now takes {:.2f} times the reference's time\n",
+                    p.core_hours, duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
     text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
     text += fmt::format("numbers      Q/(omega R^3) = {:.3g}, omega^2 R/g = {:.3g}\n", p.flow_number, p.froude);
     text += fmt::format("rock         {} rocks", p.rocks);

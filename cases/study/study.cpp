@@ -248,8 +248,12 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.rock = {number("rock.youngs_modulus_pa"), number("rock.poisson_rock"), number("rock.poisson_steel"),
                   number("rock.friction"),          number("rock.restitution"),  resolved.boolean("rock.wet_restitution"),
                   number("rock.time_step_fraction")};
-    study.closures = {resolved.text("closures.drag"),  resolved.text("closures.hindrance"), number("closures.added_mass"),
-                      number("closures.drag_modifier"), number("closures.sphericity"),       resolved.text("closures.lift"),
+    study.closures = {resolved.text("closures.drag"),
+                      resolved.text("closures.hindrance"),
+                      number("closures.added_mass"),
+                      number("closures.drag_modifier"),
+                      number("closures.sphericity"),
+                      resolved.text("closures.lift"),
                       resolved.boolean("closures.viscous_force")};
     study.kernel = {number("kernel.gamma"), number("kernel.min_width_in_cells"), number("kernel.max_solid_fraction")};
     study.length_ratio = number("scale.length_ratio");
@@ -258,7 +262,8 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s"), {}, {}};
     if (resolved.has("report.adv_points")) {
         study.report.adv_points = std::filesystem::absolute(folder / resolved.text("report.adv_points"));
-        study.report.adv_probe = {number("report.adv_probe_diameter_m"), number("report.adv_probe_length_m"), number("report.adv_position_error_m")};
+        study.report.adv_probe = {number("report.adv_probe_diameter_m"), number("report.adv_probe_length_m"),
+                                  number("report.adv_position_error_m")};
     }
     for (const ParameterValues& feed : resolved.tables("feed")) study.feeds.push_back(make_feed(feed, study.period()));
     return study;
@@ -294,10 +299,11 @@ std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadS
     // Hertz' largest overlap goes with E^(-2/5).
     const double softness = needed_youngs_modulus(resolved, head) / resolved.number("rock.youngs_modulus_pa");
     if (!resolved.tables("feed").empty())
-        rules.require(softness <= 1.0 + 1e-9, "rock.youngs_modulus_pa",
-                      fmt::format("At a tip speed of {:.3g} m/s rock overlaps steel by {:.0f} % of its radius; {:.0f} % is accepted", speed,
-                                  100.0 * physics::k_largest_overlap_ratio * std::pow(softness, 0.4), 100.0 * physics::k_largest_overlap_ratio),
-                      "Raise it, or look at overlap_ratio_max in the report");
+        rules.require(
+            softness <= 1.0 + 1e-9, "rock.youngs_modulus_pa",
+            fmt::format("At a tip speed of {:.3g} m/s rock overlaps steel by {:.0f} % of its radius; {:.0f} % is accepted", speed,
+                        100.0 * physics::k_largest_overlap_ratio * std::pow(softness, 0.4), 100.0 * physics::k_largest_overlap_ratio),
+            "Raise it, or look at overlap_ratio_max in the report");
     return rules.mistakes;
 }
 

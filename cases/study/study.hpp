@@ -14,9 +14,9 @@ namespace cutterflow::cases {
 
 /// What derived defaults follow: sizes of the head in the run's frame.
 struct HeadSize {
-    double ring_radius = 0.0;         ///< [m]
-    double tip_radius = 0.0;          ///< largest radius of the head [m]
-    double depth = 0.0;               ///< from the ring plane to the head's lowest point [m], > 0
+    double ring_radius = 0.0;           ///< [m]
+    double tip_radius = 0.0;            ///< largest radius of the head [m]
+    double depth = 0.0;                 ///< from the ring plane to the head's lowest point [m], > 0
     std::optional<double> passage{};    ///< diameter of the largest sphere that passes between the blades [m]; none without blades
     std::optional<double> thickness{};  ///< of the thinnest steel [m]
     int blades = 1;

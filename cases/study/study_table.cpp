@@ -130,7 +130,10 @@ ParameterTable rock_rows() {
         number("rock.poisson_rock", "-", "Poisson's ratio of rock.").at_least(0.0).at_most(0.49).standard(0.24),
         number("rock.poisson_steel", "-", "Poisson's ratio of steel.").at_least(0.0).at_most(0.49).standard(0.27),
         number("rock.friction", "-", "Coefficient of friction, rock on rock and on steel.").at_least(0.0).at_most(2.0).standard(0.15),
-        number("rock.restitution", "-", "Restitution of a dry impact.").at_least(physics::k_smallest_restitution).at_most(1.0).standard(0.97),
+        number("rock.restitution", "-", "Restitution of a dry impact.")
+            .at_least(physics::k_smallest_restitution)
+            .at_most(1.0)
+            .standard(0.97),
         Row("rock.wet_restitution", ParameterKind::boolean, "-", "Whether water damps impacts by their Stokes number.")
             .standard(true)
             .source("Legendre2006"),
@@ -139,7 +142,8 @@ ParameterTable rock_rows() {
             .at_most(0.3)
             .standard(0.1),
         choice("closures.drag", physics::closure_choices(physics::ClosureKind::drag),
-               "Drag law of a rock. gidaspow and koch_hill hold the effect of other rocks themselves: they need closures.hindrance = \"none\".")
+               "Drag law of a rock. gidaspow and koch_hill hold the effect of other rocks themselves: they need closures.hindrance = "
+               "\"none\".")
             .standard(std::string("brown_lawler")),
         choice("closures.hindrance", physics::closure_choices(physics::ClosureKind::hindrance), "How other rocks raise the drag.")
             .standard(std::string("di_felice")),

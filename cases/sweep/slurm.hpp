@@ -12,15 +12,15 @@ struct SlurmTask {
     std::filesystem::path log;           ///< receives its output
 };
 
-/// The script that sbatch takes: a job array with one element per task, on `ranks` cores of one node each. Partition, account and time limit
-/// are the user's: sbatch takes them from SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT ...
+/// The script that sbatch takes: a job array with one element per task, on `ranks` cores of one node each. Partition, account and time
+/// limit are the user's: sbatch takes them from SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT ...
 std::string slurm_script(const std::string& job_name, const std::vector<SlurmTask>& tasks, int ranks);
 
 /// Hands a script to sbatch. \return the job's number \throws ToolError when sbatch refuses
 std::string submit_to_slurm(const std::filesystem::path& script);
 
-/// Waits until no element of the job is queued or running. A scheduler that does not answer is asked again. `looked` is called after each look.
-/// \throws Interrupted  when the user stops the waiting; the job goes on
+/// Waits until no element of the job is queued or running. A scheduler that does not answer is asked again. `looked` is called after each
+/// look. \throws Interrupted  when the user stops the waiting; the job goes on
 void wait_for_slurm(const std::string& job, const std::function<void()>& looked);
 
 }  // namespace cutterflow::cases

@@ -13,10 +13,10 @@
 
 #include "cases/runner/manifest.hpp"
 #include "cases/runner/run_directory.hpp"
-#include "cases/sweep/slurm.hpp"
 #include "cases/runner/stages.hpp"
-#include "cases/study/study.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/study/study.hpp"
+#include "cases/sweep/slurm.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -402,7 +402,8 @@ private:
     std::string failure_text(const SweepPoint& point) const {
         const fs::path log = command_of(settings_, point, "run").log;
         if (!fs::exists(log)) return fmt::format("{}: its job ended before it began", point.name);
-        return fmt::format("{}: its job ended without a report (cancelled, out of time or memory, or failed); see {}", point.name, log.string());
+        return fmt::format("{}: its job ended without a report (cancelled, out of time or memory, or failed); see {}", point.name,
+                           log.string());
     }
 
     const std::vector<SweepPoint>& points_;
@@ -420,8 +421,9 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     Designs designs;
     for (const Combination& combination : combinations_of(axes)) {
         if (combination.design && !fs::exists(*combination.design)) {
-            add_once({"", fmt::format("--design {} is not there", *combination.design), "Its path is relative to where the command is given",
-                      "Check the path"}, mistakes);
+            add_once({"", fmt::format("--design {} is not there", *combination.design),
+                      "Its path is relative to where the command is given", "Check the path"},
+                     mistakes);
             continue;
         }
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());

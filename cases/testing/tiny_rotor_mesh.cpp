@@ -63,7 +63,7 @@ meshing::FoamValue block(const Layer& layer, int sector) {
     const int a = layer.inner, b = layer.inner + 1;
     const meshing::FoamValue corners =
         meshing::FoamValue::list({vertex(a, sector, 0), vertex(b, sector, 0), vertex(b, sector + 1, 0), vertex(a, sector + 1, 0),
-                         vertex(a, sector, 1), vertex(b, sector, 1), vertex(b, sector + 1, 1), vertex(a, sector + 1, 1)});
+                                  vertex(a, sector, 1), vertex(b, sector, 1), vertex(b, sector + 1, 1), vertex(a, sector + 1, 1)});
     const meshing::FoamValue cells = meshing::FoamValue::list({layer.cells, k_cells_per_sector, k_cells_axial});
     return meshing::FoamValue::sequence(
         {"hex", corners, layer.rotor ? names::rotor_zone : "stator", cells, "simpleGrading", meshing::FoamValue::list({1, 1, 1})});

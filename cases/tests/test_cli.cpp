@@ -187,7 +187,8 @@ TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
         ASSERT_EQ(outcome.code, 0) << outcome.text;
         const nlohmann::json p = nlohmann::json::parse(outcome.text).at("prediction");
         const double per_step = 3600.0 / p.at("machine_slowness").get<double>();  // core seconds of the reference machine; period 1 s
-        EXPECT_NEAR(per_step * p.at("core_hours_per_revolution").get<double>() * p.at("time_step_s").get<double>() / core_s.first, 1.0, 0.15);
+        EXPECT_NEAR(per_step * p.at("core_hours_per_revolution").get<double>() * p.at("time_step_s").get<double>() / core_s.first, 1.0,
+                    0.15);
         EXPECT_NEAR(per_step * p.at("core_hours_per_revolution_with_rock").get<double>() * p.at("time_step_with_rock_s").get<double>() /
                         core_s.second,
                     1.0, 0.15);
@@ -213,7 +214,8 @@ TEST_F(Cli, refuses_surfaces_that_bound_no_solid) {
     geometry::write_stl(open, folder_ / "open.stl");
     geometry::write_stl(inside_out(crown()), folder_ / "inside_out.stl");
     // The same head a second time, shifted: its surface cuts itself.
-    const geometry::TriangleSurface twice = geometry::joined({crown(), geometry::transformed(crown(), Eigen::Affine3d(Eigen::Translation3d(0.03, 0.01, 0.02)))});
+    const geometry::TriangleSurface twice =
+        geometry::joined({crown(), geometry::transformed(crown(), Eigen::Affine3d(Eigen::Translation3d(0.03, 0.01, 0.02)))});
     geometry::write_stl(twice, folder_ / "twice.stl");
     write_file(folder_ / "text.stl", "no surface at all");
     for (const auto& [file, part] : std::map<std::string, std::string>{{"open.stl", "open"},
@@ -397,11 +399,13 @@ TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
     write_file(folder_ / "points.csv", header);
     EXPECT_EQ(call({"check", study("[report]\nadv_points = \"points.csv\"\n")}).code, 0);
     // The tank's radius is 2.5 m; the hub turns about the axis; a blade's tip passes a still point and leaves water behind it.
-    write_file(folder_ / "points.csv", header + "C1,2600,0,-60,still,,,\nC2,100,0,900,still,,,\nC3,5,0,-440,still,,,\nC4,5,0,-440,rotating,,,\n"
-                                                "C5,250,0,-150,still,,,\nC6,300,180,40,still,,,\n");
+    write_file(folder_ / "points.csv", header +
+                                           "C1,2600,0,-60,still,,,\nC2,100,0,900,still,,,\nC3,5,0,-440,still,,,\nC4,5,0,-440,rotating,,,\n"
+                                           "C5,250,0,-150,still,,,\nC6,300,180,40,still,,,\n");
     const Outcome outcome = call({"check", "study.toml"});
     expect_refused(outcome, 2, "point C1 (r = 2.6 m, theta = 0 deg, z = -0.06 m) lies outside the water");
-    for (const char* part : {"point C2 (r = 0.1 m", "point C3", "point C4", "point C6", "lies inside steel"}) expect_contains(outcome.text, part);
+    for (const char* part : {"point C2 (r = 0.1 m", "point C3", "point C4", "point C6", "lies inside steel"})
+        expect_contains(outcome.text, part);
     EXPECT_EQ(outcome.text.find("point A1 ("), std::string::npos) << outcome.text;
     EXPECT_EQ(outcome.text.find("point C5 ("), std::string::npos) << outcome.text;
     expect_refused(call({"report"}), 2, "report without a run directory");

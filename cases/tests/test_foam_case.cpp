@@ -76,7 +76,8 @@ TEST(FoamCase, is_readable_by_foamDictionary) {
         ++dictionaries;
     }
     EXPECT_EQ(dictionaries, 14);
-    require_child(meshing::foam_command(directory, "foamDictionary", {"-entry", "boundaryField/outlet/volumetricFlowRate", "-value", "0/U"}));
+    require_child(
+        meshing::foam_command(directory, "foamDictionary", {"-entry", "boundaryField/outlet/volumetricFlowRate", "-value", "0/U"}));
     EXPECT_DOUBLE_EQ(std::stod(read_text(directory / "log.foamDictionary")), inputs.discharge);
 }
 

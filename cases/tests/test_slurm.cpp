@@ -32,9 +32,11 @@ public:
         write_file(folder_ / "slurm.conf", configuration());
         ::setenv("SLURM_CONF", (folder_ / "slurm.conf").c_str(), 1);
         const auto in = [&](const char* name) { return (folder_ / name).string(); };
-        require_child({{"munged", "--force", "--socket=" + in("munge.socket"), "--key-file=" + in("munge.key"), "--pid-file=" + in("munged.pid"),
-                        "--log-file=" + in("munged.log"), "--seed-file=" + in("munge.seed")},
-                       {}, {}, {}});
+        require_child({{"munged", "--force", "--socket=" + in("munge.socket"), "--key-file=" + in("munge.key"),
+                        "--pid-file=" + in("munged.pid"), "--log-file=" + in("munged.log"), "--seed-file=" + in("munge.seed")},
+                       {},
+                       {},
+                       {}});
         for (const char* daemon : {"slurmctld", "slurmd"}) require_child({{daemon}, {}, {}, {}});
         wait_until_idle();
     }
@@ -64,10 +66,13 @@ private:
         return fmt::format(
             "ClusterName=cutterflow\nSlurmctldHost={0}(127.0.0.1)\nSlurmUser=root\nAuthType=auth/munge\nAuthInfo=socket={1}/munge.socket\n"
             "SlurmctldPort={2}\nSlurmdPort={3}\nStateSaveLocation={1}/state\nSlurmdSpoolDir={1}/spool\nSlurmctldPidFile={1}/slurmctld.pid\n"
-            "SlurmdPidFile={1}/slurmd.pid\nSlurmctldLogFile={1}/slurmctld.log\nSlurmdLogFile={1}/slurmd.log\nProctrackType=proctrack/linuxproc\n"
+            "SlurmdPidFile={1}/slurmd.pid\nSlurmctldLogFile={1}/slurmctld.log\nSlurmdLogFile={1}/slurmd.log\nProctrackType=proctrack/"
+            "linuxproc\n"
             "TaskPlugin=task/none\nSelectType=select/cons_tres\nSelectTypeParameters=CR_Core\nSlurmdParameters=config_overrides\n"
-            "AccountingStorageType=accounting_storage/none\nJobAcctGatherType=jobacct_gather/none\nJobCompType=jobcomp/none\nMpiDefault=none\n"
-            "ReturnToService=2\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\nKillWait=2\nNodeName={0} NodeAddr=127.0.0.1 CPUs=2 "
+            "AccountingStorageType=accounting_storage/none\nJobAcctGatherType=jobacct_gather/none\nJobCompType=jobcomp/"
+            "none\nMpiDefault=none\n"
+            "ReturnToService=2\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\nKillWait=2\nNodeName={0} NodeAddr=127.0.0.1 "
+            "CPUs=2 "
             "State=UNKNOWN\nPartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP\n",
             host, f, port, port + 1);
     }
@@ -149,7 +154,8 @@ TEST_F(Slurm, takes_a_sweep_through_a_cancelled_job) {
     const SweepSettings how = settings(k_run);
     // The user cancels the job of 60 rpm, the second of the array, while it runs.
     std::thread user([&] {
-        while (!fs::exists(folder_ / "sweep/60rpm/ran") || !fs::exists(folder_ / "sweep/slurm.job")) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        while (!fs::exists(folder_ / "sweep/60rpm/ran") || !fs::exists(folder_ / "sweep/slurm.job"))
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
         run_child({{"scancel", read_file(folder_ / "sweep/slurm.job") + "_1"}, {}, {}, {}});
     });
     const SweepOutcome cancelled = run(how);
@@ -167,7 +173,8 @@ TEST_F(Slurm, takes_a_sweep_through_a_cancelled_job) {
     EXPECT_EQ(read_file(folder_ / "sweep/60rpm/ran"), "ran\nran\n");
 }
 
-// Three short real runs on the draft mesh, some minutes on two cores: build/tests/slurm_tests --gtest_also_run_disabled_tests --gtest_filter=*real*
+// Three short real runs on the draft mesh, some minutes on two cores: build/tests/slurm_tests --gtest_also_run_disabled_tests
+// --gtest_filter=*real*
 TEST_F(Slurm, DISABLED_takes_real_runs_through_a_cancelled_job) {
     ASSERT_TRUE(::geteuid() == 0 && Scheduler::is_installed()) << "needs root, slurm-wlm and munge";
     const std::string cutterflow = (fs::path(CUTTERFLOW_BUILD_DIR) / "bin/cutterflow").string();

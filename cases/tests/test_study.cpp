@@ -96,7 +96,8 @@ TEST(Study, defaults_follow_the_ring_radius) {
     const ParameterValues large_head = resolve_study(values, large);
     int followed = 0;
     for (const Parameter& parameter : study_table()) {
-        if (parameter.repeated || parameter.unit != "m" || !small_head.has(parameter.key)) continue;  // an instrument's lengths have no default without its points
+        if (parameter.repeated || parameter.unit != "m" || !small_head.has(parameter.key))
+            continue;  // an instrument's lengths have no default without its points
         EXPECT_NEAR(large_head.number(parameter.key), 3.0 * small_head.number(parameter.key), 1e-12) << parameter.key;
         ++followed;
     }
@@ -164,7 +165,9 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
     const ParameterValues given = resolve_study(parse(minimal("[rock]\nyoungs_modulus_pa = 1e7\n")), k_model);
     EXPECT_EQ(given.number("rock.youngs_modulus_pa"), 1e7);
     const std::string feed = "[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\n";
-    const auto warnings = [&](const std::string& rock) { return study_warnings(resolve_study(parse(minimal(rock + feed)), k_model), k_model); };
+    const auto warnings = [&](const std::string& rock) {
+        return study_warnings(resolve_study(parse(minimal(rock + feed)), k_model), k_model);
+    };
     EXPECT_TRUE(warnings("").empty());
     // Overlap goes with E^(-2/5).
     const std::string share = fmt::format("overlaps steel by {:.0f} %", 5.0 * std::pow(modulus / 1e7, 0.4));
@@ -175,8 +178,8 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
 TEST(Study, of_a_larger_head_follows_froude) {
     const double scale = 4.0;
     // Length, time and stiffness of the default at the larger head over those at the model.
-    const std::map<std::string, double> factors = {{"m", scale}, {"s", std::sqrt(scale)}, {"m3/s", std::pow(scale, 2.5)},
-                                                   {"rpm", 1.0 / std::sqrt(scale)}, {"Pa", scale}};
+    const std::map<std::string, double> factors = {
+        {"m", scale}, {"s", std::sqrt(scale)}, {"m3/s", std::pow(scale, 2.5)}, {"rpm", 1.0 / std::sqrt(scale)}, {"Pa", scale}};
     const auto resolved = [](double rpm, double discharge, double diameter, const HeadSize& head) {
         return resolve_study(parse(fmt::format("[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = {}\n[suction]\ndischarge_m3_s = {}\n"
                                                "[[feed]]\ncount = 3\n[[feed.class]]\ndiameter_m = {}\n",

@@ -28,8 +28,8 @@ protected:
         std::string name = (fs::temp_directory_path() / "cutterflow_sweep_XXXXXX").string();
         ASSERT_NE(::mkdtemp(name.data()), nullptr);
         folder_ = name;
-        static const geometry::TriangleSurface crown =
-            geometry::generate_crown_cutter(geometry::read_crown_parameters(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/crown.toml"));
+        static const geometry::TriangleSurface crown = geometry::generate_crown_cutter(
+            geometry::read_crown_parameters(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/model_cutter/crown.toml"));
         for (const char* file : {"a.stl", "b.stl"}) geometry::write_stl(crown, folder_ / file);
         write_file(folder_ / "study.toml",
                    "name = \"head\"\n[cutter]\nfile = \"a.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"

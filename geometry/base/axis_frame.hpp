@@ -47,6 +47,8 @@ inline Cylindrical to_cylindrical(const RotationAxis& axis, const Vec3& referenc
 }
 
 /// Angular speed [rad/s] of a speed in revolutions per minute.
-inline constexpr double rpm_to_rad_s(double rpm) { return rpm * 2.0 * k_pi / 60.0; }
+inline constexpr double rpm_to_rad_s(double rpm) {
+    return rpm * 2.0 * k_pi / 60.0;
+}
 
 }  // namespace cutterflow

@@ -103,7 +103,8 @@ std::string package_of(const std::string& program) {
                                                 "mergeOrSplitBaffles", "decomposePar",  "reconstructPar", "reconstructParMesh",
                                                 "simpleFoam",          "pimpleFoam",    "potentialFoam",  "renumberMesh",
                                                 "foamToVTK",           "postProcess",   "foamDictionary", "mapFields"};
-    static const std::map<std::string, std::string> others{{"mpirun", "openmpi-bin"}, {"gnuplot", "gnuplot-nox"}, {"sbatch", "slurm-client"}, {"squeue", "slurm-client"}};
+    static const std::map<std::string, std::string> others{
+        {"mpirun", "openmpi-bin"}, {"gnuplot", "gnuplot-nox"}, {"sbatch", "slurm-client"}, {"squeue", "slurm-client"}};
     if (openfoam.count(program) > 0) return "openfoam";
     const auto found = others.find(program);
     return found == others.end() ? "" : found->second;

@@ -29,9 +29,9 @@ struct ChildResult {
 };
 
 /// Runs a program to its end. `each_line` (may be empty) is called with every complete line of output while the program runs, after it
-/// was written to the log. Several may run at a time, each from its own thread. SIGINT and SIGTERM that reach the caller are passed on to the child, which is waited for; then the call throws
-/// Interrupted. (Every child that runs gets the signal.)
-/// \throws ToolError  when the program is not found or cannot be started (names it, its package when known, and what to do)
+/// was written to the log. Several may run at a time, each from its own thread. SIGINT and SIGTERM that reach the caller are passed on to
+/// the child, which is waited for; then the call throws Interrupted. (Every child that runs gets the signal.) \throws ToolError  when the
+/// program is not found or cannot be started (names it, its package when known, and what to do)
 ChildResult run_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
 
 /// As run_child, but an exit code other than 0 throws ToolError, which quotes the log's last lines and names the log.

@@ -65,7 +65,8 @@ private:
 
 class Arranger {
 public:
-    explicit Arranger(const TriangleSurface& surface) : surface_(surface), cuts_(surface.triangles.size()), groups_(surface.triangles.size()) {}
+    explicit Arranger(const TriangleSurface& surface)
+        : surface_(surface), cuts_(surface.triangles.size()), groups_(surface.triangles.size()) {}
 
     Arrangement run(const std::vector<std::pair<std::size_t, std::size_t>>& crossing) {
         std::vector<bool> is_cut(surface_.triangles.size(), false);

@@ -9,7 +9,7 @@ namespace cutterflow::geometry {
 
 /// A band of the head's boundary. `gap` lies between ring plane and backplate, `below_hub` below the contour's lower end.
 struct AxialBin {
-    std::string name;  ///< "gap", "0-30mm", ... (distance below the ring), "below_hub"
+    std::string name;    ///< "gap", "0-30mm", ... (distance below the ring), "below_hub"
     double z_min = 0.0;  ///< [m], in the head's frame; -infinity for below_hub
     double z_max = 0.0;  ///< [m]; z_backplate for gap
 };

@@ -48,8 +48,7 @@ double Contour::signed_distance(double r, double z) const {
     const Eigen::Vector2d p(r, z);
     double nearest = std::numeric_limits<double>::infinity();
     // The last edge, along the axis, is no boundary of the solid of revolution.
-    for (std::size_t i = 0; i + 1 < outline_.size(); ++i)
-        nearest = std::min(nearest, distance_to_segment(p, outline_[i], outline_[i + 1]));
+    for (std::size_t i = 0; i + 1 < outline_.size(); ++i) nearest = std::min(nearest, distance_to_segment(p, outline_[i], outline_[i + 1]));
     const bool inside = z >= z_hub() && z <= z_backplate_ && r <= radius_at(z);
     return inside ? -nearest : nearest;
 }

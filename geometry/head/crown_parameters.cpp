@@ -92,11 +92,15 @@ const ParameterTable& crown_parameter_table() {
 
 std::string crown_manual_page() {
     return "# The file of a parametric crown cutter\n\n"
-           "<!-- Made from the table in geometry/head/crown_parameters.cpp: build the target update_manual instead of editing this page. -->\n\n"
-           "`cutterflow generate-cutter crown.toml -o cutter.stl` makes a watertight crown cutter, in metres, from these sizes: a ring, a hub and\n"
-           "helical blades between them, with picks on the blades' outer edges when `picks.per_blade` is above 0. The ring's top face is z = 0 and\n"
+           "<!-- Made from the table in geometry/head/crown_parameters.cpp: build the target update_manual instead of editing this page. "
+           "-->\n\n"
+           "`cutterflow generate-cutter crown.toml -o cutter.stl` makes a watertight crown cutter, in metres, from these sizes: a ring, a "
+           "hub and\n"
+           "helical blades between them, with picks on the blades' outer edges when `picks.per_blade` is above 0. The ring's top face is z "
+           "= 0 and\n"
            "the head lies below it. `cases/examples/model_cutter/crown.toml` is an example.\n\n"
-           "Solids of known volume for cases with a known answer come from `cutterflow generate-solid pipe`, `box` and `funnel`; `generate-solid\n"
+           "Solids of known volume for cases with a known answer come from `cutterflow generate-solid pipe`, `box` and `funnel`; "
+           "`generate-solid\n"
            "backplate` writes a backplate with suction mouth and pipe as a study puts it behind a head. Sizes are options (`--help`).\n" +
            parameters_markdown(crown_parameter_table());
 }

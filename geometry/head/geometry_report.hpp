@@ -7,8 +7,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "geometry/head/head.hpp"
-#include "geometry/io/read_surface.hpp"
 #include "geometry/io/length_unit.hpp"
+#include "geometry/io/read_surface.hpp"
 #include "geometry/surface/soundness.hpp"
 
 namespace cutterflow::geometry {

@@ -87,8 +87,9 @@ UnitDecision decide_unit(double half_extent, std::optional<LengthUnit> given) {
                 fmt::format("unit {} told from the size: half the largest extent is {:.4g} m{}", name_of(unit), metres,
                             alternatives_to(unit, half_extent))};
     }
-    throw UserError(fmt::format("half the surface's largest extent is {:.4g} in the file's unit, which fits none of m, mm and inch", half_extent),
-                    rule, remedy_for(half_extent));
+    throw UserError(
+        fmt::format("half the surface's largest extent is {:.4g} in the file's unit, which fits none of m, mm and inch", half_extent), rule,
+        remedy_for(half_extent));
 }
 
 }  // namespace cutterflow::geometry

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/head/contour.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "geometry/head/contour.hpp"
 
 namespace cutterflow::geometry {
 

@@ -21,10 +21,10 @@ double enclosed_volume(const TriangleSurface& surface);
 /// A surface whose holes were closed.
 struct Filled {
     TracedSurface traced;
-    std::size_t count = 0;            ///< holes closed
-    double area = 0.0;                ///< [m2] of the patches
-    double uncertain_volume = 0.0;    ///< [m3]: each patch's area times a sixth of its hole's size, a corner of that size
-    std::vector<Hole> left_open;      ///< for which there is no patch
+    std::size_t count = 0;          ///< holes closed
+    double area = 0.0;              ///< [m2] of the patches
+    double uncertain_volume = 0.0;  ///< [m3]: each patch's area times a sixth of its hole's size, a corner of that size
+    std::vector<Hole> left_open;    ///< for which there is no patch
 };
 
 /// Closes holes by triangles of least area without new points.

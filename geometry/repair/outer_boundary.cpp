@@ -39,8 +39,8 @@ double mean_winding_at(const Arrangement& arrangement, const TriangleSurface& fa
     for (std::size_t f = 0; f < facets.triangles.size(); ++f) {
         if (f == at) continue;
         const Triangle& t = facets.triangles[f];
-        sum += arrangement.facets[f].multiplicity *
-               solid_angle_share(facets.points[t[0]], facets.points[t[1]], facets.points[t[2]], centroid);
+        sum +=
+            arrangement.facets[f].multiplicity * solid_angle_share(facets.points[t[0]], facets.points[t[1]], facets.points[t[2]], centroid);
     }
     return sum;
 }
@@ -63,8 +63,8 @@ std::vector<double> mean_windings(const Arrangement& arrangement, const Triangle
 /// A wall within a solid or outside it ends at edges that facets do not pass equally often in either sense, and has the same whole winding
 /// number on both sides, where a boundary has numbers that differ by one. Of the patches at such edges the one whose mean is nearest to a
 /// whole number; none when all edges balance or no patch is like a wall.
-std::optional<std::size_t> most_likely_wall(const Arrangement& arrangement, const TriangleSurface& facets, const std::vector<std::size_t>& patch,
-                                            const std::vector<double>& mean) {
+std::optional<std::size_t> most_likely_wall(const Arrangement& arrangement, const TriangleSurface& facets,
+                                            const std::vector<std::size_t>& patch, const std::vector<double>& mean) {
     std::optional<std::size_t> wall;
     double smallest = 0.25;  // a boundary has 0.5
     for_each_edge(sorted_edge_uses(facets), [&](auto first, auto last) {

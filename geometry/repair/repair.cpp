@@ -108,8 +108,9 @@ private:
         require_orientable();
         const Filled filled = close_holes();
         take("orient outwards", "triangles flipped", orient_outwards(now()));
-        require_change_within(filled.uncertain_volume, volume_, limits().volume_change, "the patches of all holes leave {} of the volume uncertain",
-                              "--volume-change-percent", {{"hole", added_triangles()}});
+        require_change_within(filled.uncertain_volume, volume_, limits().volume_change,
+                              "the patches of all holes leave {} of the volume uncertain", "--volume-change-percent",
+                              {{"hole", added_triangles()}});
         resolve_self_intersections();
         unite_shells();
         tidy();
@@ -130,8 +131,8 @@ private:
 
     void require_something() const {
         if (now().surface.triangles.empty())
-            throw Refused{{{name_, "nothing is left after flat, duplicate and hanging triangles are dropped", "The surface must bound a solid",
-                            "Export the solid's surface"}},
+            throw Refused{{{name_, "nothing is left after flat, duplicate and hanging triangles are dropped",
+                            "The surface must bound a solid", "Export the solid's surface"}},
                           {}};
     }
 
@@ -144,7 +145,8 @@ private:
         std::string place = "";
         for (const auto& [kind, triangles] : where)
             if (place.empty() && !triangles.empty())
-                place = fmt::format(", the first at {}, face {}", point_text(centroid_of(now().surface, now().surface.triangles[triangles.front()])),
+                place = fmt::format(", the first at {}, face {}",
+                                    point_text(centroid_of(now().surface, now().surface.triangles[triangles.front()])),
                                     now().source[triangles.front()]);
         const std::string share = fmt::format("{:.3g} %", 100.0 * std::abs(change) / std::abs(whole));
         throw Refused{{{name_, fmt::format(fmt::runtime(what), share) + place, fmt::format("The limit is {:.3g} %", 100.0 * limit),
@@ -186,7 +188,8 @@ private:
             where["hole"].insert(where["hole"].end(), hole.triangles.begin(), hole.triangles.end());
             largest = std::max(largest, hole.size);
         }
-        require_change_within(filled.area, area_, limits().area_change, "the patches of all holes make up {} of the area", "--area-change-percent", where);
+        require_change_within(filled.area, area_, limits().area_change, "the patches of all holes make up {} of the area",
+                              "--area-change-percent", where);
         take("fill holes", "holes", {filled.traced, filled.count},
              filled.count == 0 ? std::string()
                                : fmt::format("largest {:.3g} m (limit {:.3g} m), patches {:.3g} m2, uncertain volume {:.3g} m3", largest,
@@ -195,9 +198,10 @@ private:
     }
 
     void refuse_large_holes(std::vector<Hole> holes) const {
-        holes.erase(std::remove_if(holes.begin(), holes.end(),
-                                   [&](const Hole& hole) { return hole.size <= limits().hole_size && hole.points.size() <= k_most_hole_points; }),
-                    holes.end());
+        holes.erase(
+            std::remove_if(holes.begin(), holes.end(),
+                           [&](const Hole& hole) { return hole.size <= limits().hole_size && hole.points.size() <= k_most_hole_points; }),
+            holes.end());
         if (holes.empty()) return;
         std::sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.size > b.size; });
         Refused refused;
@@ -207,8 +211,8 @@ private:
             if (refused.mistakes.size() == k_holes_named) continue;
             refused.mistakes.push_back(
                 {name_,
-                 fmt::format("a hole of {:.3g} m with {} edges about {}, at face {}{}", hole.size, hole.points.size(), point_text(hole.middle),
-                             now().source[hole.triangles.front()],
+                 fmt::format("a hole of {:.3g} m with {} edges about {}, at face {}{}", hole.size, hole.points.size(),
+                             point_text(hole.middle), now().source[hole.triangles.front()],
                              refused.mistakes.empty() ? fmt::format(", the largest of {} that are too large", holes.size()) : ""),
                  fmt::format("Holes up to {:.3g} m and {} edges are filled", limits().hole_size, k_most_hole_points),
                  "Close it in CAD, or raise --hole-size-m"});
@@ -277,9 +281,7 @@ private:
     }
 
     /// Points of equal coordinates made one again.
-    static TracedSurface rewelded(const TracedSurface& traced) {
-        return {welded(traced.surface), traced.source};
-    }
+    static TracedSurface rewelded(const TracedSurface& traced) { return {welded(traced.surface), traced.source}; }
 
     void unite_shells() {
         const std::vector<EdgeUse> uses = sorted_edge_uses(now().surface);
@@ -293,7 +295,8 @@ private:
         }
         const Stepped united = outer_boundary(now());
         if (united.traced.surface.triangles.empty())
-            throw Refused{{{name_, "the surface encloses nothing", "It must bound a solid", "Export the solid's surface"}}, {{"crossing", crossing}}};
+            throw Refused{{{name_, "the surface encloses nothing", "It must bound a solid", "Export the solid's surface"}},
+                          {{"crossing", crossing}}};
         const double volume = volume_of(united.traced.surface);
         require_change_within(volume - volume_, volume_, limits().overlap, "uniting the shells changes the sum of their volumes by {}", "",
                               {{"crossing", crossing}});
@@ -318,8 +321,8 @@ private:
             // What keeps on crossing is a sliver a little higher than the last limit.
             height = std::min(2.0 * height, std::max(height, 0.5 * limits().weld_distance));
         }
-        require_change_within(volume_of(tidied.traced.surface) - before, before, limits().volume_change, "rounding changes the volume by {}",
-                              "--volume-change-percent", {});
+        require_change_within(volume_of(tidied.traced.surface) - before, before, limits().volume_change,
+                              "rounding changes the volume by {}", "--volume-change-percent", {});
         take("round to single precision", "points and triangles touched", tidied, "what a binary STL holds");
     }
 
@@ -332,7 +335,8 @@ private:
         for (std::size_t t = 0; t < number.size(); ++t) {
             if (number[t] == volume.size()) volume.push_back(0.0);
             volume[number[t]] +=
-                area_vector(now().surface, now().surface.triangles[t]).dot(now().surface.points[now().surface.triangles[t][0]] - origin) / 3.0;
+                area_vector(now().surface, now().surface.triangles[t]).dot(now().surface.points[now().surface.triangles[t][0]] - origin) /
+                3.0;
         }
         std::vector<bool> keep(number.size());
         std::map<std::string, std::vector<std::size_t>> where{{"cavity", {}}};
@@ -347,7 +351,8 @@ private:
             dropped += std::abs(v);
             ++count;
         }
-        require_change_within(dropped, volume_, limits().volume_change, "closed cavities have {} of the volume", "--volume-change-percent", where);
+        require_change_within(dropped, volume_, limits().volume_change, "closed cavities have {} of the volume", "--volume-change-percent",
+                              where);
         take("fill cavities", "cavities and crumbs", {selected(now(), keep), count});
         require_something();
     }
@@ -370,7 +375,8 @@ private:
     SoundnessReport in_numbers_of_the_file(SoundnessReport report) const {
         for (Defect* defect : {&report.degenerate_triangles, &report.duplicate_triangles, &report.border_edges, &report.non_manifold_edges,
                                &report.misoriented_edges, &report.non_manifold_points, &report.self_intersections})
-            for (std::size_t& triangle : defect->triangles) triangle = static_cast<std::size_t>(std::max<std::int64_t>(0, now().source[triangle]));
+            for (std::size_t& triangle : defect->triangles)
+                triangle = static_cast<std::size_t>(std::max<std::int64_t>(0, now().source[triangle]));
         return report;
     }
 

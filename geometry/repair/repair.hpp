@@ -1,5 +1,6 @@
 #pragma once
-/// \file Repair of users' surfaces: from triangles as some program has exported them to the boundary of one solid, or a refusal that says where.
+/// \file Repair of users' surfaces: from triangles as some program has exported them to the boundary of one solid, or a refusal that says
+/// where.
 #include <map>
 #include <string>
 #include <vector>
@@ -21,16 +22,18 @@ struct RepairLimits {
 inline constexpr double k_weld_distance_per_extent = 1e-5;
 inline constexpr double k_hole_size_per_extent = 0.05;
 
-/// Limits whose lengths follow the largest extent [m] of the surface. The weld distance is never below what single precision can tell apart.
+/// Limits whose lengths follow the largest extent [m] of the surface. The weld distance is never below what single precision can tell
+/// apart.
 RepairLimits default_limits(const TriangleSurface& surface);
 
 struct RepairStep {
     std::string name;
     std::string counted;  ///< what `count` counts
     std::size_t count = 0;
-    double volume_change = 0.0;  ///< [m3], signed; holes count as closed by a cone on their middle; means little until all faces are oriented
-    double area_change = 0.0;    ///< [m2], signed
-    std::string remark;          ///< more numbers, with their limits
+    double volume_change =
+        0.0;                   ///< [m3], signed; holes count as closed by a cone on their middle; means little until all faces are oriented
+    double area_change = 0.0;  ///< [m2], signed
+    std::string remark;        ///< more numbers, with their limits
 };
 
 /// The faces for which a surface was refused.
@@ -51,9 +54,9 @@ struct RepairOutcome {
     bool repaired() const { return refusals.empty(); }
 };
 
-/// Repairs a surface [m]: points are welded, flat and duplicate triangles dropped, seams joined, hanging sheets dropped, triangles oriented,
-/// holes filled, self-intersections resolved shell by shell, shells united, cavities filled, coordinates rounded to single precision.
-/// \param name  of the surface, in front of refusals
+/// Repairs a surface [m]: points are welded, flat and duplicate triangles dropped, seams joined, hanging sheets dropped, triangles
+/// oriented, holes filled, self-intersections resolved shell by shell, shells united, cavities filled, coordinates rounded to single
+/// precision. \param name  of the surface, in front of refusals
 RepairOutcome repair_surface(const TriangleSurface& surface, const RepairLimits& limits, const std::string& name);
 
 }  // namespace cutterflow::geometry::repair

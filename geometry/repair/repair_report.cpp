@@ -26,7 +26,8 @@ json state_json(const SoundnessReport& report) {
 
 std::string state_text(const SoundnessReport& r) {
     return fmt::format(
-        "{} triangles, {} component(s), volume {:.6g} m3, area {:.6g} m2; open edges {}, edges of many {}, misoriented {}, touching points {}, "
+        "{} triangles, {} component(s), volume {:.6g} m3, area {:.6g} m2; open edges {}, edges of many {}, misoriented {}, touching points "
+        "{}, "
         "crossing pairs {}, flat {}, duplicate {}",
         r.triangles, r.components.size(), r.volume, r.area, r.border_edges.count, r.non_manifold_edges.count, r.misoriented_edges.count,
         r.non_manifold_points.count, r.self_intersections.count, r.degenerate_triangles.count, r.duplicate_triangles.count);

@@ -9,8 +9,8 @@
 
 namespace cutterflow::geometry::repair {
 
-/// `{schema, file, unit {..}, limits {..}, before {..}, steps: [{name, counted, count, volume_change_m3, area_change_m2, remark}], repaired,
-/// after {..} or refusals: [{what, rule, remedy}]}`
+/// `{schema, file, unit {..}, limits {..}, before {..}, steps: [{name, counted, count, volume_change_m3, area_change_m2, remark}],
+/// repaired, after {..} or refusals: [{what, rule, remedy}]}`
 nlohmann::json to_json(const RepairOutcome& outcome, const std::string& file, const UnitDecision& unit);
 
 /// The same for people: a line for each step.

@@ -14,8 +14,8 @@ struct PipeParameters {
     double volume() const;  ///< exact [m3]: pi wall (2 inner_radius + wall) length
 };
 
-/// A cone about the z axis that narrows or widens from the inlet, its upper end, to a cylindrical spout below it, which ends at z = 0 and may
-/// be of no length [m].
+/// A cone about the z axis that narrows or widens from the inlet, its upper end, to a cylindrical spout below it, which ends at z = 0 and
+/// may be of no length [m].
 struct FunnelParameters {
     double inlet_radius = 0.0;   ///< inside, at the upper end
     double outlet_radius = 0.0;  ///< inside, of the spout
@@ -24,7 +24,8 @@ struct FunnelParameters {
     double wall = 0.0;  ///< measured along the radius
     double edge_length = 0.0;
 
-    double volume() const;  ///< exact [m3]: pi wall ((inlet_radius + outlet_radius + wall) cone_height + (2 outlet_radius + wall) spout_length)
+    double volume()
+        const;  ///< exact [m3]: pi wall ((inlet_radius + outlet_radius + wall) cone_height + (2 outlet_radius + wall) spout_length)
 };
 
 /// The surfaces are closed and outward oriented. Circles get 64 edges or more and are inscribed, so that volumes are up to 0.16 % smaller

@@ -26,7 +26,8 @@ std::vector<std::size_t> component_numbers(const TriangleSurface& surface, const
         if (uses[i].same_edge(uses[i - 1])) sets.unite(uses[i].triangle, uses[i - 1].triangle);
     std::map<std::size_t, std::size_t> number_of_root;
     std::vector<std::size_t> numbers(surface.triangles.size());
-    for (std::size_t t = 0; t < numbers.size(); ++t) numbers[t] = number_of_root.try_emplace(sets.root(t), number_of_root.size()).first->second;
+    for (std::size_t t = 0; t < numbers.size(); ++t)
+        numbers[t] = number_of_root.try_emplace(sets.root(t), number_of_root.size()).first->second;
     return numbers;
 }
 

@@ -6,9 +6,9 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/coarsen.hpp"
+#include "geometry/head/stationary_steel.hpp"
 #include "geometry/surface/revolve.hpp"
 #include "geometry/surface/soundness.hpp"
-#include "geometry/head/stationary_steel.hpp"
 
 namespace cutterflow::geometry {
 namespace {

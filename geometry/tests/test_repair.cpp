@@ -59,7 +59,8 @@ TEST(Welding, joins_points_within_the_distance_and_no_others) {
     TriangleSurface torn;
     for (const Triangle& t : unit_cube().triangles) {
         const auto first = static_cast<std::uint32_t>(torn.points.size());
-        for (const std::uint32_t corner : t) torn.points.push_back(unit_cube().points[corner] + Vec3(1e-6, 0, 0) * static_cast<double>(first % 2));
+        for (const std::uint32_t corner : t)
+            torn.points.push_back(unit_cube().points[corner] + Vec3(1e-6, 0, 0) * static_cast<double>(first % 2));
         torn.triangles.push_back({first, first + 1, first + 2});
     }
     const Stepped welded_surface = weld_points(traced(torn), 1e-5);
@@ -220,7 +221,7 @@ TEST(Repair, a_sound_surface_is_left_alone) {
 
 TEST(Repair, is_idempotent) {
     TriangleSurface damaged = joined({unit_cube(), transformed(box(Vec3(0.6, 0.3, 0.2), Vec3(1.7, 0.8, 0.9)),
-                                                              Eigen::Affine3d(Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized())))});
+                                                               Eigen::Affine3d(Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized())))});
     flip(damaged.triangles[2]);
     const RepairOutcome once = repaired(damaged);
     ASSERT_TRUE(once.repaired()) << once.refusals.front().text();
@@ -288,7 +289,8 @@ TEST(Repair, cavities_are_filled_up_to_the_limit) {
 
 TEST(Repair, tilted_boxes_unite_to_the_volume_of_exact_corefinement_in_single_precision) {
     const TriangleSurface a = unit_cube();
-    const TriangleSurface b = transformed(box(Vec3(0.2, 0.3, 0.2), Vec3(1.7, 0.8, 0.9)), Eigen::Affine3d(Eigen::AngleAxisd(0.3, Vec3(1, 0, 2).normalized())));
+    const TriangleSurface b =
+        transformed(box(Vec3(0.2, 0.3, 0.2), Vec3(1.7, 0.8, 0.9)), Eigen::Affine3d(Eigen::AngleAxisd(0.3, Vec3(1, 0, 2).normalized())));
     ExactSolid solid(a);
     solid.unite(ExactSolid(b));
     const RepairOutcome outcome = repaired(joined({a, b}));

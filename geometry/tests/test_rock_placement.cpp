@@ -4,8 +4,8 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/head/head.hpp"
-#include "geometry/packing/rock_placement.hpp"
 #include "geometry/head/stationary_steel.hpp"
+#include "geometry/packing/rock_placement.hpp"
 #include "geometry/tests/solids.hpp"
 
 namespace cutterflow::geometry {

@@ -11,8 +11,8 @@
 #include "geometry/cgal/remesh.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/head.hpp"
-#include "geometry/surface/soundness.hpp"
 #include "geometry/head/stationary_steel.hpp"
+#include "geometry/surface/soundness.hpp"
 #include "geometry/tests/solids.hpp"
 
 namespace cutterflow::geometry {

@@ -1,8 +1,8 @@
 #pragma once
 /// \file The background mesh of a plan as blockMeshDict: an O-grid of rotor and stator blocks that share no point, so that the rotor's
 /// interface is a surface of revolution, divided uniformly in azimuth on both sides.
-#include "meshing/dictionary/foam_dictionary.hpp"
 #include "meshing/cutter/mesh_plan.hpp"
+#include "meshing/dictionary/foam_dictionary.hpp"
 
 namespace cutterflow::meshing {
 

@@ -12,8 +12,8 @@
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "meshing/cutter/background_mesh.hpp"
-#include "meshing/dictionary/foam_command.hpp"
 #include "meshing/cutter/mesh_dictionaries.hpp"
+#include "meshing/dictionary/foam_command.hpp"
 
 namespace cutterflow::meshing {
 namespace {

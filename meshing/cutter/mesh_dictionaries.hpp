@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "meshing/dictionary/foam_dictionary.hpp"
 #include "meshing/cutter/mesh_plan.hpp"
+#include "meshing/dictionary/foam_dictionary.hpp"
 
 namespace cutterflow::meshing {
 

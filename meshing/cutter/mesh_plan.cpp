@@ -356,8 +356,8 @@ std::vector<Mistake> mesh_warnings(const MeshInput& in) {
     const std::string finer = finer_preset(
         [&](const MeshResolution& r) { return r.cell_size < in.resolution.cell_size && thickness >= needed_thickness(in.ring_radius, r); });
     return {{"", fmt::format("The thinnest steel of the cutter is {:.4g} m thick", thickness),
-             fmt::format("The mesh keeps steel thinner than the cutter's cells, {:.4g} m at preset {}, but not its thickness and its edges", needed,
-                         in.resolution.preset),
+             fmt::format("The mesh keeps steel thinner than the cutter's cells, {:.4g} m at preset {}, but not its thickness and its edges",
+                         needed, in.resolution.preset),
              sentence(finer, "look at the steel's volume among the gates of mesh.json")}};
 }
 

@@ -49,7 +49,7 @@ struct MeshInput {
     double ring_radius = 0.0;  ///< [m]
     CutterExtent cutter;
     geometry::StationarySteelParameters steel;  ///< backplate, mouth and pipe
-    TankSize tank;                    ///< [m]
+    TankSize tank;                              ///< [m]
     MeshResolution resolution;
     double rotation_speed = 0.0;  ///< [rad/s], either sign; for the prediction of the time step
     double discharge = 0.0;       ///< [m3/s], likewise

@@ -11,8 +11,8 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/run_files.hpp"
-#include "geometry/head/head_names.hpp"
 #include "geometry/head/crown_cutter.hpp"
+#include "geometry/head/head_names.hpp"
 #include "geometry/io/write_stl.hpp"
 
 namespace cutterflow::meshing {

@@ -118,7 +118,8 @@ TEST(MeshPlan, predicts_a_time_step_that_follows_speed_and_discharge) {
     EXPECT_NEAR(plan_mesh(input).prediction.time_step, 0.5 * slow, 1e-9);  // and the tip when there is hardly any suction
 }
 
-// Steps of cutterFoam on the model cutter at 0.12 m3/s and Courant 0.9, flow alone after its start, as the runs of cases/examples/trends took.
+// Steps of cutterFoam on the model cutter at 0.12 m3/s and Courant 0.9, flow alone after its start, as the runs of cases/examples/trends
+// took.
 TEST(MeshPlan, predicts_the_time_step_of_runs_within_a_tenth) {
     const auto predicted = [](const char* preset, double rpm) {
         MeshInput input = model_mesh_input(preset);
@@ -240,7 +241,7 @@ TEST(MeshPreset, is_one_of_three) {
 TEST(CutterExtent, is_that_of_the_surface) {
     // A tetrahedron with its corner in the origin.
     const geometry::TriangleSurface corner{{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, 4, 0), Vec3(0, 0, -2)},
-                                 {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+                                           {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
     const CutterExtent extent = extent_of_cutter(corner);
     EXPECT_EQ(extent.radius, 4.0);
     EXPECT_EQ(extent.z_min, -2.0);

@@ -40,14 +40,17 @@ struct Sampled {
 
 Sampled read_sampled(const fs::path& directory) {
     const std::vector<std::string> velocity{"u_radial_m_s", "u_tangential_m_s", "u_axial_m_s"};
-    const std::string mean_file = fmt::format("{}.csv", names::adv_set), revolution_file = fmt::format("{}_revolutions.csv", names::adv_set);
+    const std::string mean_file = fmt::format("{}.csv", names::adv_set),
+                      revolution_file = fmt::format("{}_revolutions.csv", names::adv_set);
     Sampled sampled;
     for (const auto& [start, folder] : start_folders(directory, "velocity")) {
         if (!fs::exists(folder / mean_file) || !fs::exists(folder / revolution_file)) continue;
         TableRules rules{{"point", "x_m", "y_m", "z_m", "rotating", "revolutions"}, {}, velocity, k_sample_again};
         for (const char* component : {"radial", "tangential", "axial"}) rules.may_be_empty.push_back(fmt::format("se_{}_m_s", component));
         sampled.places = read_table(folder / mean_file, rules);
-        sampled.revolutions = read_table(folder / revolution_file, {{"revolution", "point", velocity[0], velocity[1], velocity[2], "wet_share"}, {}, velocity, k_sample_again});
+        sampled.revolutions =
+            read_table(folder / revolution_file,
+                       {{"revolution", "point", velocity[0], velocity[1], velocity[2], "wet_share"}, {}, velocity, k_sample_again});
     }
     if (sampled.places.empty())
         throw UserError(fmt::format("{} holds no velocities at points of measurement", directory.string()),
@@ -65,7 +68,8 @@ std::optional<std::size_t> first_row(const Sampled& sampled, const AdvPoint& poi
     const std::vector<Vec3> wanted = adv_places(point, probe);
     for (std::size_t first = 0; first + k_adv_places <= sampled.places.rows(); first += k_adv_places) {
         bool same = (sampled.places.number("rotating")[first] != 0.0) == point.rotating;
-        for (std::size_t i = 0; same && i < k_adv_places; ++i) same = (place_of(sampled.places, first + i) - wanted[i]).norm() <= k_same_place;
+        for (std::size_t i = 0; same && i < k_adv_places; ++i)
+            same = (place_of(sampled.places, first + i) - wanted[i]).norm() <= k_same_place;
         if (same) return first;
     }
     return std::nullopt;
@@ -83,9 +87,10 @@ PlaceMean mean_at(const Sampled& sampled, std::size_t row, bool rotating, double
         const std::size_t line = static_cast<std::size_t>(n) * sampled.places.rows() + row;
         const double share = table.number("wet_share")[line];
         mean.wet_share.push_back(share);
-        const Vec3 velocity = share > 0.0 ? Vec3(table.number("u_radial_m_s")[line] * radial + table.number("u_tangential_m_s")[line] * tangential +
-                                                 table.number("u_axial_m_s")[line] * Vec3::UnitZ() - frame)
-                                          : Vec3(Vec3::Zero());
+        const Vec3 velocity = share > 0.0
+                                  ? Vec3(table.number("u_radial_m_s")[line] * radial + table.number("u_tangential_m_s")[line] * tangential +
+                                         table.number("u_axial_m_s")[line] * Vec3::UnitZ() - frame)
+                                  : Vec3(Vec3::Zero());
         mean.by_revolution.push_back(velocity);
         mean.sum += share * velocity;
         mean.weight += share;
@@ -138,7 +143,8 @@ std::optional<double> position_bar(const std::vector<PlaceMean>& places, const V
     return std::sqrt(squares);
 }
 
-AdvResult result_at(const Sampled& sampled, std::size_t first, const AdvPoint& point, const geometry::Contour& contour, double speed, int revolutions) {
+AdvResult result_at(const Sampled& sampled, std::size_t first, const AdvPoint& point, const geometry::Contour& contour, double speed,
+                    int revolutions) {
     std::vector<PlaceMean> places;
     for (std::size_t i = 0; i < k_adv_places; ++i) places.push_back(mean_at(sampled, first + i, point.rotating, speed, revolutions));
     const PlaceMean probe = probe_mean(places);
@@ -165,7 +171,8 @@ int revolutions_to_average(const Sampled& sampled, std::optional<int> wanted) {
         throw UserError("the run holds no whole revolution of velocities at points", "Means are taken over whole revolutions",
                         "Let it run longer (run.max_revolutions), or let averaging begin earlier (report.outflow_start_s)");
     if (wanted && (*wanted < 1 || *wanted > whole))
-        throw UserError(fmt::format("--revolutions {}", *wanted), fmt::format("The run holds {} whole revolution(s) of velocities at points", whole),
+        throw UserError(fmt::format("--revolutions {}", *wanted),
+                        fmt::format("The run holds {} whole revolution(s) of velocities at points", whole),
                         fmt::format("Use 1 to {}", whole));
     return wanted.value_or(whole);
 }
@@ -240,16 +247,16 @@ json adv_json(const AdvComparison& comparison) {
                   {"speed_rpm", comparison.speed_rpm},
                   {"discharge_m3_s", comparison.discharge},
                   {"revolutions", comparison.revolutions},
-                  {"probe", {{"diameter_m", comparison.probe.diameter}, {"length_m", comparison.probe.length}, {"position_error_m", comparison.probe.position_error}}}};
+                  {"probe",
+                   {{"diameter_m", comparison.probe.diameter},
+                    {"length_m", comparison.probe.length},
+                    {"position_error_m", comparison.probe.position_error}}}};
     document["points"] = json::array();
     for (const AdvResult& result : comparison.points) {
         const Cylindrical& place = result.point.place;
-        json point{{"name", result.point.name},
-                   {"frame", result.point.rotating ? "rotating" : "still"},
-                   {"r_m", place.radius},
-                   {"theta_deg", place.azimuth * 180.0 / k_pi},
-                   {"z_m", place.axial},
-                   {"inside_head", result.inside},
+        json point{{"name", result.point.name},    {"frame", result.point.rotating ? "rotating" : "still"},
+                   {"r_m", place.radius},          {"theta_deg", place.azimuth * 180.0 / k_pi},
+                   {"z_m", place.axial},           {"inside_head", result.inside},
                    {"wet_share", result.wet_share}};
         for (const AdvComponent c : k_adv_components) {
             const AdvVelocity& v = result.velocity[static_cast<std::size_t>(c)];
@@ -270,20 +277,20 @@ json adv_json(const AdvComparison& comparison) {
 
 std::string adv_text(const AdvComparison& comparison) {
     const auto value = [](const std::optional<double>& v) { return v ? fmt::format("{:.3f}", *v) : std::string("-"); };
-    std::string text = fmt::format("{:<12} {:<8} {:<8} {:<10} {:>9} {:>9} {:>10} {:>10}\n", "point", "frame", "head", "component", "measured", "model",
-                                   "position+-", "std. error");
+    std::string text = fmt::format("{:<12} {:<8} {:<8} {:<10} {:>9} {:>9} {:>10} {:>10}\n", "point", "frame", "head", "component",
+                                   "measured", "model", "position+-", "std. error");
     for (const AdvResult& result : comparison.points)
         for (const AdvComponent c : k_adv_components) {
             const AdvVelocity& v = result.velocity[static_cast<std::size_t>(c)];
-            text += fmt::format("{:<12} {:<8} {:<8} {:<10} {:>9} {:>9} {:>10} {:>10}\n", result.point.name, result.point.rotating ? "rotating" : "still",
-                                result.inside ? "inside" : "outside", adv_component_name(c), value(v.measured), value(v.model),
-                                value(v.position_bar), value(v.statistical_error));
+            text += fmt::format("{:<12} {:<8} {:<8} {:<10} {:>9} {:>9} {:>10} {:>10}\n", result.point.name,
+                                result.point.rotating ? "rotating" : "still", result.inside ? "inside" : "outside", adv_component_name(c),
+                                value(v.measured), value(v.model), value(v.position_bar), value(v.statistical_error));
         }
     for (const bool inside : {true, false}) {
         const AdvAgreement a = agreement(comparison, inside);
         if (a.count > 0)
-            text += fmt::format("{} the head, {} values: bias {:.3f} m/s, RMSE {:.3f} m/s, slope {}, hit rate {:.0f} %\n", inside ? "inside" : "outside",
-                                a.count, a.bias, a.rmse, value(a.slope), 100.0 * a.hit_rate);
+            text += fmt::format("{} the head, {} values: bias {:.3f} m/s, RMSE {:.3f} m/s, slope {}, hit rate {:.0f} %\n",
+                                inside ? "inside" : "outside", a.count, a.bias, a.rmse, value(a.slope), 100.0 * a.hit_rate);
     }
     return text + fmt::format("velocities in m/s, model averaged over {} revolution{}\n", comparison.revolutions,
                               comparison.revolutions == 1 ? "" : "s");

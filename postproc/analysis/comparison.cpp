@@ -98,12 +98,12 @@ std::vector<QuantityRule> operating_rules() {
 std::vector<QuantityRule> equal_rules(const std::string& key, const std::string& when,
                                       const std::function<double(const ComparedRun&)>& since_feed) {
     const auto at = [=](const ComparedRun& r) { return ratios_after(r.run.rock->fates, r.results.spillage->feed_start, since_feed(r)); };
-    return {{"ratio_at_" + key, "spillage " + when, "-", true, [=](const ComparedRun& r) { return spillage_of(at(r).ratios); }},
-            {"spilled_at_" + key, "spilled / placed " + when, "-", true, [=](const ComparedRun& r) { return plain(at(r).ratios.ratio_min); }},
-            {"sucked_up_at_" + key, "sucked up / placed " + when, "-", true,
-             [=](const ComparedRun& r) { return plain(1.0 - at(r).ratios.ratio_max.value_or(1.0)); }},
-            {"undecided_at_" + key, "undecided " + when, "-", false,
-             [=](const ComparedRun& r) { return plain(at(r).ratios.undecided); }}};
+    return {
+        {"ratio_at_" + key, "spillage " + when, "-", true, [=](const ComparedRun& r) { return spillage_of(at(r).ratios); }},
+        {"spilled_at_" + key, "spilled / placed " + when, "-", true, [=](const ComparedRun& r) { return plain(at(r).ratios.ratio_min); }},
+        {"sucked_up_at_" + key, "sucked up / placed " + when, "-", true,
+         [=](const ComparedRun& r) { return plain(1.0 - at(r).ratios.ratio_max.value_or(1.0)); }},
+        {"undecided_at_" + key, "undecided " + when, "-", false, [=](const ComparedRun& r) { return plain(at(r).ratios.undecided); }}};
 }
 
 std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
@@ -156,8 +156,8 @@ std::vector<std::string> common_bins(const std::vector<ComparedRun>& runs, BinsO
     std::vector<std::string> names;
     for (const auto& item : bins_of(runs.front())) {
         const std::string& name = item.bin.name;
-        const bool in_all = std::all_of(runs.begin(), runs.end(),
-                                        [&](const ComparedRun& r) { return find_bin(bins_of(r), name) != bins_of(r).end(); });
+        const bool in_all =
+            std::all_of(runs.begin(), runs.end(), [&](const ComparedRun& r) { return find_bin(bins_of(r), name) != bins_of(r).end(); });
         if (in_all) names.push_back(name);
     }
     return names;
@@ -165,7 +165,8 @@ std::vector<std::string> common_bins(const std::vector<ComparedRun>& runs, BinsO
 
 std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
     std::vector<QuantityRule> rules;
-    for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.outflow; })) {
+    for (const std::string& name : common_bins(
+             runs, [](const ComparedRun& r) -> const auto& { return r.results.outflow; })) {
         rules.push_back({bin_key("outflow", name, "m_s"), fmt::format("radial outflow, {}", text::bin_text(name)), "m/s", false,
                          [=](const ComparedRun& r) { return of_average(find_bin(r.results.outflow, name)->radial_velocity); }});
     }
@@ -174,7 +175,8 @@ std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
 
 std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
     std::vector<QuantityRule> rules;
-    for (const std::string& name : common_bins(runs, [](const ComparedRun& r) -> const auto& { return r.results.spillage->bins; })) {
+    for (const std::string& name : common_bins(
+             runs, [](const ComparedRun& r) -> const auto& { return r.results.spillage->bins; })) {
         rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / placed, {}", text::bin_text(name)), "-", true,
                          [=](const ComparedRun& r) {
                              const Spillage& spillage = *r.results.spillage;
@@ -260,7 +262,8 @@ std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
 std::string batch_text(const RunData& run) {
     if (!run.feed) return "no rock";
     std::vector<std::string> classes;
-    for (const RockClass& rock : run.feed->classes) classes.push_back(fmt::format("{:.3g} mm, {:.0f} kg/m³", 1e3 * rock.diameter, rock.density));
+    for (const RockClass& rock : run.feed->classes)
+        classes.push_back(fmt::format("{:.3g} mm, {:.0f} kg/m³", 1e3 * rock.diameter, rock.density));
     return fmt::format("{} rocks asked for: {}", run.feed->requested, fmt::join(classes, "; "));
 }
 

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "postproc/run/run_reader.hpp"
 #include "postproc/analysis/spillage.hpp"
 #include "postproc/analysis/time_average.hpp"
+#include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::postproc {
 

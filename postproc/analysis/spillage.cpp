@@ -157,7 +157,8 @@ void RockHistories::take(const Table& events, std::size_t row) {
     spilled_ += static_cast<int>(rock.outside && !rock.sucked_up) - static_cast<int>(was_spilled);
 }
 
-Spillage evaluate_spillage(const Table& fates, const Table& events, const std::vector<geometry::AxialBin>& bins, double revolution, bool finished) {
+Spillage evaluate_spillage(const Table& fates, const Table& events, const std::vector<geometry::AxialBin>& bins, double revolution,
+                           bool finished) {
     Spillage result;
     const std::size_t last = last_agreed_row(fates, events, finished);
     result.fates = fates_at(fates, last);

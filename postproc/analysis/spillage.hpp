@@ -96,6 +96,7 @@ RatiosAt ratios_after(const Table& fates, double feed_start, double since_feed);
 /// \param revolution  time of one revolution [s] > 0
 /// \param finished    the run came to its end: then the last row of fates and the events must agree
 /// \throws CheckFailure  when counts do not add up, or fates and events contradict each other
-Spillage evaluate_spillage(const Table& fates, const Table& events, const std::vector<geometry::AxialBin>& bins, double revolution, bool finished);
+Spillage evaluate_spillage(const Table& fates, const Table& events, const std::vector<geometry::AxialBin>& bins, double revolution,
+                           bool finished);
 
 }  // namespace cutterflow::postproc

@@ -66,7 +66,8 @@ std::string vtp_text(const IndexedSurface& surface, double angle) {
     }
     return fmt::format(
                "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n"
-               "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+               "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+               "NumberOfPolys=\"{}\">\n",
                surface.points.size(), surface.triangles.size()) +
            "<Points>\n" + data_array("type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"", points) + "</Points>\n<Polys>\n" +
            data_array("type=\"Int32\" Name=\"connectivity\"", corners) + data_array("type=\"Int32\" Name=\"offsets\"", ends) +
@@ -75,8 +76,8 @@ std::string vtp_text(const IndexedSurface& surface, double angle) {
 
 /// [rad/s], signed.
 double rotor_speed(const fs::path& run_directory) {
-    const Table loads = read_joined_table(run_directory, "loads", "loads.csv",
-                                          {{"time_s", "rotor_angle_rad"}, {}, {}, "Run the study again"});
+    const Table loads =
+        read_joined_table(run_directory, "loads", "loads.csv", {{"time_s", "rotor_angle_rad"}, {}, {}, "Run the study again"});
     return loads.empty() ? 0.0 : loads.number("rotor_angle_rad").back() / loads.number("time_s").back();
 }
 

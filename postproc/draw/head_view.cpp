@@ -41,7 +41,8 @@ json triple(const Vec3& v) {
 
 json surface_json(const TriangleSurface& surface) {
     const IndexedSurface indexed = index_surface(surface);
-    return {{"low", triple(indexed.low)}, {"step", indexed.step}, {"points", packed(indexed.points)}, {"triangles", packed(indexed.triangles)}};
+    return {
+        {"low", triple(indexed.low)}, {"step", indexed.step}, {"points", packed(indexed.points)}, {"triangles", packed(indexed.triangles)}};
 }
 
 }  // namespace

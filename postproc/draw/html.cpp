@@ -169,9 +169,8 @@ std::string figure(const std::string& content, const std::string& caption, const
 }
 
 std::string replaceable(const std::string& content, const std::string& kind, const nlohmann::json& data) {
-    return fmt::format(
-        "<div class=\"replaceable\" {}><div class=\"static\">{}</div><script type=\"application/json\">{}</script></div>",
-        fmt::format(k_kind, kind), content, script_text(data));
+    return fmt::format("<div class=\"replaceable\" {}><div class=\"static\">{}</div><script type=\"application/json\">{}</script></div>",
+                       fmt::format(k_kind, kind), content, script_text(data));
 }
 
 std::string data(const std::string& id, const nlohmann::json& data) {

@@ -16,9 +16,7 @@ struct IndexedSurface {
     double step = 0.0;        ///< [m]
     std::vector<std::array<std::uint16_t, 3>> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    Vec3 point(std::size_t index) const {
-        return low + step * Vec3(points[index][0], points[index][1], points[index][2]);
-    }
+    Vec3 point(std::size_t index) const { return low + step * Vec3(points[index][0], points[index][1], points[index][2]); }
 };
 
 /// Puts a surface on a grid of 65,536 points along its longest side. Corners that fall on one grid point become one and triangles

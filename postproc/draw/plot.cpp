@@ -33,8 +33,8 @@ json column(const PlotRows& rows, std::size_t index) {
 }
 
 json curve(const PlotRows& rows, std::size_t x, std::size_t y, const std::string& name, const std::string& colour) {
-    return {{"type", "scatter"}, {"mode", "lines"}, {"x", column(rows, x)}, {"y", column(rows, y)}, {"name", name},
-            {"line", {{"color", colour}, {"width", 2}}}};
+    return {{"type", "scatter"},    {"mode", "lines"}, {"x", column(rows, x)},
+            {"y", column(rows, y)}, {"name", name},    {"line", {{"color", colour}, {"width", 2}}}};
 }
 
 json axis(const std::string& title) {

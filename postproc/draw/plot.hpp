@@ -11,7 +11,7 @@ namespace cutterflow::postproc {
 
 struct Plot {
     PlotScript script;
-    nlohmann::json traces = nlohmann::json::array();  ///< plotly's `data`
+    nlohmann::json traces = nlohmann::json::array();   ///< plotly's `data`
     nlohmann::json layout = nlohmann::json::object();  ///< plotly's `layout`; fonts, colours and margins come from page.js
 };
 

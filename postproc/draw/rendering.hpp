@@ -27,9 +27,9 @@ struct Sphere {
 };
 
 struct Scene {
-    TriangleSurface steel;   ///< opaque
+    TriangleSurface steel;     ///< opaque
     double steel_angle = 0.0;  ///< by which the steel is turned about the z axis [rad]
-    TriangleSurface ghosts;  ///< transparent: what would hide the rest
+    TriangleSurface ghosts;    ///< transparent: what would hide the rest
     std::vector<Sphere> rocks;
 };
 

@@ -1,11 +1,14 @@
 #include "postproc/draw/scripts.hpp"
 
 // The assembler copies the files into the program: no generated source, no limit of a string literal.
-#define CUTTERFLOW_TAKE_IN(name, file)                                                                                              \
-    __asm__(".pushsection .rodata\n"                                                                                                \
-            "cutterflow_" #name "_begin: .incbin \"" CUTTERFLOW_POSTPROC_DIR "/" file "\"\n"                                        \
-            "cutterflow_" #name "_end:\n"                                                                                           \
-            ".popsection\n");                                                                                                       \
+#define CUTTERFLOW_TAKE_IN(name, file)                                            \
+    __asm__(                                                                      \
+        ".pushsection .rodata\n"                                                  \
+        "cutterflow_" #name "_begin: .incbin \"" CUTTERFLOW_POSTPROC_DIR "/" file \
+        "\"\n"                                                                    \
+        "cutterflow_" #name                                                       \
+        "_end:\n"                                                                 \
+        ".popsection\n");                                                         \
     extern "C" const char cutterflow_##name##_begin[], cutterflow_##name##_end[]
 
 CUTTERFLOW_TAKE_IN(plotly, "third_party/plotly-cartesian.min.js");

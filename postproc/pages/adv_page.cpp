@@ -8,10 +8,10 @@
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
+#include "postproc/analysis/text.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/palette.hpp"
 #include "postproc/draw/plot.hpp"
-#include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -21,7 +21,7 @@ using html::escape;
 using nlohmann::json;
 
 constexpr std::array<const char*, 3> k_colours{palette::outflow, palette::sucked_up, palette::spilled};
-constexpr std::array<int, 3> k_marks{7, 5, 9};  // gnuplot's disc, square, triangle
+constexpr std::array<int, 3> k_marks{7, 5, 9};                                      // gnuplot's disc, square, triangle
 constexpr std::array<const char*, 3> k_symbols{"circle", "square", "triangle-up"};  // plotly's
 
 const AdvVelocity& velocity_of(const AdvResult& result, AdvComponent component) {
@@ -35,7 +35,8 @@ double bar_of(const AdvVelocity& v) {
 
 /// Model against measurement for the points inside or outside the head.
 Plot scatter_plot(const AdvComparison& comparison, bool inside) {
-    Plot plot{{inside ? "inside" : "outside", 540, 480, ""}, json::array(), {{"xaxis", axis("measured, m/s")}, {"yaxis", axis("model, m/s")}}};
+    Plot plot{
+        {inside ? "inside" : "outside", 540, 480, ""}, json::array(), {{"xaxis", axis("measured, m/s")}, {"yaxis", axis("model, m/s")}}};
     plot.layout["hovermode"] = "closest";
     std::vector<std::string> curves{fmt::format("x with lines lc rgb \"{}\" notitle", palette::faint)};
     double low = 0.0, high = 0.0;
@@ -55,8 +56,8 @@ Plot scatter_plot(const AdvComparison& comparison, bool inside) {
         const auto index = static_cast<std::size_t>(c);
         const char* name = adv_component_name(c);
         plot.script.commands += data_block(name, rows);
-        curves.push_back(fmt::format("${0} using 1:2:3 with yerrorbars pt {1} ps 0.8 lw 1.4 lc rgb \"{2}\" title \"{0}\"", name, k_marks[index],
-                                     k_colours[index]));
+        curves.push_back(fmt::format("${0} using 1:2:3 with yerrorbars pt {1} ps 0.8 lw 1.4 lc rgb \"{2}\" title \"{0}\"", name,
+                                     k_marks[index], k_colours[index]));
         json trace = curve(rows, 0, 1, name, k_colours[index]);
         trace.update({{"mode", "markers"},
                       {"marker", {{"symbol", k_symbols[index]}, {"size", 9}, {"color", k_colours[index]}}},
@@ -67,7 +68,8 @@ Plot scatter_plot(const AdvComparison& comparison, bool inside) {
     }
     const double margin = 0.05 * std::max(high - low, 1e-3), from = low - margin, to = high + margin;
     plot.script.commands += fmt::format(
-        "set xrange [{0:.6g}:{1:.6g}]\nset yrange [{0:.6g}:{1:.6g}]\nset size square\nset xlabel \"measured, m/s\"\nset ylabel \"model, m/s\"\n"
+        "set xrange [{0:.6g}:{1:.6g}]\nset yrange [{0:.6g}:{1:.6g}]\nset size square\nset xlabel \"measured, m/s\"\nset ylabel \"model, "
+        "m/s\"\n"
         "set key top left\nplot {2}\n",
         from, to, fmt::join(curves, ", "));
     json equal = curve({{from, from}, {to, to}}, 0, 1, "model = measured", palette::faint);
@@ -89,10 +91,11 @@ std::string plots(const AdvComparison& comparison, const fs::path& scratch) {
     std::string content;
     for (const bool inside : {true, false})
         if (has_pairs(comparison, inside))
-            content += html::figure(draw_plot(scatter_plot(comparison, inside), scratch),
-                                    fmt::format("{} the head. On the line model and measurement agree. Bars: position error and two standard errors of "
-                                                "the mean in time, root of the sum of squares.",
-                                                inside ? "Inside" : "Outside"));
+            content += html::figure(
+                draw_plot(scatter_plot(comparison, inside), scratch),
+                fmt::format("{} the head. On the line model and measurement agree. Bars: position error and two standard errors of "
+                            "the mean in time, root of the sum of squares.",
+                            inside ? "Inside" : "Outside"));
     fs::remove_all(scratch);
     return "<div class=\"figures\">" + content + "</div>\n";
 }
@@ -106,8 +109,9 @@ std::string agreement_table(const AdvComparison& comparison) {
     const auto add = [&](bool inside, std::optional<AdvComponent> component) {
         const AdvAgreement a = agreement(comparison, inside, component);
         if (a.count == 0) return;
-        rows.push_back({fmt::format("{} the head, {}", inside ? "inside" : "outside", component ? adv_component_name(*component) : "all components"),
-                        std::to_string(a.count), velocity_cell(a.bias), velocity_cell(a.rmse), velocity_cell(a.slope), text::percent(a.hit_rate)});
+        rows.push_back(
+            {fmt::format("{} the head, {}", inside ? "inside" : "outside", component ? adv_component_name(*component) : "all components"),
+             std::to_string(a.count), velocity_cell(a.bias), velocity_cell(a.rmse), velocity_cell(a.slope), text::percent(a.hit_rate)});
     };
     for (const bool inside : {true, false}) {
         add(inside, std::nullopt);
@@ -118,7 +122,8 @@ std::string agreement_table(const AdvComparison& comparison) {
         "Agreement",
         html::table({"", "values", "bias [m/s]", "RMSE [m/s]", "slope", "hit rate"}, rows, true) +
             "<p>Bias: mean of model less measurement. RMSE: root of the mean of its square. Slope: of the line through the origin, "
-            "Σ PO / Σ O², model P, measurement O. Hit rate: share with |P − O| at most a quarter of |O|, or at most the position bar plus two "
+            "Σ PO / Σ O², model P, measurement O. Hit rate: share with |P − O| at most a quarter of |O|, or at most the position bar plus "
+            "two "
             "standard errors.</p>\n");
 }
 
@@ -127,10 +132,15 @@ std::string point_table(const AdvComparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (const AdvResult& result : comparison.points) {
         const Cylindrical& place = result.point.place;
-        std::vector<std::string> row{fmt::format("{}<br>{:.0f} mm, {:.1f}°, {:.0f} mm<br>{}, {}, {}", escape(result.point.name), 1e3 * place.radius,
-                                                 place.azimuth * 180.0 / k_pi, 1e3 * place.axial, result.point.rotating ? "rotating" : "still",
-                                                 result.inside ? "inside" : "outside", text::percent(result.wet_share)),
-                                     "", "", "", "", ""};
+        std::vector<std::string> row{
+            fmt::format("{}<br>{:.0f} mm, {:.1f}°, {:.0f} mm<br>{}, {}, {}", escape(result.point.name), 1e3 * place.radius,
+                        place.azimuth * 180.0 / k_pi, 1e3 * place.axial, result.point.rotating ? "rotating" : "still",
+                        result.inside ? "inside" : "outside", text::percent(result.wet_share)),
+            "",
+            "",
+            "",
+            "",
+            ""};
         for (const AdvComponent c : k_adv_components) {
             const AdvVelocity& v = velocity_of(result, c);
             const std::string line = c == k_adv_components.front() ? "" : "<br>";
@@ -142,8 +152,8 @@ std::string point_table(const AdvComparison& comparison) {
         }
         rows.push_back(row);
     }
-    return html::section("Points", html::table({"point<br>r, θ, z<br>frame, place by the head, share of time in water", "component", "measured [m/s]",
-                                                "model [m/s]", "position ± [m/s]", "standard error [m/s]"},
+    return html::section("Points", html::table({"point<br>r, θ, z<br>frame, place by the head, share of time in water", "component",
+                                                "measured [m/s]", "model [m/s]", "position ± [m/s]", "standard error [m/s]"},
                                                rows, true));
 }
 
@@ -151,12 +161,17 @@ std::string point_table(const AdvComparison& comparison) {
 
 fs::path write_adv_report(const AdvComparison& comparison, const fs::path& run_directory) {
     const fs::path page = run_directory / names::adv_page;
-    const std::string title = fmt::format("{}: measured and computed velocities", escape(comparison.run.empty() ? "Cutter head" : comparison.run));
-    std::string body = fmt::format("<header><h1>{}</h1><p>{:g} rpm, {:g} m³/s</p></header>\n", title, comparison.speed_rpm, comparison.discharge);
+    const std::string title =
+        fmt::format("{}: measured and computed velocities", escape(comparison.run.empty() ? "Cutter head" : comparison.run));
+    std::string body =
+        fmt::format("<header><h1>{}</h1><p>{:g} rpm, {:g} m³/s</p></header>\n", title, comparison.speed_rpm, comparison.discharge);
     body += fmt::format(
-        "<p>The model is averaged over a cylinder {:g} mm across and {:g} mm long along the rotor’s axis, the volume of the instrument, and over the last {} "
-        "whole revolution{}; while steel covers a place it does not count. Position ±: by how much the model’s mean changes within {:g} mm in the "
-        "steepest direction. Standard error: of the mean in time, by batch means over the revolutions. Velocities at rotating points are relative to the "
+        "<p>The model is averaged over a cylinder {:g} mm across and {:g} mm long along the rotor’s axis, the volume of the instrument, "
+        "and over the last {} "
+        "whole revolution{}; while steel covers a place it does not count. Position ±: by how much the model’s mean changes within {:g} mm "
+        "in the "
+        "steepest direction. Standard error: of the mean in time, by batch means over the revolutions. Velocities at rotating points are "
+        "relative to the "
         "head. Tangential is positive by the right hand about the axis from hub to ring.</p>\n",
         1e3 * comparison.probe.diameter, 1e3 * comparison.probe.length, comparison.revolutions, comparison.revolutions == 1 ? "" : "s",
         1e3 * comparison.probe.position_error);

@@ -9,10 +9,10 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/analysis/adv_comparison.hpp"
+#include "postproc/analysis/text.hpp"
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/palette.hpp"
-#include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -38,7 +38,8 @@ std::size_t speeds_of(const AdvTrend& trend) {
 
 /// The three components of one point.
 PlotScript trend_plot(const std::vector<AdvTrend>& trends, std::size_t first, std::size_t index) {
-    PlotScript plot{fmt::format("adv_{}", std::string(1, static_cast<char>('a' + index % 26)) + std::string(index / 26, 'z')), 540, 250, ""};
+    PlotScript plot{fmt::format("adv_{}", std::string(1, static_cast<char>('a' + index % 26)) + std::string(index / 26, 'z')), 540, 250,
+                    ""};
     std::vector<std::string> curves;
     for (std::size_t c = 0; c < k_adv_components.size(); ++c) {
         std::vector<std::vector<std::string>> model, measured;
@@ -58,8 +59,10 @@ PlotScript trend_plot(const std::vector<AdvTrend>& trends, std::size_t first, st
             curves.push_back(fmt::format("${}_measured using 1:2 with points pt 7 ps 0.9 lc rgb \"{}\" notitle", name, k_colours[c]));
         }
     }
-    plot.commands += fmt::format("set xlabel \"rotor speed, rpm\"\nset ylabel \"velocity, m/s\"\nset key outside top center horizontal\nset offsets graph 0.05,graph 0.05,0,0\nplot {}\n",
-                                 curves.empty() ? "NaN notitle" : fmt::format("{}", fmt::join(curves, ", ")));
+    plot.commands += fmt::format(
+        "set xlabel \"rotor speed, rpm\"\nset ylabel \"velocity, m/s\"\nset key outside top center horizontal\nset offsets graph "
+        "0.05,graph 0.05,0,0\nplot {}\n",
+        curves.empty() ? "NaN notitle" : fmt::format("{}", fmt::join(curves, ", ")));
     return plot;
 }
 
@@ -120,7 +123,8 @@ std::vector<AdvTrend> read_adv_trends(const std::vector<fs::path>& run_directori
         for (const json& point : document.at("points"))
             for (const AdvComponent c : k_adv_components) {
                 const std::string name = point.at("name"), component = adv_component_name(c);
-                auto trend = std::find_if(trends.begin(), trends.end(), [&](const AdvTrend& t) { return t.point == name && t.component == component; });
+                auto trend = std::find_if(trends.begin(), trends.end(),
+                                          [&](const AdvTrend& t) { return t.point == name && t.component == component; });
                 if (trend == trends.end()) trend = trends.insert(trends.end(), AdvTrend{name, component, {}});
                 const json& v = point.at(component);
                 trend->values.push_back({document.at("speed_rpm"), document.at("discharge_m3_s"), optional_of(v.at("measured_m_s")),
@@ -129,7 +133,8 @@ std::vector<AdvTrend> read_adv_trends(const std::vector<fs::path>& run_directori
     }
     trends.erase(std::remove_if(trends.begin(), trends.end(), [](const AdvTrend& t) { return speeds_of(t) < 2; }), trends.end());
     for (AdvTrend& trend : trends)
-        std::stable_sort(trend.values.begin(), trend.values.end(), [](const AdvTrendValue& a, const AdvTrendValue& b) { return a.speed_rpm < b.speed_rpm; });
+        std::stable_sort(trend.values.begin(), trend.values.end(),
+                         [](const AdvTrendValue& a, const AdvTrendValue& b) { return a.speed_rpm < b.speed_rpm; });
     return trends;
 }
 
@@ -138,12 +143,15 @@ std::string adv_trend_section(const std::vector<AdvTrend>& trends, const fs::pat
     const bool measured = is_measured(trends);
     std::string figures;
     for (std::size_t first = 0; gnuplot_is_installed() && first < trends.size(); first += k_adv_components.size())
-        figures += html::figure(draw_svg(trend_plot(trends, first, first / k_adv_components.size()), scratch), html::escape(trends[first].point));
+        figures +=
+            html::figure(draw_svg(trend_plot(trends, first, first / k_adv_components.size()), scratch), html::escape(trends[first].point));
     fs::remove_all(scratch);
-    const std::string reading =
-        fmt::format("<p>Mean velocity of the water at named points, in m/s: lines are the model, with bars for the error of the point’s position{}.</p>\n",
-                    measured ? "; discs, and numbers in brackets, the measurement" : ". Nothing was measured at these points");
-    return html::section("Velocities at points against speed", reading + "<div class=\"figures\">" + figures + "</div>" + trend_table(trends));
+    const std::string reading = fmt::format(
+        "<p>Mean velocity of the water at named points, in m/s: lines are the model, with bars for the error of the point’s "
+        "position{}.</p>\n",
+        measured ? "; discs, and numbers in brackets, the measurement" : ". Nothing was measured at these points");
+    return html::section("Velocities at points against speed",
+                         reading + "<div class=\"figures\">" + figures + "</div>" + trend_table(trends));
 }
 
 json adv_trend_json(const std::vector<AdvTrend>& trends) {

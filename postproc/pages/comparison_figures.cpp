@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "postproc/draw/html.hpp"
-#include "postproc/pages/onset_band.hpp"
-#include "postproc/draw/palette.hpp"
 #include "postproc/analysis/text.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/pages/onset_band.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -69,19 +69,19 @@ json markers(const Comparison& comparison, const Series& series, const std::stri
     for (const Point& p : series.points) {
         labels.push_back(fmt::format("setting {}: {}", p.setting + 1, escape(comparison.settings[p.setting].label)));
     }
-    trace.update({{"mode", series.joined ? "lines+markers" : "markers"},
-                  {"text", labels},
-                  {"marker", {{"size", 8}}},
-                  {"cliponaxis", false},  // 0 and 100 % are common
-                  {"hovertemplate", "%{text}<br>" + tip + "<extra></extra>"},
-                  {"error_y",
-                   {{"symmetric", false},
-                    {"width", 4},
-                    {"thickness", 1.5},
-                    {"array", differences(series.points, [](const Point& p) { return p.y_high - p.y; })},
-                    {"arrayminus", differences(series.points, [](const Point& p) { return p.y - p.y_low; })}}},
-                  {"error_x",
-                   {{"width", 0}, {"thickness", 1.2}, {"array", differences(series.points, [](const Point& p) { return p.x_half; })}}}});
+    trace.update(
+        {{"mode", series.joined ? "lines+markers" : "markers"},
+         {"text", labels},
+         {"marker", {{"size", 8}}},
+         {"cliponaxis", false},  // 0 and 100 % are common
+         {"hovertemplate", "%{text}<br>" + tip + "<extra></extra>"},
+         {"error_y",
+          {{"symmetric", false},
+           {"width", 4},
+           {"thickness", 1.5},
+           {"array", differences(series.points, [](const Point& p) { return p.y_high - p.y; })},
+           {"arrayminus", differences(series.points, [](const Point& p) { return p.y - p.y_low; })}}},
+         {"error_x", {{"width", 0}, {"thickness", 1.2}, {"array", differences(series.points, [](const Point& p) { return p.x_half; })}}}});
     trace["line"]["width"] = 1.2;
     return trace;
 }
@@ -99,8 +99,8 @@ Plot points_plot(const Comparison& comparison, const std::string& name, const st
         if (all[s].joined) curves.push_back(fmt::format("${} using 1:2 with lines lw 1.2 lc rgb \"{}\" notitle", block, all[s].colour));
         plot.traces.push_back(markers(comparison, all[s], tip));
     }
-    plot.script.commands += fmt::format("set xlabel {}\nset ylabel {}\nset offsets graph 0.06,graph 0.06,0,0\n{}\n", quoted(x_title),
-                                        quoted(y_title), k_key);
+    plot.script.commands +=
+        fmt::format("set xlabel {}\nset ylabel {}\nset offsets graph 0.06,graph 0.06,0,0\n{}\n", quoted(x_title), quoted(y_title), k_key);
     // The tics of one colour a setting need no legend of ten rows.
     if (all.size() > 8) plot.script.commands += "unset key\n";
     plot.script.commands += curves.empty() ? "plot NaN notitle\n" : fmt::format("plot {}\n", fmt::join(curves, ", "));
@@ -135,7 +135,8 @@ Plot shares_plot(const Comparison& comparison) {
         Series series{share.name, share.colour, {}};
         const Quantity& quantity = *find_quantity(comparison, share.key);
         for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
-            if (quantity.settings[i].value) series.points.push_back(share_point(quantity.settings[i], i, static_cast<double>(i + 1) + shift));
+            if (quantity.settings[i].value)
+                series.points.push_back(share_point(quantity.settings[i], i, static_cast<double>(i + 1) + shift));
         }
         if (!series.points.empty()) all.push_back(series);
         shift = 0.06;
@@ -156,8 +157,8 @@ bool varies(const Quantity& quantity) {
     return values.size() > 1;
 }
 
-/// What tells the curves of a trend apart: cutter, discharge, mesh, each only where settings differ in it. At one speed the flow number varies with
-/// the discharge, along a curve.
+/// What tells the curves of a trend apart: cutter, discharge, mesh, each only where settings differ in it. At one speed the flow number
+/// varies with the discharge, along a curve.
 std::vector<std::string> groups_of(const Comparison& comparison) {
     using Describe = std::string (*)(const RunData&);
     std::vector<Describe> parts{
@@ -227,7 +228,8 @@ Plot bins_plot(const Comparison& comparison, const std::string& what, const std:
         PlotRows rows;
         for (std::size_t b = 0; b < bins.size(); ++b) {
             const Estimate& estimate = find_quantity(comparison, bin_key(what, bins[b], unit))->settings[i];
-            if (estimate.value) rows.push_back({factor * *estimate.value, -static_cast<double>(b), factor * estimate.half_width.value_or(0.0)});
+            if (estimate.value)
+                rows.push_back({factor * *estimate.value, -static_cast<double>(b), factor * estimate.half_width.value_or(0.0)});
         }
         if (rows.empty()) continue;
         plot.script.commands += data_block(fmt::format("bins{}", i), rows);
@@ -251,8 +253,8 @@ Plot bins_plot(const Comparison& comparison, const std::string& what, const std:
 /// Share of the placed rock from which on a band of the head counts as open to rock.
 constexpr double k_open_to_rock = 0.01;
 
-/// The uppermost band below the ring plane through which a hundredth or more of the rock left any head; where there is none, the band at the ring
-/// plane. A ring's own steel closes the bands that it reaches over.
+/// The uppermost band below the ring plane through which a hundredth or more of the rock left any head; where there is none, the band at
+/// the ring plane. A ring's own steel closes the bands that it reaches over.
 std::string top_bin(const Comparison& comparison) {
     std::string at_ring;
     for (const geometry::AxialBin& bin : comparison.runs.front().run.bins) {
@@ -275,8 +277,8 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
         point.x_half = x.half_width.value_or(0.0);
         all.push_back({fmt::format("{}", i + 1), setting_colour(i), {point}});
     }
-    Plot plot = points_plot(comparison, "top_bin", all, "mean radial velocity in the top bin, m/s",
-                            "spilled there, % of the placed mass", "%{x:.3f} m/s, %{y:.2f} % of the placed mass");
+    Plot plot = points_plot(comparison, "top_bin", all, "mean radial velocity in the top bin, m/s", "spilled there, % of the placed mass",
+                            "%{x:.3f} m/s, %{y:.2f} % of the placed mass");
     double highest = 1.0;  // [%]; where nothing is spilled the axis still shows what a little would be
     double slowest = 0.0, fastest = 0.0;
     for (const Series& series : all) {
@@ -307,11 +309,12 @@ std::vector<CaptionedPlot> rock_plots(const Comparison& comparison) {
     const Quantity *spilled = find_quantity(comparison, bin_key("spilled", top, "share")),
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));
     if (spilled && outflow) {
-        plots.push_back({top_bin_plot(comparison, *spilled, *outflow),
-                         fmt::format("Rock that left the head for the last time in the top bin, the uppermost through which a hundredth or more "
-                                     "of the rock left any head ({}), against the mean radial velocity just outside it; a colour a setting; "
-                                     "bars: 95 % intervals where they are known. {}",
-                                     text::bin_text(top), onset_band_text())});
+        plots.push_back(
+            {top_bin_plot(comparison, *spilled, *outflow),
+             fmt::format("Rock that left the head for the last time in the top bin, the uppermost through which a hundredth or more "
+                         "of the rock left any head ({}), against the mean radial velocity just outside it; a colour a setting; "
+                         "bars: 95 % intervals where they are known. {}",
+                         text::bin_text(top), onset_band_text())});
     }
     plots.push_back({bins_plot(comparison, "spilled", "share", 100.0, "spilled, % of the placed mass", "%{x:.2f} %"),
                      "Spilled mass by the axial bin of the last exit (distance below the ring; “gap” lies between ring and backplate)."});

@@ -7,14 +7,14 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/analysis/not_modelled.hpp"
+#include "postproc/analysis/text.hpp"
+#include "postproc/draw/gnuplot.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/draw/palette.hpp"
 #include "postproc/pages/adv_trend.hpp"
 #include "postproc/pages/comparison_figures.hpp"
-#include "postproc/draw/gnuplot.hpp"
 #include "postproc/pages/head_picture.hpp"
-#include "postproc/draw/html.hpp"
-#include "postproc/analysis/not_modelled.hpp"
-#include "postproc/draw/palette.hpp"
-#include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -97,17 +97,18 @@ std::string heads(const Comparison& comparison) {
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
         const RunData& run = comparison.runs[comparison.settings[i].runs.front()].run;
         const HeadPicture head = draw_head(run, surfaces);
-        const std::string rock = head.rocks_shown > 0 ? fmt::format(" Rock by fate at the end, in true size; {} of {} lie outside the picture.",
-                                                                    head.rocks_outside_view, head.rocks_shown)
-                                                      : "";
+        const std::string rock = head.rocks_shown > 0
+                                     ? fmt::format(" Rock by fate at the end, in true size; {} of {} lie outside the picture.",
+                                                   head.rocks_outside_view, head.rocks_shown)
+                                     : "";
         content += html::figure(html::replaceable(head.side_view, "head", head.view),
                                 fmt::format("Setting {}: {}.{}", i + 1, escape(comparison.settings[i].label), rock));
     }
     const std::string legend = find_quantity(comparison, "ratio") ? html::legend({{palette::spilled, "spilled"},
-                                                                                    {palette::in_cutter, "in cutter"},
-                                                                                    {palette::never_entered, "never entered"},
-                                                                                    {palette::sucked_up, "sucked up"}})
-                                                                    : "";
+                                                                                  {palette::in_cutter, "in cutter"},
+                                                                                  {palette::never_entered, "never entered"},
+                                                                                  {palette::sucked_up, "sucked up"}})
+                                                                  : "";
     const std::string caption =
         "<p>From the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two "
         "fingers to zoom</span>.</p>";
@@ -129,7 +130,8 @@ std::string batches_notice(const Comparison& comparison) {
     std::string items;
     for (std::size_t i = 0; i < batches.size(); ++i) items += fmt::format("<br>Setting {}: {}.", i + 1, escape(batches[i]));
     return fmt::format(
-        "<p class=\"notice\"><b>Different batches of rock.</b> A difference between these settings may be one of their rock.{}</p>\n", items);
+        "<p class=\"notice\"><b>Different batches of rock.</b> A difference between these settings may be one of their rock.{}</p>\n",
+        items);
 }
 
 bool has_repeats(const Comparison& comparison) {

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "postproc/pages/onset_band.hpp"
-#include "postproc/draw/palette.hpp"
 #include "postproc/analysis/text.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/pages/onset_band.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -21,7 +21,7 @@ constexpr std::size_t k_points = 500;  ///< of a curve over time; more cannot be
 constexpr double k_bins_per_revolution = 100.0;
 constexpr int k_sectors = 24;
 constexpr double k_gap = std::numeric_limits<double>::quiet_NaN();  ///< breaks a curve
-constexpr int k_wide = 1116, k_half = 540, k_height = 330;  ///< as large as the page shows them, so that letters have their size
+constexpr int k_wide = 1116, k_half = 540, k_height = 330;          ///< as large as the page shows them, so that letters have their size
 
 /// A horizontal bar from 0 to 100 %.
 constexpr const char* k_bar_style =
@@ -195,8 +195,8 @@ json rose_layout(double largest) {
                 {"shapes", json::array()},
                 {"annotations", json::array()}};
     for (const double ring : {0.5, 1.0}) {
-        layout["shapes"].push_back({{"type", "circle"}, {"x0", -ring}, {"x1", ring}, {"y0", -ring}, {"y1", ring},
-                                    {"line", {{"color", "#c3cad1"}, {"width", 1}}}});
+        layout["shapes"].push_back(
+            {{"type", "circle"}, {"x0", -ring}, {"x1", ring}, {"y0", -ring}, {"y1", ring}, {"line", {{"color", "#c3cad1"}, {"width", 1}}}});
         layout["annotations"].push_back(rose_label(fmt::format("{:g}", ring * largest), ring * std::sin(0.65) + 0.06,
                                                    ring * std::cos(0.65) + 0.04, palette::faint, 11));
     }
@@ -227,8 +227,8 @@ Plot outcome_plot(const Spillage& spillage) {
     }
     if (spillage.ratios.ratio_min) {
         const double low = 100.0 * *spillage.ratios.ratio_min, high = 100.0 * *spillage.ratios.ratio_max;
-        plot.script.commands += fmt::format(
-            "set arrow 1 from {},-0.3 to {},-0.3 heads size screen 0.004,90 lw 2 lc rgb \"{}\" front\n", num(low), num(high), palette::ink);
+        plot.script.commands += fmt::format("set arrow 1 from {},-0.3 to {},-0.3 heads size screen 0.004,90 lw 2 lc rgb \"{}\" front\n",
+                                            num(low), num(high), palette::ink);
         plot.traces.push_back({{"type", "scatter"},
                                {"x", {low, high}},
                                {"y", {-0.3, -0.3}},
@@ -247,8 +247,8 @@ Plot outcome_plot(const Spillage& spillage) {
                                {"hovertemplate", "%{x:.2f} %<extra>spillage ratio</extra>"}});
     }
     plot.script.commands += spillage.ratios.ratio ? fmt::format("plot \"-\" using 1:2 with points pt 7 ps 0.9 lc rgb \"{}\"\n{} -0.3\ne\n",
-                                                         palette::ink, num(100.0 * *spillage.ratios.ratio))
-                                           : "plot NaN notitle\n";
+                                                                palette::ink, num(100.0 * *spillage.ratios.ratio))
+                                                  : "plot NaN notitle\n";
     return plot;
 }
 
@@ -281,8 +281,8 @@ Plot bins_plot(const Results& results) {
     if (!bars.empty()) commands += data_block("bars", bars);
     if (!velocities.empty()) commands += data_block("velocities", velocities);
     commands += fmt::format("set yrange [{}:0.6]\nset ytics ({}) scale 0\nset xrange [{}:{}]\nset x2range [{}:{}]\n",
-                                 num(-static_cast<double>(count) + 0.4), fmt::join(tics, ", "), num(range.low_1), num(range.high_1),
-                                 num(range.low_2), num(range.high_2));
+                            num(-static_cast<double>(count) + 0.4), fmt::join(tics, ", "), num(range.low_1), num(range.high_1),
+                            num(range.low_2), num(range.high_2));
     commands += "set ylabel \"distance below the ring, mm\"\nset grid noytics\nunset key\n";
     commands += fmt::format("set arrow 1 from 0,graph 0 to 0,graph 1 nohead lc rgb \"{}\" lw 1 front\n", palette::faint);
     std::vector<std::string> curves;
@@ -345,11 +345,13 @@ Plot top_bin_plot(const Results& results) {
     plot.layout["yaxis"]["range"] = {0, highest};
     add_onset_band(plot, slowest, fastest);
     plot.script.commands += fmt::format(
-        "set xlabel \"mean radial velocity, m/s (outwards positive)\"\nset ylabel \"spilled there, % of the placed mass\"\nset yrange [0:{}]\n"
+        "set xlabel \"mean radial velocity, m/s (outwards positive)\"\nset ylabel \"spilled there, % of the placed mass\"\nset yrange "
+        "[0:{}]\n"
         "set key outside top center horizontal\n",
         num(highest));
     std::vector<std::string> curves;
-    const auto add = [&](const PlotRows& rows, const json& bins, const char* name, const char* colour, const char* style, const json& marker) {
+    const auto add = [&](const PlotRows& rows, const json& bins, const char* name, const char* colour, const char* style,
+                         const json& marker) {
         if (rows.empty()) return;
         const std::string block = fmt::format("bins{}", curves.size());
         plot.script.commands += data_block(block, rows);
@@ -363,7 +365,8 @@ Plot top_bin_plot(const Results& results) {
                       {"hovertemplate", "%{text}<br>%{x:.3f} m/s, %{y:.2f} %<extra></extra>"}});
         plot.traces.push_back(trace);
     };
-    add(others, names, "other bins", palette::outflow, "pt 6 ps 0.8 lw 1.2", {{"symbol", "circle-open"}, {"size", 8}, {"color", palette::outflow}});
+    add(others, names, "other bins", palette::outflow, "pt 6 ps 0.8 lw 1.2",
+        {{"symbol", "circle-open"}, {"size", 8}, {"color", palette::outflow}});
     add(top, top_name, "bin below the ring", palette::spilled, "pt 7 ps 1.2 lw 1.6", {{"size", 11}, {"color", palette::spilled}});
     plot.script.commands += curves.empty() ? "plot NaN notitle\n" : fmt::format("plot {}\n", fmt::join(curves, ", "));
     return plot;
@@ -462,10 +465,21 @@ Plot first_exit_plot(const std::vector<double>& azimuths) {
     const std::array<std::pair<double, const char*>, 4> marks{
         {{0.0, "0° lowest"}, {90.0, "90°"}, {180.0, "180° highest"}, {270.0, "270°"}}};
     Plot plot{{"first_exit", 430, 420, ""},
-              {{{"type", "scatter"}, {"mode", "lines"}, {"fill", "toself"}, {"x", column(sectors, 0)}, {"y", column(sectors, 1)},
-                {"line", {{"width", 0}}}, {"fillcolor", palette::spilled}, {"hoverinfo", "skip"}},
-               {{"type", "scatter"}, {"mode", "markers"}, {"x", column(middles, 0)}, {"y", column(middles, 1)}, {"text", texts},
-                {"hovertemplate", "%{text}<extra></extra>"}, {"marker", {{"size", 24}, {"opacity", 0}}}}},
+              {{{"type", "scatter"},
+                {"mode", "lines"},
+                {"fill", "toself"},
+                {"x", column(sectors, 0)},
+                {"y", column(sectors, 1)},
+                {"line", {{"width", 0}}},
+                {"fillcolor", palette::spilled},
+                {"hoverinfo", "skip"}},
+               {{"type", "scatter"},
+                {"mode", "markers"},
+                {"x", column(middles, 0)},
+                {"y", column(middles, 1)},
+                {"text", texts},
+                {"hovertemplate", "%{text}<extra></extra>"},
+                {"marker", {{"size", 24}, {"opacity", 0}}}}},
               rose_layout(largest)};
     std::string& commands = plot.script.commands;
     commands +=
@@ -479,12 +493,14 @@ Plot first_exit_plot(const std::vector<double>& azimuths) {
     }
     for (const auto& [degrees, text] : marks) {
         const auto at = point(degrees == 90.0 || degrees == 270.0 ? 1.22 : 1.16, degrees * k_pi / 180.0);
-        commands += fmt::format("set label \"{}\" at {},{} center textcolor rgb \"{}\" front\n", text, num(at[0]), num(at[1]), palette::ink);
+        commands +=
+            fmt::format("set label \"{}\" at {},{} center textcolor rgb \"{}\" front\n", text, num(at[0]), num(at[1]), palette::ink);
         plot.layout["annotations"].push_back(rose_label(text, at[0], at[1], palette::ink, 12.5));
     }
     // A sector a block: gnuplot ends a closed curve at an empty line.
     for (auto& row : sectors) row = std::isnan(row[0]) ? std::vector<double>{} : row;
-    commands += data_block("sectors", sectors) + fmt::format("plot $sectors using 1:2 with filledcurves closed lc rgb \"{}\"\n", palette::spilled);
+    commands +=
+        data_block("sectors", sectors) + fmt::format("plot $sectors using 1:2 with filledcurves closed lc rgb \"{}\"\n", palette::spilled);
     return plot;
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "postproc/draw/plot.hpp"
 #include "postproc/analysis/results.hpp"
+#include "postproc/draw/plot.hpp"
 
 namespace cutterflow::postproc {
 

@@ -115,9 +115,7 @@ HeadPicture draw_head(const RunData& run, ViewSurfaces& surfaces) {
     from_hub.ghosts.clear();  // behind the head
     return {picture(scene, side, run, "Cutter head from the side with rock coloured by fate"),
             picture(from_hub, axial_view(run), run, "Cutter head from the hub with rock coloured by fate"),
-            head_view(scene, side, surfaces),
-            static_cast<int>(scene.rocks.size()),
-            count_outside(scene.rocks, side)};
+            head_view(scene, side, surfaces), static_cast<int>(scene.rocks.size()), count_outside(scene.rocks, side)};
 }
 
 }  // namespace cutterflow::postproc

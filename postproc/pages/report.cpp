@@ -4,8 +4,8 @@
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
-#include "postproc/pages/figures.hpp"
 #include "postproc/draw/head_series.hpp"
+#include "postproc/pages/figures.hpp"
 #include "postproc/pages/report_page.hpp"
 #include "postproc/pages/velocity_figures.hpp"
 
@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_outflow(const Results& results) {
-    return std::any_of(results.outflow.begin(), results.outflow.end(), [](const BinOutflow& bin) { return bin.radial_velocity.has_value(); });
+    return std::any_of(results.outflow.begin(), results.outflow.end(),
+                       [](const BinOutflow& bin) { return bin.radial_velocity.has_value(); });
 }
 
 std::vector<Plot> plots_of(const Results& results, const RunData& run) {

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "postproc/pages/figures.hpp"
-#include "postproc/draw/html.hpp"
 #include "postproc/analysis/not_modelled.hpp"
-#include "postproc/pages/onset_band.hpp"
-#include "postproc/draw/palette.hpp"
 #include "postproc/analysis/text.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/pages/figures.hpp"
+#include "postproc/pages/onset_band.hpp"
 #include "postproc/pages/velocity_figures.hpp"
 
 namespace cutterflow::postproc {
@@ -213,19 +213,23 @@ std::string answer_section(const Results& results, const RunData& run, const Pag
 std::string head_figure(const Results& results, const PageFigures& figures) {
     if (figures.head.side_view.empty()) return "";
     std::string caption =
-        "Left: from the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two fingers to zoom</span>. Right: from the hub along the axis, "
+        "Left: from the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or "
+        "two fingers to zoom</span>. Right: from the hub along the axis, "
         "lowest side down. The arrow shows the sense of rotation.";
     if (results.spillage && figures.head.rocks_shown > 0) {
         caption += fmt::format(" Rocks in true size at the last checkpoint or the end; {} of {} lie outside the left picture.",
                                figures.head.rocks_outside_view, figures.head.rocks_shown);
         caption = fate_legend(results.spillage->fates) + caption;
     }
-    return html::figure(html::replaceable(figures.head.side_view, "head", figures.head.view) + figures.head.axial_view, caption, "head wide");
+    return html::figure(html::replaceable(figures.head.side_view, "head", figures.head.view) + figures.head.axial_view, caption,
+                        "head wide");
 }
 
 std::string velocity_figures(const RunData& run, const PageFigures& figures) {
     if (run.plane_axial.empty() && run.plane_under_ring.empty()) return "";
-    const std::string colours = " Colour: speed in the plane (the darkest stands for that speed and more); arrows: its direction; white: steel; orange: contour of revolution; ";
+    const std::string colours =
+        " Colour: speed in the plane (the darkest stands for that speed and more); arrows: its direction; white: steel; orange: contour of "
+        "revolution; ";
     std::string content;
     if (!run.plane_axial.empty()) {
         content += plot(figures, "plane_axial",
@@ -250,9 +254,11 @@ std::string figure_section(const Results& results, const RunData& run, const Pag
                    "backplate."
                  : "Radial velocity just outside the contour of revolution, averaged over azimuth and time (whiskers: standard error by "
                    "batch means). “gap” lies between ring and backplate.");
-    content += plot(figures, "top_bin",
-                    "Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error by batch "
-                    "means). " + onset_band_text());
+    content +=
+        plot(figures, "top_bin",
+             "Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error by batch "
+             "means). " +
+                 onset_band_text());
     content += velocity_figures(run, figures);
     content += plot(figures, "first_exit",
                     "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock "
@@ -415,9 +421,13 @@ std::string prediction_table(const Cost& cost) {
     };
     std::vector<std::vector<std::string>> rows;
     const PredictedCost& p = *cost.predicted;
-    if (cost.cells) rows.push_back(row("cells", fmt::format("{:.0f}", p.cells), fmt::format("{}", *cost.cells), p.cells / static_cast<double>(*cost.cells) - 1.0));
-    rows.push_back(row("time steps", fmt::format("{:.0f}", p.steps), fmt::format("{}", cost.steps), p.steps / static_cast<double>(cost.steps) - 1.0));
-    if (cost.core_s) rows.push_back(row("core time of the steps", duration(p.core_s), duration(*cost.core_s), p.core_s / *cost.core_s - 1.0));
+    if (cost.cells)
+        rows.push_back(
+            row("cells", fmt::format("{:.0f}", p.cells), fmt::format("{}", *cost.cells), p.cells / static_cast<double>(*cost.cells) - 1.0));
+    rows.push_back(
+        row("time steps", fmt::format("{:.0f}", p.steps), fmt::format("{}", cost.steps), p.steps / static_cast<double>(cost.steps) - 1.0));
+    if (cost.core_s)
+        rows.push_back(row("core time of the steps", duration(p.core_s), duration(*cost.core_s), p.core_s / *cost.core_s - 1.0));
     return html::table({"for the time that the run went through", "predicted", "actual", "error"}, rows, true);
 }
 

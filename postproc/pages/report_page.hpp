@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
-#include "postproc/pages/head_picture.hpp"
 #include "postproc/analysis/results.hpp"
+#include "postproc/pages/head_picture.hpp"
 
 namespace cutterflow::postproc {
 
@@ -13,7 +13,7 @@ struct PageFigures {
     std::map<std::string, std::string> plots;  ///< as draw_plot gives them, by the plot's name
     HeadPicture head;
     ViewSurfaces surfaces;  ///< of the head's view
-    std::string note;  ///< why plots are missing; empty when none are
+    std::string note;       ///< why plots are missing; empty when none are
 };
 
 std::string report_page(const Results& results, const RunData& run, const PageFigures& figures);

@@ -64,8 +64,8 @@ bool has_velocity(const Plane& plane) {
     return std::any_of(plane.points.begin(), plane.points.end(), [](const PlanePoint& point) { return point.velocity.allFinite(); });
 }
 
-/// Speed that 95 % of the points at a height up to `top` stay below: the darkest colour and the longest arrow stand for it. Higher up is the
-/// suction pipe, in which water is ten times as fast as in the head.
+/// Speed that 95 % of the points at a height up to `top` stay below: the darkest colour and the longest arrow stand for it. Higher up is
+/// the suction pipe, in which water is ten times as fast as in the head.
 double typical_largest(const Plane& plane, double top) {
     std::vector<double> speeds;
     for (const PlanePoint& point : plane.points) {
@@ -126,7 +126,8 @@ json thin_line(const PlotRows& rows, const char* colour, double width) {
 
 /// \param outline  of the head in the picture
 /// \param top      height up to which speeds count for the scale of colours
-Plot plane_plot(const std::string& name, const Plane& plane, const PlotRows& outline, double top, const std::string& x_title, const std::string& y_title) {
+Plot plane_plot(const std::string& name, const Plane& plane, const PlotRows& outline, double top, const std::string& x_title,
+                const std::string& y_title) {
     const double largest = typical_largest(plane, top);
     PlotRows speeds;
     Vec2 low = plane.points.front().at, high = low;
@@ -193,7 +194,8 @@ std::optional<Plot> axial_plane_plot(const RunData& run) {
     const Vec3 outwards(std::cos(azimuth), std::sin(azimuth), 0.0);
     const Plane plane = read_plane(run.plane_axial, outwards, Vec3::UnitZ(), Vec3::UnitZ());
     if (!has_velocity(plane)) return std::nullopt;
-    return plane_plot("plane_axial", plane, contour_outline(run.contour), 0.0, "from the axis towards the mouth, m", "z along the axis (ring at 0), m");
+    return plane_plot("plane_axial", plane, contour_outline(run.contour), 0.0, "from the axis towards the mouth, m",
+                      "z along the axis (ring at 0), m");
 }
 
 std::optional<Plot> under_ring_plot(const RunData& run) {
@@ -201,12 +203,13 @@ std::optional<Plot> under_ring_plot(const RunData& run) {
     const Plane plane = read_plane(run.plane_under_ring, -Vec3::UnitY(), -Vec3::UnitX(), Vec3::UnitY());
     if (!has_velocity(plane)) return std::nullopt;
     const double z = run.plane_under_ring.number("z_m").front();
-    return plane_plot("plane_under_ring", plane, circle(run.contour.radius_at(z)), std::numeric_limits<double>::infinity(), "across (azimuth 270° to the right), m",
-                      "up from the lowest side, m");
+    return plane_plot("plane_under_ring", plane, circle(run.contour.radius_at(z)), std::numeric_limits<double>::infinity(),
+                      "across (azimuth 270° to the right), m", "up from the lowest side, m");
 }
 
 std::string averaging_text(const Table& plane) {
-    const double revolutions = plane.number("revolutions").front(), from = plane.number("from_s").front(), to = plane.number("to_s").front();
+    const double revolutions = plane.number("revolutions").front(), from = plane.number("from_s").front(),
+                 to = plane.number("to_s").front();
     if (revolutions < 1.0) return fmt::format("mean over the samples from t = {:.3g} to {:.3g} s (no whole revolution yet)", from, to);
     return fmt::format("mean over {:g} whole revolution{} from t = {:.3g} s", revolutions, revolutions == 1.0 ? "" : "s", from);
 }

@@ -70,8 +70,11 @@ public:
             else
                 read_line(line, number);
         }
-        if (header_.empty()) add(name_, "the file has no header line", "It names the columns and their units", "Begin with a template: cutterflow report --adv-template");
-        if (mistakes_.empty() && points_.empty()) add(name_, "the file has no points", "One line below the header is one point", "Add lines");
+        if (header_.empty())
+            add(name_, "the file has no header line", "It names the columns and their units",
+                "Begin with a template: cutterflow report --adv-template");
+        if (mistakes_.empty() && points_.empty())
+            add(name_, "the file has no points", "One line below the header is one point", "Add lines");
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
     }
     std::vector<AdvPoint> points() { return std::move(points_); }
@@ -85,13 +88,14 @@ private:
         const std::string where = fmt::format("{}:{}", name_, number);
         header_ = fields_of(line);
         if (header_.size() == 1 && line.find_first_of(";\t") != std::string::npos) {
-            add(where, fmt::format("the columns of \"{}\" are set apart by semicolons or tabs", trimmed(line)), "They are set apart by commas, and decimals by points",
-                "Export the table anew, or replace them");
+            add(where, fmt::format("the columns of \"{}\" are set apart by semicolons or tabs", trimmed(line)),
+                "They are set apart by commas, and decimals by points", "Export the table anew, or replace them");
             throw UserError(std::move(mistakes_));
         }
         read_as_.resize(header_.size());
         std::vector<Quantity> wanted{k_z};
-        cylindrical_ = std::any_of(header_.begin(), header_.end(), [](const std::string& c) { return c.rfind("r_", 0) == 0 || c.rfind("theta_", 0) == 0; });
+        cylindrical_ = std::any_of(header_.begin(), header_.end(),
+                                   [](const std::string& c) { return c.rfind("r_", 0) == 0 || c.rfind("theta_", 0) == 0; });
         for (const Quantity& quantity : cylindrical_ ? std::array<Quantity, 2>{k_r, k_theta} : std::array<Quantity, 2>{k_x, k_y})
             wanted.push_back(quantity);
         wanted.insert(wanted.end(), k_measured.begin(), k_measured.end());
@@ -99,7 +103,8 @@ private:
         for (const char* text : {"name", "frame"}) {
             const auto found = std::find(header_.begin(), header_.end(), text);
             if (found == header_.end())
-                add(where, fmt::format("column {} is missing", text), "Every point has a name and a frame (still or rotating)", "Add the column");
+                add(where, fmt::format("column {} is missing", text), "Every point has a name and a frame (still or rotating)",
+                    "Add the column");
             else
                 texts_[text] = use(found);
         }
@@ -118,14 +123,16 @@ private:
 
     void find_quantity(const Quantity& quantity, const std::string& where) {
         const std::string start = std::string(quantity.name) + "_";
-        const auto found = std::find_if(header_.begin(), header_.end(), [&](const std::string& column) { return column.rfind(start, 0) == 0 || column == quantity.name; });
+        const auto found = std::find_if(header_.begin(), header_.end(),
+                                        [&](const std::string& column) { return column.rfind(start, 0) == 0 || column == quantity.name; });
         if (found == header_.end())
-            return add(where, fmt::format("column {} is missing", quantity.name), fmt::format("It is called by its unit: {}", units_text(quantity)),
-                       "Add the column");
+            return add(where, fmt::format("column {} is missing", quantity.name),
+                       fmt::format("It is called by its unit: {}", units_text(quantity)), "Add the column");
         const std::size_t index = use(found);
         const auto unit = quantity.units->find(found->size() > start.size() ? found->substr(start.size()) : std::string());
         if (unit == quantity.units->end())
-            return add(where, fmt::format("column \"{}\" has no known unit", *found), fmt::format("It is one of {}", units_text(quantity)), "Rename the column");
+            return add(where, fmt::format("column \"{}\" has no known unit", *found), fmt::format("It is one of {}", units_text(quantity)),
+                       "Rename the column");
         columns_[quantity.name] = {index, unit->second};
     }
 
@@ -133,8 +140,8 @@ private:
         const std::string where = fmt::format("{}:{}", name_, number);
         const std::vector<std::string> fields = fields_of(line);
         if (fields.size() != header_.size())
-            return add(where, fmt::format("{} fields instead of {}", fields.size(), header_.size()), "Every line has one field per column of the header",
-                       "Complete the line");
+            return add(where, fmt::format("{} fields instead of {}", fields.size(), header_.size()),
+                       "Every line has one field per column of the header", "Complete the line");
         if (!good_header_) return;  // what the columns mean is not known
         const std::size_t before = mistakes_.size();
         AdvPoint point;
@@ -155,11 +162,14 @@ private:
     void read_texts(const std::vector<std::string>& fields, AdvPoint& point) {
         if (point.name.empty()) add(point.where, "the name is empty", "Every point has a name of its own", "Name the point");
         const auto [first, fresh] = names_.emplace(point.name, point.where);
-        if (!fresh) add(point.where, fmt::format("the name \"{}\" stands in {} too", point.name, first->second), "Every point has a name of its own", "Rename one of them");
+        if (!fresh)
+            add(point.where, fmt::format("the name \"{}\" stands in {} too", point.name, first->second),
+                "Every point has a name of its own", "Rename one of them");
         const std::string& frame = fields[texts_.at("frame")];
         point.rotating = frame == "rotating";
         if (frame != "rotating" && frame != "still")
-            add(point.where, fmt::format("frame = \"{}\"", frame), "It is still (at rest) or rotating (turns with the head)", "Correct the field");
+            add(point.where, fmt::format("frame = \"{}\"", frame), "It is still (at rest) or rotating (turns with the head)",
+                "Correct the field");
     }
 
     std::optional<double> number_in(const Quantity& quantity, const std::vector<std::string>& fields, const std::string& where) {
@@ -168,7 +178,8 @@ private:
         double value = 0.0;
         const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
         if (error == std::errc{} && end == field.data() + field.size() && std::isfinite(value)) return column.factor * value;
-        add(where, fmt::format("{} = \"{}\" is not a number", header_[column.index], field), "Numbers are finite and have a decimal point", "Correct the field");
+        add(where, fmt::format("{} = \"{}\" is not a number", header_[column.index], field), "Numbers are finite and have a decimal point",
+            "Correct the field");
         return std::nullopt;
     }
 
@@ -205,10 +216,14 @@ std::vector<AdvPoint> read_adv_points(const std::filesystem::path& file) {
 }
 
 std::string adv_template() {
-    return "# Velocities measured at points, in the run's frame: z along the rotor's axis from hub to ring, ring plane z = 0 (the head lies\n"
-           "# below it), theta = 0 on the lowest side, positive by the right hand about z. Instead of r and theta: x_mm,y_mm, x to the lowest side.\n"
-           "# Units stand in the header: lengths m, cm, mm; angles deg, rad; velocities m_s, cm_s, mm_s. An empty velocity was not measured.\n"
-           "# frame: still, or rotating for an instrument that turns with the head (r, theta, z at rotor angle 0) and measures the velocity\n"
+    return "# Velocities measured at points, in the run's frame: z along the rotor's axis from hub to ring, ring plane z = 0 (the head "
+           "lies\n"
+           "# below it), theta = 0 on the lowest side, positive by the right hand about z. Instead of r and theta: x_mm,y_mm, x to the "
+           "lowest side.\n"
+           "# Units stand in the header: lengths m, cm, mm; angles deg, rad; velocities m_s, cm_s, mm_s. An empty velocity was not "
+           "measured.\n"
+           "# frame: still, or rotating for an instrument that turns with the head (r, theta, z at rotor angle 0) and measures the "
+           "velocity\n"
            "# relative to it. u_tangential is positive by the right hand about z. Lines that begin with # do not count.\n"
            "# In the study: report.adv_points = \"points.csv\".\n"
            "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\n"

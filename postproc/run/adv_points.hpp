@@ -18,12 +18,12 @@ const char* adv_component_name(AdvComponent component);
 /// A place of measurement in the run's frame.
 struct AdvPoint {
     std::string name;
-    Cylindrical place;      ///< of a rotating point at rotor angle 0
-    bool rotating = false;  ///< the instrument turns with the head, and measures the velocity relative to it
+    Cylindrical place;                              ///< of a rotating point at rotor angle 0
+    bool rotating = false;                          ///< the instrument turns with the head, and measures the velocity relative to it
     std::array<std::optional<double>, 3> measured;  ///< [m/s]; tangential by the right hand about the axis
     std::string where;                              ///< file:line
 
-    Vec3 position() const;                          ///< [m]
+    Vec3 position() const;                         ///< [m]
     Vec3 direction(AdvComponent component) const;  ///< unit vector at the point
 };
 

@@ -59,8 +59,8 @@ public:
         if (!value && required) miss(key, "is missing or not a text");
         return value.value_or("");
     }
-    /// The study but for its name, what repeats of a run vary, and what changes no result; equal for equal values, however they are written.
-    /// \param cutter  what tells the cutter's content; empty: the study's own name of the file
+    /// The study but for its name, what repeats of a run vary, and what changes no result; equal for equal values, however they are
+    /// written. \param cutter  what tells the cutter's content; empty: the study's own name of the file
     std::map<std::string, std::string> setting(const std::string& cutter) const {
         toml::table study = root_;
         study.erase("name");
@@ -105,7 +105,8 @@ private:
     /// Every value by its path, as "feed[1].class[1].count"; 60 and 60.0 are the same number.
     static void add_values(const toml::node& node, const std::string& path, std::map<std::string, std::string>& values) {
         if (const toml::table* table = node.as_table())
-            for (auto&& [key, value] : *table) add_values(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), values);
+            for (auto&& [key, value] : *table)
+                add_values(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), values);
         else if (const toml::array* array = node.as_array())
             for (std::size_t i = 0; i < array->size(); ++i) add_values(*array->get(i), fmt::format("{}[{}]", path, i + 1), values);
         else if (node.is_number())
@@ -143,7 +144,8 @@ OperatingPoint read_operating_point(StudyReader& study) {
 
 AdvProbe read_adv_probe(const StudyReader& study) {
     const AdvProbe standard;
-    return {study.number_or("report.adv_probe_diameter_m", standard.diameter), study.number_or("report.adv_probe_length_m", standard.length),
+    return {study.number_or("report.adv_probe_diameter_m", standard.diameter),
+            study.number_or("report.adv_probe_length_m", standard.length),
             study.number_or("report.adv_position_error_m", standard.position_error)};
 }
 
@@ -275,7 +277,8 @@ void require_whole(const RunData& run) {
             mistakes.push_back({(folder / name).string(), fmt::format("ends at {:g} s, the run at {:g} s", last, end),
                                 "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
     if (!run.rock && run.feed && run.feed->requested > run.feed->rejected)
-        mistakes.push_back({(folder / "rock").string(), "holds no fates", "The study feeds rock", "Copy the run directory again as a whole"});
+        mistakes.push_back(
+            {(folder / "rock").string(), "holds no fates", "The study feeds rock", "Copy the run directory again as a whole"});
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 

@@ -69,15 +69,16 @@ struct RunData {
     Table loads;
     Table balance;
     Table cost;
-    Table plane_axial, plane_under_ring;  ///< mean velocity on planes; empty when the run did not sample them
+    Table plane_axial, plane_under_ring;                    ///< mean velocity on planes; empty when the run did not sample them
     nlohmann::json geometry, mesh, manifest, cost_summary;  ///< objects, empty when the file is absent
     int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
-    AdvProbe adv_probe;  ///< with which the run sampled its places of measurement, if it has any
+    AdvProbe adv_probe;                                     ///< with which the run sampled its places of measurement, if it has any
     bool finished = false;                                  ///< the run came to its end
-    std::map<std::string, std::string> setting{};  ///< values by key: the study without its name and what repeats vary (seed and time of release), the cutter by its content; equal for repeats
-    std::string release{};  ///< seed and time of release of each feed: what tells repeats apart; empty without rock
-    int seed = 0;         ///< of the first feed
-    nlohmann::json prediction{};  ///< of the run's cost, before it; empty when the file is absent
+    std::map<std::string, std::string> setting{};  ///< values by key: the study without its name and what repeats vary (seed and time of
+                                                   ///< release), the cutter by its content; equal for repeats
+    std::string release{};                         ///< seed and time of release of each feed: what tells repeats apart; empty without rock
+    int seed = 0;                                  ///< of the first feed
+    nlohmann::json prediction{};                   ///< of the run's cost, before it; empty when the file is absent
 };
 
 /// Reads a run directory, finished or not.

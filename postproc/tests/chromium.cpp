@@ -40,10 +40,20 @@ bool Chromium::is_installed() {
 Chromium::Chromium() : profile_(fresh_directory("chromium_profile")) {
     const std::array<int, 2> commands = make_pipe(), answers = make_pipe();
     const std::string program = find_program("chromium").string(), profile = "--user-data-dir=" + profile_.string();
-    const char* const arguments[] = {program.c_str(), "--headless=new", "--no-sandbox", "--remote-debugging-pipe", "--no-first-run",
-                                     "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                                     "--disable-background-networking", "--host-resolver-rules=MAP * ~NOTFOUND", profile.c_str(),
-                                     "about:blank", nullptr};
+    const char* const arguments[] = {program.c_str(),
+                                     "--headless=new",
+                                     "--no-sandbox",
+                                     "--remote-debugging-pipe",
+                                     "--no-first-run",
+                                     "--disable-dev-shm-usage",
+                                     "--use-gl=angle",
+                                     "--use-angle=swiftshader",
+                                     "--enable-unsafe-swiftshader",
+                                     "--disable-background-networking",
+                                     "--host-resolver-rules=MAP * ~NOTFOUND",
+                                     profile.c_str(),
+                                     "about:blank",
+                                     nullptr};
     pid_ = fork();
     if (pid_ == 0) {
         setpgid(0, 0);

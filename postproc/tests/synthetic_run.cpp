@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "geometry/head/axial_bins.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/head/axial_bins.hpp"
 
 namespace cutterflow::postproc::testing {
 namespace {
@@ -402,7 +402,8 @@ void write_velocity_planes(const fs::path& directory, PlaneFlow flow) {
         for (int i = 0; i < columns * rows; ++i) {
             const Vec3 at = place(i % columns, i / columns), u = flow(std::hypot(at.x(), at.y()), at.z());
             const bool steel = i >= 7 * columns && i < 7 * columns + k_plane_points_in_steel;
-            const std::string velocity = steel || !u.allFinite() ? ",,,,," : fmt::format("{:.6g},{:.6g},{:.6g},0.01,0.01,0.01", u.x(), u.y(), u.z());
+            const std::string velocity =
+                steel || !u.allFinite() ? ",,,,," : fmt::format("{:.6g},{:.6g},{:.6g},0.01,0.01,0.01", u.x(), u.y(), u.z());
             text += fmt::format("{},{:.9g},{:.9g},{:.9g},0,{},120,{},1,1,2\n", i + 1, at.x(), at.y(), at.z(), velocity, steel ? 120 : 0);
         }
         return text;

@@ -36,7 +36,7 @@ struct SmallRun {
     double end_time = 2.0;
     std::string study_name = "small run";
     double length_ratio = 1.0;
-    double speed_rpm = 60.0;  ///< of the study alone: the story's times stay
+    double speed_rpm = 60.0;    ///< of the study alone: the story's times stay
     std::vector<Event> events;  ///< filled with the story above by the constructor
 
     explicit SmallRun(const std::string& name);

@@ -29,7 +29,8 @@ Vec3 field(const Vec3& x) {
 }
 using Field = Vec3 (*)(const Vec3&);
 
-/// A vortex about the axis whose swirl peaks at 0.2 m, sucked up more strongly the nearer to the axis: every component is curved in radius and height.
+/// A vortex about the axis whose swirl peaks at 0.2 m, sucked up more strongly the nearer to the axis: every component is curved in radius
+/// and height.
 Vec3 vortex(const Vec3& x) {
     const double r2 = (x[0] * x[0] + x[1] * x[1]) / 0.04, swirl = 6.0 * std::exp(-0.5 * r2) * std::cos(4.0 * x[2]);
     const double inflow = -2.0 * std::exp(-r2) * (1.0 + 3.0 * x[2]);
@@ -43,7 +44,8 @@ Vec3 mean_over_cylinder(Field flow, const Vec3& centre, double diameter, double 
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < sectors; ++j)
             for (int k = 0; k < layers; ++k) {
-                const double r = 0.5 * diameter * std::sqrt((i + 0.5) / rings), a = 2.0 * k_pi * (j + 0.5) / sectors;  // rings of equal area
+                const double r = 0.5 * diameter * std::sqrt((i + 0.5) / rings),
+                             a = 2.0 * k_pi * (j + 0.5) / sectors;  // rings of equal area
                 sum += flow(centre + Vec3(r * std::cos(a), r * std::sin(a), length * ((k + 0.5) / layers - 0.5)));
             }
     return sum / (rings * sectors * layers);
@@ -68,8 +70,8 @@ protected:
             for (const Vec3& x : adv_places(point, probe)) {
                 const double a = std::atan2(x[1], x[0]);
                 const Vec3 u = flow(x), radial(std::cos(a), std::sin(a), 0.0), tangential(-std::sin(a), std::cos(a), 0.0);
-                places += fmt::format("{},{:.9g},{:.9g},{:.9g},{},0,0,0,,,,240,0,{},1,2\n", rows.size() + 1, x[0], x[1], x[2], point.rotating ? 1 : 0,
-                                      scatter.size());
+                places += fmt::format("{},{:.9g},{:.9g},{:.9g},{},0,0,0,,,,240,0,{},1,2\n", rows.size() + 1, x[0], x[1], x[2],
+                                      point.rotating ? 1 : 0, scatter.size());
                 const bool dry = x[2] > 0.999;
                 rows.push_back(dry ? std::string() : fmt::format("{:.9g}|{:.9g}|{:.9g}", u.dot(radial), u.dot(tangential), u[2]));
             }
@@ -133,11 +135,13 @@ TEST(AdvPoints, names_every_mistake_of_a_file_at_once) {
     testing::write_text(file, "name,r_inch,theta_deg,z_mm,u_radial_cm_s,u_tangential_knots,depth\nA,1,2,3,4,5\n");
     const std::string header = refusal(file);
     for (const char* part : {"points.csv:1: column frame is missing", "column \"r_inch\" has no known unit. It is one of r_cm, r_m, r_mm",
-                             "column \"u_tangential_knots\" has no known unit", "column u_axial is missing", "column \"depth\" is not known",
-                             "points.csv:2: 6 fields instead of 7"})
+                             "column \"u_tangential_knots\" has no known unit", "column u_axial is missing",
+                             "column \"depth\" is not known", "points.csv:2: 6 fields instead of 7"})
         EXPECT_THAT(header, HasSubstr(part));
-    testing::write_text(file, "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\n"
-                              "A,100,0,-50,still,1,2,3\nA,100,0,-50,moving,1,2,3\nB,-1,x,-50,still,1,2,3\n,1,2,3,still,nan,2,3\nC,1,2,3,still,1,2\n");
+    testing::write_text(
+        file,
+        "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\n"
+        "A,100,0,-50,still,1,2,3\nA,100,0,-50,moving,1,2,3\nB,-1,x,-50,still,1,2,3\n,1,2,3,still,nan,2,3\nC,1,2,3,still,1,2\n");
     const std::string lines = refusal(file);
     for (const char* part : {"points.csv:3: the name \"A\" stands in", "points.csv:3: frame = \"moving\"", "points.csv:4: r = -0.001 m",
                              "points.csv:4: theta_deg = \"x\" is not a number", "points.csv:5: the name is empty",
@@ -215,11 +219,13 @@ TEST_F(AdvRun, mean_over_a_large_probe_is_that_of_a_curved_vortex) {
     ASSERT_NEAR(comparison.probe.diameter, 0.06, 1e-12);
     double curvature = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {
-        const Vec3 centre = points[p].position(), frame = points[p].rotating ? Vec3(k_omega * Vec3::UnitZ().cross(centre)) : Vec3(Vec3::Zero());
+        const Vec3 centre = points[p].position(),
+                   frame = points[p].rotating ? Vec3(k_omega * Vec3::UnitZ().cross(centre)) : Vec3(Vec3::Zero());
         const Vec3 mean = mean_over_cylinder(vortex, centre, 0.06, 0.09);
         curvature = std::max(curvature, (mean - vortex(centre)).norm() / mean.norm());
         for (const AdvComponent c : k_adv_components)
-            EXPECT_NEAR(*comparison.points[p].velocity[static_cast<std::size_t>(c)].model, (mean - frame).dot(points[p].direction(c)), 1e-3 * mean.norm())
+            EXPECT_NEAR(*comparison.points[p].velocity[static_cast<std::size_t>(c)].model, (mean - frame).dot(points[p].direction(c)),
+                        1e-3 * mean.norm())
                 << points[p].name << ", " << adv_component_name(c);
     }
     EXPECT_GT(curvature, 0.01) << "the velocity in the middle of the volume alone would do";
@@ -233,7 +239,7 @@ TEST_F(AdvRun, agreement_is_bias_scatter_slope_and_hits_apart_inside_and_outside
         result.velocity[0] = {measured_and_model[0], measured_and_model[1], bar, 0.0};
         comparison.points.push_back(result);
     };
-    add(true, {1.0, 1.2}, 0.0);   // within a quarter
+    add(true, {1.0, 1.2}, 0.0);    // within a quarter
     add(true, {-0.5, -0.8}, 0.1);  // neither
     add(true, {0.1, 0.15}, 0.06);  // within the bar
     add(false, {2.0, 1.0}, 0.0);

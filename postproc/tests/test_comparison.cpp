@@ -140,7 +140,8 @@ TEST(Comparison, knows_settings_by_values_and_cutters_by_content) {
         testing::write_text(directory / names::manifest, manifest.dump());
         return directory;
     };
-    const fs::path plain = variant("value_plain", {}), same = edited(variant("value_same", {}), "inclination_deg = 45", "inclination_deg = 45.0");
+    const fs::path plain = variant("value_plain", {}),
+                   same = edited(variant("value_same", {}), "inclination_deg = 45", "inclination_deg = 45.0");
     EXPECT_EQ(compare_runs({plain, same}).settings.size(), 1u);
     const Comparison other = compare_runs({plain, edited(variant("value_other", {}), "gap_m = 0.03", "gap_m = 0.04")});
     const std::map<std::string, std::vector<std::string>> differing{{"suction.gap_m", {"0.03", "0.04"}}};

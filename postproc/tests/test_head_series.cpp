@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "postproc/draw/indexed_surface.hpp"
 #include "postproc/pages/report.hpp"
@@ -63,7 +63,8 @@ TEST(IndexedSurface, shares_points_and_keeps_places) {
     EXPECT_EQ(indexed.points.size(), 121u);
     ASSERT_EQ(indexed.triangles.size(), surface.size());
     for (std::size_t t = 0; t < surface.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((indexed.point(indexed.triangles[t][k]) - surface[t][k]).norm(), 0.0, 10.0 / 65535.0);
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_NEAR((indexed.point(indexed.triangles[t][k]) - surface[t][k]).norm(), 0.0, 10.0 / 65535.0);
     }
 }
 

@@ -7,8 +7,8 @@
 #include "geometry/base/error.hpp"
 #include "postproc/draw/image.hpp"
 #include "postproc/draw/rendering.hpp"
-#include "postproc/tests/synthetic_run.hpp"
 #include "postproc/draw/triangle_surface.hpp"
+#include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
 namespace {

@@ -75,7 +75,8 @@ void expect_sound_page(Chromium& browser, const fs::path& page, std::size_t plot
 class Pages : public ::testing::Test {
 protected:
     void SetUp() override {
-        if (!Chromium::is_installed()) GTEST_SKIP() << "chromium is not installed (Debian: apt-get install chromium): the pages were not opened";
+        if (!Chromium::is_installed())
+            GTEST_SKIP() << "chromium is not installed (Debian: apt-get install chromium): the pages were not opened";
     }
 };
 

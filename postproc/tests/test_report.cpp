@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
-#include "postproc/pages/figures.hpp"
 #include "postproc/analysis/not_modelled.hpp"
+#include "postproc/pages/figures.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {

@@ -57,7 +57,7 @@ TEST(VelocityFigures, under_the_ring_a_right_handed_head_turns_clockwise_as_seen
     for (std::size_t i = 0; i + 1 < x.size(); i += 6) {
         const double px = x[i], py = y[i], dx = x[i + 1].get<double>() - px, dy = y[i + 1].get<double>() - py;
         const double mx = px + 0.5 * dx, my = py + 0.5 * dy;
-        EXPECT_LT(mx * dy - my * dx, 0.0);                                                   // clockwise
+        EXPECT_LT(mx * dy - my * dx, 0.0);                                                        // clockwise
         EXPECT_NEAR((mx * dx + my * dy) / (std::hypot(mx, my) * std::hypot(dx, dy)), 0.0, 1e-3);  // along the circle
     }
 }

@@ -9,12 +9,12 @@
 #include "geometry/base/error.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
-#include "solver/observe/csv_recorder.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
+#include "solver/observe/csv_recorder.hpp"
 
 namespace {
 
@@ -45,7 +45,8 @@ void run(int argc, char** argv) {
     }
     const auto recorder = make_recorder(session, dictionary, fluid, communicator.rank() == 0);
 
-    coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder, session.case_folder());
+    coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder,
+                                 session.case_folder());
     const auto checkpoint = coupling::newest_checkpoint(session.case_folder());
     if (!checkpoint.empty()) coupled.resume(checkpoint);
 

@@ -9,18 +9,22 @@ namespace {
 void add_flow_models(const foam::FoamFluidEngine& fluid, std::vector<coupling::ModelNote>& notes) {
     notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
     const double speed = fluid.rotor().speed;
-    if (speed != 0.0) notes.push_back({fmt::format("sliding mesh at {:.6g} rad/s", speed), "constant/dynamicMeshDict turns the zone rotor"});
+    if (speed != 0.0)
+        notes.push_back({fmt::format("sliding mesh at {:.6g} rad/s", speed), "constant/dynamicMeshDict turns the zone rotor"});
 }
 
 void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {
     const coupling::KernelSettings& kernel = settings.kernel;
-    notes.push_back({fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma, kernel.min_width_in_cells),
+    notes.push_back({fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma,
+                                 kernel.min_width_in_cells),
                      "rock is larger than cells; steel hides what lies behind it"});
     notes.push_back({"d(void fraction)/dt in the pressure equation", "rock displaces fluid"});
     const coupling::ClosureSettings& closures = settings.closures;
-    notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)), "closures.drag"});
+    notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)),
+                     "closures.drag"});
     if (closures.hindrance != "none") notes.push_back({"hindrance: " + closures.hindrance, "neighbouring rock raises the drag"});
-    if (closures.added_mass > 0.0) notes.push_back({fmt::format("added mass {:.3g}", closures.added_mass), "rock is only a few times denser than the fluid"});
+    if (closures.added_mass > 0.0)
+        notes.push_back({fmt::format("added mass {:.3g}", closures.added_mass), "rock is only a few times denser than the fluid"});
     if (closures.lift != "none") notes.push_back({"lift: " + closures.lift, "closures.lift"});
     notes.push_back({"fluid acceleration force rho V Du/Dt", "the stress of the undisturbed flow acts on rock"});
     if (!closures.viscous_force) notes.push_back({"less its viscous part", "closures.viscousForce no"});
@@ -28,8 +32,8 @@ void add_coupling_models(const coupling::CouplingSettings& settings, std::vector
 
 void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {
     const coupling::ContactSettings& contact = dem.contact;
-    notes.push_back({fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa, friction {:.3g}, restitution {:.3g}", contact.youngs_modulus, contact.friction,
-                                 contact.restitution),
+    notes.push_back({fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa, friction {:.3g}, restitution {:.3g}",
+                                 contact.youngs_modulus, contact.friction, contact.restitution),
                      "rock hits rock and steel"});
     if (contact.wet_restitution) notes.push_back({"wet restitution after Legendre", "the fluid in the gap damps slow impacts"});
 }
@@ -50,7 +54,10 @@ std::map<std::string, std::string> program_versions() {
     int length = 0;
     MPI_Get_library_version(mpi, &length);
     const std::string library(mpi, static_cast<std::size_t>(length));
-    return {{"cutterFoam", CUTTERFLOW_VERSION}, {"OpenFOAM", CUTTERFLOW_OPENFOAM_VERSION}, {"LIGGGHTS", "3.8.0"}, {"MPI", library.substr(0, library.find(','))}};
+    return {{"cutterFoam", CUTTERFLOW_VERSION},
+            {"OpenFOAM", CUTTERFLOW_OPENFOAM_VERSION},
+            {"LIGGGHTS", "3.8.0"},
+            {"MPI", library.substr(0, library.find(','))}};
 }
 
 }  // namespace cutterflow

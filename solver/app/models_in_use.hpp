@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "solver/observe/run_recorder.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
+#include "solver/observe/run_recorder.hpp"
 
 namespace cutterflow {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/ports/communicator.hpp"
-#include "solver/observe/head/fate_tracker.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
+#include "solver/ports/communicator.hpp"
 
 namespace cutterflow::coupling {
 
@@ -17,7 +17,7 @@ namespace cutterflow::coupling {
 struct RunState {
     double time = 0.0;
     double rotor_angle = 0.0;
-    int ranks = 1;  ///< that wrote it
+    int ranks = 1;                  ///< that wrote it
     std::vector<int> handled_feed;  ///< ids of the feed that are placed or rejected
     std::map<int, TrackedRock> rocks;
     BookedExchange booked;

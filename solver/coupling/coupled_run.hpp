@@ -7,15 +7,15 @@
 #include <set>
 
 #include "solver/coupling/checkpoint.hpp"
+#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/observe/head/fate_tracker.hpp"
+#include "solver/observe/head/outflow_sampler.hpp"
+#include "solver/observe/run_recorder.hpp"
+#include "solver/observe/velocity/velocity_sets.hpp"
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/dem_engine.hpp"
-#include "solver/observe/head/fate_tracker.hpp"
 #include "solver/ports/fluid_engine.hpp"
-#include "solver/observe/head/outflow_sampler.hpp"
-#include "solver/coupling/kernel/kernel_coupling.hpp"
-#include "solver/observe/run_recorder.hpp"
 #include "solver/ports/settings.hpp"
-#include "solver/observe/velocity/velocity_sets.hpp"
 
 namespace cutterflow::coupling {
 

@@ -8,11 +8,11 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/head/head_names.hpp"
-#include "solver/foam/single_phase/cutter_fluid.hpp"
-#include "solver/foam/single_phase/flow_loads.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
+#include "solver/foam/single_phase/cutter_fluid.hpp"
+#include "solver/foam/single_phase/flow_loads.hpp"
 #include "solver/foam/single_phase/rotor_motion.hpp"
 #include "solver/foam/single_phase/steel_faces.hpp"
 #include "solver/foam/single_phase/velocity_sampler.hpp"

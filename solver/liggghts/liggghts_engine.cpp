@@ -28,10 +28,10 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/liggghts/contacts/contact_registration.hpp"
+#include "solver/liggghts/contacts/wall_contacts.hpp"
 #include "solver/liggghts/liggghts_commands.hpp"
 #include "solver/liggghts/rock_motion.hpp"
 #include "solver/liggghts/settings_check.hpp"
-#include "solver/liggghts/contacts/wall_contacts.hpp"
 #include "solver/liggghts/wall_surface.hpp"
 #include "solver/physics/contact.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "fix.h"
 
-#include "solver/ports/dem_engine.hpp"
 #include "solver/liggghts/contacts/contact_context.hpp"
+#include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::liggghts {
 
@@ -62,7 +62,7 @@ private:
     Vec3 gravity_;
     const coupling::Rocks* rocks_ = nullptr;
     const coupling::HydrodynamicForce* force_ = nullptr;
-    std::vector<State> states_;  // in LIGGGHTS' order
+    std::vector<State> states_;                    // in LIGGGHTS' order
     std::vector<Vec3> impulse_, contact_impulse_;  // per rock of rocks_
     double angular_impulse_ = 0.0;
 };

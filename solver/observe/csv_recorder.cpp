@@ -39,7 +39,8 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     cost_ = open("cost", "cost.csv", "time_s,step_s,fluid_s,mesh_motion_s,mapping_s,dem_s,output_s");
     if (settings.outflow && settings.fates) {
         std::string header = "time_s";
-        for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings.fates), settings.fates->bin_width)) header += "," + bin.name;
+        for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings.fates), settings.fates->bin_width))
+            header += "," + bin.name;
         outflow_ = open("outflow", "contour_velocity.csv", header);
     }
     if (!settings.has_rock) return;

@@ -39,8 +39,8 @@ double gidaspow_drag_coefficient(const DragState& state) {
 double koch_hill_drag_coefficient(const DragState& state) {
     const double re = state.reynolds, a = state.void_fraction, s = 1.0 - a;
     const double s_log_s = s > 0.0 ? s * std::log(s) : 0.0;
-    const double dilute = (1.0 + 3.0 * std::sqrt(0.5 * s) + 135.0 / 64.0 * s_log_s + 16.14 * s) /
-                          (1.0 + 0.681 * s - 8.48 * s * s + 8.16 * s * s * s);
+    const double dilute =
+        (1.0 + 3.0 * std::sqrt(0.5 * s) + 135.0 / 64.0 * s_log_s + 16.14 * s) / (1.0 + 0.681 * s - 8.48 * s * s + 8.16 * s * s * s);
     const double f0 = s < 0.4 ? dilute : 10.0 * s / std::pow(a, 3);
     const double f3 = 0.0673 + 0.212 * s + 0.0232 / std::pow(a, 5);
     return 24.0 / re * a * (f0 + 0.5 * f3 * a * re);
@@ -62,7 +62,8 @@ double no_hindrance(double /*void_fraction*/, double /*particle_reynolds*/) {
 double drag_coefficient_per_slip(const RockInFluid& rock, double slip_speed, DragLaw drag, HindranceLaw hindrance, double modifier) {
     const double reynolds = std::max(slip_speed * rock.diameter / rock.kinematic_viscosity, k_smallest_reynolds);
     // Cd |slip| written with Re, so that no slip gives Stokes' limit instead of infinity times zero.
-    const double cd_times_slip = drag({reynolds, rock.void_fraction, rock.sphericity}) * reynolds * rock.kinematic_viscosity / rock.diameter;
+    const double cd_times_slip =
+        drag({reynolds, rock.void_fraction, rock.sphericity}) * reynolds * rock.kinematic_viscosity / rock.diameter;
     const double area = k_pi / 4.0 * rock.diameter * rock.diameter;
     return modifier * 0.5 * rock.fluid_density * area * cd_times_slip * hindrance(rock.void_fraction, rock.void_fraction * reynolds);
 }

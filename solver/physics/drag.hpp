@@ -12,7 +12,8 @@ struct DragState {
     double sphericity = 1.0;     ///< surface of the sphere of equal volume over that of the rock [-]
 };
 
-/// Drag coefficient of a single sphere [-]:  Cd = 24/Re (1 + 0.150 Re^0.681) + 0.407 / (1 + 8710/Re). Valid for Re <= 2e5. [BrownLawler2003]
+/// Drag coefficient of a single sphere [-]:  Cd = 24/Re (1 + 0.150 Re^0.681) + 0.407 / (1 + 8710/Re). Valid for Re <= 2e5.
+/// [BrownLawler2003]
 double brown_lawler_drag_coefficient(const DragState& state);
 
 /// Drag coefficient of a single sphere [-]:  Cd = 24/Re (1 + 0.15 Re^0.687) below Re = 1000, 0.44 from there on (it jumps up by 0.4 %
@@ -25,8 +26,8 @@ double schiller_naumann_drag_coefficient(const DragState& state);
 double haider_levenspiel_drag_coefficient(const DragState& state);
 
 /// Gidaspow's law, which holds the void fraction a itself, as a drag coefficient of one rock [-] in the sense of drag_coefficient_per_slip
-/// (with hindrance 1). The published momentum exchange coefficient belongs to the form in which the fluid feels a grad p (model A); with the
-/// full pressure gradient and buoyancy in pure fluid (model B, the solver's form) the force on rock is that over a:
+/// (with hindrance 1). The published momentum exchange coefficient belongs to the form in which the fluid feels a grad p (model A); with
+/// the full pressure gradient and buoyancy in pure fluid (model B, the solver's form) the force on rock is that over a:
 ///   a <= 0.8, Ergun:   Cd = 4/3 (150 (1 - a) / (a^2 Re) + 1.75/a)
 ///   a >  0.8, Wen-Yu:  Cd = Cd0(a Re) a^(-2.65), Cd0 of Schiller and Naumann
 /// The two differ where they meet: by 15 % in creeping flow, by a factor 3.7 at high Re. [Gidaspow1994]
@@ -75,9 +76,9 @@ double sphere_volume(double diameter);
 /// added mass that follows the fluid. The other part, -C_AM rho_f V dv/dt, stands in the rock's inertia. [NieuwboerVanRheeKeetels2023]
 Vec3 fluid_acceleration_force(double volume, double fluid_density, double added_mass_coefficient, const Vec3& material_acceleration);
 
-/// The part of the undisturbed flow's stress on a rock that is viscous [N]:  V rho_f div(tau), tau = nu (grad u + grad u^T) less its trace's
-/// part. By Navier-Stokes V (-grad p + rho_f div(tau)) = rho_f V (Du/Dt - g), so fluid_acceleration_force holds it: it must not be added to
-/// that force; less it, that force is the pressure gradient's alone. \param stress_divergence  div(tau) [m/s2]
+/// The part of the undisturbed flow's stress on a rock that is viscous [N]:  V rho_f div(tau), tau = nu (grad u + grad u^T) less its
+/// trace's part. By Navier-Stokes V (-grad p + rho_f div(tau)) = rho_f V (Du/Dt - g), so fluid_acceleration_force holds it: it must not be
+/// added to that force; less it, that force is the pressure gradient's alone. \param stress_divergence  div(tau) [m/s2]
 Vec3 viscous_force(double volume, double fluid_density, const Vec3& stress_divergence);
 
 /// Added mass coefficient of a sphere in unbounded potential flow [-]. [NieuwboerVanRheeKeetels2023]

@@ -31,8 +31,8 @@ struct DemStep {
     std::vector<Vec3>
         impulse;  ///< of HydrodynamicForce on each rock of rocks() after the call [N s]: sum of force times DEM step, ends half
     std::vector<Vec3> contact_impulse;  ///< of all contacts on each rock, in the order of `impulse` [N s]
-    std::vector<int> left_domain;     ///< ids of rocks that left the DEM domain in the call; no longer in rocks()
-    std::vector<Vec3> left_position;  ///< their last positions
+    std::vector<int> left_domain;       ///< ids of rocks that left the DEM domain in the call; no longer in rocks()
+    std::vector<Vec3> left_position;    ///< their last positions
     std::vector<Vec3> left_velocity;
     std::vector<Vec3> left_impulse;
     double cutter_torque = 0.0;      ///< mean torque of rock contacts on the rotating steel about the axis [N m]

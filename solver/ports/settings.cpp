@@ -90,10 +90,10 @@ void check_velocity(Checker& check, const VelocitySettings& velocity) {
     std::set<std::string> names;
     for (const VelocitySetSettings& set : velocity.sets) {
         const std::string key = "velocity.sets." + set.name;
-        const bool plain = !set.name.empty() && std::all_of(set.name.begin(), set.name.end(), [](unsigned char c) {
-            return std::isalnum(c) != 0 || c == '_' || c == '-';
-        });
-        if (!plain) check.add(fmt::format("velocity.sets: the name '{}'", set.name), "Results are called by it", "Use letters, digits, - and _");
+        const bool plain = !set.name.empty() && std::all_of(set.name.begin(), set.name.end(),
+                                                            [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
+        if (!plain)
+            check.add(fmt::format("velocity.sets: the name '{}'", set.name), "Results are called by it", "Use letters, digits, - and _");
         if (!names.insert(set.name).second) check.add(key + " stands twice", "Results are called by the name", "Rename one of them");
         check.require(set.phases >= 0 && set.phases <= 360, key + ".phases", set.phases, "It must lie between 0 and 360", "Use 12");
     }

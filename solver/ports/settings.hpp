@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "geometry/head/contour.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/vec3.hpp"
+#include "geometry/head/contour.hpp"
 
 namespace cutterflow::coupling {
 
@@ -32,7 +32,7 @@ struct ClosureSettings {
     double drag_modifier = 1.0;  ///< factor on the drag of every rock [-]
     double sphericity = 1.0;     ///< of every rock [-], for drag laws that ask for it
     std::string lift = "none";
-    bool viscous_force = true;   ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
+    bool viscous_force = true;  ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
 };
 
 /// The suction mouth: rock is sucked up for good once it is `depth` beyond the centre along `direction`, within `radius` of the mouth's

@@ -62,7 +62,8 @@ SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& 
         const std::size_t before = count;
         trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found);
         for (const Neighbour& n : found) cells[count++] = {n.squared_distance, zone, static_cast<std::size_t>(n.index)};
-        std::inplace_merge(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before), cells.begin() + static_cast<std::ptrdiff_t>(count),
+        std::inplace_merge(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before),
+                           cells.begin() + static_cast<std::ptrdiff_t>(count),
                            [](const Cell& a, const Cell& b) { return a.squared_distance < b.squared_distance; });
     }
     count = std::min(k_neighbours, count);

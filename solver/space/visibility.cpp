@@ -33,8 +33,8 @@ const std::array<Vec3, 13>& view_points() {
     return points;
 }
 
-/// Where the lattice's nodes stand between whole multiples of its spacing. Steel likes round coordinates: a node in the plane of a face would
-/// see past it or not by rounding.
+/// Where the lattice's nodes stand between whole multiples of its spacing. Steel likes round coordinates: a node in the plane of a face
+/// would see past it or not by rounding.
 const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);
 
 std::uint64_t key_of(int level, const std::array<std::int64_t, 3>& index) {
@@ -136,8 +136,8 @@ void Visibility::look_past(Zone steel, const Vec3& position, double clearance, d
 Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing) {
     SamplePoint& point = nodes_[steel][key_of(level, index)];
     if (point.last_used == 0)
-        point.position =
-            spacing * (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) + k_lattice_offset);
+        point.position = spacing * (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) +
+                                    k_lattice_offset);
     point.last_used = stamp_;
     return point;
 }

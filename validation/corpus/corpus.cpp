@@ -104,10 +104,14 @@ const std::vector<geometry::TriangleSurface>& crown_parts() {
         const geometry::CrownParameters& p = crown_parameters();
         const double edge = p.edge_length;
         std::vector<geometry::TriangleSurface> all{
-            geometry::solid_of_revolution({{p.ring_inner_radius, -p.ring_height}, {p.ring_radius, -p.ring_height}, {p.ring_radius, 0.0}, {p.ring_inner_radius, 0.0}},
-                                geometry::circle_segments(p.ring_radius, edge), edge),
-            geometry::solid_of_revolution({{0.0, p.hub_height - p.hub_depth}, {p.hub_radius, p.hub_height - p.hub_depth}, {p.hub_radius, -p.hub_depth}, {0.0, -p.hub_depth}},
-                                geometry::circle_segments(p.hub_radius, edge), edge)};
+            geometry::solid_of_revolution(
+                {{p.ring_inner_radius, -p.ring_height}, {p.ring_radius, -p.ring_height}, {p.ring_radius, 0.0}, {p.ring_inner_radius, 0.0}},
+                geometry::circle_segments(p.ring_radius, edge), edge),
+            geometry::solid_of_revolution({{0.0, p.hub_height - p.hub_depth},
+                                           {p.hub_radius, p.hub_height - p.hub_depth},
+                                           {p.hub_radius, -p.hub_depth},
+                                           {0.0, -p.hub_depth}},
+                                          geometry::circle_segments(p.hub_radius, edge), edge)};
         const geometry::TriangleSurface blade = geometry::crown_blade(p);
         for (int i = 0; i < p.blade_count; ++i)
             all.push_back(geometry::transformed(blade, Eigen::Affine3d(Eigen::AngleAxisd(2.0 * k_pi * i / p.blade_count, Vec3::UnitZ()))));
@@ -162,7 +166,8 @@ const std::vector<Damage>& damages() {
         {"fifth_flipped", [](const geometry::TriangleSurface& s) { return with_flipped_triangles(s, s.triangles.size() / 5, Dice(5)); }},
         {"inside_out", [](const geometry::TriangleSurface& s) { return inside_out(s); }},
         {"duplicates", [](const geometry::TriangleSurface& s) { return with_duplicates(s, s.triangles.size() / 20, false, Dice(6)); }},
-        {"flipped_duplicates", [](const geometry::TriangleSurface& s) { return with_duplicates(s, s.triangles.size() / 20, true, Dice(7)); }},
+        {"flipped_duplicates",
+         [](const geometry::TriangleSurface& s) { return with_duplicates(s, s.triangles.size() / 20, true, Dice(7)); }},
         {"t_junctions", [](const geometry::TriangleSurface& s) { return with_t_junctions(s, 40, Dice(8)); }},
         {"flat_triangles", [](const geometry::TriangleSurface& s) { return with_flat_triangles(s, 30, Dice(9)); }},
         {"slivers", [](const geometry::TriangleSurface& s) { return with_slivers(s, 30, Dice(10)); }},
@@ -182,7 +187,8 @@ public:
     void repaired(const std::string& name, double volume, std::function<std::string()> content, std::vector<std::string> options = {}) {
         files.push_back({name, std::move(content), volume, "", std::move(options)});
     }
-    void refused(const std::string& name, const std::string& words, std::function<std::string()> content, std::vector<std::string> options = {}) {
+    void refused(const std::string& name, const std::string& words, std::function<std::string()> content,
+                 std::vector<std::string> options = {}) {
         files.push_back({name, std::move(content), 0.0, words, std::move(options)});
     }
 };
@@ -202,15 +208,33 @@ geometry::TriangleSurface randomly_damaged(geometry::TriangleSurface s, std::uin
         const Dice own(1000 * seed + static_cast<std::uint32_t>(k));
         const std::size_t some = 1 + dice.below(15);
         switch (dice.below(9)) {
-            case 0: s = with_missing_triangles(s, std::min<std::size_t>(some, 8), own); break;
-            case 1: s = with_flipped_triangles(s, 20 * some, own); break;
-            case 2: s = with_duplicates(s, 10 * some, false, own); break;
-            case 3: s = with_duplicates(s, 10 * some, true, own); break;
-            case 4: s = with_t_junctions(s, some, own); break;
-            case 5: s = with_flat_triangles(s, some, own); break;
-            case 6: s = with_slivers(s, some, own); break;
-            case 7: s = with_fins(s, some, own); break;
-            default: s = with_folds(s, 1 + some / 5, own); break;
+            case 0:
+                s = with_missing_triangles(s, std::min<std::size_t>(some, 8), own);
+                break;
+            case 1:
+                s = with_flipped_triangles(s, 20 * some, own);
+                break;
+            case 2:
+                s = with_duplicates(s, 10 * some, false, own);
+                break;
+            case 3:
+                s = with_duplicates(s, 10 * some, true, own);
+                break;
+            case 4:
+                s = with_t_junctions(s, some, own);
+                break;
+            case 5:
+                s = with_flat_triangles(s, some, own);
+                break;
+            case 6:
+                s = with_slivers(s, some, own);
+                break;
+            case 7:
+                s = with_fins(s, some, own);
+                break;
+            default:
+                s = with_folds(s, 1 + some / 5, own);
+                break;
         }
     }
     return dice.below(2) == 0 ? s : torn_apart(s, 1e-6, Dice(seed));
@@ -226,7 +250,9 @@ void add_random_combinations(Corpus& corpus) {
 
 void add_shells(Corpus& corpus) {
     const geometry::TriangleSurface a = block(Vec3(-0.5, -0.5, -0.5), Vec3(0.1, 0.5, 0.5), 4);
-    const auto stl_of = [](std::vector<geometry::TriangleSurface> parts) { return [parts = std::move(parts)] { return binary_stl(geometry::joined(parts)); }; };
+    const auto stl_of = [](std::vector<geometry::TriangleSurface> parts) {
+        return [parts = std::move(parts)] { return binary_stl(geometry::joined(parts)); };
+    };
 
     corpus.repaired("crown_in_eight_shells.stl", united_volume(crown_parts()), stl_of(crown_parts()));
     std::vector<geometry::TriangleSurface> parts = crown_parts();
@@ -252,16 +278,19 @@ void add_shells(Corpus& corpus) {
     corpus.repaired("tilted_overlapping_blocks.stl", united_volume({a, tilted}), stl_of({a, tilted}));
     corpus.repaired("block_within_block.stl", 0.6, stl_of({a, block(Vec3(-0.4, -0.4, -0.4), Vec3(0.0, 0.2, 0.3), 3)}));
     const geometry::TriangleSurface left = moved(ball(0.3, 3), Vec3(-0.2, 0, 0)), right = moved(ball(0.3, 3), Vec3(0.2, 0.01, 0.003)),
-                          top = moved(ball(0.3, 3), Vec3(0.004, 0.02, 0.25));
+                                    top = moved(ball(0.3, 3), Vec3(0.004, 0.02, 0.25));
     corpus.repaired("three_balls.stl", united_volume({left, right, top}), stl_of({left, right, top}));
-    corpus.repaired("three_balls_torn_apart.stl", united_volume({left, right, top}),
-                    [=] { return binary_stl(torn_apart(geometry::joined({left, right, top}), 1e-6, Dice(22))); });
-    const geometry::TriangleSurface ring = ring_torus(0.4, 0.1, 60, 24), link = geometry::transformed(moved(ring_torus(0.4, 0.1, 60, 24), Vec3(0.25, 0, 0)),
-                                                                                 Eigen::Affine3d(Eigen::AngleAxisd(1.1, Vec3::UnitX())));
+    corpus.repaired("three_balls_torn_apart.stl", united_volume({left, right, top}), [=] {
+        return binary_stl(torn_apart(geometry::joined({left, right, top}), 1e-6, Dice(22)));
+    });
+    const geometry::TriangleSurface ring = ring_torus(0.4, 0.1, 60, 24),
+                                    link = geometry::transformed(moved(ring_torus(0.4, 0.1, 60, 24), Vec3(0.25, 0, 0)),
+                                                                 Eigen::Affine3d(Eigen::AngleAxisd(1.1, Vec3::UnitX())));
     corpus.repaired("two_tori.stl", united_volume({ring, link}), stl_of({ring, link}));
     corpus.repaired("ball_with_inner_wall.stl", geometry::volume_of(ball(0.5, 4)),
                     [] { return binary_stl(with_inner_wall(ball(0.5, 4), equator(ball(0.5, 4)))); });
-    corpus.repaired("ball_with_small_cavity.stl", geometry::volume_of(ball(0.5, 4)), stl_of({ball(0.5, 4), inside_out(moved(ball(0.05, 2), Vec3(0.1, 0.1, 0.1)))}));
+    corpus.repaired("ball_with_small_cavity.stl", geometry::volume_of(ball(0.5, 4)),
+                    stl_of({ball(0.5, 4), inside_out(moved(ball(0.05, 2), Vec3(0.1, 0.1, 0.1)))}));
     corpus.refused("ball_with_large_cavity.stl", "closed cavities", stl_of({ball(0.5, 4), inside_out(ball(0.3, 3))}));
     corpus.refused("blocks_that_touch_along_an_edge.stl", "edge(s) with more than two triangles",
                    stl_of({block(Vec3(0, 0, 0), Vec3(0.5, 0.5, 0.5), 3), block(Vec3(0.5, 0.5, 0), Vec3(1, 1, 0.5), 3)}));
@@ -282,14 +311,19 @@ void add_open_surfaces(Corpus& corpus) {
         open.triangles.resize(open.triangles.size() - 2);
         return binary_stl(open);
     });
-    corpus.repaired("block_without_lid_filled_on_demand.stl", 0.5, [] {
-        geometry::TriangleSurface open = block(Vec3(0, 0, 0), Vec3(1, 1, 0.5), 1);
-        open.triangles.resize(open.triangles.size() - 2);
-        return binary_stl(open);
-    }, {"--hole-size-m", "1.5", "--area-change-percent", "40", "--volume-change-percent", "60"});
-    corpus.refused("many_holes.stl", "the patches of all holes", [] { return binary_stl(with_missing_triangles(ball(0.5, 5), 250, Dice(30))); });
+    corpus.repaired("block_without_lid_filled_on_demand.stl", 0.5,
+                    [] {
+                        geometry::TriangleSurface open = block(Vec3(0, 0, 0), Vec3(1, 1, 0.5), 1);
+                        open.triangles.resize(open.triangles.size() - 2);
+                        return binary_stl(open);
+                    },
+                    {"--hole-size-m", "1.5", "--area-change-percent", "40", "--volume-change-percent", "60"});
+    corpus.refused("many_holes.stl", "the patches of all holes",
+                   [] { return binary_stl(with_missing_triangles(ball(0.5, 5), 250, Dice(30))); });
     corpus.refused("large_disc_missing.stl", "a hole of", [] { return binary_stl(with_missing_disc(crown(), 0.06, Dice(31))); });
-    corpus.refused("one_triangle.stl", "a hole of", [] { return binary_stl({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}}); });
+    corpus.refused("one_triangle.stl", "a hole of", [] {
+        return binary_stl({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}});
+    });
     corpus.refused("flat_sheet.obj", "a hole of", [] {
         geometry::TriangleSurface sheet{{}, {}};
         const geometry::TriangleSurface cube = block(Vec3(0, 0, 0), Vec3(1, 1, 1), 5);
@@ -319,7 +353,8 @@ void add_open_surfaces(Corpus& corpus) {
 
 void add_wide_cracks_and_spikes(Corpus& corpus) {
     // Wider than the weld distance: every triangle is its own hole, and some few have met neighbours.
-    corpus.refused("crown_cracks_of_a_tenth_of_a_millimetre.stl", "a hole of", [] { return binary_stl(torn_apart(crown(), 1e-4, Dice(60))); });
+    corpus.refused("crown_cracks_of_a_tenth_of_a_millimetre.stl", "a hole of",
+                   [] { return binary_stl(torn_apart(crown(), 1e-4, Dice(60))); });
     // One point pulled through the far side: a thin cone that crosses it.
     corpus.repaired("ball_with_a_spike_through_it.stl", geometry::volume_of(ball(0.5, 5)), [] {
         geometry::TriangleSurface spiked = ball(0.5, 5);
@@ -343,7 +378,8 @@ void add_formats_and_units(Corpus& corpus) {
     corpus.repaired("binary.ply", volume, [=] { return binary_ply(damaged_crown()); });
     corpus.repaired("far_from_origin_in_millimetres.stl", volume,
                     [=] { return binary_stl(moved(damaged_crown(), Vec3(20.0, -35.0, 8.0)), k_per_millimetre); });
-    corpus.refused("millimetres_taken_as_metres.stl", "--unit mm", [=] { return binary_stl(damaged_crown(), k_per_millimetre); }, {"--unit", "m"});
+    corpus.refused("millimetres_taken_as_metres.stl", "--unit mm", [=] { return binary_stl(damaged_crown(), k_per_millimetre); },
+                   {"--unit", "m"});
     corpus.refused("tiny.stl", "fits none of m, mm and inch", [] { return binary_stl(ball(1e-4, 2)); });
 }
 
@@ -381,12 +417,13 @@ void add_broken_files(Corpus& corpus) {
         std::memset(&bytes[80], 0xff, 4);
         return bytes;
     });
-    corpus.refused("a_letter.stl", "no STL", [] { return std::string("Dear colleague,\nplease find the head attached.\n").append(100, '.'); });
+    corpus.refused("a_letter.stl", "no STL",
+                   [] { return std::string("Dear colleague,\nplease find the head attached.\n").append(100, '.'); });
     corpus.refused("indices_out_of_range.obj", "", [] { return std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n"); });
-    corpus.repaired("large_ball_damaged.stl", geometry::volume_of(ball(0.5, 7)), [] {
-        return binary_stl(with_flipped_triangles(with_missing_triangles(ball(0.5, 7), 20, Dice(42)), 5000, Dice(43)));
-    });
-    corpus.repaired("large_ball_torn_apart.stl", geometry::volume_of(ball(0.5, 7)), [] { return binary_stl(torn_apart(ball(0.5, 7), 5e-7, Dice(44))); });
+    corpus.repaired("large_ball_damaged.stl", geometry::volume_of(ball(0.5, 7)),
+                    [] { return binary_stl(with_flipped_triangles(with_missing_triangles(ball(0.5, 7), 20, Dice(42)), 5000, Dice(43))); });
+    corpus.repaired("large_ball_torn_apart.stl", geometry::volume_of(ball(0.5, 7)),
+                    [] { return binary_stl(torn_apart(ball(0.5, 7), 5e-7, Dice(44))); });
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ void add_quad(geometry::TriangleSurface& surface, std::uint32_t a, std::uint32_t
 }
 
 /// A grid that closes on itself in both directions; `twisted`: with the second coordinate reversed where the first closes.
-geometry::TriangleSurface closed_grid(int around, int across, bool twisted, Vec3 (*place)(double, double, double, double), double radius, double tube) {
+geometry::TriangleSurface closed_grid(int around, int across, bool twisted, Vec3 (*place)(double, double, double, double), double radius,
+                                      double tube) {
     geometry::TriangleSurface surface;
     for (int i = 0; i < around; ++i)
         for (int j = 0; j < across; ++j) surface.points.push_back(place(2.0 * k_pi * i / around, 2.0 * k_pi * j / across, radius, tube));
@@ -170,7 +171,7 @@ geometry::TriangleSurface with_inner_wall(geometry::TriangleSurface surface, con
 geometry::TriangleSurface ball(double radius, int subdivisions) {
     // An octahedron, so that the sections through the middle are circles of points.
     geometry::TriangleSurface surface{{Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitZ()},
-                            {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
+                                      {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
     for (int s = 0; s < subdivisions; ++s) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         geometry::TriangleSurface finer{surface.points, {}};
@@ -184,7 +185,8 @@ geometry::TriangleSurface ball(double radius, int subdivisions) {
         };
         for (const geometry::Triangle& t : surface.triangles) {
             const std::uint32_t ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
-            for (const geometry::Triangle& part : {geometry::Triangle{t[0], ab, ca}, geometry::Triangle{ab, t[1], bc}, geometry::Triangle{ca, bc, t[2]}, geometry::Triangle{ab, bc, ca}})
+            for (const geometry::Triangle& part : {geometry::Triangle{t[0], ab, ca}, geometry::Triangle{ab, t[1], bc},
+                                                   geometry::Triangle{ca, bc, t[2]}, geometry::Triangle{ab, bc, ca}})
                 finer.triangles.push_back(part);
         }
         surface = finer;

@@ -57,7 +57,11 @@ Verdict judge(const DamagedFile& file, const fs::path& cutterflow, const fs::pat
     write_file(input, file.content());
     const std::string before = sha256_of_file(input);
 
-    std::vector<std::string> command{"timeout", std::to_string(k_wall_limit_s), "prlimit", fmt::format("--cpu={}", k_core_limit_s), cutterflow.string(), "repair", input.string(), "-o", output.string()};
+    std::vector<std::string> command{"timeout",           std::to_string(k_wall_limit_s),
+                                     "prlimit",           fmt::format("--cpu={}", k_core_limit_s),
+                                     cutterflow.string(), "repair",
+                                     input.string(),      "-o",
+                                     output.string()};
     command.insert(command.end(), file.options.begin(), file.options.end());
     const ChildResult result = run_child({command, folder, log, {}});
     const std::string text = read_file(log);

@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
         const Verdict v = judge(file, fs::path(CUTTERFLOW_BUILD_DIR) / "bin/cutterflow", folder);
         const char* result = v.repaired ? "repaired" : v.refused ? "refused" : v.hung ? "HANG" : "CRASH";
         std::cout << fmt::format("{:<46}{:>10}{:>14}{:>8.1f}  {}{}\n", v.name, result,
-                                 v.repaired ? fmt::format("{:.2g} %", 100.0 * v.volume_error) : "", v.core_s, v.passed ? "" : "FAILED ", v.note)
+                                 v.repaired ? fmt::format("{:.2g} %", 100.0 * v.volume_error) : "", v.core_s, v.passed ? "" : "FAILED ",
+                                 v.note)
                   << std::flush;
         verdicts.push_back(v);
     }

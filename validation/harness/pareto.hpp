@@ -64,7 +64,8 @@ std::vector<Sweep<Options>> one_rock_sweeps(const std::vector<double>& mesh) {
 /// Section rock.contact of couplingProperties.
 inline std::string pareto_contact(double youngs_modulus, double dem_step) {
     return fmt::format(
-        "youngsModulus {:g}; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; timeStepFraction {}; maxSpeed "
+        "youngsModulus {:g}; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; timeStepFraction "
+        "{}; maxSpeed "
         "1.5;",
         youngs_modulus, dem_step);
 }

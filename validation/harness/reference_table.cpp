@@ -45,8 +45,8 @@ void check_columns(const std::string& where, const std::vector<ReferenceColumn>&
     for (const ReferenceColumn& column : wanted) {
         const auto found = std::find_if(there.begin(), there.end(), [&](const ReferenceColumn& c) { return c.name == column.name; });
         if (found == there.end())
-            mistakes.push_back({where, fmt::format("there is no column \"{} [{}]\"", column.name, column.unit), "The case reads it",
-                                "Add the column"});
+            mistakes.push_back(
+                {where, fmt::format("there is no column \"{} [{}]\"", column.name, column.unit), "The case reads it", "Add the column"});
         else if (!found->unit.empty() && found->unit != column.unit)
             mistakes.push_back({where, fmt::format("column \"{}\" is in [{}]", column.name, found->unit),
                                 fmt::format("The case reads it in [{}]", column.unit), "Convert the column"});
@@ -81,7 +81,8 @@ ReferenceTable read_reference(const fs::path& file, const std::vector<ReferenceC
             const double value = std::strtod(fields[i].c_str(), &end);
             table.columns[columns[i].name].push_back(value);
             if (end == fields[i].c_str() || *end != '\0' || !std::isfinite(value))
-                mistakes.push_back({where, fmt::format("\"{}\" in column \"{}\"", fields[i], columns[i].name), "It must be a finite number", "Correct it"});
+                mistakes.push_back({where, fmt::format("\"{}\" in column \"{}\"", fields[i], columns[i].name), "It must be a finite number",
+                                    "Correct it"});
         }
     }
     if (columns.empty()) mistakes.push_back({file.string(), "there are no columns", "One line names them", "Write it"});

@@ -14,7 +14,6 @@
 namespace cutterflow::validation {
 namespace {
 
-
 VerifiedQuantity quantity(Rule rule, const std::string& name, const std::string& unit, const About& about) {
     VerifiedQuantity result;
     result.name = name;
@@ -115,9 +114,8 @@ void Verification::write_exhibits() const {
 }
 
 bool Verification::failed() const {
-    return std::any_of(quantities_.begin(), quantities_.end(), [](const VerifiedQuantity& q) {
-        return q.verdict == CaseVerdict::fail || q.verdict == CaseVerdict::not_converged;
-    });
+    return std::any_of(quantities_.begin(), quantities_.end(),
+                       [](const VerifiedQuantity& q) { return q.verdict == CaseVerdict::fail || q.verdict == CaseVerdict::not_converged; });
 }
 
 int verify(int argc, char** argv, const std::function<void(Verification&)>& run) {

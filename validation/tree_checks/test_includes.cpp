@@ -1,4 +1,5 @@
-/// The layers' one direction (docs/design/001-contracts.md, README "Folders"): every #include of every source file is held against one table.
+/// The layers' one direction (docs/design/001-contracts.md, README "Folders"): every #include of every source file is held against one
+/// table.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -45,11 +46,13 @@ const std::vector<Layer> k_layers = {
     {"solver/ports/", {k_base, k_head_shape, "solver/physics/", "solver/ports/"}},
     {"solver/space/", {k_base, "solver/ports/", "solver/space/"}},
     {"solver/observe/", {k_base, k_axial_bins, "solver/ports/", "solver/observe/"}},
-    {"solver/observe/head/", {k_base, k_head_shape, k_axial_bins, "solver/physics/", "solver/ports/", "solver/observe/run_recorder.hpp", "solver/observe/head/"}},
+    {"solver/observe/head/",
+     {k_base, k_head_shape, k_axial_bins, "solver/physics/", "solver/ports/", "solver/observe/run_recorder.hpp", "solver/observe/head/"}},
     {"solver/observe/velocity/", {k_base, "solver/ports/", "solver/space/", "solver/observe/velocity/"}},
     {"solver/coupling/", {k_base, "solver/physics/", "solver/ports/", "solver/observe/", "solver/coupling/"}},
     {"solver/coupling/feed/", {k_base, "solver/coupling/feed/"}},
-    {"solver/coupling/kernel/", {k_base, "solver/physics/", "solver/ports/", "solver/space/", "solver/coupling/feed/", "solver/coupling/kernel/"}},
+    {"solver/coupling/kernel/",
+     {k_base, "solver/physics/", "solver/ports/", "solver/space/", "solver/coupling/feed/", "solver/coupling/kernel/"}},
     {"solver/foam/session/", {k_base, "solver/ports/", "solver/coupling/checkpoint.hpp", "solver/foam/session/"}},
     {"solver/foam/dictionary/", {k_base, "solver/ports/", "solver/foam/session/", "solver/foam/dictionary/"}},
     {"solver/foam/single_phase/", {k_base, k_head_names, "solver/ports/", "solver/foam/session/", "solver/foam/single_phase/"}},
@@ -75,11 +78,14 @@ const std::vector<Layer> k_layers = {
     {"validation/harness/", {k_base, "validation/harness/"}},
     {"validation/harness/suite/", {k_base, "postproc/draw/", "cases/runner/", "validation/harness/suite/"}},
     {"validation/harness/scenes/",
-     {k_base, k_head_names, "meshing/dictionary/", "solver/ports/", "solver/liggghts/", "cases/scenes/cutter/", "cases/runner/", "cases/testing/", "validation/harness/"}},
-    {"validation/cases/", {k_base, "meshing/dictionary/", "solver/physics/", "solver/ports/", "solver/coupling/", "postproc/analysis/", "cases/study/",
-                           "cases/runner/", "cases/testing/", "validation/harness/"}},
+     {k_base, k_head_names, "meshing/dictionary/", "solver/ports/", "solver/liggghts/", "cases/scenes/cutter/", "cases/runner/",
+      "cases/testing/", "validation/harness/"}},
+    {"validation/cases/",
+     {k_base, "meshing/dictionary/", "solver/physics/", "solver/ports/", "solver/coupling/", "postproc/analysis/", "cases/study/",
+      "cases/runner/", "cases/testing/", "validation/harness/"}},
     {"validation/corpus/", {"geometry/", "validation/corpus/"}},
-    {"validation/rotor/", {k_base, k_head_names, "meshing/dictionary/", "postproc/draw/", "cases/runner/", "cases/testing/", "validation/harness/"}},
+    {"validation/rotor/",
+     {k_base, k_head_names, "meshing/dictionary/", "postproc/draw/", "cases/runner/", "cases/testing/", "validation/harness/"}},
     {"validation/studies/", {"geometry/", "meshing/", "validation/harness/", "validation/studies/"}},
 };
 
@@ -98,7 +104,9 @@ const std::vector<Quarantine> k_quarantines = {
     {"MPI", std::regex("^mpi\\.h$"), {"solver/foam/", "solver/liggghts/", "solver/app/", "validation/harness/"}},
 };
 
-bool starts_with(const std::string& text, const std::string& prefix) { return text.rfind(prefix, 0) == 0; }
+bool starts_with(const std::string& text, const std::string& prefix) {
+    return text.rfind(prefix, 0) == 0;
+}
 
 bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
     return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) { return starts_with(text, prefix); });
@@ -122,7 +130,8 @@ std::string complaint(const std::string& file, const std::string& header) {
     if (!of_the_project) return {};
     const Layer* layer = layer_of(file);
     if (layer == nullptr) return "the file lies in no known layer";
-    if (!starts_with_any(header, layer->may_include)) return fmt::format("{} may include only {}", layer->folder, fmt::join(layer->may_include, ", "));
+    if (!starts_with_any(header, layer->may_include))
+        return fmt::format("{} may include only {}", layer->folder, fmt::join(layer->may_include, ", "));
     return {};
 }
 
@@ -157,7 +166,8 @@ TEST(Includes, point_only_downwards) {
 TEST(Folders, hold_at_most_25_sources) {
     std::map<std::string, int> sources;
     for (const fs::path& path : source_files()) ++sources[fs::relative(path.parent_path(), CUTTERFLOW_SOURCE_DIR).generic_string()];
-    for (const auto& [folder, count] : sources) EXPECT_LE(count, 25) << folder << " holds " << count << " sources: split it by what they are for";
+    for (const auto& [folder, count] : sources)
+        EXPECT_LE(count, 25) << folder << " holds " << count << " sources: split it by what they are for";
 }
 
 TEST(Includes, a_wrong_direction_is_caught) {

@@ -33,8 +33,10 @@ meshing::FoamDictionary contact_section(const Rock& rock) {
 meshing::FoamValue wall_list(const std::vector<Wall>& walls) {
     std::vector<meshing::FoamValue> items;
     for (const Wall& wall : walls)
-        items.emplace_back(
-            meshing::FoamDictionary().add("name", wall.name).add("file", meshing::FoamValue::quoted(wall.file)).add("rotating", wall.rotating));
+        items.emplace_back(meshing::FoamDictionary()
+                               .add("name", wall.name)
+                               .add("file", meshing::FoamValue::quoted(wall.file))
+                               .add("rotating", wall.rotating));
     return meshing::FoamValue::list(items);
 }
 
@@ -98,8 +100,10 @@ std::string sample_file(const VelocitySet& set) {
 meshing::FoamDictionary velocity_section(const CaseInputs& inputs) {
     std::vector<meshing::FoamValue> sets;
     for (const VelocitySet& set : inputs.velocity_sets)
-        sets.emplace_back(
-            meshing::FoamDictionary().add("name", set.name).add("file", meshing::FoamValue::quoted(sample_file(set))).add("phases", set.phases));
+        sets.emplace_back(meshing::FoamDictionary()
+                              .add("name", set.name)
+                              .add("file", meshing::FoamValue::quoted(sample_file(set)))
+                              .add("phases", set.phases));
     return meshing::FoamDictionary()
         .add("startTime", inputs.times.outflow_from)
         .add("interval", k_degrees_between_samples)
@@ -142,7 +146,8 @@ meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
         coupling.add("rock", rock_section(inputs)).add("kernel", kernel).add("closures", closures);
     }
     coupling.add("fates", fates_section(inputs));
-    coupling.add("outflow", meshing::FoamDictionary().add("offset", inputs.fates.outflow_offset).add("startTime", inputs.times.outflow_from));
+    coupling.add("outflow",
+                 meshing::FoamDictionary().add("offset", inputs.fates.outflow_offset).add("startTime", inputs.times.outflow_from));
     if (!inputs.velocity_sets.empty()) coupling.add("velocity", velocity_section(inputs));
     if (inputs.fates.stop_undecided) coupling.add("stop", meshing::FoamDictionary().add("undecided", *inputs.fates.stop_undecided));
     coupling.add("checkpoint",

@@ -22,11 +22,11 @@ struct WallSource {
 std::vector<WallSource> wall_sources();
 std::vector<Wall> standard_walls();
 
-/// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of geometry/*.stl, with rock
-/// only; write_contact_surfaces puts better ones in their place) and the empty file by which ParaView opens the case.
-/// \param run_directory  exists; with rock it holds geometry/cutter.stl, backplate.stl, suction_pipe.stl
-/// \return the files that were written, relative to the run directory
-/// \throws UserError  with every rule that the inputs break (check_case_inputs); nothing is written then
+/// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of
+/// geometry/*.stl, with rock only; write_contact_surfaces puts better ones in their place) and the empty file by which ParaView opens the
+/// case. \param run_directory  exists; with rock it holds geometry/cutter.stl, backplate.stl, suction_pipe.stl \return the files that were
+/// written, relative to the run directory \throws UserError  with every rule that the inputs break (check_case_inputs); nothing is written
+/// then
 std::vector<std::filesystem::path> write_case(const std::filesystem::path& run_directory, const CaseInputs& inputs);
 
 }  // namespace cutterflow::cases

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/head/contour.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/head/contour.hpp"
 
 namespace cutterflow::cases {
 

@@ -6,9 +6,9 @@
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/surface/contact_surface.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
+#include "geometry/surface/contact_surface.hpp"
 
 namespace cutterflow::cases {
 namespace {

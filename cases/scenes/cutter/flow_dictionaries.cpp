@@ -38,8 +38,8 @@ struct Boundary {
     meshing::FoamDictionary inlet, outlet, cutter, wall;
 };
 
-FoamFile field_file(const std::string& name, const std::string& foam_class, const std::array<int, 7>& dimensions, meshing::FoamValue internal,
-                    const Boundary& boundary) {
+FoamFile field_file(const std::string& name, const std::string& foam_class, const std::array<int, 7>& dimensions,
+                    meshing::FoamValue internal, const Boundary& boundary) {
     meshing::FoamDictionary patches;
     patches.add(names::inlet_patch, boundary.inlet).add(names::outlet_patch, boundary.outlet).add(names::cutter_patch, boundary.cutter);
     for (const char* wall : {names::backplate_patch, names::suction_pipe_patch, names::tank_top_patch, names::tank_bottom_patch})

@@ -78,7 +78,8 @@ PlacedFeed place_feed(const FeedRequest& request, const Study& study, const Feed
     const std::vector<std::size_t> counts = rocks_per_class(request);
     const std::size_t count = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     const geometry::WaterBody water{study.tank.radius, study.tank_bottom(scene.size), study.tank_top(scene.size)};
-    const geometry::RockPlacement placement = geometry::place_rocks(batch_of(request, count, scene.size), scene.head, water, {&cutter, &stationary});
+    const geometry::RockPlacement placement =
+        geometry::place_rocks(batch_of(request, count, scene.size), scene.head, water, {&cutter, &stationary});
 
     PlacedFeed feed{request, placement.requested, {}, {}};
     const std::vector<std::size_t> classes = shuffled_classes(counts, request.seed);

@@ -121,7 +121,8 @@ std::string StartFlowReport::text() const {
         torque.last, flow_imbalance);
 }
 
-std::optional<StartFlowReport> take_start_flow(const fs::path& run_directory, const fs::path& donor, const CaseInputs& inputs, int iterations) {
+std::optional<StartFlowReport> take_start_flow(const fs::path& run_directory, const fs::path& donor, const CaseInputs& inputs,
+                                               int iterations) {
     const fs::path start = run_directory / "start";
     write_start_case(run_directory, start, inputs, iterations);
     for (const char* folder : {"start/0", "start/system", "start/constant", "constant/polyMesh"})

@@ -8,8 +8,8 @@
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/head/head_names.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "geometry/head/head_names.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 // Even numbers: no point lies on the axis, where no direction is radial.
 constexpr int k_across = 60, k_up = 40, k_across_ring = 50;
 constexpr double k_under_ring = 0.3425;
-constexpr int k_angles = 180;    // at which a point is looked for in passing steel
+constexpr int k_angles = 180;  // at which a point is looked for in passing steel
 constexpr int k_adv_phases = 12;
 // Points keep this share of the tank's radius or height off its walls.
 constexpr double k_off_walls = 0.02;
@@ -48,7 +48,8 @@ VelocitySet axial_plane(const Study& study, const HeadSize& head) {
     const double width = std::min(1.5 * ring, (1.0 - k_off_walls) * study.tank.radius), azimuth = study.suction.mouth_azimuth;
     VelocitySet set{names::axial_plane, 0, {}};
     for (const double z : spaced(low, high, k_up))
-        for (const double s : spaced(-width, width, k_across)) set.points.push_back({{s * std::cos(azimuth), s * std::sin(azimuth), z}, false});
+        for (const double s : spaced(-width, width, k_across))
+            set.points.push_back({{s * std::cos(azimuth), s * std::sin(azimuth), z}, false});
     return set;
 }
 
@@ -76,9 +77,10 @@ void require_adv_points(const Study& study, const HeadSize& head, const geometry
         const std::string what = fmt::format("point {} (r = {:.4g} m, theta = {:.4g} deg, z = {:.4g} m)", point.name, place.radius,
                                              place.azimuth * 180.0 / k_pi, place.axial);
         if (place.radius >= study.tank.radius || place.axial <= bottom || place.axial >= top)
-            mistakes.push_back({point.where, what + " lies outside the water",
-                                fmt::format("The water is the cylinder r < {:.4g} m, {:.4g} m < z < {:.4g} m", study.tank.radius, bottom, top),
-                                "Check the unit in the header and the frame: ring plane z = 0, the head below it"});
+            mistakes.push_back(
+                {point.where, what + " lies outside the water",
+                 fmt::format("The water is the cylinder r < {:.4g} m, {:.4g} m < z < {:.4g} m", study.tank.radius, bottom, top),
+                 "Check the unit in the header and the frame: ring plane z = 0, the head below it"});
         else if (always_in_steel(point, rotor, stationary))
             mistakes.push_back({point.where, what + " lies inside steel",
                                 point.rotating ? "A point that turns with the head must be in water"

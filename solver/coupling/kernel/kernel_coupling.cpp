@@ -11,8 +11,8 @@
 namespace cutterflow::coupling {
 namespace {
 
-/// Share of the carry that a step hands to the fluid. All of it at once rings where drag is stiff (K dt above the void fraction alpha, as in a gas):
-/// with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
+/// Share of the carry that a step hands to the fluid. All of it at once rings where drag is stiff (K dt above the void fraction alpha, as
+/// in a gas): with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
 constexpr double k_carry_share = 0.5;
 
 /// Rock and interface travel at most this share of kernel width and cell size per step.
@@ -69,7 +69,7 @@ Rocks rocks_of(const std::vector<FeedRock>& due) {
 }  // namespace
 
 KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
-                           Communicator& communicator)
+                               Communicator& communicator)
     : settings_(settings),
       properties_(properties),
       fluid_(fluid),
@@ -341,7 +341,7 @@ void KernelCoupling::warn_once(const std::string& subject, const std::string& te
 
 /// Adds what the fluid is to receive of rocks that got `impulse` [N s] from it and changed their velocity [m/s].
 void KernelCoupling::add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
-                                gsl::span<const double> volume) {
+                                  gsl::span<const double> volume) {
     const double dt = fluid_.time_step();
     std::vector<Vec3> amount;
     for (std::size_t p = 0; p < stencils.size(); ++p) {

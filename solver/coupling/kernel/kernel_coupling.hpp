@@ -5,21 +5,21 @@
 #include <utility>
 #include <vector>
 
+#include "solver/coupling/feed/rock_feed.hpp"
+#include "solver/coupling/kernel/mapping.hpp"
+#include "solver/physics/catalogue.hpp"
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/fluid_engine.hpp"
-#include "solver/coupling/kernel/mapping.hpp"
-#include "solver/coupling/feed/rock_feed.hpp"
 #include "solver/ports/settings.hpp"
-#include "solver/physics/catalogue.hpp"
 
 namespace cutterflow::coupling {
 
 /// The flow at a rock, sampled with psi; it stays as it is over one step.
 struct FlowAtRock {
-    Vec3 velocity = Vec3::Zero();      ///< u [m/s]
-    Vec3 acceleration = Vec3::Zero();  ///< Du/Dt [m/s2]
-    double void_fraction = 1.0;        ///< [-]
+    Vec3 velocity = Vec3::Zero();           ///< u [m/s]
+    Vec3 acceleration = Vec3::Zero();       ///< Du/Dt [m/s2]
+    double void_fraction = 1.0;             ///< [-]
     Vec3 vorticity = Vec3::Zero();          ///< [1/s], with lift only
     Vec3 stress_divergence = Vec3::Zero();  ///< div(tau) [m/s2], without viscous force only
 };
@@ -42,14 +42,14 @@ struct BookedExchange {
 /// With D the drag per slip velocity, V a rock's volume, J the impulse of drag and Du/Dt parts on it over the step, dv the change of its
 /// velocity (with contacts and weight), the fluid is to receive per cell, over rho_f and mixture volume,
 ///   target = sum_p w_p (-J_p / (rho_f dt) + C_AM V_p dv_p / dt + D_p (ubar_p - u_old) / rho_f) + carry / (2 dt)       [m/s2],
-/// where ubar_p = sum_c w_p u_old V_c: drag slows down each part of the fluid in a kernel by its own slip, which adds up to nothing over the
-/// cells of a rock. The fluid receives target - K (u_new - u_old) - M (Du/Dt_new - Du/Dt_old), K = sum_p w_p D_p / rho_f, M = (1 + C_AM)
-/// solid fraction, because drag and Du/Dt parts lagged by a step would be unstable. What is still owed, carry = carry_old / 2 + (target - received) dt, goes
-/// into the next targets by halves: momentum is exchanged to the last bit, part of it some steps late.
+/// where ubar_p = sum_c w_p u_old V_c: drag slows down each part of the fluid in a kernel by its own slip, which adds up to nothing over
+/// the cells of a rock. The fluid receives target - K (u_new - u_old) - M (Du/Dt_new - Du/Dt_old), K = sum_p w_p D_p / rho_f, M = (1 +
+/// C_AM) solid fraction, because drag and Du/Dt parts lagged by a step would be unstable. What is still owed, carry = carry_old / 2 +
+/// (target - received) dt, goes into the next targets by halves: momentum is exchanged to the last bit, part of it some steps late.
 class KernelCoupling {
 public:
     KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
-                 Communicator& communicator);
+                   Communicator& communicator);
 
     /// Puts rock into the run at the present time; rock without a velocity gets the local fluid velocity. The void fraction is replaced
     /// with that of all rock, without a source. \return ids of `due` that found no place

@@ -90,7 +90,8 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     }
 }
 
-/// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's sums.
+/// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's
+/// sums.
 void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
     const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);

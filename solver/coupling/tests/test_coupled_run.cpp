@@ -323,7 +323,8 @@ TEST(Checkpoint, carries_the_sums_of_velocity) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "");
     settings.has_rock = false;
-    settings.velocity = VelocitySettings{0.01, 3.0, 6, {{"adv", folder.write("adv.csv", "x_m,y_m,z_m,rotating\n0.1,0,-0.1,0\n0,0.1,-0.1,1\n"), 4}}};
+    settings.velocity =
+        VelocitySettings{0.01, 3.0, 6, {{"adv", folder.write("adv.csv", "x_m,y_m,z_m,rotating\n0.1,0,-0.1,0\n0,0.1,-0.1,1\n"), 4}}};
     settings.checkpoint = CheckpointSettings{0.1, 100};
     const auto flow = [](const Vec3& x, double time) -> Vec3 { return {std::sin(20.0 * time) * x[1], 1.0 + time, x[0]}; };
     MemoryRecorder whole_recorder, recorder;

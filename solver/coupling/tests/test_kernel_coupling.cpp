@@ -3,10 +3,10 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
-#include "solver/ports/testing/fake_engines.hpp"
-#include "solver/ports/testing/threaded_ranks.hpp"
 #include "solver/physics/lift.hpp"
 #include "solver/physics/settling.hpp"
+#include "solver/ports/testing/fake_engines.hpp"
+#include "solver/ports/testing/threaded_ranks.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -97,8 +97,8 @@ TEST(Exchange, hands_what_rock_loses_to_the_fluid) {
     EXPECT_LE(std::abs(carried), 0.1 * lost);
 }
 
-// Drag that would stop the fluid many times over in a step, as in a gas bed, and a viscous fluid, where it is linear: what the fluid could not
-// take in one step must not come back as a swing. (Handed over whole it swings by 0.97 a step: half is left after twenty.)
+// Drag that would stop the fluid many times over in a step, as in a gas bed, and a viscous fluid, where it is linear: what the fluid could
+// not take in one step must not come back as a swing. (Handed over whole it swings by 0.97 a step: half is left after twenty.)
 TEST(Exchange, does_not_ring_where_drag_is_stiff) {
     Rig rig(box(0.06, 0.02), {}, 2e-4, settings_with_rock(), {k_water.density, 1.0});
     std::vector<FeedRock> due;
@@ -174,7 +174,8 @@ TEST(Exchange, gives_back_to_the_fluid_what_lift_and_viscous_stress_do_to_rock) 
     // What the fluid got and has yet to get across the slip is what the rock got, but for the rock's own added mass.
     double got = 0.0;
     for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
-        got += k_water.density * rig.fluid.mesh.volumes[c] * (rig.fluid.velocity[c][1] * rig.fluid.void_fraction[c] + rig.coupling.carry()[c][1]);
+        got += k_water.density * rig.fluid.mesh.volumes[c] *
+               (rig.fluid.velocity[c][1] * rig.fluid.void_fraction[c] + rig.coupling.carry()[c][1]);
     EXPECT_NEAR(got, -2650.0 * volume * rig.dem.rocks().velocity[0][1], 0.02 * std::abs(got));
 }
 
@@ -326,7 +327,8 @@ TEST(Rotor, takes_the_rock_of_the_space_its_blades_sweep_from_the_old_void_fract
         const Vec3& x = rig.fluid.mesh.centres[c];
         if (x[2] < -0.04) rig.fluid.retreat[c] = x[0] < 0.0 ? -3e-5 : 3e-5;
     }
-    rig.coupling.insert({rock(1, Vec3(-0.012, 0.003, -0.038), 0.02, Vec3(0.3, 0.0, 0.1)), rock(2, Vec3(0.03, -0.02, -0.03), 0.012, Vec3::Zero())});
+    rig.coupling.insert(
+        {rock(1, Vec3(-0.012, 0.003, -0.038), 0.02, Vec3(0.3, 0.0, 0.1)), rock(2, Vec3(0.03, -0.02, -0.03), 0.012, Vec3::Zero())});
     for (int n = 0; n < 5; ++n) {
         EXPECT_LE(rig.step().solid_volume_error, 1e-12);
         double change = 0.0, displaced = 0.0, net_displaced = 0.0;

@@ -5,9 +5,9 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
-#include "solver/physics/drag.hpp"
 
 namespace cutterflow::coupling {
 namespace {

@@ -149,9 +149,8 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
     });
     read_optional(file, "velocity", settings.velocity,
                   [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
-    read_optional(file, "stop", settings.stop, [](DictionarySection& section, coupling::StopSettings& stop) {
-        section.read("undecided", stop.undecided, k_required);
-    });
+    read_optional(file, "stop", settings.stop,
+                  [](DictionarySection& section, coupling::StopSettings& stop) { section.read("undecided", stop.undecided, k_required); });
     read_optional(file, "checkpoint", settings.checkpoint, [](DictionarySection& section, coupling::CheckpointSettings& checkpoint) {
         section.read("interval", checkpoint.interval, k_required);
         section.read("keep", checkpoint.keep, k_optional);

@@ -74,7 +74,8 @@ void DictionarySection::read(const std::string& key, Vec3& target, Presence pres
     const Foam::tokenList* value = tokens(key, presence);
     if (!value) return;
     const Foam::tokenList& t = *value;
-    const bool is_vector = t.size() == 5 && t[0].isPunctuation() && t[1].isNumber() && t[2].isNumber() && t[3].isNumber() && t[4].isPunctuation();
+    const bool is_vector =
+        t.size() == 5 && t[0].isPunctuation() && t[1].isNumber() && t[2].isNumber() && t[3].isNumber() && t[4].isPunctuation();
     if (is_vector) {
         target = Vec3(t[1].number(), t[2].number(), t[3].number());
     } else {
@@ -82,7 +83,8 @@ void DictionarySection::read(const std::string& key, Vec3& target, Presence pres
     }
 }
 
-void DictionarySection::read(const std::string& key, std::filesystem::path& target, const std::filesystem::path& folder, Presence presence) {
+void DictionarySection::read(const std::string& key, std::filesystem::path& target, const std::filesystem::path& folder,
+                             Presence presence) {
     std::string text;
     read(key, text, presence);
     if (!text.empty()) target = folder / text;
@@ -152,7 +154,9 @@ void DictionarySection::report_type(const std::string& key, const std::string& e
     mistakes_.push_back({where(key), fmt::format("{} = {}", full_name(key), value), "It must be " + expected, "Correct the value"});
 }
 
-std::string DictionarySection::full_name(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
+std::string DictionarySection::full_name(const std::string& key) const {
+    return name_.empty() ? key : name_ + "." + key;
+}
 
 /// "file:line" of a key, of the section when the key has none.
 std::string DictionarySection::where(const std::string& key) const {

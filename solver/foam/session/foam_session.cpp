@@ -60,8 +60,8 @@ const Foam::argList& parse_arguments(int argc, char** argv) {
 /// A directory name holds few digits of the time; the exact value and time step stand in uniform/time. Without them a restarted rotor
 /// would stand at another angle than the one it was stopped at.
 void restore_exact_time(Foam::Time& time) {
-    const Foam::IOdictionary saved(Foam::IOobject("time", time.timeName(), "uniform", time, Foam::IOobject::READ_IF_PRESENT,
-                                                  Foam::IOobject::NO_WRITE, false));
+    const Foam::IOdictionary saved(
+        Foam::IOobject("time", time.timeName(), "uniform", time, Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false));
     Foam::string name;
     Foam::scalar value = 0.0;
     if (!saved.readIfPresent("name", name) || name != time.timeName() || !saved.readIfPresent("value", value)) return;
@@ -123,8 +123,14 @@ FoamSession::~FoamSession() {
     if (std::uncaught_exceptions() == 0) Foam::Info << "End\n" << Foam::endl;
 }
 
-Foam::Time& FoamSession::time() { return *parts_->time; }
-Foam::dynamicFvMesh& FoamSession::mesh() { return parts_->mesh(); }
-const std::filesystem::path& FoamSession::case_folder() const { return parts_->case_folder; }
+Foam::Time& FoamSession::time() {
+    return *parts_->time;
+}
+Foam::dynamicFvMesh& FoamSession::mesh() {
+    return parts_->mesh();
+}
+const std::filesystem::path& FoamSession::case_folder() const {
+    return parts_->case_folder;
+}
 
 }  // namespace cutterflow::foam

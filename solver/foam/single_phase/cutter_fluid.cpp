@@ -80,8 +80,7 @@ tmp<volScalarField::Internal> growth_rate(const fvMesh& mesh) {
 
 std::vector<label> interface_patches(const fvMesh& mesh) {
     std::vector<label> patches;
-    forAll(mesh.boundary(), patch)
-        if (isA<cyclicAMIFvPatch>(mesh.boundary()[patch])) patches.push_back(patch);
+    forAll(mesh.boundary(), patch) if (isA<cyclicAMIFvPatch>(mesh.boundary()[patch])) patches.push_back(patch);
     return patches;
 }
 
@@ -391,14 +390,16 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
     fvc::makeAbsolute(flux, U_);
 }
 
-/// The two sides of the sliding interface are polygons of their own, so that what leaves one is not quite what enters the other. Half of the
-/// difference, shared out by area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last pressure.
+/// The two sides of the sliding interface are polygons of their own, so that what leaves one is not quite what enters the other. Half of
+/// the difference, shared out by area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last
+/// pressure.
 void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
     scalar difference = 0.0, area = 0.0;
     for (const label patch : interface_patches(mesh_)) {
         const scalarField& size = mesh_.magSf().boundaryField()[patch];
         const scalarField gradient(p_.boundaryField()[patch].snGrad(mesh_.nonOrthDeltaCoeffs().boundaryField()[patch]));
-        difference += sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
+        difference +=
+            sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
         area += sum(size);
     }
     reduce(difference, sumOp<scalar>());

@@ -60,7 +60,7 @@ public:
     const Foam::dynamicFvMesh& mesh() const { return mesh_; }
     const Foam::volVectorField& velocity() const { return U_; }
     const Foam::volScalarField& pressure() const { return p_; }
-    const Foam::surfaceScalarField& relative_flux() const { return phi_; }        ///< of u, relative to the mesh [m3/s]
+    const Foam::surfaceScalarField& relative_flux() const { return phi_; }             ///< of u, relative to the mesh [m3/s]
     const Foam::surfaceScalarField& relative_fluid_flux() const { return alphaPhi_; }  ///< of alpha u, relative to the mesh [m3/s]
     const Foam::volScalarField& void_fraction() const { return alpha_; }
     const Foam::volVectorField& material_acceleration() const { return DuDt_; }
@@ -116,7 +116,7 @@ private:
 
     Foam::volScalarField p_;
     Foam::volVectorField U_;
-    Foam::surfaceScalarField phi_;       // relative to the mesh outside correct_pressure
+    Foam::surfaceScalarField phi_;  // relative to the mesh outside correct_pressure
     Foam::volScalarField alpha_;
     Foam::surfaceScalarField alphaf_;
     Foam::surfaceScalarField alphaPhi_;  // alphaf * phi; carries the name phi so that ordinary fvSchemes hold for it

@@ -41,8 +41,8 @@ coupling::RotorMotion read_rotating_motion(const Foam::dictionary& dict) {
 
 coupling::RotorMotion read_rotor_motion(const Foam::dynamicFvMesh& mesh) {
     if (!mesh.dynamic()) return {};
-    const Foam::IOdictionary dict(Foam::IOobject("dynamicMeshDict", mesh.time().constant(), mesh, Foam::IOobject::MUST_READ,
-                                                 Foam::IOobject::NO_WRITE, false));
+    const Foam::IOdictionary dict(
+        Foam::IOobject("dynamicMeshDict", mesh.time().constant(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false));
     require_word(dict, "dynamicFvMesh", "dynamicMotionSolverFvMesh");
     require_word(dict, dict.found("motionSolver") ? "motionSolver" : "solver", "solidBody");
     const Foam::dictionary& body = dict.optionalSubDict("solidBodyCoeffs");

@@ -27,7 +27,8 @@ std::vector<coupling::SteelTriangle> gather(const Foam::DynamicList<Foam::point>
     Foam::Pstream::scatterList(of_ranks);
     std::vector<coupling::SteelTriangle> triangles;
     for (const Foam::pointField& all : of_ranks) {
-        for (Foam::label i = 0; i + 2 < all.size(); i += 3) triangles.push_back({to_vec3(all[i]), to_vec3(all[i + 1]), to_vec3(all[i + 2])});
+        for (Foam::label i = 0; i + 2 < all.size(); i += 3)
+            triangles.push_back({to_vec3(all[i]), to_vec3(all[i + 1]), to_vec3(all[i + 2])});
     }
     return triangles;
 }

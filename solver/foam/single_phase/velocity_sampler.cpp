@@ -81,8 +81,7 @@ VelocitySampler::Candidate VelocitySampler::find_cell(const Vec3& point, double 
         const bool turns = zone == rotor_.get();
         std::array<Foam::label, k_neighbours> cells;
         std::array<double, k_neighbours> distance;
-        const std::size_t found =
-            zone->nearest(turns ? rotate_about(motion_.axis, -motion_.angle(time), point) : point, cells, distance);
+        const std::size_t found = zone->nearest(turns ? rotate_about(motion_.axis, -motion_.angle(time), point) : point, cells, distance);
         for (std::size_t i = 0; i < found; ++i) {
             const bool inside = mesh_.pointInCell(where, cells[i], Foam::polyMesh::FACE_PLANES);
             const double rank = inside ? distance[i] - k_inside : distance[i];

@@ -14,7 +14,11 @@ namespace cutterflow::foam::testing {
 class FluidRun {
 public:
     FluidRun(const std::filesystem::path& case_folder, bool with_rock)
-        : session_(case_folder), engine_(session_, with_rock), source(cells(), Vec3::Zero()), drag_rate(cells(), 0.0), inertia(cells(), 0.0) {}
+        : session_(case_folder),
+          engine_(session_, with_rock),
+          source(cells(), Vec3::Zero()),
+          drag_rate(cells(), 0.0),
+          inertia(cells(), 0.0) {}
 
     FoamSession& session() { return session_; }
     FoamFluidEngine& engine() { return engine_; }

@@ -19,8 +19,8 @@ private:
 
     void OnTestPartResult(const ::testing::TestPartResult& result) override {
         if (!result.failed()) return;
-        std::printf("rank %d, %s.%s, %s:%d\n%s\n", rank_, test_->test_suite_name(), test_->name(), result.file_name(),
-                    result.line_number(), result.message());
+        std::printf("rank %d, %s.%s, %s:%d\n%s\n", rank_, test_->test_suite_name(), test_->name(), result.file_name(), result.line_number(),
+                    result.message());
         std::fflush(stdout);
     }
 

@@ -35,10 +35,11 @@ CouetteResult run_couette(const std::string& name, testing::TurningAnnulus shape
     testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(shape), 2e-3, 0.9);
     tiny.files["constant/transportProperties"] = fmt::format("transportModel Newtonian; nu {}; rho {};", k_viscosity, k_density);
     const std::string hub = turning ? "type movingWallVelocity; value uniform (0 0 0);"
-                                    : fmt::format("type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega {:.17g}; "
-                                                  "value uniform (0 0 0);", k_omega);
-    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)",
-                                              "rim { type noSlip; } hub { " + hub + " }");
+                                    : fmt::format(
+                                          "type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega {:.17g}; "
+                                          "value uniform (0 0 0);",
+                                          k_omega);
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)", "rim { type noSlip; } hub { " + hub + " }");
     tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type zeroGradient; }");
     if (turning) tiny.files["constant/dynamicMeshDict"] = testing::turning(k_omega);
 

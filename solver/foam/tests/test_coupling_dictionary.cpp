@@ -25,7 +25,9 @@ CouplingDictionary read(const std::string& name, const std::string& text) {
 }
 
 /// ":n" as in a message. Only the rank that reads a file knows its lines, and only that rank's messages are told.
-std::string line(int number) { return Foam::UPstream::master() ? ":" + std::to_string(number) : ""; }
+std::string line(int number) {
+    return Foam::UPstream::master() ? ":" + std::to_string(number) : "";
+}
 
 const char* const k_complete = R"(
 rock
@@ -125,12 +127,12 @@ colour red;
     } catch (const UserError& error) {
         std::vector<std::string> texts;
         for (const Mistake& mistake : error.mistakes()) texts.push_back(mistake.text());
-        EXPECT_THAT(texts,
-                    ElementsAre(::testing::AllOf(HasSubstr("couplingProperties" + line(3)), HasSubstr("kernel.gama is unknown"), HasSubstr("Did you mean gamma?")),
-                                ::testing::AllOf(HasSubstr(line(4)), HasSubstr("closures.addedMass = half"), HasSubstr("a number")),
-                                ::testing::AllOf(HasSubstr(line(5)), HasSubstr("outflow.startTime is missing")),
-                                ::testing::AllOf(HasSubstr(line(6)), HasSubstr("checkpoint.keep = 2.5"), HasSubstr("whole number")),
-                                ::testing::AllOf(HasSubstr(line(7)), HasSubstr("colour is unknown"))));
+        EXPECT_THAT(texts, ElementsAre(::testing::AllOf(HasSubstr("couplingProperties" + line(3)), HasSubstr("kernel.gama is unknown"),
+                                                        HasSubstr("Did you mean gamma?")),
+                                       ::testing::AllOf(HasSubstr(line(4)), HasSubstr("closures.addedMass = half"), HasSubstr("a number")),
+                                       ::testing::AllOf(HasSubstr(line(5)), HasSubstr("outflow.startTime is missing")),
+                                       ::testing::AllOf(HasSubstr(line(6)), HasSubstr("checkpoint.keep = 2.5"), HasSubstr("whole number")),
+                                       ::testing::AllOf(HasSubstr(line(7)), HasSubstr("colour is unknown"))));
     }
 }
 

@@ -22,12 +22,12 @@ testing::TinyCase duct(const std::string& name, double end_time) {
     box.cells[1] = box.cells[2] = 5;
     box.duct = true;
     testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(box), 2e-3, end_time);
-    tiny.files["0/U"] = testing::volume_field(
-        "[0 1 -1 0 0 0 0]", "(1 0 0)",
-        "\".*\" { type slip; } inlet { type pressureInletOutletVelocity; value $internalField; }\n"
-        "outlet { type flowRateOutletVelocity; volumetricFlowRate " + std::to_string(k_discharge) + "; value $internalField; }");
-    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0",
-                                              "\".*\" { type fixedFluxPressure; value $internalField; } inlet { type fixedValue; value uniform 0; }");
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(1 0 0)",
+                                              "\".*\" { type slip; } inlet { type pressureInletOutletVelocity; value $internalField; }\n"
+                                              "outlet { type flowRateOutletVelocity; volumetricFlowRate " +
+                                                  std::to_string(k_discharge) + "; value $internalField; }");
+    tiny.files["0/p"] = testing::volume_field(
+        "[0 2 -2 0 0 0 0]", "0", "\".*\" { type fixedFluxPressure; value $internalField; } inlet { type fixedValue; value uniform 0; }");
     // Central differences let rounding errors grow at an outlet that sets the velocity.
     tiny.files["system/fvSchemes"] += "divSchemes { div(phi,U) Gauss upwind; }\n";
     return tiny;

@@ -21,7 +21,8 @@ constexpr double k_g = 9.81;
 constexpr double k_density_ratio = 2.65;
 
 /// A closed box of water at rest; `walls` is the type of U on them.
-testing::TinyCase closed_box(const std::string& name, const testing::Box& box, const std::string& walls, double time_step, double end_time) {
+testing::TinyCase closed_box(const std::string& name, const testing::Box& box, const std::string& walls, double time_step,
+                             double end_time) {
     testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(box), time_step, end_time);
     tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)", "\".*\" { type " + walls + "; }");
     tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type fixedFluxPressure; value $internalField; }");
@@ -189,8 +190,8 @@ double stirred_velocity(const std::string& name, bool in_matrix) {
     testing::Box box;
     for (int& cells : box.cells) cells = 8;
     testing::TinyCase tiny = closed_box(name, box, "noSlip", 5e-3, 0.2);
-    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)",
-                                              "\".*\" { type noSlip; } z_max { type fixedValue; value uniform (1 0 0); }");
+    tiny.files["0/U"] =
+        testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)", "\".*\" { type noSlip; } z_max { type fixedValue; value uniform (1 0 0); }");
     tiny.files["constant/transportProperties"] = "transportModel Newtonian; nu 1e-2; rho 1000;";
     FluidRun run(testing::build_case(tiny), true);
     const double solid = 0.5, inertia = 1.5 * solid;
@@ -215,8 +216,7 @@ TEST(AddedMass, IsStableInTheMatrixWhereLaggedItBlowsUp) {
 
 TEST(RockCase, RefusesWhatWouldBendItsBalance) {
     testing::TinyCase tiny = closed_box("refused", column(), "noSlip", 5e-3, 0.1);
-    tiny.files["system/fvSchemes"] +=
-        "ddtSchemes { default backward; } divSchemes { div(phi,U) bounded Gauss upwind; }\n";
+    tiny.files["system/fvSchemes"] += "ddtSchemes { default backward; } divSchemes { div(phi,U) bounded Gauss upwind; }\n";
     tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type zeroGradient; }");
     FoamSession session(testing::build_case(tiny));
     try {

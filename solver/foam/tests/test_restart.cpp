@@ -44,8 +44,8 @@ void step_with_rock(FluidRun& run) {
     for (std::size_t i = 0; i < run.cells(); ++i) {
         run.inertia[i] = 1.5 * new_fraction[i];
         run.drag_rate[i] = 10.0 * new_fraction[i];
-        run.source[i] = -run.drag_rate[i] * run.engine().fields().velocity[i] -
-                        run.inertia[i] * run.engine().fields().material_acceleration[i];
+        run.source[i] =
+            -run.drag_rate[i] * run.engine().fields().velocity[i] - run.inertia[i] * run.engine().fields().material_acceleration[i];
         old_fraction[i] = 1.0 - old_fraction[i];
         new_fraction[i] = 1.0 - new_fraction[i];
     }
@@ -61,8 +61,11 @@ struct State {
 
 State state_of(FluidRun& run) {
     const coupling::FluidFields f = run.engine().fields();
-    return {run.engine().time(), run.engine().time_step(), {f.velocity.begin(), f.velocity.end()},
-            {f.material_acceleration.begin(), f.material_acceleration.end()}, {f.void_fraction.begin(), f.void_fraction.end()},
+    return {run.engine().time(),
+            run.engine().time_step(),
+            {f.velocity.begin(), f.velocity.end()},
+            {f.material_acceleration.begin(), f.material_acceleration.end()},
+            {f.void_fraction.begin(), f.void_fraction.end()},
             run.engine().loads()};
 }
 
@@ -91,7 +94,8 @@ TEST(Restart, ContinuesTheSameRun) {
     EXPECT_LE(largest_difference(resumed, state.velocity, uninterrupted.velocity), 1e-12);
     EXPECT_LE(largest_difference(resumed, state.acceleration, uninterrupted.acceleration), 1e-12 / state.time_step);
     double worst = 0.0;
-    for (std::size_t i = 0; i < state.void_fraction.size(); ++i) worst = std::max(worst, std::abs(state.void_fraction[i] - uninterrupted.void_fraction[i]));
+    for (std::size_t i = 0; i < state.void_fraction.size(); ++i)
+        worst = std::max(worst, std::abs(state.void_fraction[i] - uninterrupted.void_fraction[i]));
     EXPECT_LE(resumed.largest(worst), 1e-14);
     EXPECT_NEAR(state.loads.torque_viscous / uninterrupted.loads.torque_viscous, 1.0, 1e-10);
     EXPECT_NE(state.loads.torque_viscous, 0.0);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/foam/single_phase/cutter_fluid.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
+#include "solver/foam/single_phase/cutter_fluid.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
 #include "dynamicFvMesh.H"
@@ -62,10 +62,12 @@ void close_interface(Foam::surfaceScalarField& flux) {
     }
     Foam::reduce(difference, Foam::sumOp<Foam::scalar>());
     Foam::reduce(area, Foam::sumOp<Foam::scalar>());
-    for (const Foam::label patch : interface_patches(mesh)) flux.boundaryFieldRef()[patch] -= difference / area * mesh.boundary()[patch].magSf();
+    for (const Foam::label patch : interface_patches(mesh))
+        flux.boundaryFieldRef()[patch] -= difference / area * mesh.boundary()[patch].magSf();
 }
 
-// Both sides of the interface carry the same flow, though their faces do not meet: water that is thrown against the rim of a turning cylinder.
+// Both sides of the interface carry the same flow, though their faces do not meet: water that is thrown against the rim of a turning
+// cylinder.
 TEST(TurningMesh, WhatLeavesOneSideOfTheInterfaceEntersTheOther) {
     testing::TinyCase tiny = cylinder("thrown", {}, "(0.7 -0.3 0.2)", 2e-3, 0.05);
     tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0.7 -0.3 0.2)", "\".*\" { type fixedValue; value uniform (0 0 0); }");
@@ -141,7 +143,7 @@ private:
         shape.cells_in_stator = 13;
         shape.cells_high = 14;
         testing::TinyCase tiny = cylinder(time_step < 5e-4 ? "crossing_short_step" : "crossing", shape, "(0 0 0)", time_step, 10.0);
-        tiny.files["system/fvSolution"] += 
+        tiny.files["system/fvSolution"] +=
             "solvers { \"p.*\" { solver GAMG; smoother DICGaussSeidel; cacheAgglomeration no; tolerance 1e-9; } }\n";
         return tiny;
     }

@@ -12,7 +12,9 @@ namespace {
 using testing::FluidRun;
 
 /// A velocity that is linear in space.
-Vec3 shear(const Vec3& x) { return {1.0 + 2.0 * x.y(), 0.5 - x.z(), 3.0 * x.x()}; }
+Vec3 shear(const Vec3& x) {
+    return {1.0 + 2.0 * x.y(), 0.5 - x.z(), 3.0 * x.x()};
+}
 
 TEST(VelocitySampler, ReproducesALinearVelocityAnywhereOnTheTurnedMesh) {
     testing::TurningCylinder shape;
@@ -35,8 +37,8 @@ TEST(VelocitySampler, ReproducesALinearVelocityAnywhereOnTheTurnedMesh) {
     U.correctBoundaryConditions();
 
     // The first ones lie on cells' faces and corners, one at the interface, one outside the mesh.
-    std::vector<Vec3> points = {{0.0, 0.0, 0.0}, {0.099, 0.01, 0.02}, {0.05, -0.03, 0.049}, {-0.15, 0.1, -0.04}, {0.01, 0.19, 0.0},
-                                {-0.07, -0.07, 0.011}, {0.0, 0.0, 0.06}};
+    std::vector<Vec3> points = {{0.0, 0.0, 0.0},   {0.099, 0.01, 0.02},   {0.05, -0.03, 0.049}, {-0.15, 0.1, -0.04},
+                                {0.01, 0.19, 0.0}, {-0.07, -0.07, 0.011}, {0.0, 0.0, 0.06}};
     std::vector<Vec3> velocity(points.size());
     run.engine().sample_velocity(points, velocity);
     for (std::size_t i = 0; i < points.size(); ++i) {

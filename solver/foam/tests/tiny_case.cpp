@@ -44,7 +44,8 @@ std::string corners(double radius, double z) {
 std::string arcs(int first, double radius, double z) {
     const double middle[4][2] = {{0, radius}, {-radius, 0}, {0, -radius}, {radius, 0}};
     std::string text;
-    for (int k = 0; k < 4; ++k) text += fmt::format("arc {} {} ({} {} {})\n", first + k, first + (k + 1) % 4, middle[k][0], middle[k][1], z);
+    for (int k = 0; k < 4; ++k)
+        text += fmt::format("arc {} {} ({} {} {})\n", first + k, first + (k + 1) % 4, middle[k][0], middle[k][1], z);
     return text;
 }
 
@@ -53,9 +54,9 @@ std::string ring_blocks(int inner, int outer, int level, const std::string& zone
     std::string text;
     for (int k = 0; k < 4; ++k) {
         const int n = (k + 1) % 4;
-        text += fmt::format("hex ({} {} {} {} {} {} {} {}) {} ({} {} {}) simpleGrading (1 1 1)\n", inner + k, outer + k, outer + n,
-                            inner + n, inner + k + level, outer + k + level, outer + n + level, inner + n + level, zone, radial, around,
-                            high);
+        text +=
+            fmt::format("hex ({} {} {} {} {} {} {} {}) {} ({} {} {}) simpleGrading (1 1 1)\n", inner + k, outer + k, outer + n, inner + n,
+                        inner + k + level, outer + k + level, outer + n + level, inner + n + level, zone, radial, around, high);
     }
     return text;
 }
@@ -101,8 +102,8 @@ std::string block_mesh(const TurningCylinder& s) {
     constexpr int level = 16, core = 0, rotor = 4, stator = 8, rim = 12;
     std::string vertices, edges;
     for (const double z : {-0.5 * s.height, 0.5 * s.height}) {
-        vertices += corners(0.5 * s.radius_interface, z) + corners(s.radius_interface, z) + corners(s.radius_interface, z) +
-                    corners(s.radius, z);
+        vertices +=
+            corners(0.5 * s.radius_interface, z) + corners(s.radius_interface, z) + corners(s.radius_interface, z) + corners(s.radius, z);
     }
     for (int l = 0; l < 2; ++l) {
         const double z = (l - 0.5) * s.height;
@@ -110,10 +111,9 @@ std::string block_mesh(const TurningCylinder& s) {
                  arcs(rim + l * level, s.radius, z);
     }
     const int n = s.cells_around_quarter;
-    const std::string blocks =
-        fmt::format("hex (0 1 2 3 16 17 18 19) rotor ({} {} {}) simpleGrading (1 1 1)\n", n, n, s.cells_high) +
-        ring_blocks(core, rotor, level, "rotor", s.cells_in_rotor_ring, n, s.cells_high) +
-        ring_blocks(stator, rim, level, "stator", s.cells_in_stator, s.stator_cells_around_quarter, s.cells_high);
+    const std::string blocks = fmt::format("hex (0 1 2 3 16 17 18 19) rotor ({} {} {}) simpleGrading (1 1 1)\n", n, n, s.cells_high) +
+                               ring_blocks(core, rotor, level, "rotor", s.cells_in_rotor_ring, n, s.cells_high) +
+                               ring_blocks(stator, rim, level, "stator", s.cells_in_stator, s.stator_cells_around_quarter, s.cells_high);
     const std::string patches = interface_patches(rotor, stator, level) + patch("rim", "patch", cylinder_faces(rim, level)) +
                                 patch("rotor_ends", "patch", "(0 1 2 3) (16 17 18 19) " + ring_end_faces(core, rotor, level)) +
                                 patch("stator_ends", "patch", ring_end_faces(stator, rim, level));
@@ -145,13 +145,11 @@ std::string block_mesh(const Box& b) {
         const bool x = i % 4 == 1 || i % 4 == 2, y = i % 4 >= 2, z = i >= 4;
         vertices += fmt::format("({} {} {})\n", (x ? b.upper : b.lower)[0], (y ? b.upper : b.lower)[1], (z ? b.upper : b.lower)[2]);
     }
-    const std::string blocks =
-        fmt::format("hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading (1 1 1)\n", b.cells[0], b.cells[1], b.cells[2]);
-    const std::string x_faces =
-        b.periodic_x ? "x_min { type cyclic; neighbourPatch x_max; faces ((0 4 7 3)); }\n"
-                       "x_max { type cyclic; neighbourPatch x_min; faces ((1 2 6 5)); }\n"
-        : b.duct       ? patch("inlet", "patch", "(0 4 7 3)") + patch("outlet", "patch", "(1 2 6 5)")
-                       : patch("x_min", "wall", "(0 4 7 3)") + patch("x_max", "wall", "(1 2 6 5)");
+    const std::string blocks = fmt::format("hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading (1 1 1)\n", b.cells[0], b.cells[1], b.cells[2]);
+    const std::string x_faces = b.periodic_x ? "x_min { type cyclic; neighbourPatch x_max; faces ((0 4 7 3)); }\n"
+                                               "x_max { type cyclic; neighbourPatch x_min; faces ((1 2 6 5)); }\n"
+                                : b.duct     ? patch("inlet", "patch", "(0 4 7 3)") + patch("outlet", "patch", "(1 2 6 5)")
+                                             : patch("x_min", "wall", "(0 4 7 3)") + patch("x_max", "wall", "(1 2 6 5)");
     const std::string patches = x_faces + patch("y_min", "wall", "(0 1 5 4)") + patch("y_max", "wall", "(3 7 6 2)") +
                                 patch("z_min", "wall", "(0 3 2 1)") + patch("z_max", "wall", "(4 5 6 7)");
     return dictionary(vertices, "", blocks, patches);
@@ -181,7 +179,8 @@ TinyCase laminar_case(const std::string& name, const std::string& mesh, double t
     tiny.files["system/fvSchemes"] =
         "ddtSchemes { default Euler; } gradSchemes { default Gauss linear; }\n"
         "divSchemes { default none; div(phi,U) Gauss linear; div((nuEff*dev2(T(grad(U))))) Gauss linear; }\n"
-        "laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } snGradSchemes { default corrected; }\n";
+        "laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } snGradSchemes { default corrected; "
+        "}\n";
     tiny.files["system/fvSolution"] =
         "solvers { \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-13; relTol 0; }\n"
         "\"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; maxIter 100; } }\n"
@@ -196,7 +195,8 @@ void make_turbulent(TinyCase& tiny, double k, double epsilon) {
     tiny.files["constant/turbulenceProperties"] = "simulationType RAS; RAS { RASModel realizableKE; turbulence on; printCoeffs off; }\n";
     tiny.files["system/fvSchemes"] +=
         "divSchemes { div(phi,k) Gauss upwind; div(phi,epsilon) Gauss upwind; } wallDist { method meshWave; }\n";
-    tiny.files["system/fvSolution"] += "solvers { \"(k|epsilon).*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; maxIter 100; } }\n";
+    tiny.files["system/fvSolution"] +=
+        "solvers { \"(k|epsilon).*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; maxIter 100; } }\n";
     tiny.files["0/k"] = volume_field("[0 2 -2 0 0 0 0]", fmt::format("{}", k), "\".*\" { type kqRWallFunction; value $internalField; }");
     tiny.files["0/epsilon"] =
         volume_field("[0 2 -3 0 0 0 0]", fmt::format("{}", epsilon), "\".*\" { type epsilonWallFunction; value $internalField; }");

@@ -41,8 +41,8 @@ struct TurningAnnulus {
 };
 std::string block_mesh(const TurningAnnulus& shape);
 
-/// A box from `lower` to `upper`, no zones. Patches: x_min, x_max, y_min, y_max, z_min, z_max. With `periodic_x` x_min and x_max are cyclic;
-/// with `duct` they are named inlet and outlet and are no walls.
+/// A box from `lower` to `upper`, no zones. Patches: x_min, x_max, y_min, y_max, z_min, z_max. With `periodic_x` x_min and x_max are
+/// cyclic; with `duct` they are named inlet and outlet and are no walls.
 struct Box {
     double lower[3] = {0.0, 0.0, 0.0};
     double upper[3] = {1.0, 1.0, 1.0};

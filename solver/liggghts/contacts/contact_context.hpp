@@ -6,8 +6,8 @@
 #include <string>
 
 #include "geometry/base/axis_frame.hpp"
-#include "solver/ports/dem_settings.hpp"
 #include "solver/liggghts/contacts/contact_law.hpp"
+#include "solver/ports/dem_settings.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;

@@ -122,7 +122,8 @@ std::vector<RockEvent> FateTracker::move(const Rocks& rocks, const RunInstant& b
     return events;
 }
 
-std::vector<RockEvent> FateTracker::leave(int id, const Vec3& position, const Vec3& velocity, const RunInstant& before, const RunInstant& after) {
+std::vector<RockEvent> FateTracker::leave(int id, const Vec3& position, const Vec3& velocity, const RunInstant& before,
+                                          const RunInstant& after) {
     TrackedRock& rock = rocks_.at(id);
     std::vector<RockEvent> events = follow(rock, position, velocity, before, after);
     const PipePlace place = place_in_pipe(position);

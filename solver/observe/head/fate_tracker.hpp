@@ -7,8 +7,8 @@
 
 #include "geometry/head/axial_bins.hpp"
 #include "geometry/head/contour.hpp"
-#include "solver/ports/dem_engine.hpp"
 #include "solver/observe/run_recorder.hpp"
+#include "solver/ports/dem_engine.hpp"
 #include "solver/ports/settings.hpp"
 
 namespace cutterflow::coupling {
@@ -35,9 +35,9 @@ struct RunInstant {
     double rotor_angle = 0.0;  ///< [rad]
 };
 
-/// Follows every rock. The head's volume is that of geometry::Contour, joined with the mouth and the pipe behind it, so that rock on its way up the
-/// pipe has not left. A rock changes sides once its centre is `hysteresis` diameters beyond the boundary; the event stands where it passes
-/// that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.
+/// Follows every rock. The head's volume is that of geometry::Contour, joined with the mouth and the pipe behind it, so that rock on its
+/// way up the pipe has not left. A rock changes sides once its centre is `hysteresis` diameters beyond the boundary; the event stands where
+/// it passes that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.
 class FateTracker {
 public:
     FateTracker(const FateSettings& settings, geometry::Contour contour);
@@ -70,7 +70,8 @@ private:
         double depth, radius;
     };
     PipePlace place_in_pipe(const Vec3& position) const;
-    std::vector<RockEvent> follow(TrackedRock& rock, const Vec3& position, const Vec3& velocity, const RunInstant& before, const RunInstant& after);
+    std::vector<RockEvent> follow(TrackedRock& rock, const Vec3& position, const Vec3& velocity, const RunInstant& before,
+                                  const RunInstant& after);
     RockEvent event(const TrackedRock& rock, EventSurface surface, EventDirection direction, const Vec3& position, const Vec3& velocity,
                     const RunInstant& moment) const;
 

@@ -19,7 +19,8 @@ Eigen::Vector2d outward_normal(const geometry::Contour& contour, double z) {
 
 }  // namespace
 
-OutflowSampler::OutflowSampler(const geometry::Contour& contour, const std::vector<geometry::AxialBin>& bins, double offset) : bins_(bins.size()) {
+OutflowSampler::OutflowSampler(const geometry::Contour& contour, const std::vector<geometry::AxialBin>& bins, double offset)
+    : bins_(bins.size()) {
     for (const geometry::AxialBin& bin : bins) {
         for (int i = 0; i < k_circles; ++i) {
             const double share = (i + 0.5) / k_circles;

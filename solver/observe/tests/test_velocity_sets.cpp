@@ -6,16 +6,16 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
-#include "solver/ports/testing/fake_engines.hpp"
-#include "solver/ports/testing/temporary_folder.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
 #include "solver/observe/velocity/velocity_tables.hpp"
+#include "solver/ports/testing/fake_engines.hpp"
+#include "solver/ports/testing/temporary_folder.hpp"
 
 namespace cutterflow::coupling {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::FakeFluid;
+using ::testing::HasSubstr;
 using testing::SyntheticMesh;
 using testing::TemporaryFolder;
 
@@ -43,7 +43,8 @@ RotorMotion turning(double speed) {
 std::vector<SteelTriangle> box(const Vec3& a, const Vec3& b) {
     const auto corner = [&](int i) { return Vec3((i & 1) != 0 ? b[0] : a[0], (i & 2) != 0 ? b[1] : a[1], (i & 4) != 0 ? b[2] : a[2]); };
     std::vector<SteelTriangle> triangles;
-    for (const auto& face : std::vector<std::array<int, 4>>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    for (const auto& face :
+         std::vector<std::array<int, 4>>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
         triangles.push_back({corner(face[0]), corner(face[1]), corner(face[2])});
         triangles.push_back({corner(face[0]), corner(face[2]), corner(face[3])});
     }
@@ -132,7 +133,8 @@ TEST_F(VelocitySetsTest, error_of_the_mean_is_that_of_the_batches) {
     for (int n = 1; n <= 4 * 120; ++n) {
         const double angle = n * k_turn / 120;
         // The value belongs to the revolution in which the sample's middle lies; the last sample of one is shared by both.
-        const double before = batches[static_cast<std::size_t>(std::min((n - 1) / 120, 3))], after = batches[static_cast<std::size_t>(std::min(n / 120, 3))];
+        const double before = batches[static_cast<std::size_t>(std::min((n - 1) / 120, 3))],
+                     after = batches[static_cast<std::size_t>(std::min(n / 120, 3))];
         statistics.add(angle, std::vector<Vec3>{Vec3::Constant(0.5 * (before + after))}, std::vector<std::uint8_t>{1});
     }
     EXPECT_EQ(statistics.whole_revolutions(), 4);

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/run_files.hpp"
 #include "geometry/base/csv_table.hpp"
+#include "geometry/base/run_files.hpp"
 
 namespace cutterflow::coupling {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "solver/observe/velocity/velocity_statistics.hpp"
 #include "solver/ports/fluid_engine.hpp"
 #include "solver/ports/settings.hpp"
 #include "solver/space/steel_tree.hpp"
-#include "solver/observe/velocity/velocity_statistics.hpp"
 
 namespace cutterflow::coupling {
 
@@ -16,8 +16,8 @@ struct SamplePoint {
     bool rotating = false;      ///< turns with the head
 };
 
-/// A set and what is known of it so far. Velocities are absolute, in components (radial, tangential by the right hand about the axis, axial)
-/// at the point's own place; on the axis radial is x.
+/// A set and what is known of it so far. Velocities are absolute, in components (radial, tangential by the right hand about the axis,
+/// axial) at the point's own place; on the axis radial is x.
 struct VelocitySet {
     std::string name;
     std::vector<SamplePoint> points;

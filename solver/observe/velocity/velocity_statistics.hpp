@@ -25,8 +25,8 @@ struct WeightedVelocity {
 /// Velocity of a number of points against the angle that the rotor has turned since averaging began.
 ///
 /// A sample holds half way to the samples before and after it (the trapezoidal rule in angle: second order, and nearly exact for what
-/// repeats with the revolution); the first one also back to where averaging began. What is cut by the end of a revolution or phase is shared
-/// out by angle. Samples for which a point is in steel count nothing for it.
+/// repeats with the revolution); the first one also back to where averaging began. What is cut by the end of a revolution or phase is
+/// shared out by angle. Samples for which a point is in steel count nothing for it.
 class VelocityStatistics {
 public:
     /// \param period  angle [rad] after which each point's phases repeat, one per point

@@ -52,8 +52,8 @@ std::string mean_table(const VelocitySet& set, double from, double to) {
         fmt::format_to(out, "{},{:.9g},{:.9g},{:.9g},{}", i + 1, point.place[0], point.place[1], point.place[2], point.rotating ? 1 : 0);
         put(out, average.weight > 0.0 ? &mean : nullptr);
         put(out, error ? &*error : nullptr);
-        fmt::format_to(out, ",{},{},{},{:.9g},{:.9g}\n", statistics.samples(), statistics.dry_samples(i), statistics.whole_revolutions(), from,
-                       to);
+        fmt::format_to(out, ",{},{},{},{:.9g},{:.9g}\n", statistics.samples(), statistics.dry_samples(i), statistics.whole_revolutions(),
+                       from, to);
     }
     return text;
 }

@@ -63,7 +63,8 @@ TEST(Drag, hindrance_sees_the_void_fraction_in_its_reynolds_number) {
 }
 
 TEST(SchillerNaumann, has_the_published_values) {
-    for (const auto& [re, cd] : {std::pair(0.1, 247.4012061), std::pair(100.0, 1.091731091), std::pair(500.0, 0.5626653016), std::pair(5e3, 0.44)})
+    for (const auto& [re, cd] :
+         {std::pair(0.1, 247.4012061), std::pair(100.0, 1.091731091), std::pair(500.0, 0.5626653016), std::pair(5e3, 0.44)})
         EXPECT_NEAR(schiller_naumann_drag_coefficient({re}), cd, 1e-9 * cd);
 }
 
@@ -95,9 +96,9 @@ void expect_model_b_form(DragLaw drag, const ModelAForce& published) {
 }
 
 TEST(Gidaspow, is_the_published_force_over_the_void_fraction) {
-    for (const ModelAForce& f : {ModelAForce{0.45, 0.01, 2.288781616e-06}, ModelAForce{0.45, 0.3, 0.0003869611338},
-                                 ModelAForce{0.8, 0.1, 4.051919082e-05}, ModelAForce{0.9, 0.1, 1.573032966e-05},
-                                 ModelAForce{0.9, 0.8, 0.0005253756647}})
+    for (const ModelAForce& f :
+         {ModelAForce{0.45, 0.01, 2.288781616e-06}, ModelAForce{0.45, 0.3, 0.0003869611338}, ModelAForce{0.8, 0.1, 4.051919082e-05},
+          ModelAForce{0.9, 0.1, 1.573032966e-05}, ModelAForce{0.9, 0.8, 0.0005253756647}})
         expect_model_b_form(gidaspow_drag_coefficient, f);
 }
 

@@ -74,7 +74,8 @@ TEST(Sampling, of_small_rock_sees_no_wave_with_the_wrong_sign) {
     EXPECT_LT(seen_height(quadratic_weight, 2.0), -0.14);
     for (const double own_width : {0.1, 0.3, 0.45}) {
         const auto weight = [share = quadratic_share(own_width)](double q) { return sampling_weight(q, gaussian_weight(q), share); };
-        for (double k = 0.1; k < 4.0; k += 0.1) EXPECT_GT(seen_height(weight, k), 0.0) << "wave number " << k << ", own width " << own_width;
+        for (double k = 0.1; k < 4.0; k += 0.1)
+            EXPECT_GT(seen_height(weight, k), 0.0) << "wave number " << k << ", own width " << own_width;
     }
 }
 

@@ -4,9 +4,9 @@
 #include <functional>
 #include <limits>
 
+#include "solver/physics/drag.hpp"
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
-#include "solver/physics/drag.hpp"
 
 namespace cutterflow::coupling::testing {
 
@@ -90,7 +90,7 @@ public:
     std::vector<Vec3> velocity, acceleration;
     std::vector<double> void_fraction, void_fraction_old;
     std::vector<Vec3> curl, stress;  // of the flow, as a test wants them
-    std::vector<double> retreat;  // of walls, as a test wants it
+    std::vector<double> retreat;     // of walls, as a test wants it
     std::vector<double> travel_limits;
     FluidLoads given_loads;
     bool writes_fields = false;

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/space/steel_tree.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
+#include "solver/space/steel_tree.hpp"
 
 namespace cutterflow::coupling {
 namespace {

@@ -49,15 +49,17 @@ void check_drag(Verification& verification) {
             force.take(physics::drag_coefficient_per_slip(rock, slip, law, physics::no_hindrance, 3.0) * slip,
                        3.0 * 0.5 * density * 0.78539816339744831 * diameter * diameter * slip * slip * reference);
         }
-        verification.at_most(fmt::format("{}: largest relative error of the drag coefficient", name), "-", coefficient.error(), k_tolerance,
-                             {source, "11 states, Re 0.01 to 2e5, void fraction 0.45 to 0.99, sphericity 0.6 to 1; in the form of model B", {}});
-        verification.at_most(fmt::format("{}: largest relative error of the force with drag modifier 3", name), "-", force.error(), k_tolerance,
-                             {source, "the same states, 2 mm in water", {}});
+        verification.at_most(
+            fmt::format("{}: largest relative error of the drag coefficient", name), "-", coefficient.error(), k_tolerance,
+            {source, "11 states, Re 0.01 to 2e5, void fraction 0.45 to 0.99, sphericity 0.6 to 1; in the form of model B", {}});
+        verification.at_most(fmt::format("{}: largest relative error of the force with drag modifier 3", name), "-", force.error(),
+                             k_tolerance, {source, "the same states, 2 mm in water", {}});
     }
 }
 
 void check_hindrance(Verification& verification) {
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/hindrance.csv", {{"Re_p", "-"}, {"void fraction", "-"}, {"factor", "-"}});
+    const ReferenceTable table =
+        read_reference(CUTTERFLOW_CASE_DIR "/hindrance.csv", {{"Re_p", "-"}, {"void fraction", "-"}, {"factor", "-"}});
     Worst worst;
     for (std::size_t i = 0; i < table.rows(); ++i)
         worst.take(physics::find_hindrance_law("di_felice")(table.at("void fraction")[i], table.at("Re_p")[i]), table.at("factor")[i]);
@@ -75,9 +77,12 @@ void check_lift(Verification& verification) {
         coefficient.take(physics::mei_lift_coefficient(re_p, re_g), table.at("lift coefficient")[i]);
     }
     verification.at_most("mei: largest relative error of J", "-", ratio.error(), k_tolerance, {table.source, "eps 0.05 to 70", {}});
-    verification.at_most("mei: largest relative error of the lift coefficient", "-", coefficient.error(), k_tolerance, {table.source, "", {}});
-    verification.relative("mei: J(1)", "-", physics::shear_lift_ratio(1.0), 0.722, 1e-3, {table.source, "the figure of the literature", {}});
-    verification.relative("mei: J(5)", "-", physics::shear_lift_ratio(5.0), 0.989, 1e-3, {table.source, "the figure of the literature", {}});
+    verification.at_most("mei: largest relative error of the lift coefficient", "-", coefficient.error(), k_tolerance,
+                         {table.source, "", {}});
+    verification.relative("mei: J(1)", "-", physics::shear_lift_ratio(1.0), 0.722, 1e-3,
+                          {table.source, "the figure of the literature", {}});
+    verification.relative("mei: J(5)", "-", physics::shear_lift_ratio(5.0), 0.989, 1e-3,
+                          {table.source, "the figure of the literature", {}});
     // Slip along x at 0.1 m/s, vorticity along z: the force is along x cross z = -y. 2 mm in a fluid of nu 1e-4: Re_p = 2, Re_G = 0.4.
     const physics::RockInFluid rock{0.002, 1000.0, 1e-4, 1.0, 1.0};
     const double expected = 0.39269908169872414 * physics::mei_lift_coefficient(2.0, 0.4) * 1000.0 * 4e-6 * 0.01;
@@ -90,12 +95,14 @@ void check_fluid_forces(Verification& verification) {
     const double volume = 4.1887902047863905e-6, density = 998.2;  // 20 mm
     const Vec3 acceleration(0.3, -2.0, 1.5), stress(0.02, 0.05, -0.01);
     const About about{"NieuwboerVanRheeKeetels2023", "rho V (1 + C_AM) Du/Dt with C_AM = 1/2 and 0, 20 mm in water", {}};
-    verification.relative("added mass and pressure gradient, along y", "N", physics::fluid_acceleration_force(volume, density, 0.5, acceleration).y(),
-                          -0.012543751147253325, k_tolerance, about);
-    verification.relative("pressure gradient alone, along x", "N", physics::fluid_acceleration_force(volume, density, 0.0, acceleration).x(),
-                          0.0012543751147253325, k_tolerance, about);
-    verification.relative("viscous force, along y", "N", physics::viscous_force(volume, density, stress).y(), 0.00020906251912088876, k_tolerance,
-                          {"NieuwboerVanRheeKeetels2023", "rho V div tau", {}});
+    verification.relative("added mass and pressure gradient, along y", "N",
+                          physics::fluid_acceleration_force(volume, density, 0.5, acceleration).y(), -0.012543751147253325, k_tolerance,
+                          about);
+    verification.relative("pressure gradient alone, along x", "N",
+                          physics::fluid_acceleration_force(volume, density, 0.0, acceleration).x(), 0.0012543751147253325, k_tolerance,
+                          about);
+    verification.relative("viscous force, along y", "N", physics::viscous_force(volume, density, stress).y(), 0.00020906251912088876,
+                          k_tolerance, {"NieuwboerVanRheeKeetels2023", "rho V div tau", {}});
 }
 
 /// Words that a key of the study takes.
@@ -115,8 +122,8 @@ void check_choices(Verification& verification) {
         const auto found = std::count_if(laws.begin(), laws.end(), [&](const std::string& law) {
             return std::find(offered.begin(), offered.end(), law) != offered.end();
         });
-        verification.absolute(fmt::format("laws that {} offers", key), "-", static_cast<double>(found), static_cast<double>(laws.size()), 0.0,
-                              {"exact", fmt::format("{}", fmt::join(laws, ", ")), {}});
+        verification.absolute(fmt::format("laws that {} offers", key), "-", static_cast<double>(found), static_cast<double>(laws.size()),
+                              0.0, {"exact", fmt::format("{}", fmt::join(laws, ", ")), {}});
     }
 }
 

@@ -14,7 +14,7 @@ namespace {
 using namespace cutterflow;
 using namespace cutterflow::validation;
 
-constexpr double k_speed = k_pi;    // of the inner wall [rad/s]
+constexpr double k_speed = k_pi;   // of the inner wall [rad/s]
 constexpr double k_settled = 1.0;  // [s]
 
 struct Mode {
@@ -57,8 +57,8 @@ struct Result {
     std::vector<Vec3> velocity;
 };
 
-/// Torque of the wall on the fluid as the solver's loads have it, -mu r (du/dr - omega) times the wall's area, du/dr from the wall's speed and
-/// the first cells'. The wall is a polygon: its faces' centres lie at inner cos(half a face's angle).
+/// Torque of the wall on the fluid as the solver's loads have it, -mu r (du/dr - omega) times the wall's area, du/dr from the wall's speed
+/// and the first cells'. The wall is a polygon: its faces' centres lie at inner cos(half a face's angle).
 double wall_torque(const AnnulusCase& s, const AnnulusCells& cells, const std::vector<Vec3>& velocity) {
     const int rows = 4 * s.rotor_cells_around;
     const double half = k_pi / rows, radius = s.inner * std::cos(half), area = rows * 2.0 * s.inner * std::sin(half) * s.height;
@@ -76,7 +76,8 @@ Result run_couette(const Verification& verification, const Mode& mode, int refin
     AnnulusCase annulus = annulus_of(mode, refinement, end_time);
     const Exact exact(annulus);
     annulus.start = [&](double radius) { return exact.velocity(radius); };
-    const auto folder = verification.folder(fmt::format("rotor_{:+.0f}_cells_{}_ranks_{}_until_{:g}", mode.rotor_speed, 8 * refinement, ranks, end_time));
+    const auto folder =
+        verification.folder(fmt::format("rotor_{:+.0f}_cells_{}_ranks_{}_until_{:g}", mode.rotor_speed, 8 * refinement, ranks, end_time));
     write_annulus_case(folder, annulus);
     run_annulus_case(folder, ranks);
     const AnnulusCells cells = annulus_cells(annulus, annulus.end_time);
@@ -95,7 +96,10 @@ Result run_couette(const Verification& verification, const Mode& mode, int refin
 }
 
 void check_mode(Verification& verification, const Mode& mode) {
-    const About about{"NieuwboerVanRheeKeetels2023", "8, 16 and 32 cells across the gap, ten times smaller at the walls; order of the last halving. A wall's shear from its first cell is of first order in that cell's height: half of it over the radius, 0.2 %", {}};
+    const About about{"NieuwboerVanRheeKeetels2023",
+                      "8, 16 and 32 cells across the gap, ten times smaller at the walls; order of the last halving. A wall's shear from "
+                      "its first cell is of first order in that cell's height: half of it over the radius, 0.2 %",
+                      {}};
     Result results[3];
     for (int mesh = 0; mesh < 3; ++mesh) {
         results[mesh] = run_couette(verification, mode, 1 << mesh, 1, k_settled);
@@ -104,7 +108,8 @@ void check_mode(Verification& verification, const Mode& mode) {
     }
     verification.at_least(fmt::format("{}: order of the velocity's error", mode.name), "-",
                           std::log2(results[1].velocity_error / results[2].velocity_error), 1.8, about);
-    verification.at_most(fmt::format("{}: L2 error of velocity over the wall's speed", mode.name), "-", results[2].velocity_error, 0.01, about);
+    verification.at_most(fmt::format("{}: L2 error of velocity over the wall's speed", mode.name), "-", results[2].velocity_error, 0.01,
+                         about);
     const AnnulusCase annulus = annulus_of(mode, 4, k_settled);
     verification.relative(fmt::format("{}: torque on the inner wall", mode.name), "N m", results[2].torque, Exact(annulus).torque(annulus),
                           0.005, about);
@@ -124,8 +129,8 @@ void run(Verification& verification) {
     constexpr double early = 0.2;  // [s]
     const Result serial = run_couette(verification, k_against, 2, 1, early);
     for (const int ranks : {2, 4})
-        verification.at_most(fmt::format("{}: largest difference of velocity on {} ranks, over the wall's speed", k_against.name, ranks), "-",
-                             difference(run_couette(verification, k_against, 2, ranks, early), serial), 1e-8,
+        verification.at_most(fmt::format("{}: largest difference of velocity on {} ranks, over the wall's speed", k_against.name, ranks),
+                             "-", difference(run_couette(verification, k_against, 2, ranks, early), serial), 1e-8,
                              {"exact", "after 40 steps, 16 cells across; solvers to 1e-11 and 1e-12; ranks share the interface", {}});
 }
 

@@ -33,7 +33,8 @@ constexpr double k_short = 0.004, k_end = 1.0;                 // [s]
 constexpr double k_average_from = 0.3, k_batch = 0.1;          // [s], when the lattice has broken up; of each mean that shows the scatter
 
 constexpr const char* k_bed_probe =
-    "{ bed { type surfaceFieldValue; libs (\"libfieldFunctionObjects.so\"); writeFields no; log no; regionType patch; name bottom; operation "
+    "{ bed { type surfaceFieldValue; libs (\"libfieldFunctionObjects.so\"); writeFields no; log no; regionType patch; name bottom; "
+    "operation "
     "areaAverage; fields (p); } }";
 
 struct Bed {
@@ -65,14 +66,16 @@ double weight_over_area(const Bed& bed) {
 
 void make_mesh(const fs::path& folder) {
     const auto corners = [](double z) {
-        return fmt::format("({0} {2} {4}) ({1} {2} {4}) ({1} {3} {4}) ({0} {3} {4})", -k_half_depth, k_half_depth, -k_half_width, k_half_width, z);
+        return fmt::format("({0} {2} {4}) ({1} {2} {4}) ({1} {3} {4}) ({0} {3} {4})", -k_half_depth, k_half_depth, -k_half_width,
+                           k_half_width, z);
     };
-    write_foam_dictionary(folder, "system/blockMeshDict", "dictionary",
-                          fmt::format("scale 1;\nvertices ( {} {} );\nblocks ( hex (0 1 2 3 4 5 6 7) (2 15 45) simpleGrading (1 1 1) );\nedges ();\n"
-                                      "boundary\n(\n    top {{ type wall; faces ((4 5 6 7)); }}\n    bottom {{ type wall; faces ((0 1 2 3)); }}\n"
-                                      "    walls {{ type wall; faces ((0 1 5 4) (2 3 7 6)); }}\n"
-                                      "    frontAndBack {{ type symmetry; faces ((1 2 6 5) (3 0 4 7)); }}\n);",
-                                      corners(0.0), corners(k_height)));
+    write_foam_dictionary(
+        folder, "system/blockMeshDict", "dictionary",
+        fmt::format("scale 1;\nvertices ( {} {} );\nblocks ( hex (0 1 2 3 4 5 6 7) (2 15 45) simpleGrading (1 1 1) );\nedges ();\n"
+                    "boundary\n(\n    top {{ type wall; faces ((4 5 6 7)); }}\n    bottom {{ type wall; faces ((0 1 2 3)); }}\n"
+                    "    walls {{ type wall; faces ((0 1 5 4) (2 3 7 6)); }}\n"
+                    "    frontAndBack {{ type symmetry; faces ((1 2 6 5) (3 0 4 7)); }}\n);",
+                    corners(0.0), corners(k_height)));
     run_in_case(folder, {"blockMesh"});
 }
 
@@ -103,12 +106,15 @@ Result run_dpm_foam(const fs::path& folder, const Bed& bed) {
     std::string positions = "(\n";
     for (const Vec3& p : bed.particles) positions += fmt::format("({} {} {})\n", p.x(), p.y(), p.z());
     write_foam_dictionary(folder, "constant/kinematicCloudPositions", "vectorField", positions + ")");
-    for (const char* key : {"constantProperties/youngsModulus", "subModels/pairCollisionCoeffs/wallSpringSliderDashpotCoeffs/youngsModulus"})
+    for (const char* key :
+         {"constantProperties/youngsModulus", "subModels/pairCollisionCoeffs/wallSpringSliderDashpotCoeffs/youngsModulus"})
         run_in_case(folder, {"foamDictionary", "-entry", key, "-set", fmt::format("{}", bed.modulus), "constant/kinematicCloudProperties"});
-    write_foam_dictionary(folder, "system/controlDict", "dictionary",
-                          fmt::format("application DPMFoam; startFrom startTime; startTime 0; stopAt endTime; endTime {0}; deltaT 2e-5; writeControl runTime; "
-                                      "writeInterval {0}; writeFormat binary; writePrecision 6; timePrecision 6; runTimeModifiable no; functions {1}",
-                                      bed.end_time, k_bed_probe));
+    write_foam_dictionary(
+        folder, "system/controlDict", "dictionary",
+        fmt::format(
+            "application DPMFoam; startFrom startTime; startTime 0; stopAt endTime; endTime {0}; deltaT 2e-5; writeControl runTime; "
+            "writeInterval {0}; writeFormat binary; writePrecision 6; timePrecision 6; runTimeModifiable no; functions {1}",
+            bed.end_time, k_bed_probe));
     const double air_column = k_gravity * k_height;  // over the density, as the program's p
     return result_of(folder, bed, require_child(meshing::foam_command(folder, "DPMFoam")).core_s, air_column);
 }
@@ -121,8 +127,10 @@ void write_dem_walls(const fs::path& file) {
         const auto& [ax, ay] = corner[i];
         const auto& [bx, by] = corner[(i + 1) % 4];
         const auto vertex = [](double px, double py, double pz) { return fmt::format("vertex {} {} {}\n", px, py, pz); };
-        text += "facet normal 0 0 0\nouter loop\n" + vertex(ax, ay, 0) + vertex(ax, ay, k_height) + vertex(bx, by, k_height) + "endloop\nendfacet\n";
-        text += "facet normal 0 0 0\nouter loop\n" + vertex(ax, ay, 0) + vertex(bx, by, k_height) + vertex(bx, by, 0) + "endloop\nendfacet\n";
+        text += "facet normal 0 0 0\nouter loop\n" + vertex(ax, ay, 0) + vertex(ax, ay, k_height) + vertex(bx, by, k_height) +
+                "endloop\nendfacet\n";
+        text +=
+            "facet normal 0 0 0\nouter loop\n" + vertex(ax, ay, 0) + vertex(bx, by, k_height) + vertex(bx, by, 0) + "endloop\nendfacet\n";
     }
     write_file(file, text + "endsolid sides\n");
 }
@@ -132,16 +140,18 @@ void write_cutter_case(const fs::path& folder, const Bed& bed) {
     write_foam_dictionary(folder, "constant/transportProperties", "dictionary", "transportModel Newtonian; nu 1e-5; rho 1.2;");
     write_foam_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
     write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;");
-    write_foam_dictionary(folder, "constant/couplingProperties", "dictionary",
-               fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n"
-                           "    contact {{ youngsModulus {}; poissonRock 0.35; poissonSteel 0.23; friction 0.10; restitution 0.97; wetRestitution false; "
-                           "timeStepFraction 0.1; maxSpeed 1.5; }}\n"
-                           "    walls ( {{ name sides; file \"constant/sides.stl\"; rotating false; }} );\n"
-                           "    domain {{ radius {}; zMin 0; zMinWall true; zMax {}; zMaxWall true; }}\n}}\n"
-                           "closures {{ drag brown_lawler; hindrance di_felice; addedMass 0.5; }}\n"
-                           "fates\n{{\n    contour \"constant/contour.csv\"; ringRadius 0.001; zBackplate 0; binWidth 0.005;\n"
-                           "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}",
-                           bed.modulus, 1.05 * std::hypot(k_half_depth, k_half_width), k_height));
+    write_foam_dictionary(
+        folder, "constant/couplingProperties", "dictionary",
+        fmt::format(
+            "rock\n{{\n    feed \"constant/rockFeed.csv\";\n"
+            "    contact {{ youngsModulus {}; poissonRock 0.35; poissonSteel 0.23; friction 0.10; restitution 0.97; wetRestitution false; "
+            "timeStepFraction 0.1; maxSpeed 1.5; }}\n"
+            "    walls ( {{ name sides; file \"constant/sides.stl\"; rotating false; }} );\n"
+            "    domain {{ radius {}; zMin 0; zMinWall true; zMax {}; zMaxWall true; }}\n}}\n"
+            "closures {{ drag brown_lawler; hindrance di_felice; addedMass 0.5; }}\n"
+            "fates\n{{\n    contour \"constant/contour.csv\"; ringRadius 0.001; zBackplate 0; binWidth 0.005;\n"
+            "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}",
+            bed.modulus, 1.05 * std::hypot(k_half_depth, k_half_width), k_height));
     write_file(folder / "constant/contour.csv", "z_m,r_m\n-0.02,0.001\n0,0.001\n");
     write_dem_walls(folder / "constant/sides.stl");
     std::string feed = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
@@ -150,26 +160,33 @@ void write_cutter_case(const fs::path& folder, const Bed& bed) {
         feed += fmt::format("{},0,{},{},{},{},{},0,0,0\n", i + 1, p.x(), p.y(), p.z(), k_diameter, k_density);
     }
     write_file(folder / "constant/rockFeed.csv", feed);
-    write_foam_dictionary(folder, "system/controlDict", "dictionary",
-               fmt::format("application cutterFoam; startFrom startTime; startTime 0; stopAt endTime; endTime {0}; deltaT 1e-4; adjustTimeStep yes; maxCo "
-                           "0.9; maxDeltaT 1e-3; writeControl adjustable; writeInterval {0}; writeFormat binary; writePrecision 9; timePrecision 9; "
-                           "runTimeModifiable no; functions {1}",
-                           bed.end_time, k_bed_probe));
+    write_foam_dictionary(
+        folder, "system/controlDict", "dictionary",
+        fmt::format(
+            "application cutterFoam; startFrom startTime; startTime 0; stopAt endTime; endTime {0}; deltaT 1e-4; adjustTimeStep yes; maxCo "
+            "0.9; maxDeltaT 1e-3; writeControl adjustable; writeInterval {0}; writeFormat binary; writePrecision 9; timePrecision 9; "
+            "runTimeModifiable no; functions {1}",
+            bed.end_time, k_bed_probe));
     write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
-               "ddtSchemes { default Euler; } gradSchemes { default Gauss linear; } divSchemes { default none; div(phi,U) Gauss linearUpwindV unlimited; "
-               "div((nuEff*dev2(T(grad(U))))) Gauss linear; } laplacianSchemes { default Gauss linear corrected; } interpolationSchemes { default linear; } "
-               "snGradSchemes { default corrected; }");
+                          "ddtSchemes { default Euler; } gradSchemes { default Gauss linear; } divSchemes { default none; div(phi,U) Gauss "
+                          "linearUpwindV unlimited; "
+                          "div((nuEff*dev2(T(grad(U))))) Gauss linear; } laplacianSchemes { default Gauss linear corrected; } "
+                          "interpolationSchemes { default linear; } "
+                          "snGradSchemes { default corrected; }");
     write_foam_dictionary(folder, "system/fvSolution", "dictionary",
-               "solvers { p { solver GAMG; smoother GaussSeidel; tolerance 1e-6; relTol 0.01; } pFinal { $p; relTol 0; } "
-               "\"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-5; relTol 0; } } "
-               "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
+                          "solvers { p { solver GAMG; smoother GaussSeidel; tolerance 1e-6; relTol 0.01; } pFinal { $p; relTol 0; } "
+                          "\"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-5; relTol 0; } } "
+                          "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
     write_foam_dictionary(folder, "0/p", "volScalarField",
-               "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0; boundaryField { \"(walls|bottom)\" { type fixedFluxPressure; value uniform 0; } top { "
-               "type fixedValue; value uniform 0; } frontAndBack { type symmetry; } }");
+                          "dimensions [0 2 -2 0 0 0 0]; internalField uniform 0; boundaryField { \"(walls|bottom)\" { type "
+                          "fixedFluxPressure; value uniform 0; } top { "
+                          "type fixedValue; value uniform 0; } frontAndBack { type symmetry; } }");
     write_foam_dictionary(folder, "0/U", "volVectorField",
-               "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0); boundaryField { walls { type noSlip; } top { type pressureInletOutletVelocity; "
-               "value uniform (0 0 0); } bottom { type interstitialInletVelocity; inletVelocity uniform (0 0 1.875); value uniform (0 0 1.875); phi phi; "
-               "alpha voidFraction; } frontAndBack { type symmetry; } }");
+                          "dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0); boundaryField { walls { type noSlip; } top { type "
+                          "pressureInletOutletVelocity; "
+                          "value uniform (0 0 0); } bottom { type interstitialInletVelocity; inletVelocity uniform (0 0 1.875); value "
+                          "uniform (0 0 1.875); phi phi; "
+                          "alpha voidFraction; } frontAndBack { type symmetry; } }");
     make_mesh(folder);
 }
 
@@ -187,8 +204,10 @@ void run(Verification& verification) {
     {
         const Result ours = run_cutter_foam_bed(verification.folder("cutterFoam_stock"), bed);
         const Result stock = run_dpm_foam(verification.folder("DPMFoam_stock"), bed);
-        verification.report("core seconds per simulated second with 100 MPa, DPMFoam", "-", stock.core_s / k_short, {}, {"exact", "first 4 ms", {}});
-        verification.report("core seconds per simulated second with 100 MPa, cutterFoam", "-", ours.core_s / k_short, {}, {"exact", "first 4 ms", {}});
+        verification.report("core seconds per simulated second with 100 MPa, DPMFoam", "-", stock.core_s / k_short, {},
+                            {"exact", "first 4 ms", {}});
+        verification.report("core seconds per simulated second with 100 MPa, cutterFoam", "-", ours.core_s / k_short, {},
+                            {"exact", "first 4 ms", {}});
         verification.report("times faster than DPMFoam with 100 MPa", "-", stock.core_s / ours.core_s, {}, {"exact", "first 4 ms", {}});
     }
     bed.modulus = k_soft_modulus;
@@ -196,17 +215,20 @@ void run(Verification& verification) {
     const Result ours = run_cutter_foam_bed(verification.folder("cutterFoam"), bed);
     const double weight = weight_over_area(bed);
     const auto about = [&](const Result& result) -> About {
-        return {"exact",
-                fmt::format("mean of {} to {} s, its standard error {:.2g} %; the reference is the bed's weight less buoyancy over its cross section",
-                            k_average_from, k_end, 100.0 * result.standard_error / weight),
-                {}};
+        return {
+            "exact",
+            fmt::format(
+                "mean of {} to {} s, its standard error {:.2g} %; the reference is the bed's weight less buoyancy over its cross section",
+                k_average_from, k_end, 100.0 * result.standard_error / weight),
+            {}};
     };
     verification.relative("bed pressure drop, cutterFoam", "Pa", ours.pressure_drop, weight, 0.03, about(ours));
     const Result stock = run_dpm_foam(verification.folder("DPMFoam"), bed);
     verification.relative("bed pressure drop, DPMFoam", "Pa", stock.pressure_drop, weight, 0.03, about(stock));
     verification.report("core seconds per simulated second, DPMFoam", "-", stock.core_s / k_end, {}, {"exact", "1 MPa", {}});
     verification.report("core seconds per simulated second, cutterFoam", "-", ours.core_s / k_end, {}, {"exact", "1 MPa", {}});
-    verification.at_least("times faster than DPMFoam", "-", stock.core_s / ours.core_s, 10.0, {"exact", "1 MPa in both; one core each, in turn", {}});
+    verification.at_least("times faster than DPMFoam", "-", stock.core_s / ours.core_s, 10.0,
+                          {"exact", "1 MPa in both; one core each, in turn", {}});
 }
 
 }  // namespace

@@ -26,8 +26,9 @@ std::vector<FeedRock> cloud(double density, double stream) {
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 3; ++j)
             for (int k = 0; k < 3; ++k)
-                rocks.push_back({static_cast<int>(rocks.size()) + 1, 0.0, Vec3(-0.06 + 0.0131 * i, 0.0123 * (j - 1), 0.06 + 0.0127 * (k - 1)),
-                                 0.010, density, Vec3(stream, 0.0, 0.0)});
+                rocks.push_back({static_cast<int>(rocks.size()) + 1, 0.0,
+                                 Vec3(-0.06 + 0.0131 * i, 0.0123 * (j - 1), 0.06 + 0.0127 * (k - 1)), 0.010, density,
+                                 Vec3(stream, 0.0, 0.0)});
     return rocks;
 }
 
@@ -56,10 +57,11 @@ void let_it_stream(const fs::path& folder, const BoxCase& box, double stream) {
           "type calculated; value uniform 0;");
     write_foam_dictionary(folder, "constant/turbulenceProperties", "dictionary",
                           "simulationType RAS;\nRAS { RASModel realizableKE; turbulence on; printCoeffs off; }");
-    write_foam_dictionary(folder, "system/fvSolution", "dictionary",
-                          "solvers\n{\n    \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-12; relTol 0; }\n"
-                          "    \"(U|k|epsilon).*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; maxIter 200; }\n}\n"
-                          "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
+    write_foam_dictionary(
+        folder, "system/fvSolution", "dictionary",
+        "solvers\n{\n    \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-12; relTol 0; }\n"
+        "    \"(U|k|epsilon).*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; maxIter 200; }\n}\n"
+        "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }");
     fs::remove_all(folder / "constant/polyMesh");
     run_in_case(folder, {"blockMesh"});
 }
@@ -133,13 +135,15 @@ void run(Verification& verification) {
                           {"Shih1995", "Euler's first-order step of 1 ms", {}});
     if (!verification.wants(Effort::standard)) return;
     const Outcome coarse = outcome_of(verification, k_stream, 1), fine = outcome_of(verification, k_stream, 2);
-    const About carried{"exact",
-                        "Cells of 10 and 5 mm. The void fraction that moves with the kernels and the one that the discrete stream carries differ by the "
-                        "truncation error of the mesh and of the step; that much the stream must give way.",
-                        {}};
+    const About carried{
+        "exact",
+        "Cells of 10 and 5 mm. The void fraction that moves with the kernels and the one that the discrete stream carries differ by the "
+        "truncation error of the mesh and of the step; that much the stream must give way.",
+        {}};
     verification.at_most("carried cloud: largest change of velocity over the stream's", "-", fine.disturbed, 1e-3, carried);
     verification.at_most("carried cloud: spread of k over its mean", "-", fine.spread_k, 1e-3, carried);
-    verification.report("carried cloud: order in the cell size of the change of velocity", "-", std::log2(coarse.disturbed / fine.disturbed), {}, carried);
+    verification.report("carried cloud: order in the cell size of the change of velocity", "-",
+                        std::log2(coarse.disturbed / fine.disturbed), {}, carried);
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr double k_gravity = 9.81;
 constexpr double k_volume_limit = 1e-12, k_momentum_limit = 1e-10, k_flow_limit = 1e-6;  // of balance.csv
-constexpr double k_rotor_cell = 0.0167;  // [m], the smallest cell of the rotor's mesh
-constexpr double k_rotor_rock = 0.02;    // [m]
+constexpr double k_rotor_cell = 0.0167;                                                  // [m], the smallest cell of the rotor's mesh
+constexpr double k_rotor_rock = 0.02;                                                    // [m]
 
 /// One run and the bounds that it must keep.
 struct Cell {
@@ -74,7 +74,8 @@ void read_records(const fs::path& folder, double cell_size, Outcome& outcome) {
         // A row has the Courant number of the step before it.
         const double step = time[i - 1] - (i > 1 ? time[i - 2] : 0.0);
         outcome.fluid_speed = std::max(outcome.fluid_speed, courant[i] * cell_size / step);
-        if (rocks[i] == rocks[i - 1] && rocks[i] > 0) outcome.flow_error = std::max(outcome.flow_error, balance.at("flow_balance_error")[i]);
+        if (rocks[i] == rocks[i - 1] && rocks[i] > 0)
+            outcome.flow_error = std::max(outcome.flow_error, balance.at("flow_balance_error")[i]);
     }
     if (!fs::exists(folder / "postProcessing/rock/vtk")) return;
     for (const RockPicture& picture : all_rocks(folder))
@@ -183,7 +184,7 @@ std::vector<FeedRock> rock_between_blades() {
 
 Cell rotor_cell(const std::string& row, const std::string& column, const cases::CaseInputs& inputs, const std::vector<FeedRock>& rocks,
                 double fastest) {
-    return {row, column, [inputs, rocks](const fs::path& folder) { write_rotor_case(folder, inputs, feed_text(rocks)); },
+    return {row,     column,        [inputs, rocks](const fs::path& folder) { write_rotor_case(folder, inputs, feed_text(rocks)); },
             fastest, 3.0 * fastest, k_rotor_cell};
 }
 
@@ -228,7 +229,8 @@ std::vector<FeedRock> packed_layers(const BoxCase& box, double diameter, double 
                 const double x = box.lower.x() + margin + (i + 0.5 * ((j + k) % 2)) * a;
                 if (x > box.upper.x() - margin) break;
                 rocks.push_back({static_cast<int>(rocks.size()) + 1, 0.0,
-                                 Vec3(x, box.lower.y() + margin + (j + (k % 2) / 3.0) * line, margin + k * layer), diameter, 2650, Vec3::Zero()});
+                                 Vec3(x, box.lower.y() + margin + (j + (k % 2) / 3.0) * line, margin + k * layer), diameter, 2650,
+                                 Vec3::Zero()});
             }
     return rocks;
 }
@@ -307,7 +309,8 @@ std::vector<Cell> courant_number() {
     std::vector<Cell> cells;
     for (const double step : {0.008, 0.016, 0.032, 0.08}) {
         cases::CaseInputs inputs = rotor_inputs(0.5);
-        Cell cell = rotor_cell("fixed step with 20 rocks, ms", fmt::format("{}", 1e3 * step), inputs, rock_between_blades(), fastest_at_rotor(0.0));
+        Cell cell =
+            rotor_cell("fixed step with 20 rocks, ms", fmt::format("{}", 1e3 * step), inputs, rock_between_blades(), fastest_at_rotor(0.0));
         cell.prepare = [prepare = cell.prepare, step](const fs::path& folder) {
             prepare(folder);
             run_in_case(folder, {"foamDictionary", "-entry", "adjustTimeStep", "-set", "no", "system/controlDict"});
@@ -319,7 +322,8 @@ std::vector<Cell> courant_number() {
 }
 
 std::vector<Cell> impulsive_start() {
-    return {rotor_cell("start from rest", "20 rocks at full speed of the rotor", rotor_inputs(0.5), rock_between_blades(), fastest_at_rotor(0.0))};
+    return {rotor_cell("start from rest", "20 rocks at full speed of the rotor", rotor_inputs(0.5), rock_between_blades(),
+                       fastest_at_rotor(0.0))};
 }
 
 std::vector<Cell> no_rock() {
@@ -364,8 +368,12 @@ public:
     void run(const Cell& cell) {
         const Outcome outcome = run_cell(cell, folder_of(cell));
         const bool holds = outcome.holds(cell);
-        rows_.push_back({cell.row, cell.column, holds ? "stable" : outcome.ended.empty() ? "out of bounds" : "ended",
-                         fmt::format("{:.1e}", outcome.largest_balance_error()), fmt::format("{:.2f} of {:.2f}", outcome.rock_speed, cell.fastest_rock),
+        rows_.push_back({cell.row, cell.column,
+                         holds                   ? "stable"
+                         : outcome.ended.empty() ? "out of bounds"
+                                                 : "ended",
+                         fmt::format("{:.1e}", outcome.largest_balance_error()),
+                         fmt::format("{:.2f} of {:.2f}", outcome.rock_speed, cell.fastest_rock),
                          fmt::format("{:.3f}", outcome.solid_fraction), fmt::format("{:.3f} of {:.3f}", outcome.overlap, cell.overlap),
                          fmt::format("{:.2f}", outcome.courant), fmt::format("{:.1f}", outcome.core_s)});
         fmt::print("{}\n", fmt::join(rows_.back(), " | "));
@@ -384,13 +392,15 @@ public:
     }
     fs::path folder_of(const Cell& cell) const {
         std::string name = cell.row + "_" + cell.column;
-        std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+        std::replace_if(
+            name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
         return verification_.folder(name);
     }
 
 private:
     inline static const std::vector<std::string> k_header = {
-        "what", "value", "outcome", "largest balance error", "rock speed, m/s", "solid fraction", "overlap over radius", "Courant", "core s"};
+        "what",    "value", "outcome", "largest balance error", "rock speed, m/s", "solid fraction", "overlap over radius",
+        "Courant", "core s"};
     Verification& verification_;
     std::vector<std::vector<std::string>> rows_;
     std::map<std::string, int> count_, held_;
@@ -403,8 +413,8 @@ void overlapping_pair(Verification& verification, Matrix& matrix) {
     const Cell cell = box_cell("two rocks released overlapping", "by half a diameter", box, frictionless_speed(2.65, 0.045));
     if (!matrix.run(std::vector<Cell>{cell})) return;
     const auto rejected = read_columns(matrix.folder_of(cell) / "postProcessing/rock/0/rejected.csv");
-    verification.absolute("two rocks released overlapping: rejected, with the reason", "-", static_cast<double>(rejected.at("id").size()), 1.0, 0.0,
-                          {"exact", "the second one is told in rejected.csv and does not enter", {}});
+    verification.absolute("two rocks released overlapping: rejected, with the reason", "-", static_cast<double>(rejected.at("id").size()),
+                          1.0, 0.0, {"exact", "the second one is told in rejected.csv and does not enter", {}});
 }
 
 void rank_corner(Verification& verification, Matrix& matrix) {
@@ -412,7 +422,8 @@ void rank_corner(Verification& verification, Matrix& matrix) {
     for (const int ranks : {1, 4}) {
         BoxCase box = small_box();
         box.rocks = {{1, 0.0, Vec3(0.0, 0.0, 0.06), 0.010, 2650, Vec3(0, 0, -0.3)}};
-        Cell cell = box_cell("rock on the corner of four ranks", fmt::format("{} rank(s)", ranks), box, 0.3 + frictionless_speed(2.65, 0.055));
+        Cell cell =
+            box_cell("rock on the corner of four ranks", fmt::format("{} rank(s)", ranks), box, 0.3 + frictionless_speed(2.65, 0.055));
         cell.ranks = ranks;
         cell.prepare = [box, ranks](const fs::path& folder) {
             write_box_case(folder, box);
@@ -422,8 +433,8 @@ void rank_corner(Verification& verification, Matrix& matrix) {
     }
     if (!matrix.run(cells)) return;
     const auto end = [&](const Cell& cell) { return last_rocks(matrix.folder_of(cell)).position.at(0); };
-    verification.at_most("rock on the corner of four ranks: distance from the run on one", "m", (end(cells[1]) - end(cells[0])).norm(), 1e-8,
-                         {"exact", "falls along the edge that the four share, 0.04 m", {}});
+    verification.at_most("rock on the corner of four ranks: distance from the run on one", "m", (end(cells[1]) - end(cells[0])).norm(),
+                         1e-8, {"exact", "falls along the edge that the four share, 0.04 m", {}});
 }
 
 void through_the_outlet(Verification& verification, Matrix& matrix) {

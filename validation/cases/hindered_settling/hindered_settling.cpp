@@ -87,7 +87,8 @@ void settle(Verification& verification, double solid_fraction) {
     const double in_still_frame = rock.void_fraction * (fall + rise);
     verification.report("settling speed and Richardson-Zaki, " + at, "m/s", in_still_frame, alone * std::pow(rock.void_fraction, 2.39),
                         {"RichardsonZaki1954", "void fraction times slip; reference u_t (1 - alpha_p)^2.39"});
-    verification.report("settling speed and Garside-Al-Dibouni, " + at, "m/s", in_still_frame, alone * std::pow(rock.void_fraction, garside),
+    verification.report("settling speed and Garside-Al-Dibouni, " + at, "m/s", in_still_frame,
+                        alone * std::pow(rock.void_fraction, garside),
                         {"GarsideAlDibouni1977", fmt::format("void fraction times slip; reference u_t (1 - alpha_p)^{:.3f}", garside)});
 }
 

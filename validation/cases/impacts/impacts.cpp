@@ -7,8 +7,8 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/physics/contact.hpp"
-#include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/reference_table.hpp"
+#include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {

@@ -111,7 +111,8 @@ void run(Verification& verification) {
     const auto rest = move(verification, "rest", tank(1e-3, 0.11, 0.11));
     double speed = 0.0;
     for (const auto& row : read_function_object(rest, "speed")) speed = std::max(speed, row.at(2));
-    verification.at_most("velocity around rock at rest in the turning zone", "m/s", speed, 1e-10, {"exact", "30 steps of 1e-3 s at 60 rpm"});
+    verification.at_most("velocity around rock at rest in the turning zone", "m/s", speed, 1e-10,
+                         {"exact", "30 steps of 1e-3 s at 60 rpm"});
     for (const double dt : {1e-3, 5e-4, 2e-4}) cross(verification, dt);
 }
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
-#include "solver/physics/drag.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -111,7 +111,8 @@ void volumes_and_centroids(Verification& verification) {
     for (const auto& [place, x] : {std::pair("wall", Vec3(0.19, 0.0, 0.0)), std::pair("edge of two walls", Vec3(0.19, -0.19, 0.003)),
                                    std::pair("corner", Vec3(0.19, 0.19, 0.19))}) {
         walled.put(x);
-        verification.at_most(fmt::format("volume, {}", place), "-", walled.volume_error(), 1e-12, {"exact", "half a diameter from the walls"});
+        verification.at_most(fmt::format("volume, {}", place), "-", walled.volume_error(), 1e-12,
+                             {"exact", "half a diameter from the walls"});
         verification.report(fmt::format("centroid, {}", place), "d", walled.centroid_error(), std::nullopt,
                             {"exact", "without wall images the centroid moves off the wall by the kernel's missing part"});
     }
@@ -175,7 +176,8 @@ StepChange change_along(Placed& rock, const Vec3& from, const Vec3& to, double s
 void thin_blade(Verification& verification) {
     Placed beside(bladed(0.2, 0.01));
     double behind = 0.0, volume = 0.0;
-    for (const Vec3& x : {Vec3(-0.51 * k_diameter, 0.0, -0.15), Vec3(-0.6 * k_diameter, 0.033, -0.1501), Vec3(-1.3 * k_diameter, 0.01, -0.14)}) {
+    for (const Vec3& x :
+         {Vec3(-0.51 * k_diameter, 0.0, -0.15), Vec3(-0.6 * k_diameter, 0.033, -0.1501), Vec3(-1.3 * k_diameter, 0.01, -0.14)}) {
         beside.put(x);
         behind = std::max(behind, beside.share([](const Vec3& c) { return c.x() > 0.0; }));
         volume = std::max(volume, beside.volume_error());
@@ -188,9 +190,8 @@ void thin_blade(Verification& verification) {
         const double dx = k_diameter / ratio, sigma = std::max(k_diameter, 1.5 * dx), half = std::ceil(4.5 * sigma / dx) * dx;
         Placed past(bladed(half, dx)), open(cube(half, dx));
         double moved = 0.0, largest = 0.0;
-        const Vec3 paths[][2] = {
-            {Vec3(-1.2 * sigma, 0.3 * dx, 0.6 * k_diameter), Vec3(1.2 * sigma, 0.3 * dx, 0.6 * k_diameter)},
-            {Vec3(-0.6 * k_diameter, 0.3 * dx, -1.2 * sigma), Vec3(-0.6 * k_diameter, 0.3 * dx, 1.2 * sigma)}};
+        const Vec3 paths[][2] = {{Vec3(-1.2 * sigma, 0.3 * dx, 0.6 * k_diameter), Vec3(1.2 * sigma, 0.3 * dx, 0.6 * k_diameter)},
+                                 {Vec3(-0.6 * k_diameter, 0.3 * dx, -1.2 * sigma), Vec3(-0.6 * k_diameter, 0.3 * dx, 1.2 * sigma)}};
         for (const auto& path : paths) {
             const StepChange at_edge = change_along(past, path[0], path[1], 0.25 * dx);
             const StepChange in_open = change_along(open, path[0], path[1], 0.25 * dx);
@@ -199,7 +200,8 @@ void thin_blade(Verification& verification) {
         }
         const std::string where = fmt::format("past a blade's edge over open water, d/dx = {:g}", ratio);
         verification.at_most("volume moved in a step " + where, "-", moved, 2.0, {"exact", "over the edge and along the blade"});
-        verification.at_most("largest change of a cell in a step " + where, "-", largest, 2.0, {"exact", "over the edge and along the blade"});
+        verification.at_most("largest change of a cell in a step " + where, "-", largest, 2.0,
+                             {"exact", "over the edge and along the blade"});
     }
 }
 

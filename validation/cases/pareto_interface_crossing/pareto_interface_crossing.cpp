@@ -5,9 +5,9 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "meshing/dictionary/foam_command.hpp"
+#include "validation/harness/pareto.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/crossing_case.hpp"
-#include "validation/harness/pareto.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -80,7 +80,8 @@ void run(Verification& verification) {
                           "The solver has no such option: fluid and rock exchange momentum in every fluid step, so that what "
                           "the fluid loses in a step is what the rock receives in it. The chart of the time step is that of "
                           "the coupling interval too."}}});
-    const Trial standard = run_pareto<Options>(verification, one_rock_sweeps<Options>({0.5, 1.5, 2.0}), "RMS error of the velocity, m/s", cross);
+    const Trial standard =
+        run_pareto<Options>(verification, one_rock_sweeps<Options>({0.5, 1.5, 2.0}), "RMS error of the velocity, m/s", cross);
     verification.at_most("RMS error of the velocity with the defaults", "m/s", standard.error, 0.01,
                          {"NieuwboerVanRheeKeetels2023", "against the rock's own force balance; 10 mm, 2650 kg/m3, d/dx = 1, 60 rpm", {}});
     verification.report("core seconds with the defaults", "-", standard.core_s, {}, {"exact", "whole run on one core", {}});

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "meshing/dictionary/foam_command.hpp"
-#include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/pareto.hpp"
+#include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -58,7 +58,8 @@ Trial fall(const std::filesystem::path& folder, const Options& options) {
 
 void run(Verification& verification) {
     if (!verification.wants(Effort::longest)) return;
-    const Trial standard = run_pareto<Options>(verification, one_rock_sweeps<Options>({0.5, 1.0, 3.0}), "error of the terminal speed, %", fall);
+    const Trial standard =
+        run_pareto<Options>(verification, one_rock_sweeps<Options>({0.5, 1.0, 3.0}), "error of the terminal speed, %", fall);
     verification.at_most("error of the terminal speed with the defaults", "%", standard.error, 1.4,
                          {"NieuwboerVanRheeKeetels2023", "10 mm, 2650 kg/m3, d/dx = 2", 0.5});
     verification.report("core seconds with the defaults", "-", standard.core_s, {}, {"exact", "whole run on one core", {}});

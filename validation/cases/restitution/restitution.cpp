@@ -7,8 +7,8 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/physics/contact.hpp"
-#include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/reference_table.hpp"
+#include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -39,13 +39,15 @@ void check_dry(Verification& verification) {
     for (const double restitution : {0.3, 0.5, 0.7, 0.9, 0.97}) {
         const auto settings = dry_room(0.3, true, k_rock, restitution, 0.0, 1.0);
         const Impact wall = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -1.0))}, sample_of(k_rock, 1.0));
-        verification.relative(fmt::format("dry restitution on a wall, e = {}", restitution), "-", wall.velocity[0].z(), restitution, 0.01, about);
+        verification.relative(fmt::format("dry restitution on a wall, e = {}", restitution), "-", wall.velocity[0].z(), restitution, 0.01,
+                              about);
         const double x = k_radius * (1.0 + 1e-4);
-        const Impact pair = collide(dry_room(0.3, false, k_rock, restitution, 0.0, 1.0),
-                                    {{k_radius, k_rock.density, Vec3(-x, 0, 0), Vec3(0.5, 0, 0)}, {k_radius, k_rock.density, Vec3(x, 0, 0), Vec3(-0.5, 0, 0)}},
-                                    sample_of(k_rock, 1.0));
-        verification.relative(fmt::format("dry restitution of two rocks, e = {}", restitution), "-", pair.velocity[1].x() - pair.velocity[0].x(),
-                              restitution, 0.01, about);
+        const Impact pair = collide(
+            dry_room(0.3, false, k_rock, restitution, 0.0, 1.0),
+            {{k_radius, k_rock.density, Vec3(-x, 0, 0), Vec3(0.5, 0, 0)}, {k_radius, k_rock.density, Vec3(x, 0, 0), Vec3(-0.5, 0, 0)}},
+            sample_of(k_rock, 1.0));
+        verification.relative(fmt::format("dry restitution of two rocks, e = {}", restitution), "-",
+                              pair.velocity[1].x() - pair.velocity[0].x(), restitution, 0.01, about);
     }
 }
 
@@ -100,9 +102,10 @@ void check_drum(Verification& verification) {
             settings.walls = {{"drum", file, true}};
             Ball ball{k_radius, k_rock.density, Vec3(drum + k_radius * 1.0001, 0.0, 0.0), Vec3(-speed, 0.0, 0.0)};
             const Impact impact = collide(settings, {ball}, sample_of(k_rock, speed), surface_speed / drum);
-            verification.relative(fmt::format("restitution in water at {} m/s on a drum of 1 mm facets that pass at {:g} m/s", speed, surface_speed),
-                                  "-", impact.velocity[0].x() / speed, table.at("restitution")[i], 0.02,
-                                  {table.source, "without friction; one contact across several facets", {}});
+            verification.relative(
+                fmt::format("restitution in water at {} m/s on a drum of 1 mm facets that pass at {:g} m/s", speed, surface_speed), "-",
+                impact.velocity[0].x() / speed, table.at("restitution")[i], 0.02,
+                {table.source, "without friction; one contact across several facets", {}});
         }
     }
 }
@@ -116,17 +119,17 @@ void check_trough(Verification& verification) {
     const double start = k_pi / 4.0;  // from the lowest point
     const double away = arm * (1.0 - 1e-4);
     const Slide result = slide(settings, {k_radius, k_rock.density, Vec3(-away * std::sin(start), -away * std::cos(start), 0.0)}, 1e-4);
-    verification.relative("speed at the bottom of a trough of 3 mm facets", "m/s", result.speed, std::sqrt(2.0 * gravity * arm * (1.0 - std::cos(start))),
-                          0.02, {"exact", "a frictionless rock slides down an eighth of a circle of 0.3 m", {}});
-    verification.at_most("height of the rock over the trough while it slides, over its radius", "-", result.height / k_radius, 0.02, {"exact", "", {}});
+    verification.relative("speed at the bottom of a trough of 3 mm facets", "m/s", result.speed,
+                          std::sqrt(2.0 * gravity * arm * (1.0 - std::cos(start))), 0.02,
+                          {"exact", "a frictionless rock slides down an eighth of a circle of 0.3 m", {}});
+    verification.at_most("height of the rock over the trough while it slides, over its radius", "-", result.height / k_radius, 0.02,
+                         {"exact", "", {}});
 }
 
 void check_gondret(Verification& verification) {
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/gondret.csv", {{"Stokes number", "-"},
-                                                                                   {"diameter", "mm"},
-                                                                                   {"impact speed", "m/s"},
-                                                                                   {"oil density", "kg/m3"},
-                                                                                   {"oil viscosity", "Pa s"}});
+    const ReferenceTable table = read_reference(
+        CUTTERFLOW_CASE_DIR "/gondret.csv",
+        {{"Stokes number", "-"}, {"diameter", "mm"}, {"impact speed", "m/s"}, {"oil density", "kg/m3"}, {"oil viscosity", "Pa s"}});
     const Elastic steel{1e9, 0.27, 7800.0};
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double diameter = 1e-3 * table.at("diameter")[i], speed = table.at("impact speed")[i], density = table.at("oil density")[i];
@@ -143,7 +146,8 @@ void check_gondret(Verification& verification) {
 void check_overlap(Verification& verification) {
     const double speed = 90.0 / 60.0 * 2.0 * k_pi * 0.4;  // the model cutter's tip at 90 rpm
     const double inertia = k_rock.density + 0.5 * k_water;
-    const double chosen = physics::youngs_modulus_for_overlap(inertia, speed, physics::k_largest_overlap_ratio, 2.0 - 0.24 * 0.24 - 0.27 * 0.27);
+    const double chosen =
+        physics::youngs_modulus_for_overlap(inertia, speed, physics::k_largest_overlap_ratio, 2.0 - 0.24 * 0.24 - 0.27 * 0.27);
     for (const double modulus : {chosen, 1e7}) {
         const Elastic material{modulus, 0.24, k_rock.density};
         auto settings = in_fluid(dry_room(0.3, true, material, 0.97, 0.15, speed), k_water, k_viscosity);
@@ -151,7 +155,8 @@ void check_overlap(Verification& verification) {
         const Impact impact = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -speed))}, sample_of(material, speed));
         const std::string name = fmt::format("overlap over radius at the tip speed of 90 rpm, E = {:.3g} GPa", modulus * 1e-9);
         if (modulus == chosen)
-            verification.at_most(name, "-", impact.overlap / k_radius, 0.05, {"AntypovElliott2011", "20 mm rock on steel, 3.77 m/s; the stiffness that a study chooses", {}});
+            verification.at_most(name, "-", impact.overlap / k_radius, 0.05,
+                                 {"AntypovElliott2011", "20 mm rock on steel, 3.77 m/s; the stiffness that a study chooses", {}});
         else
             verification.report(name, "-", impact.overlap / k_radius, {}, {"NieuwboerVanRheeKeetels2023", "the paper's stiffness", {}});
     }

@@ -22,9 +22,9 @@ struct Room {
     Effort effort;
 };
 
-constexpr double k_fall = 14.0;        // distance until the speed is read [diameters]
+constexpr double k_fall = 14.0;            // distance until the speed is read [diameters]
 constexpr double k_long_tolerance = 1e-6;  // of the pressure in the largest rooms: as exact, to nine digits of the speed, as 1e-9
-constexpr double k_start_share = 0.95;  // of the terminal speed
+constexpr double k_start_share = 0.95;     // of the terminal speed
 
 void settle(Verification& verification, const Room& room) {
     FallingRock rock;
@@ -57,13 +57,13 @@ void settle(Verification& verification, const Room& room) {
 }
 
 void run(Verification& verification) {
-    for (const Room& room :
-         {Room{0.01, 0.2, 30.0, 60.0, Effort::fast}, Room{0.01, 0.5, 16.0, 44.0, Effort::fast}, Room{0.01, 1.0, 10.0, 32.0, Effort::fast},
-          Room{0.01, 2.0, 6.0, 26.0, Effort::standard}, Room{0.01, 3.5, 4.0, 22.0, Effort::standard},
-          Room{0.01, 5.0, 4.0, 22.0, Effort::longest}, Room{0.01, 8.0, 4.0, 22.0, Effort::longest},
-          Room{0.02, 0.2, 30.0, 60.0, Effort::standard}, Room{0.02, 0.5, 16.0, 44.0, Effort::standard},
-          Room{0.02, 1.0, 10.0, 32.0, Effort::standard}, Room{0.02, 2.0, 6.0, 26.0, Effort::standard},
-          Room{0.02, 3.5, 4.0, 22.0, Effort::longest}, Room{0.02, 5.0, 4.0, 22.0, Effort::longest}, Room{0.02, 8.0, 4.0, 22.0, Effort::longest}})
+    for (const Room& room : {Room{0.01, 0.2, 30.0, 60.0, Effort::fast}, Room{0.01, 0.5, 16.0, 44.0, Effort::fast},
+                             Room{0.01, 1.0, 10.0, 32.0, Effort::fast}, Room{0.01, 2.0, 6.0, 26.0, Effort::standard},
+                             Room{0.01, 3.5, 4.0, 22.0, Effort::standard}, Room{0.01, 5.0, 4.0, 22.0, Effort::longest},
+                             Room{0.01, 8.0, 4.0, 22.0, Effort::longest}, Room{0.02, 0.2, 30.0, 60.0, Effort::standard},
+                             Room{0.02, 0.5, 16.0, 44.0, Effort::standard}, Room{0.02, 1.0, 10.0, 32.0, Effort::standard},
+                             Room{0.02, 2.0, 6.0, 26.0, Effort::standard}, Room{0.02, 3.5, 4.0, 22.0, Effort::longest},
+                             Room{0.02, 5.0, 4.0, 22.0, Effort::longest}, Room{0.02, 8.0, 4.0, 22.0, Effort::longest}})
         if (verification.wants(room.effort)) settle(verification, room);
 }
 

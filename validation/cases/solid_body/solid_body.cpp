@@ -73,14 +73,18 @@ Outcome turn(const Verification& verification, int stator_cells_around, int turn
 }
 
 void run(Verification& verification) {
-    const About about{"exact", "96 faces around on both sides of the interface, 160 steps a turn; zeroGradient pressure at turning walls lacks omega^2 r", {}};
+    const About about{
+        "exact",
+        "96 faces around on both sides of the interface, 160 steps a turn; zeroGradient pressure at turning walls lacks omega^2 r",
+        {}};
     const Outcome equal = turn(verification, 24, k_turns);
     verification.at_most("volume made or lost in 20 turns, over the room's", "-", std::abs(equal.continuity.cumulative), 1e-6, about);
-    verification.at_most("largest sum over cells of |volume made or lost| in a step, over the room's", "-", equal.continuity.largest_local, 1e-6, about);
+    verification.at_most("largest sum over cells of |volume made or lost| in a step, over the room's", "-", equal.continuity.largest_local,
+                         1e-6, about);
     verification.at_most("L2 error of velocity after 20 turns, over its L2 norm", "-", equal.velocity_error, 0.01, about);
     const Outcome unequal = turn(verification, 30, 5);
-    verification.report("volume made or lost in 5 turns, over the room's, 120 faces on 96", "-", std::abs(unequal.continuity.cumulative), {},
-                        {"exact", "polygons of unequal number; the product's meshes have equal numbers", {}});
+    verification.report("volume made or lost in 5 turns, over the room's, 120 faces on 96", "-", std::abs(unequal.continuity.cumulative),
+                        {}, {"exact", "polygons of unequal number; the product's meshes have equal numbers", {}});
 }
 
 }  // namespace

@@ -75,10 +75,11 @@ void settle(Verification& verification, double inclination_deg) {
     // Full pressure over density: what the water weighs by itself comes on top.
     const Vec3 down = box.gravity.normalized();
     const About about{"exact", "dp/dz = (alpha_c rho_c + alpha_p rho_p) g: 10 mm rock of 2650 kg/m3 on a lattice of 18 mm", 0.001};
-    verification.relative(fmt::format("dp/dz over the fluid's density at {:.0f} degrees", inclination_deg), "m/s2", 9.81 + gradient.dot(down),
-                          mixture, 0.01, about);
-    verification.at_most(fmt::format("error of the pressure gradient's vector over the mixture's weight at {:.0f} degrees", inclination_deg), "-",
-                         (gradient - expected).norm() / mixture, 0.01, about);
+    verification.relative(fmt::format("dp/dz over the fluid's density at {:.0f} degrees", inclination_deg), "m/s2",
+                          9.81 + gradient.dot(down), mixture, 0.01, about);
+    verification.at_most(
+        fmt::format("error of the pressure gradient's vector over the mixture's weight at {:.0f} degrees", inclination_deg), "-",
+        (gradient - expected).norm() / mixture, 0.01, about);
     verification.report(fmt::format("what the rock adds to dp/dz over the fluid's density at {:.0f} degrees", inclination_deg), "m/s2",
                         gradient.dot(down), expected.norm(), about);
 }

@@ -21,9 +21,9 @@ constexpr int k_level = 4 * k_circles;
 
 struct Zone {
     const char* name;
-    int circle;          ///< its inner one
-    double inner, outer; ///< radii [m]
-    double growth;       ///< last cell over first, outwards
+    int circle;           ///< its inner one
+    double inner, outer;  ///< radii [m]
+    double growth;        ///< last cell over first, outwards
     int around;
     double speed;
 };
@@ -63,8 +63,8 @@ std::string edges(const AnnulusCase& a) {
             for (int k = 0; k < 4; ++k) {
                 const int first = level * k_level + 4 * circle;
                 const double azimuth = k_first_azimuth + 0.5 * k_pi * (k + 0.5);
-                text += fmt::format("arc {} {} ({:.17g} {:.17g} {:.17g})\n", first + k, first + (k + 1) % 4, radii[circle] * std::cos(azimuth),
-                                    radii[circle] * std::sin(azimuth), (level - 0.5) * a.height);
+                text += fmt::format("arc {} {} ({:.17g} {:.17g} {:.17g})\n", first + k, first + (k + 1) % 4,
+                                    radii[circle] * std::cos(azimuth), radii[circle] * std::sin(azimuth), (level - 0.5) * a.height);
             }
     return text;
 }
@@ -93,7 +93,8 @@ std::string block_mesh(const AnnulusCase& annulus) {
     };
     return fmt::format(
         "scale 1;\nvertices\n({});\nedges\n({});\nblocks\n({});\nboundary\n(\n"
-        "    hub {{ type wall; faces ({}); }}\n    rim {{ type wall; faces ({}); }}\n    ends {{ type empty; faces ({}); }}\n    {}    {});\n"
+        "    hub {{ type wall; faces ({}); }}\n    rim {{ type wall; faces ({}); }}\n    ends {{ type empty; faces ({}); }}\n    {}    "
+        "{});\n"
         "mergePatchPairs ();",
         vertices(annulus), edges(annulus), blocks, circle_faces(0), circle_faces(3), ends,
         interface("rotor_interface", "stator_interface", 1), interface("stator_interface", "rotor_interface", 2));
@@ -114,14 +115,15 @@ std::string start_velocity(const AnnulusCase& annulus) {
 
 void write_fields(const fs::path& folder, const AnnulusCase& annulus) {
     const char* const constraints = "#includeEtc \"caseDicts/setConstraintTypes\"\n";
-    write_foam_dictionary(folder, "0/U", "volVectorField",
-                          fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField {};\nboundaryField\n{{\n{}    hub {{ {} }}\n    rim {{ {} }}\n}}",
-                                      start_velocity(annulus), constraints, wall_velocity(annulus.inner_speed),
-                                      wall_velocity(annulus.outer_speed)));
-    write_foam_dictionary(folder, "0/p", "volScalarField",
-                          fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n{}    \"(hub|rim)\" {{ type "
-                                      "zeroGradient; }}\n}}",
-                                      constraints));
+    write_foam_dictionary(
+        folder, "0/U", "volVectorField",
+        fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField {};\nboundaryField\n{{\n{}    hub {{ {} }}\n    rim {{ {} }}\n}}",
+                    start_velocity(annulus), constraints, wall_velocity(annulus.inner_speed), wall_velocity(annulus.outer_speed)));
+    write_foam_dictionary(
+        folder, "0/p", "volScalarField",
+        fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n{}    \"(hub|rim)\" {{ type "
+                    "zeroGradient; }}\n}}",
+                    constraints));
 }
 
 void write_constant(const fs::path& folder, const AnnulusCase& annulus) {
@@ -152,14 +154,16 @@ void write_system(const fs::path& folder, const AnnulusCase& annulus) {
                           "    div(phi,U) Gauss linear;\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n}\n"
                           "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\n"
                           "snGradSchemes { default corrected; }");
-    // Two outer correctors: the first one convects by the flux of the turned faces, which lags by a step. The pressure's reference is a place,
-    // because cell 0 is another cell on each number of ranks.
+    // Two outer correctors: the first one convects by the flux of the turned faces, which lags by a step. The pressure's reference is a
+    // place, because cell 0 is another cell on each number of ranks.
     const double reference = 0.3 * annulus.interface + 0.7 * annulus.outer;
-    write_foam_dictionary(folder, "system/fvSolution", "dictionary",
-                          fmt::format("solvers\n{{\n    \"p.*\" {{ solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }}\n"
-                                      "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }}\n}}\n"
-                                      "PIMPLE {{ nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefPoint ({:.17g} {:.17g} 0); pRefValue 0; }}",
-                                      reference * std::cos(0.01), reference * std::sin(0.01)));
+    write_foam_dictionary(
+        folder, "system/fvSolution", "dictionary",
+        fmt::format(
+            "solvers\n{{\n    \"p.*\" {{ solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }}\n"
+            "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }}\n}}\n"
+            "PIMPLE {{ nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefPoint ({:.17g} {:.17g} 0); pRefValue 0; }}",
+            reference * std::cos(0.01), reference * std::sin(0.01)));
 }
 
 }  // namespace

@@ -11,16 +11,16 @@ namespace cutterflow::validation {
 
 /// Water between two cylinders about z, one cell high. The mesh inside the interface is the rotor, and turns.
 struct AnnulusCase {
-    double inner = 0.1, interface = 0.15, outer = 0.2;  ///< radii [m]
-    double height = 0.01;                               ///< [m]
-    int radial_cells = 8;                               ///< of rotor and of stator each
-    int rotor_cells_around = 16, stator_cells_around = 20;  ///< of a quarter: the two sides of the interface differ
-    double grading = 1.0;                               ///< cell at the wall over cell at the interface
-    double inner_speed = 0.0, outer_speed = 0.0;        ///< of the walls [rad/s]
-    double rotor_speed = 0.0;                           ///< of the mesh inside the interface [rad/s]
-    double density = 1000.0, viscosity = 1e-3;          ///< [kg/m3], [m2/s]
-    double time_step = 1e-3, end_time = 1.0;            ///< [s]
-    double write_interval = 1e9;                        ///< [s]
+    double inner = 0.1, interface = 0.15, outer = 0.2;                 ///< radii [m]
+    double height = 0.01;                                              ///< [m]
+    int radial_cells = 8;                                              ///< of rotor and of stator each
+    int rotor_cells_around = 16, stator_cells_around = 20;             ///< of a quarter: the two sides of the interface differ
+    double grading = 1.0;                                              ///< cell at the wall over cell at the interface
+    double inner_speed = 0.0, outer_speed = 0.0;                       ///< of the walls [rad/s]
+    double rotor_speed = 0.0;                                          ///< of the mesh inside the interface [rad/s]
+    double density = 1000.0, viscosity = 1e-3;                         ///< [kg/m3], [m2/s]
+    double time_step = 1e-3, end_time = 1.0;                           ///< [s]
+    double write_interval = 1e9;                                       ///< [s]
     std::function<double(double)> start = [](double) { return 0.0; };  ///< azimuthal velocity at a radius at time 0 [m/s]
 
     std::size_t cell_count() const { return 4u * static_cast<std::size_t>(radial_cells * (rotor_cells_around + stator_cells_around)); }

@@ -37,17 +37,19 @@ std::string block_mesh(const BoxCase& box) {
 
 /// The patches of the case: the box's, or those of another mesh.
 std::string boundary(const BoxCase& box, const std::string& wall, const std::string& bottom, const std::string& top) {
-    if (!box.mesh.empty()) return fmt::format("#includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\" {{ {} }}\n    rim {{ {} }}", wall, top);
+    if (!box.mesh.empty())
+        return fmt::format("#includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\" {{ {} }}\n    rim {{ {} }}", wall, top);
     return fmt::format("sides {{ {} }}\n    bottom {{ {} }}\n    top {{ {} }}", wall, bottom, top);
 }
 
 void write_fields(const fs::path& folder, const BoxCase& box) {
     const std::string slip = "type slip;", balance = "type fixedFluxPressure; value uniform 0;";
     const bool open = box.sides != BoxSides::closed, duct = box.sides == BoxSides::duct;
-    write_foam_dictionary(folder, "0/U", "volVectorField",
-                          fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 {:.17g});\nboundaryField\n{{\n    {}\n}}", box.inflow,
-                                      boundary(box, slip, duct ? "type fixedValue; value $internalField;" : slip,
-                                               open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : slip)));
+    write_foam_dictionary(
+        folder, "0/U", "volVectorField",
+        fmt::format("dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 {:.17g});\nboundaryField\n{{\n    {}\n}}", box.inflow,
+                    boundary(box, slip, duct ? "type fixedValue; value $internalField;" : slip,
+                             open ? "type pressureInletOutletVelocity; value uniform (0 0 0);" : slip)));
     write_foam_dictionary(folder, "0/p", "volScalarField",
                           fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n    {}\n}}",
                                       boundary(box, balance, balance, open ? "type fixedValue; value uniform 0;" : balance)));
@@ -55,11 +57,12 @@ void write_fields(const fs::path& folder, const BoxCase& box) {
 
 void write_constant(const fs::path& folder, const BoxCase& box) {
     write_foam_dictionary(folder, "constant/g", "uniformDimensionedVectorField",
-                     "dimensions [0 1 -2 0 0 0 0];\nvalue " + vector_text(box.gravity) + ";");
+                          "dimensions [0 1 -2 0 0 0 0];\nvalue " + vector_text(box.gravity) + ";");
     write_foam_dictionary(folder, "constant/transportProperties", "dictionary",
-                     fmt::format("transportModel Newtonian;\nnu {:.17g};\nrho {:.17g};", box.viscosity, box.density));
+                          fmt::format("transportModel Newtonian;\nnu {:.17g};\nrho {:.17g};", box.viscosity, box.density));
     write_foam_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
-    write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary", box.motion.empty() ? "dynamicFvMesh staticFvMesh;" : box.motion);
+    write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary",
+                          box.motion.empty() ? "dynamicFvMesh staticFvMesh;" : box.motion);
     if (box.rocks.empty()) return;
     // The DEM's room is the box; its corners lie on the cylinder about the z axis through the origin.
     const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
@@ -70,7 +73,8 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
                     "kernel {{ {} }}\nclosures {{ {} }}\n"
                     "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
                     "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
-                    box.contact, box.walls, radius, box.lower.z(), !box.rock_leaves_at_bottom, box.upper.z(), !box.rock_leaves_at_top, box.kernel, box.closures, box.extra));
+                    box.contact, box.walls, radius, box.lower.z(), !box.rock_leaves_at_bottom, box.upper.z(), !box.rock_leaves_at_top,
+                    box.kernel, box.closures, box.extra));
     // There is no head in the box: its volume is a pin below the floor.
     std::ofstream(folder / "constant/contour.csv") << "z_m,r_m\n-0.02,0.001\n0,0.001\n";
     std::ofstream feed(folder / "constant/rockFeed.csv");
@@ -90,17 +94,19 @@ void write_system(const fs::path& folder, const BoxCase& box) {
                     "adjustTimeStep no;\nmaxCo 0.9;\nmaxDeltaT {:.17g};\nwriteControl adjustable;\nwriteInterval {:.17g};\n"
                     "writeFormat ascii;\nwritePrecision 17;\ntimePrecision 12;\nrunTimeModifiable no;\nfunctions\n{{\n{}\n}}",
                     box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time), box.functions));
-    write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
-                     fmt::format("ddtSchemes {{ default Euler; }}\ngradSchemes {{ default Gauss linear; }}\ndivSchemes\n{{\n    default Gauss "
-                                 "upwind;\n    div(phi,U) Gauss {};\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n"
-                                 "    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}}\nlaplacianSchemes {{ default Gauss linear "
-                                 "corrected; }}\ninterpolationSchemes {{ default linear; }}\nsnGradSchemes {{ default corrected; }}",
-                                 box.convection));
-    write_foam_dictionary(folder, "system/fvSolution", "dictionary",
-                     fmt::format("solvers\n{{\n    \"p.*\" {{ solver GAMG; smoother DICGaussSeidel; tolerance {:g}; relTol 0; }}\n"
-                                 "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }}\n}}\n"
-                                 "PIMPLE {{ nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}",
-                                 box.pressure_tolerance));
+    write_foam_dictionary(
+        folder, "system/fvSchemes", "dictionary",
+        fmt::format("ddtSchemes {{ default Euler; }}\ngradSchemes {{ default Gauss linear; }}\ndivSchemes\n{{\n    default Gauss "
+                    "upwind;\n    div(phi,U) Gauss {};\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n"
+                    "    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}}\nlaplacianSchemes {{ default Gauss linear "
+                    "corrected; }}\ninterpolationSchemes {{ default linear; }}\nsnGradSchemes {{ default corrected; }}",
+                    box.convection));
+    write_foam_dictionary(
+        folder, "system/fvSolution", "dictionary",
+        fmt::format("solvers\n{{\n    \"p.*\" {{ solver GAMG; smoother DICGaussSeidel; tolerance {:g}; relTol 0; }}\n"
+                    "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }}\n}}\n"
+                    "PIMPLE {{ nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}",
+                    box.pressure_tolerance));
 }
 
 }  // namespace
@@ -139,9 +145,10 @@ void write_box_case(const fs::path& folder, const BoxCase& box) {
 }
 
 void decompose(const fs::path& folder, const std::array<int, 3>& parts) {
-    write_foam_dictionary(folder, "system/decomposeParDict", "dictionary",
-                     fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n ({} {} {}); delta 0.001; order xyz; }}",
-                                 parts[0] * parts[1] * parts[2], parts[0], parts[1], parts[2]));
+    write_foam_dictionary(
+        folder, "system/decomposeParDict", "dictionary",
+        fmt::format("numberOfSubdomains {};\nmethod hierarchical;\nhierarchicalCoeffs {{ n ({} {} {}); delta 0.001; order xyz; }}",
+                    parts[0] * parts[1] * parts[2], parts[0], parts[1], parts[2]));
     run_in_case(folder, {"decomposePar"});
 }
 
@@ -239,7 +246,8 @@ std::vector<double> read_field(const fs::path& file, std::size_t cells, std::siz
     const bool uniform = text.compare(text.find_first_not_of(' ', start + std::string("internalField").size()), 7, "uniform") == 0;
     const std::size_t list = uniform ? text.find("uniform", start) + 7 : text.find('(', start) + 1;
     std::string numbers = text.substr(list, end - list);
-    std::replace_if(numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ';'; }, ' ');
+    std::replace_if(
+        numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ';'; }, ' ');
     std::istringstream values(numbers);
     std::vector<double> field;
     for (double value; values >> value;) field.push_back(value);

@@ -32,34 +32,36 @@ struct BoxCase {
     Vec3 lower, upper;           ///< corners [m]
     std::array<int, 3> cells{};  ///< number along x, y, z
     BoxSides sides = BoxSides::closed;
-    double inflow = 0.0;         ///< along z, of a duct [m/s]
-    std::string mesh;            ///< another blockMeshDict than the box's; lower and upper then bound it, its patch rim is what top is
-    std::string motion;          ///< constant/dynamicMeshDict; empty: a still mesh
-    std::string functions;       ///< function objects of controlDict
+    double inflow = 0.0;    ///< along z, of a duct [m/s]
+    std::string mesh;       ///< another blockMeshDict than the box's; lower and upper then bound it, its patch rim is what top is
+    std::string motion;     ///< constant/dynamicMeshDict; empty: a still mesh
+    std::string functions;  ///< function objects of controlDict
     Vec3 gravity{0.0, 0.0, -9.81};
-    double density = 998.2;          ///< [kg/m3]
-    double viscosity = 1.0034e-6;    ///< kinematic [m2/s]
+    double density = 998.2;        ///< [kg/m3]
+    double viscosity = 1.0034e-6;  ///< kinematic [m2/s]
     double end_time = 0.1;
     double time_step = 1e-3;
-    double write_interval = 1e9;     ///< [s]
+    double write_interval = 1e9;       ///< [s]
     double pressure_tolerance = 1e-9;  ///< of the linear solver, without a relative one
     std::vector<FeedRock> rocks;
     std::string convection = "upwind";  ///< scheme of div(phi,U)
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
     std::string closures = "drag brown_lawler; hindrance di_felice; addedMass 0.5;";
-    std::string contact = "youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; "
-                          "timeStepFraction 0.1; maxSpeed 1.5;";
-    std::string walls;               ///< entries of rock.walls; their surfaces must be put into the folder afterwards
-    bool rock_leaves_at_top = false;    ///< the upper side is no wall to rock: it leaves there
-    bool rock_leaves_at_bottom = false; ///< the lower side neither
-    std::string extra;               ///< further sections of couplingProperties
+    std::string contact =
+        "youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; "
+        "timeStepFraction 0.1; maxSpeed 1.5;";
+    std::string walls;                   ///< entries of rock.walls; their surfaces must be put into the folder afterwards
+    bool rock_leaves_at_top = false;     ///< the upper side is no wall to rock: it leaves there
+    bool rock_leaves_at_bottom = false;  ///< the lower side neither
+    std::string extra;                   ///< further sections of couplingProperties
 
     double cell_size() const { return (upper.x() - lower.x()) / cells[0]; }
     std::size_t cell_count() const { return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]; }
 };
 
 /// Writes `body` under OpenFOAM's head into a file of a case. \param kind  dictionary, volScalarField ...
-void write_foam_dictionary(const std::filesystem::path& case_folder, const std::string& name, const std::string& kind, const std::string& body);
+void write_foam_dictionary(const std::filesystem::path& case_folder, const std::string& name, const std::string& kind,
+                           const std::string& body);
 
 /// Writes the case into `folder` (created; must be empty or absent) and makes its mesh with blockMesh.
 void write_box_case(const std::filesystem::path& folder, const BoxCase& box);

@@ -82,8 +82,7 @@ Impact collide(const coupling::DemSettings& settings, const std::vector<Ball>& b
     Room room(settings, balls, rotor_speed);
     liggghts::LiggghtsEngine& engine = room.engine;
     const Ball& first = balls.front();
-    const double mass =
-        4.0 / 3.0 * k_pi * std::pow(first.radius, 3) * (first.density + settings.added_mass * settings.fluid.density);
+    const double mass = 4.0 / 3.0 * k_pi * std::pow(first.radius, 3) * (first.density + settings.added_mass * settings.fluid.density);
     double smallest = first.radius;
     for (const Ball& ball : balls) smallest = std::min(smallest, ball.radius);
     Impact impact;

@@ -54,8 +54,7 @@ Trial run_trial(const fs::path& folder, const CutterOptions& options) {
 
 void show(Verification& verification, const std::string& title, const std::vector<CutterValue>& values, const std::vector<Trial>& trials) {
     Chart chart{title, "core seconds", "distance of the outflow from the finest run, %", {}};
-    ExhibitTable table{
-        fmt::format("Outflow {} below the ring plane: {}", k_top_bin, title), {"value", "core seconds", "outflow, m/s"}, {}};
+    ExhibitTable table{fmt::format("Outflow {} below the ring plane: {}", k_top_bin, title), {"value", "core seconds", "outflow, m/s"}, {}};
     for (std::size_t v = 0; v < values.size(); ++v) {
         const double distance = 100.0 * std::abs(trials[v].error / trials.back().error - 1.0);
         chart.points.push_back({values[v].label, trials[v].core_s, distance, values[v].standard});

@@ -11,8 +11,7 @@ double fall_acceleration(const FallingRock& rock, double slip) {
     const double distance = 1.5 - std::log10(rock.void_fraction * re);
     const double exponent = 1.0 - (3.7 - 0.65 * std::exp(-0.5 * distance * distance));
     // Over the rock's volume: drag area / volume = 3/(2 d).
-    const double drag_force =
-        0.75 / rock.diameter * rock.fluid_density * drag * slip * slip * std::pow(rock.void_fraction, exponent);
+    const double drag_force = 0.75 / rock.diameter * rock.fluid_density * drag * slip * slip * std::pow(rock.void_fraction, exponent);
     return ((rock.density - rock.fluid_density) * rock.gravity - drag_force) / (rock.density + 0.5 * rock.fluid_density);
 }
 

@@ -6,12 +6,12 @@ namespace cutterflow::validation {
 /// A sphere in still water of a given void fraction: weight, buoyancy in pure water, Brown and Lawler's drag, Di Felice's hindrance, added
 /// mass 1/2 (seeds S0-08 to S0-11).
 struct FallingRock {
-    double diameter = 0.01;         ///< [m]
-    double density = 2650.0;        ///< [kg/m3]
-    double void_fraction = 1.0;     ///< [-]
-    double fluid_density = 998.2;   ///< [kg/m3]
-    double viscosity = 1.0034e-6;   ///< kinematic [m2/s]
-    double gravity = 9.81;          ///< [m/s2]
+    double diameter = 0.01;        ///< [m]
+    double density = 2650.0;       ///< [kg/m3]
+    double void_fraction = 1.0;    ///< [-]
+    double fluid_density = 998.2;  ///< [kg/m3]
+    double viscosity = 1.0034e-6;  ///< kinematic [m2/s]
+    double gravity = 9.81;         ///< [m/s2]
 };
 
 /// Acceleration [m/s2] at a slip speed [m/s], downward.

@@ -1,5 +1,6 @@
 #pragma once
-/// \file The smallest case with a sliding interface: two lumps of steel that turn in a cylinder of water (cases/testing/tiny_rotor_mesh.hpp).
+/// \file The smallest case with a sliding interface: two lumps of steel that turn in a cylinder of water
+/// (cases/testing/tiny_rotor_mesh.hpp).
 #include <filesystem>
 #include <string>
 

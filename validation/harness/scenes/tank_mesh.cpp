@@ -27,9 +27,7 @@ public:
         return static_cast<int>(radius_.size()) - 1;
     }
 
-    int vertex(int circle, int k, int end) const {
-        return (end * static_cast<int>(radius_.size()) + circle) * k_corners + k % k_corners;
-    }
+    int vertex(int circle, int k, int end) const { return (end * static_cast<int>(radius_.size()) + circle) * k_corners + k % k_corners; }
 
     std::string vertices() const {
         std::string text;
@@ -70,7 +68,8 @@ public:
     std::string core_ends(int circle) const {
         std::string text;
         for (int end = 0; end < 2; ++end)
-            text += fmt::format("({} {} {} {}) ", vertex(circle, 0, end), vertex(circle, 1, end), vertex(circle, 2, end), vertex(circle, 3, end));
+            text += fmt::format("({} {} {} {}) ", vertex(circle, 0, end), vertex(circle, 1, end), vertex(circle, 2, end),
+                                vertex(circle, 3, end));
         return text;
     }
 
@@ -113,9 +112,8 @@ std::string block_mesh(const TankMesh& tank) {
     const int rim = circles.add(tank.radius, true);
     const int around = tank.cells_around_quarter;
     const int stator_around = tank.interface ? tank.stator_cells_around_quarter : around;
-    std::string patches =
-        fmt::format("rim {{ type patch; faces ( {} ); }}\nends {{ type wall; faces ( {} ); }}\n", circles.side(rim),
-                    circles.core_ends(core) + circles.ends(core, rotor) + circles.ends(stator, rim));
+    std::string patches = fmt::format("rim {{ type patch; faces ( {} ); }}\nends {{ type wall; faces ( {} ); }}\n", circles.side(rim),
+                                      circles.core_ends(core) + circles.ends(core, rotor) + circles.ends(stator, rim));
     if (tank.interface)
         for (const auto& [name, neighbour, circle] :
              {std::tuple("rotor_interface", "stator_interface", rotor), std::tuple("stator_interface", "rotor_interface", stator)})

@@ -14,7 +14,7 @@ struct TankMesh {
     int cells_in_rotor_ring = 4;           ///< along the radius
     int cells_in_stator = 9;               ///< along the radius
     int cells_high = 11;
-    bool interface = true;                 ///< false: one mesh without a sliding interface
+    bool interface = true;  ///< false: one mesh without a sliding interface
 };
 
 /// system/blockMeshDict.

@@ -13,10 +13,10 @@ namespace cutterflow::validation {
 namespace {
 
 constexpr std::array<std::pair<CaseVerdict, const char*>, 5> k_verdicts{{{CaseVerdict::pass, "pass"},
-                                                                     {CaseVerdict::fail, "fail"},
-                                                                     {CaseVerdict::not_converged, "not converged"},
-                                                                     {CaseVerdict::skipped, "skipped"},
-                                                                     {CaseVerdict::reported, "reported"}}};
+                                                                         {CaseVerdict::fail, "fail"},
+                                                                         {CaseVerdict::not_converged, "not converged"},
+                                                                         {CaseVerdict::skipped, "skipped"},
+                                                                         {CaseVerdict::reported, "reported"}}};
 constexpr std::array<std::pair<Rule, const char*>, 5> k_rules{{{Rule::relative, "relative"},
                                                                {Rule::absolute, "absolute"},
                                                                {Rule::at_most, "at most"},
@@ -62,8 +62,8 @@ VerifiedQuantity read_quantity(const nlohmann::json& json) {
 }
 
 UserError not_a_result(const std::string& where, const std::string& what) {
-    return UserError({{where, what, "A result of `cutterflow verify` has every key of docs/design/009-verification.md",
-                       "Run the case again"}});
+    return UserError(
+        {{where, what, "A result of `cutterflow verify` has every key of docs/design/009-verification.md", "Run the case again"}});
 }
 
 }  // namespace
@@ -112,17 +112,10 @@ nlohmann::json quantity_json(const VerifiedQuantity& quantity) {
 nlohmann::json case_json(const VerifiedCase& result) {
     nlohmann::json quantities = nlohmann::json::array();
     for (const VerifiedQuantity& quantity : result.quantities) quantities.push_back(quantity_json(quantity));
-    nlohmann::json json = {{"case", result.name},
-            {"title", result.title},
-            {"class", result.effort},
-            {"verdict", verdict_text(result.verdict())},
-            {"reason", result.reason},
-            {"quantities", quantities},
-            {"core_s", result.core_s},
-            {"wall_s", result.wall_s},
-            {"date", result.date},
-            {"machine", result.machine},
-            {"programs", result.programs}};
+    nlohmann::json json = {
+        {"case", result.name},     {"title", result.title},     {"class", result.effort},     {"verdict", verdict_text(result.verdict())},
+        {"reason", result.reason}, {"quantities", quantities},  {"core_s", result.core_s},    {"wall_s", result.wall_s},
+        {"date", result.date},     {"machine", result.machine}, {"programs", result.programs}};
     if (!result.exhibits.empty()) json["exhibits"] = exhibits_json(result.exhibits);
     return json;
 }

@@ -52,7 +52,7 @@ struct VerifiedCase {
     std::string effort;  ///< fast, standard or long: how much of the case was run
     std::vector<VerifiedQuantity> quantities;
     Exhibits exhibits;
-    std::string reason;             ///< why the case as a whole was skipped or failed; empty otherwise
+    std::string reason;  ///< why the case as a whole was skipped or failed; empty otherwise
     bool failed_as_a_whole = false;
     double core_s = 0.0, wall_s = 0.0;
     std::string date;      ///< UTC, as 2026-01-31 12:34

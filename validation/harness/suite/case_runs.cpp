@@ -124,10 +124,12 @@ void require_usable_folder(const fs::path& folder) {
 void require_no_dearer_results(const std::vector<VerificationCase>& cases, const VerificationSettings& settings) {
     std::vector<Mistake> mistakes;
     for (const VerifiedCase& result : read_verification(settings.folder)) {
-        const bool is_asked_for = std::any_of(cases.begin(), cases.end(), [&](const VerificationCase& one) { return one.name == result.name; });
+        const bool is_asked_for =
+            std::any_of(cases.begin(), cases.end(), [&](const VerificationCase& one) { return one.name == result.name; });
         if (is_asked_for && effort_of(result) > static_cast<int>(settings.effort))
             mistakes.push_back({(settings.folder / (result.name + ".json")).string(), fmt::format("is a result of class {}", result.effort),
-                                fmt::format("A run of class {} does not replace it", effort_text(settings.effort)), "Name another folder with -o"});
+                                fmt::format("A run of class {} does not replace it", effort_text(settings.effort)),
+                                "Name another folder with -o"});
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
@@ -157,8 +159,7 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     result.core_s = ended.core_s;
     result.wall_s = ended.wall_s;
     if (ended.exit_code == static_cast<int>(ExitCode::user_input)) throw UserError({failure_of(command, ended)});
-    const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) ||
-                        ended.exit_code == static_cast<int>(ExitCode::check_failed);
+    const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) || ended.exit_code == static_cast<int>(ExitCode::check_failed);
     if (!judged || !fs::exists(written)) {
         result.failed_as_a_whole = true;
         result.reason = judged ? fmt::format("{} ended without having checked anything", one.name) : failure_of(command, ended).text();
@@ -239,17 +240,15 @@ std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& 
     Progress progress("verify");
     for (std::size_t i = 0; i < cases.size(); ++i) {
         progress.update(done / total, fmt::format("{} of {} cases, {}", i, cases.size(), cases[i].name));
-        const auto kept = std::find_if(earlier.begin(), earlier.end(), [&](const VerifiedCase& result) {
-            return is_finished(result, cases[i], places, settings.effort);
-        });
+        const auto kept = std::find_if(earlier.begin(), earlier.end(),
+                                       [&](const VerifiedCase& result) { return is_finished(result, cases[i], places, settings.effort); });
         if (kept != earlier.end()) {
             say(fmt::format("{}: done before", cases[i].name));
             results.push_back(*kept);
         } else {
             results.push_back(run_case(cases[i], places, settings));
             write_file(settings.folder / (cases[i].name + ".json"), case_json(results.back()).dump(2) + "\n");
-            say(fmt::format("{}: {} in {}", cases[i].name, verdict_text(results.back().verdict()),
-                            duration_text(results.back().wall_s)));
+            say(fmt::format("{}: {} in {}", cases[i].name, verdict_text(results.back().verdict()), duration_text(results.back().wall_s)));
         }
         done += costs[i];
     }

@@ -11,7 +11,6 @@
 
 namespace cutterflow::validation {
 
-
 /// One folder of validation/cases, as the head of its README.md tells it.
 struct VerificationCase {
     std::string name;                ///< of the folder and of the program
@@ -46,14 +45,12 @@ struct VerificationSettings {
 /// \throws UserError    when the folder holds something else
 /// \throws Interrupted  when the user stops it; what is finished is kept
 std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& cases, const VerificationPlaces& places,
-                                                     const VerificationSettings& settings,
-                                                     const std::function<void(const std::string&)>& say);
+                                           const VerificationSettings& settings, const std::function<void(const std::string&)>& say);
 
 /// The results that lie in a folder as <case>.json, by name of the case; empty when there is no such folder.
 std::vector<VerifiedCase> read_verification(const std::filesystem::path& folder);
 
 /// `newer` in the place of what `older` has of the same cases, unless that was run with more effort; by name.
-std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& older,
-                                                        const std::vector<VerifiedCase>& newer);
+std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& older, const std::vector<VerifiedCase>& newer);
 
 }  // namespace cutterflow::validation

@@ -41,7 +41,8 @@ std::string log_tics(double low, double high) {
 
 nlohmann::json exhibits_json(const Exhibits& exhibits) {
     nlohmann::json tables = nlohmann::json::array(), charts = nlohmann::json::array();
-    for (const ExhibitTable& table : exhibits.tables) tables.push_back({{"title", table.title}, {"columns", table.columns}, {"rows", table.rows}});
+    for (const ExhibitTable& table : exhibits.tables)
+        tables.push_back({{"title", table.title}, {"columns", table.columns}, {"rows", table.rows}});
     for (const Chart& chart : exhibits.charts) {
         nlohmann::json points = nlohmann::json::array();
         for (const ChartPoint& point : chart.points)
@@ -87,10 +88,11 @@ PlotScript chart_plot(const Chart& chart, const std::string& name) {
     // At least half a decade of error, so that points that agree are seen to.
     const double middle = std::sqrt(low[1] * high[1]), reach = std::max(std::sqrt(high[1] / low[1]) * 1.3, 1.8);
     plot.commands = data_block("points", rows);
-    plot.commands += fmt::format("set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xlabel {}\nset ylabel {}\n"
-                                 "set xtics {}\nset ytics {}\nset format \"%g\"\nset key outside right top Left reverse\nplot {}\n",
-                                 low[0] / 1.5, high[0] * 1.5, middle / reach, middle * reach, quoted(chart.x_axis), quoted(chart.y_axis),
-                                 log_tics(low[0] / 1.5, high[0] * 1.5), log_tics(middle / reach, middle * reach), fmt::join(series, ", "));
+    plot.commands += fmt::format(
+        "set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xlabel {}\nset ylabel {}\n"
+        "set xtics {}\nset ytics {}\nset format \"%g\"\nset key outside right top Left reverse\nplot {}\n",
+        low[0] / 1.5, high[0] * 1.5, middle / reach, middle * reach, quoted(chart.x_axis), quoted(chart.y_axis),
+        log_tics(low[0] / 1.5, high[0] * 1.5), log_tics(middle / reach, middle * reach), fmt::join(series, ", "));
     return plot;
 }
 

@@ -116,7 +116,8 @@ std::vector<std::string> notes(const VerifiedCase& result, const Markup& markup)
         std::vector<std::string> names;
         for (const VerifiedQuantity& other : result.quantities)
             if (other.note == q.note) names.push_back(other.name);
-        const std::string of = names.size() > 3 ? fmt::format("{} to {}", names.front(), names.back()) : fmt::format("{}", fmt::join(names, "; "));
+        const std::string of =
+            names.size() > 3 ? fmt::format("{} to {}", names.front(), names.back()) : fmt::format("{}", fmt::join(names, "; "));
         lines.push_back(fmt::format("{}: {}", markup.escape(of), markup.escape(q.note)));
     }
     return lines;
@@ -226,8 +227,9 @@ std::string verification_markdown(const std::vector<VerifiedCase>& results, cons
                             return text;
                         },
                         [](CaseVerdict verdict) {
-                            return verdict == CaseVerdict::fail || verdict == CaseVerdict::not_converged ? "**" + verdict_text(verdict) + "**"
-                                                                                                 : verdict_text(verdict);
+                            return verdict == CaseVerdict::fail || verdict == CaseVerdict::not_converged
+                                       ? "**" + verdict_text(verdict) + "**"
+                                       : verdict_text(verdict);
                         },
                         [](const std::string& text, const std::string& target) { return fmt::format("[{}]({})", text, target); }};
     std::string text = fmt::format("# Validation\n\n{}\n\n{}\n\n", k_intro, count_text(results));
@@ -250,9 +252,9 @@ std::string verification_markdown(const std::vector<VerifiedCase>& results, cons
 std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link, const std::filesystem::path& scratch) {
     const Markup markup{html::escape,
                         [](CaseVerdict verdict) {
-                            const char* css = verdict == CaseVerdict::pass                                              ? "passed"
+                            const char* css = verdict == CaseVerdict::pass                                            ? "passed"
                                               : verdict == CaseVerdict::fail || verdict == CaseVerdict::not_converged ? "failed"
-                                                                                                                    : "";
+                                                                                                                      : "";
                             return fmt::format("<span class=\"{}\">{}</span>", css, verdict_text(verdict));
                         },
                         [](const std::string& text, const std::string& target) {
@@ -266,9 +268,9 @@ std::string verification_page(const std::vector<VerifiedCase>& results, const st
     body += html::section("What falls short", (short_of.empty() ? "<p>Nothing of what is listed here.</p>" : html_list(short_of)) +
                                                   (aims.empty() ? "" : "<p>Passed, but not as good as aimed at:</p>" + html_list(aims)));
     for (const VerifiedCase& result : results) {
-        std::string content = fmt::format("<p id=\"{}\">{}. {}. {}</p>", result.name, html::escape(result.title),
-                                          markup.link("How it is set up", link + result.name + "/README.md"),
-                                          html::escape(run_text(result)));
+        std::string content =
+            fmt::format("<p id=\"{}\">{}. {}. {}</p>", result.name, html::escape(result.title),
+                        markup.link("How it is set up", link + result.name + "/README.md"), html::escape(run_text(result)));
         if (!result.quantities.empty()) content += html::table(k_quantity_header, quantity_rows(result, markup), true);
         content += exhibits_html(result, scratch);
         content += html_list(notes(result, markup));

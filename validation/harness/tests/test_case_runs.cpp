@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "validation/harness/suite/case_runs.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "validation/harness/suite/case_runs.hpp"
 
 namespace cutterflow::validation {
 namespace {
@@ -16,7 +16,8 @@ using ::testing::HasSubstr;
 
 std::string quantity(const std::string& verdict) {
     return R"({"quantity":"speed","unit":"m/s","reference":1.0,"value":1.1,"error":0.1,"tolerance":0.2,"aim":0.05,)"
-           R"("rule":"relative","verdict":")" + verdict + R"(","source":"Legendre2006","note":"a cause"})";
+           R"("rule":"relative","verdict":")" +
+           verdict + R"(","source":"Legendre2006","note":"a cause"})";
 }
 
 class VerificationRun : public ::testing::Test {
@@ -135,8 +136,8 @@ TEST_F(VerificationRun, refuses_what_a_case_refuses_and_passes_over_files_of_oth
 
 TEST_F(VerificationRun, resume_leaves_the_begun_work_of_cases_that_go_on_with_it) {
     // Each start finds one file more, as long as it may go on.
-    const std::string script = fmt::format("touch $2/part_$(ls $2 | grep -c part)\nls $2 | grep -c part > {}/$(basename $2).parts\nkill -9 $$",
-                                           root_.string());
+    const std::string script =
+        fmt::format("touch $2/part_$(ls $2 | grep -c part)\nls $2 | grep -c part > {}/$(basename $2).parts\nkill -9 $$", root_.string());
     add_case("goes_on", script, "- class: fast\n- resumes: yes\n");
     add_case("begins_anew", script);
     const auto parts = [&](const std::string& name) { return read_file(root_ / (name + ".parts")); };

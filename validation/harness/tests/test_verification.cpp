@@ -48,8 +48,8 @@ TEST(VerificationRecord, judges_each_rule_at_its_tolerance) {
         record.not_converged("n", "m", about);
     });
     EXPECT_EQ(code, 4);
-    EXPECT_THAT(verdicts(), ::testing::ElementsAre("pass", "fail", "fail", "pass", "fail", "pass", "fail", "pass", "fail", "reported", "fail",
-                                                   "fail", "fail", "not converged"));
+    EXPECT_THAT(verdicts(), ::testing::ElementsAre("pass", "fail", "fail", "pass", "fail", "pass", "fail", "pass", "fail", "reported",
+                                                   "fail", "fail", "fail", "not converged"));
 }
 
 TEST(VerificationRecord, ends_as_the_case_did) {

@@ -63,11 +63,11 @@ fs::path prepare(const fs::path& run, const Variant& variant) {
     set_entry(folder, "writeControl", "runTime");
     set_entry(folder, "writeInterval", "1000");
     if (variant.ranks > 1) {
-        require_child(meshing::foam_command(folder, "foamDictionary",
-                                   {"-entry", "numberOfSubdomains", "-set", std::to_string(variant.ranks), "system/decomposeParDict"}));
-        require_child(
-            meshing::foam_command(folder, "foamDictionary",
-                         {"-entry", "hierarchicalCoeffs/n", "-set", fmt::format("({} 1 1)", variant.ranks), "system/decomposeParDict"}));
+        require_child(meshing::foam_command(
+            folder, "foamDictionary", {"-entry", "numberOfSubdomains", "-set", std::to_string(variant.ranks), "system/decomposeParDict"}));
+        require_child(meshing::foam_command(
+            folder, "foamDictionary",
+            {"-entry", "hierarchicalCoeffs/n", "-set", fmt::format("({} 1 1)", variant.ranks), "system/decomposeParDict"}));
         require_child(meshing::foam_command(folder, "decomposePar", {"-force"}));
     }
     return folder;

@@ -48,8 +48,8 @@ AxisCheck check_axis(int index) {
     const Vec3 shift =
         k_largest_shift * radius * (2.0 * Vec3(family_share(index, 11), family_share(index, 12), family_share(index, 10)) - Vec3::Ones());
     Eigen::Affine3d motion(Eigen::Translation3d(shift) * Eigen::AngleAxisd(turn, about));
-    const geometry::TriangleSurface file =
-        geometry::transformed(roughened(geometry::generate_crown_cutter(check.head), check.noise * radius, static_cast<unsigned>(index)), motion);
+    const geometry::TriangleSurface file = geometry::transformed(
+        roughened(geometry::generate_crown_cutter(check.head), check.noise * radius, static_cast<unsigned>(index)), motion);
 
     const std::clock_t begin = std::clock();
     const geometry::Head found = geometry::understand_head(file);
@@ -61,7 +61,8 @@ AxisCheck check_axis(int index) {
     check.offset_error = (offset - direction * offset.dot(direction)).norm() / radius;
     check.radius_error = std::abs(found.ring_radius / radius - 1.0);
     check.blades_found = found.symmetry.blade_count;
-    check.carrying_found = found.carrying.sense == (check.head.blade_wrap > 0.0 ? geometry::CarryingSense::positive : geometry::CarryingSense::negative);
+    check.carrying_found =
+        found.carrying.sense == (check.head.blade_wrap > 0.0 ? geometry::CarryingSense::positive : geometry::CarryingSense::negative);
     return check;
 }
 
