@@ -89,7 +89,7 @@ std::string machine_text() {
             model = line.substr(line.find(':') + 2);
             break;
         }
-    return fmt::format("{}, {} cores", model, available_cores());
+    return fmt::format("{}, {} cores", model, cases::available_cores());
 }
 
 std::string date_text() {
@@ -112,7 +112,7 @@ int effort_of(const VerifiedCase& result) {
 
 /// The folder is new, empty, or one of ours.
 void require_usable_folder(const fs::path& folder) {
-    require_openfoam_path(fs::absolute(folder));
+    cases::require_openfoam_path(fs::absolute(folder));
     if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / k_mark))
         throw UserError(fmt::format("{} holds something else already", folder.string()), "Nothing is overwritten",
                         "Name another folder with -o");

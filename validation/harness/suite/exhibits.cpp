@@ -67,8 +67,8 @@ Exhibits exhibits_from_json(const nlohmann::json& json) {
     return exhibits;
 }
 
-PlotScript chart_plot(const Chart& chart, const std::string& name) {
-    PlotScript plot{name, k_width, k_height, {}};
+postproc::PlotScript chart_plot(const Chart& chart, const std::string& name) {
+    postproc::PlotScript plot{name, k_width, k_height, {}};
     const double least_x = smallest_positive(chart.points, &ChartPoint::x), least_y = smallest_positive(chart.points, &ChartPoint::y);
     std::vector<std::vector<std::string>> rows;
     std::vector<std::string> series;
@@ -83,15 +83,16 @@ PlotScript chart_plot(const Chart& chart, const std::string& name) {
         rows.push_back({fmt::format("{:.6g}", place[0]), fmt::format("{:.6g}", place[1])});
         series.push_back(fmt::format("$points every ::{0}::{0} using 1:2 with points pt {1} ps {2} lc rgb \"{3}\" title {4}", i,
                                      point.standard ? 7 : k_marks[i % k_marks.size()], point.standard ? 1.1 : 0.8,
-                                     point.standard ? palette::spilled : palette::outflow, quoted(label_text(point))));
+                                     point.standard ? postproc::palette::spilled : postproc::palette::outflow,
+                                     postproc::quoted(label_text(point))));
     }
     // At least half a decade of error, so that points that agree are seen to.
     const double middle = std::sqrt(low[1] * high[1]), reach = std::max(std::sqrt(high[1] / low[1]) * 1.3, 1.8);
-    plot.commands = data_block("points", rows);
+    plot.commands = postproc::data_block("points", rows);
     plot.commands += fmt::format(
         "set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xlabel {}\nset ylabel {}\n"
         "set xtics {}\nset ytics {}\nset format \"%g\"\nset key outside right top Left reverse\nplot {}\n",
-        low[0] / 1.5, high[0] * 1.5, middle / reach, middle * reach, quoted(chart.x_axis), quoted(chart.y_axis),
+        low[0] / 1.5, high[0] * 1.5, middle / reach, middle * reach, postproc::quoted(chart.x_axis), postproc::quoted(chart.y_axis),
         log_tics(low[0] / 1.5, high[0] * 1.5), log_tics(middle / reach, middle * reach), fmt::join(series, ", "));
     return plot;
 }

@@ -185,15 +185,17 @@ std::string exhibits_markdown(const Exhibits& exhibits, const Markup& markup) {
 
 std::string exhibits_html(const VerifiedCase& result, const std::filesystem::path& scratch) {
     std::string text;
-    const bool draws = gnuplot_is_installed();
+    const bool draws = postproc::gnuplot_is_installed();
     for (ExhibitTable table : draws ? result.exhibits.tables : tables_of(result.exhibits)) {
-        for (auto& row : table.rows) std::transform(row.begin(), row.end(), row.begin(), html::escape);
-        text += fmt::format("<h3>{}</h3>\n{}", html::escape(table.title), html::table(table.columns, table.rows, !has_sentences(table)));
+        for (auto& row : table.rows) std::transform(row.begin(), row.end(), row.begin(), postproc::html::escape);
+        text += fmt::format("<h3>{}</h3>\n{}", postproc::html::escape(table.title),
+                            postproc::html::table(table.columns, table.rows, !has_sentences(table)));
     }
     std::string figures;
     for (std::size_t i = 0; draws && i < result.exhibits.charts.size(); ++i) {
         const Chart& chart = result.exhibits.charts[i];
-        figures += html::figure(draw_svg(chart_plot(chart, fmt::format("{}_{}", result.name, i)), scratch), html::escape(chart.title));
+        figures += postproc::html::figure(postproc::draw_svg(chart_plot(chart, fmt::format("{}_{}", result.name, i)), scratch),
+                                          postproc::html::escape(chart.title));
     }
     return figures.empty() ? text : text + "<div class=\"figures\">" + figures + "</div>\n";
 }
@@ -250,7 +252,7 @@ std::string verification_markdown(const std::vector<VerifiedCase>& results, cons
 }
 
 std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link, const std::filesystem::path& scratch) {
-    const Markup markup{html::escape,
+    const Markup markup{postproc::html::escape,
                         [](CaseVerdict verdict) {
                             const char* css = verdict == CaseVerdict::pass                                            ? "passed"
                                               : verdict == CaseVerdict::fail || verdict == CaseVerdict::not_converged ? "failed"
@@ -258,25 +260,26 @@ std::string verification_page(const std::vector<VerifiedCase>& results, const st
                             return fmt::format("<span class=\"{}\">{}</span>", css, verdict_text(verdict));
                         },
                         [](const std::string& text, const std::string& target) {
-                            return fmt::format("<a href=\"{}\">{}</a>", target, html::escape(text));
+                            return fmt::format("<a href=\"{}\">{}</a>", target, postproc::html::escape(text));
                         }};
     std::string body = fmt::format("<header><h1>Validation</h1><p class=\"operating\">{}</p></header>\n<p class=\"scope\">{}</p>\n",
-                                   html::escape(count_text(results)), without_backticks(html::escape(k_intro)));
-    body += html::table(k_case_header, case_rows(results, markup), false);
+                                   postproc::html::escape(count_text(results)), without_backticks(postproc::html::escape(k_intro)));
+    body += postproc::html::table(k_case_header, case_rows(results, markup), false);
     const std::vector<std::string> short_of = shortfalls(results, markup);
     const std::vector<std::string> aims = missed_aims(results, markup);
-    body += html::section("What falls short", (short_of.empty() ? "<p>Nothing of what is listed here.</p>" : html_list(short_of)) +
-                                                  (aims.empty() ? "" : "<p>Passed, but not as good as aimed at:</p>" + html_list(aims)));
+    body += postproc::html::section("What falls short",
+                                    (short_of.empty() ? "<p>Nothing of what is listed here.</p>" : html_list(short_of)) +
+                                        (aims.empty() ? "" : "<p>Passed, but not as good as aimed at:</p>" + html_list(aims)));
     for (const VerifiedCase& result : results) {
         std::string content =
-            fmt::format("<p id=\"{}\">{}. {}. {}</p>", result.name, html::escape(result.title),
-                        markup.link("How it is set up", link + result.name + "/README.md"), html::escape(run_text(result)));
-        if (!result.quantities.empty()) content += html::table(k_quantity_header, quantity_rows(result, markup), true);
+            fmt::format("<p id=\"{}\">{}. {}. {}</p>", result.name, postproc::html::escape(result.title),
+                        markup.link("How it is set up", link + result.name + "/README.md"), postproc::html::escape(run_text(result)));
+        if (!result.quantities.empty()) content += postproc::html::table(k_quantity_header, quantity_rows(result, markup), true);
         content += exhibits_html(result, scratch);
         content += html_list(notes(result, markup));
-        body += html::section(result.name, content);
+        body += postproc::html::section(result.name, content);
     }
-    return html::document("Validation", "<div class=\"verification\">" + body + "</div>", "");
+    return postproc::html::document("Validation", "<div class=\"verification\">" + body + "</div>", "");
 }
 
 }  // namespace cutterflow::validation
