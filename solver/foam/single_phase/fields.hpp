@@ -1,0 +1,15 @@
+#pragma once
+/// \file Fields that the stages of the fluid solver make. Only for .cpp files of this folder.
+#include "volFields.H"
+
+namespace cutterflow::foam {
+
+/// Of a field that is neither read, written nor found by name.
+inline Foam::IOobject unregistered(const Foam::word& name, const Foam::fvMesh& mesh) {
+    return Foam::IOobject(name, mesh.time().timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false);
+}
+
+/// Rate at which cells grow [1/s]: 0 on a mesh that is still, rounding errors on one that turns.
+Foam::tmp<Foam::volScalarField::Internal> growth_rate(const Foam::fvMesh& mesh);
+
+}  // namespace cutterflow::foam

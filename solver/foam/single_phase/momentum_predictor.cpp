@@ -1,0 +1,35 @@
+#include "solver/foam/single_phase/cutter_fluid.hpp"
+#include "solver/foam/single_phase/fields.hpp"
+
+#include "fvc.H"
+#include "fvm.H"
+
+namespace cutterflow::foam {
+
+using namespace Foam;
+
+tmp<fvVectorMatrix> CutterFluid::momentum_matrix() {
+    tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) +
+                               viscous_matrix());
+    if (rock_ == Rock::present) add_exchange(matrix.ref());
+    matrix.ref().relax();
+    return matrix;
+}
+
+/// -div(alpha tau). The viscosity weighted with alpha carries the plain viscosity's name, so that ordinary fvSchemes hold for it.
+tmp<fvVectorMatrix> CutterFluid::viscous_matrix() {
+    const volScalarField nuEff("nuEff", alpha_ * turbulence_->nuEff());
+    return -fvc::div(nuEff * dev2(T(fvc::grad(U_)))) - fvm::laplacian(nuEff, U_);
+}
+
+void CutterFluid::add_exchange(fvVectorMatrix& momentum) {
+    momentum += inertia_ * (fvm::ddt(U_) + fvm::div(phi_, U_) - fvm::Sp(growth_rate(mesh_) + fvc::div(phi_)().internalField(), U_));
+    momentum += fvm::Sp(drag_rate_, U_);
+    momentum -= explicit_source_ + drag_rate_ * U_.oldTime().internalField() + inertia_.internalField() * DuDt_.oldTime().internalField();
+}
+
+void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {
+    if (pimple_.momentumPredictor()) solve(momentum == -fvc::grad(p_));
+}
+
+}  // namespace cutterflow::foam

@@ -1,0 +1,113 @@
+#include "solver/foam/single_phase/cutter_fluid.hpp"
+
+#include "adjustPhi.H"
+#include "constrainHbyA.H"
+#include "constrainPressure.H"
+#include "cyclicAMIFvPatch.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
+#include "fvc.H"
+#include "fvm.H"
+
+namespace cutterflow::foam {
+
+using namespace Foam;
+
+void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
+    const volScalarField rAU(1.0 / momentum.A());
+    volVectorField HbyA(constrainHbyA(rAU * momentum.H(), U_, p_));
+    surfaceScalarField phiHbyA("phiHbyA", predicted_flux(HbyA, rAU));
+    close_domain(phiHbyA);
+    const dimensionedScalar surplus(domain_surplus(phiHbyA));
+
+    tmp<volScalarField> rAtU(rAU);
+    if (pimple_.consistent()) {
+        rAtU = 1.0 / max(1.0 / rAU - momentum.H1(), 0.1 / rAU);
+        phiHbyA += fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
+        HbyA -= (rAU - rAtU()) * fvc::grad(p_);
+    }
+    if (rock_ == Rock::present) add_wall_forces(phiHbyA, rAtU());
+    constrainPressure(p_, U_, phiHbyA, rAtU());
+
+    const surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
+    close_interface(phiHbyA, alpha_rAtUf);
+    const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * phiHbyA)().internalField() - surplus);
+    while (pimple_.correctNonOrthogonal()) {
+        fvScalarMatrix pressure(fvm::laplacian(alpha_rAtUf, p_));
+        pressure -= outflow;
+        pressure.setReference(p_ref_cell_, p_ref_value_);
+        pressure.solve(mesh_.solver(p_.select(pimple_.finalInnerIter())));
+        if (pimple_.finalNonOrthogonalIter()) phi_ = phiHbyA - pressure.flux() / alphaf_;
+    }
+    report_continuity();
+    p_.relax();
+    U_ = HbyA - rAtU * fvc::grad(p_);
+    U_.correctBoundaryConditions();
+    fvc::correctUf(Uf_, U_, phi_);
+    fvc::makeRelative(phi_, U_);
+    alphaPhi_ = alphaf_ * phi_;
+}
+
+tmp<surfaceScalarField> CutterFluid::predicted_flux(const volVectorField& HbyA, const volScalarField& rAU) const {
+    if (rock_ == Rock::absent) return fvc::flux(HbyA) + fvc::interpolate(rAU) * fvc::ddtCorr(U_, phi_, Uf_);
+    return fvc::flux(HbyA) + fvc::interpolate(rAU * (alpha_.oldTime() + inertia_)) * fvc::ddtCorr(U_, phi_, Uf_);
+}
+
+/// Where the pressure's gradient at a wall follows from the predicted flux it must balance what rock beside the wall puts on the fluid.
+void CutterFluid::add_wall_forces(surfaceScalarField& flux, const volScalarField& rAU) const {
+    forAll(p_.boundaryField(), patch) {
+        if (!isA<fixedFluxPressureFvPatchScalarField>(p_.boundaryField()[patch])) continue;
+        const vectorField force(mesh_.boundary()[patch].patchInternalField(explicit_source_.field()));
+        flux.boundaryFieldRef()[patch] += rAU.boundaryField()[patch] * (force & mesh_.Sf().boundaryField()[patch]);
+    }
+}
+
+/// Where pressure is fixed nowhere, outflow is scaled to inflow.
+void CutterFluid::close_domain(surfaceScalarField& flux) {
+    if (!p_.needReference()) return;
+    fvc::makeRelative(flux, U_);
+    flux *= alphaf_;
+    adjustPhi(flux, U_, p_);
+    flux /= alphaf_;
+    fvc::makeAbsolute(flux, U_);
+}
+
+/// The two sides of the sliding interface are polygons of their own, so that what leaves one is not quite what enters the other. Half of
+/// the difference, shared out by area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last
+/// pressure.
+void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
+    scalar difference = 0.0, area = 0.0;
+    for (const label patch : interface_patches(mesh_)) {
+        const scalarField& size = mesh_.magSf().boundaryField()[patch];
+        const scalarField gradient(p_.boundaryField()[patch].snGrad(mesh_.nonOrthDeltaCoeffs().boundaryField()[patch]));
+        difference +=
+            sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
+        area += sum(size);
+    }
+    reduce(difference, sumOp<scalar>());
+    reduce(area, sumOp<scalar>());
+    for (const label patch : interface_patches(mesh_))
+        flux.boundaryFieldRef()[patch] -= difference / area * mesh_.magSf().boundaryField()[patch] / alphaf_.boundaryField()[patch];
+}
+
+/// What is left in a closed domain's sum of continuity [1/s] (rounding), which would all go to the pressure's reference cell; 0 in an open
+/// one. To be asked before forces at walls enter the flux: pressure balances those there.
+dimensionedScalar CutterFluid::domain_surplus(const surfaceScalarField& flux) const {
+    if (!p_.needReference()) return dimensionedScalar(dimless / dimTime, Zero);
+    surfaceScalarField through(alphaf_ * flux);
+    for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interface sees to it
+    const volScalarField::Internal outflow(alpha_rate_ + fvc::div(through)().internalField());
+    return outflow.weightedAverage(mesh_.V());
+}
+
+/// Called while phi_ is absolute.
+void CutterFluid::report_continuity() {
+    const scalarField residual(alpha_rate_.field() + fvc::div(alphaf_ * phi_)().primitiveField());
+    const scalarField& volume = mesh_.V().field();
+    const scalar scale = time_.deltaTValue() / gSum(volume);
+    const scalar global = scale * gSum(residual * volume);
+    continuity_cumulative_ += global;
+    Info << "time step continuity errors : sum local = " << scale * gSum(mag(residual) * volume) << ", global = " << global
+         << ", cumulative = " << continuity_cumulative_ << endl;
+}
+
+}  // namespace cutterflow::foam
