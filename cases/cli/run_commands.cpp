@@ -115,6 +115,7 @@ struct ReportOptions {
     std::string folder;
     std::optional<std::string> adv_points;
     std::optional<int> revolutions;
+    std::optional<std::string> still_folder;
     bool adv_template = false;
     bool json = false;
 };
@@ -135,7 +136,8 @@ void report(const ReportOptions& options) {
     if (options.folder.empty())
         throw UserError("report without a run directory", "A report is made of a run", "Give the directory: cutterflow report DIR");
     if (options.adv_points) return adv_report(options);
-    const postproc::ReportSummary summary = postproc::write_report(options.folder);
+    const postproc::ReportSummary summary =
+        options.still_folder ? postproc::publish_report(options.folder, *options.still_folder) : postproc::write_report(options.folder);
     if (!summary.note.empty()) say(summary.note);
     std::cout << (options.json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string()))
               << std::flush;
@@ -179,6 +181,10 @@ void add_report(CLI::App& app) {
         ->add_option("--revolutions", options->revolutions,
                      "Average over the last so many revolutions of the run; without it all whole ones")
         ->needs(points);
+    command
+        ->add_option("--static", options->still_folder,
+                     "Folder for results.json and a page without scripts, to publish; the run's own report stays as it is")
+        ->excludes(points);
     command->add_flag("--adv-template", options->adv_template, "Print a CSV file of points to fill in");
     command->add_flag("--json", options->json, "Print results.json, or adv.json");
     command->callback([options] { report(*options); });

@@ -101,7 +101,7 @@ void sweep(const SweepOptions& options) {
 
 struct CompareOptions {
     std::vector<std::string> runs;
-    std::optional<std::string> output;
+    std::optional<std::string> output, still_folder;
     bool json = false;
 };
 
@@ -109,6 +109,9 @@ void compare(const CompareOptions& options) {
     const postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
     std::cout << (options.json ? postproc::comparison_json(comparison).dump(2) + "\n" : postproc::comparison_text(comparison));
     if (options.output) say(fmt::format("the page: {}", postproc::write_comparison(comparison, *options.output).string()));
+    if (options.still_folder)
+        say(fmt::format("the page without scripts: {}",
+                        postproc::write_comparison(comparison, *options.still_folder, postproc::PageForm::still).string()));
 }
 
 }  // namespace
@@ -150,6 +153,7 @@ void add_compare(CLI::App& app) {
     const auto options = std::make_shared<CompareOptions>();
     command->add_option("run_directories", options->runs, "Run directories; repeats of one study are taken together")->required();
     command->add_option("-o,--output", options->output, "Folder for the page and comparison.json");
+    command->add_option("--static", options->still_folder, "Folder for comparison.json and a page without scripts, to publish");
     command->add_flag("--json", options->json, "Print comparison.json");
     command->callback([options] { compare(*options); });
 }

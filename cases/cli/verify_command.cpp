@@ -68,13 +68,12 @@ std::string link_to_cases(const fs::path& from) {
 }
 
 /// Results of the folder join those kept in the repository, and its pages are made from all.
-void publish(const std::vector<VerifiedCase>& results, const fs::path& scratch) {
+void publish(const std::vector<VerifiedCase>& results) {
     const fs::path docs = k_docs, kept = docs / k_kept;
     const std::vector<VerifiedCase> all = validation::merged_verification(validation::read_verification(kept), results);
     for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), validation::case_json(result).dump(2) + "\n");
     write_file(docs / "validation.md", validation::verification_markdown(all, link_to_cases(docs)));
-    write_file(kept / "index.html", validation::verification_page(all, link_to_cases(kept), scratch));
-    say(fmt::format("published: {} and {}", (docs / "validation.md").string(), (kept / "index.html").string()));
+    say(fmt::format("published: {}", (docs / "validation.md").string()));
 }
 
 void write_pages(const fs::path& folder, const validation::VerificationPlaces& where) {
@@ -112,7 +111,7 @@ void verify(const VerifyOptions& options) {
     }
     if (options.json) std::cout << rows.dump(2) << std::endl;
     write_pages(options.output, where);
-    if (options.publish) publish(validation::read_verification(options.output), fs::path(options.output) / k_charts);
+    if (options.publish) publish(validation::read_verification(options.output));
     if (!failed.empty())
         throw CheckFailure({"", fmt::format("{} of {} cases did not pass: {}", failed.size(), results.size(), fmt::join(failed, ", ")), "",
                             fmt::format("Their logs and files are in {}", options.output)});

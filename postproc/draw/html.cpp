@@ -199,7 +199,7 @@ std::string document(const std::string& title, const std::string& body, const st
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
-        "img-src data: blob:\">"
+        "img-src 'self' data: blob:\">"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
         "<title>{} – Cutterflow</title><style>{}</style></head><body>\n{}"
         "<footer>Written by Cutterflow on {:%Y-%m-%d %H:%M} UTC. {}</footer>\n"

@@ -34,7 +34,8 @@ std::string section(const std::string& title, const std::string& content);
 /// A box with one number: its label, the value in large letters, a detail; all markup. \param colour  of its upper edge
 std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail);
 
-/// A whole page with the project's style, scripts, time of writing and footer. All three are markup. The page forbids itself any request.
+/// A whole page with the project's style, scripts, time of writing and footer. All three are markup. The page forbids itself any request
+/// but for pictures beside it.
 std::string document(const std::string& title, const std::string& body, const std::string& footer);
 
 }  // namespace cutterflow::postproc::html

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "postproc/draw/html.hpp"
-
 namespace cutterflow::postproc {
 
 using nlohmann::json;
@@ -39,12 +37,6 @@ json curve(const PlotRows& rows, std::size_t x, std::size_t y, const std::string
 
 json axis(const std::string& title) {
     return {{"title", {{"text", title}}}};
-}
-
-std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch_directory) {
-    json layout = plot.layout;
-    layout["height"] = plot.script.height;
-    return html::replaceable(draw_svg(plot.script, scratch_directory), "plot", {{"data", plot.traces}, {"layout", layout}});
 }
 
 }  // namespace cutterflow::postproc

@@ -33,8 +33,4 @@ nlohmann::json curve(const PlotRows& rows, std::size_t x, std::size_t y, const s
 /// An axis of plotly with its title.
 nlohmann::json axis(const std::string& title);
 
-/// A plot as the page shows it: the picture, and what the script draws over it.
-/// \throws ToolError  when gnuplot cannot be started or refuses the script
-std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch_directory);
-
 }  // namespace cutterflow::postproc

@@ -10,8 +10,8 @@
 #include "geometry/base/run_files.hpp"
 #include "postproc/analysis/text.hpp"
 #include "postproc/draw/html.hpp"
+#include "postproc/draw/page.hpp"
 #include "postproc/draw/palette.hpp"
-#include "postproc/draw/plot.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -84,7 +84,7 @@ bool has_pairs(const AdvComparison& comparison, bool inside) {
     return agreement(comparison, inside).count > 0;
 }
 
-std::string plots(const AdvComparison& comparison, const fs::path& scratch) {
+std::string plots(const AdvComparison& comparison, const Page& page) {
     if (!has_pairs(comparison, true) && !has_pairs(comparison, false))
         return "<p class=\"notice\">The file holds no measured velocities: only the model’s stand below.</p>\n";
     if (!gnuplot_is_installed()) return "<p class=\"notice\">Plots are missing: the program gnuplot was not found.</p>\n";
@@ -92,11 +92,10 @@ std::string plots(const AdvComparison& comparison, const fs::path& scratch) {
     for (const bool inside : {true, false})
         if (has_pairs(comparison, inside))
             content += html::figure(
-                draw_plot(scatter_plot(comparison, inside), scratch),
+                page.draw(scatter_plot(comparison, inside)),
                 fmt::format("{} the head. On the line model and measurement agree. Bars: position error and two standard errors of "
                             "the mean in time, root of the sum of squares.",
                             inside ? "Inside" : "Outside"));
-    fs::remove_all(scratch);
     return "<div class=\"figures\">" + content + "</div>\n";
 }
 
@@ -160,7 +159,8 @@ std::string point_table(const AdvComparison& comparison) {
 }  // namespace
 
 fs::path write_adv_report(const AdvComparison& comparison, const fs::path& run_directory) {
-    const fs::path page = run_directory / names::adv_page;
+    const fs::path file = run_directory / names::adv_page;
+    const Page page(file, PageForm::live);
     const std::string title =
         fmt::format("{}: measured and computed velocities", escape(comparison.run.empty() ? "Cutter head" : comparison.run));
     std::string body =
@@ -175,10 +175,10 @@ fs::path write_adv_report(const AdvComparison& comparison, const fs::path& run_d
         "head. Tangential is positive by the right hand about the axis from hub to ring.</p>\n",
         1e3 * comparison.probe.diameter, 1e3 * comparison.probe.length, comparison.revolutions, comparison.revolutions == 1 ? "" : "s",
         1e3 * comparison.probe.position_error);
-    body += plots(comparison, page.parent_path() / "adv_plots.part") + agreement_table(comparison) + point_table(comparison);
+    body += plots(comparison, page) + agreement_table(comparison) + point_table(comparison);
     write_file(run_directory / names::adv_json, adv_json(comparison).dump(2) + "\n");
-    write_file(page, html::document(title, body, fmt::format("The same numbers for programs: adv.json ({}).", k_adv_schema)));
-    return page;
+    page.write(title, body, fmt::format("The same numbers for programs: adv.json ({}).", k_adv_schema));
+    return file;
 }
 
 }  // namespace cutterflow::postproc

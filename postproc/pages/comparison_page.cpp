@@ -91,18 +91,16 @@ std::string studies_table(const Comparison& comparison) {
     return html::scrolling(html::table(settings_header("key", comparison), rows, true));
 }
 
-std::string heads(const Comparison& comparison) {
+std::string heads(const Comparison& comparison, Page& page) {
     std::string content;
-    ViewSurfaces surfaces;
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
         const RunData& run = comparison.runs[comparison.settings[i].runs.front()].run;
-        const HeadPicture head = draw_head(run, surfaces);
+        const HeadPicture head = draw_head_from_side(run, page, fmt::format("head_{}", i + 1));
         const std::string rock = head.rocks_shown > 0
                                      ? fmt::format(" Rock by fate at the end, in true size; {} of {} lie outside the picture.",
                                                    head.rocks_outside_view, head.rocks_shown)
                                      : "";
-        content += html::figure(html::replaceable(head.side_view, "head", head.view),
-                                fmt::format("Setting {}: {}.{}", i + 1, escape(comparison.settings[i].label), rock));
+        content += html::figure(head.markup, fmt::format("Setting {}: {}.{}", i + 1, escape(comparison.settings[i].label), rock));
     }
     const std::string legend = find_quantity(comparison, "ratio") ? html::legend({{palette::spilled, "spilled"},
                                                                                   {palette::in_cutter, "in cutter"},
@@ -112,14 +110,13 @@ std::string heads(const Comparison& comparison) {
     const std::string caption =
         "<p>From the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two "
         "fingers to zoom</span>.</p>";
-    return html::section("The heads and their rock", caption + legend + "<div class=\"figures\">" + content + "</div>") + surfaces.markup();
+    return html::section("The heads and their rock", caption + legend + "<div class=\"figures\">" + content + "</div>");
 }
 
-std::string plots(const Comparison& comparison, const fs::path& scratch) {
+std::string plots(const Comparison& comparison, const Page& page) {
     if (!gnuplot_is_installed()) return "<p class=\"notice\">Plots are missing: the program gnuplot was not found.</p>";
     std::string content;
-    for (const CaptionedPlot& item : comparison_plots(comparison)) content += html::figure(draw_plot(item.plot, scratch), item.caption);
-    fs::remove_all(scratch);
+    for (const CaptionedPlot& item : comparison_plots(comparison)) content += html::figure(page.draw(item.plot), item.caption);
     return "<div class=\"figures\">" + content + "</div>";
 }
 
@@ -141,21 +138,21 @@ bool has_repeats(const Comparison& comparison) {
 
 }  // namespace
 
-fs::path write_comparison(const Comparison& comparison, const fs::path& folder) {
-    const fs::path page = folder / "index.html", document = folder / "comparison.json";
-    if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(document))
-        throw UserError(fmt::format("{} holds files that are not of a comparison", folder.string()), "Nothing is overwritten",
-                        "Name another folder");
+fs::path write_comparison(const Comparison& comparison, const fs::path& folder, PageForm form) {
+    const fs::path file = folder / "index.html", document = folder / "comparison.json";
+    require_own_folder(folder, document.filename());
     fs::create_directories(folder);
+    Page page(file, form);
     const bool with_rock = find_quantity(comparison, "ratio") != nullptr;
     const std::string title = fmt::format("Comparison of {} settings", comparison.settings.size());
-    std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + batches_notice(comparison) + settings_table(comparison);
+    std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + page.how_to_make_live("cutterflow compare RUN... -o FOLDER") +
+                       batches_notice(comparison) + settings_table(comparison);
     body += fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(with_rock)));
     if (with_rock && !has_repeats(comparison))
         body +=
             "<p>No replicate: each setting is one batch. The ranges are bounds by the undecided rock, not intervals; three or more repeats "
             "of a setting give intervals.</p>\n";
-    body += plots(comparison, folder / "plots.part");
+    body += plots(comparison, page);
     body += html::section("The numbers",
                           quantities_table(comparison) +
                               "<p>± half the 95 % interval: Student’s t over repeats for what rock does, batch means in time for the flow. "
@@ -165,12 +162,12 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder) 
     std::vector<fs::path> directories;
     for (const ComparedRun& compared : comparison.runs) directories.push_back(compared.run.directory);
     const std::vector<AdvTrend> velocities = read_adv_trends(directories);
-    body += adv_trend_section(velocities, folder / "plots.part") + heads(comparison);
+    body += adv_trend_section(velocities, folder / "plots.part") + heads(comparison, page);
     nlohmann::json numbers = comparison_json(comparison);
     if (!velocities.empty()) numbers["velocities_at_points"] = adv_trend_json(velocities);
     write_file(document, numbers.dump(2) + "\n");
-    write_file(page, html::document(title, body, fmt::format("The same numbers for programs: comparison.json ({}).", k_comparison_schema)));
-    return page;
+    page.write(title, body, fmt::format("The same numbers for programs: comparison.json ({}).", k_comparison_schema));
+    return file;
 }
 
 }  // namespace cutterflow::postproc

@@ -89,14 +89,13 @@ std::string scale_bar(const View& view, double radius) {
         y - 5.0, y + 5.0, y, 20.0 + length, palette::ink, 20.0 + 0.5 * length, y + 20.0, radius);
 }
 
-std::string picture(const Scene& scene, const View& view, const RunData& run, const std::string& label) {
+std::string picture(const View& view, const RunData& run, const std::string& label, const std::string& address) {
     const double sense = run.loads.number("rotor_angle_rad").back() < 0.0 ? -1.0 : 1.0;
     const double radius = run.contour.ring_radius();
     return fmt::format(
         "<svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"{2}\"><image width=\"{0}\" height=\"{1}\" "
-        "href=\"data:image/png;base64,{3}\"/>{4}{5}</svg>",
-        view.width, view.height, label, base64(png_bytes(render(scene, view))), rotation_arrow(view, 1.18 * radius, sense),
-        scale_bar(view, radius));
+        "href=\"{3}\"/>{4}{5}</svg>",
+        view.width, view.height, label, address, rotation_arrow(view, 1.18 * radius, sense), scale_bar(view, radius));
 }
 
 int count_outside(const std::vector<Sphere>& rocks, const View& view) {
@@ -108,14 +107,20 @@ int count_outside(const std::vector<Sphere>& rocks, const View& view) {
 
 }  // namespace
 
-HeadPicture draw_head(const RunData& run, ViewSurfaces& surfaces) {
+HeadPicture draw_head_from_side(const RunData& run, Page& page, const std::string& name) {
     const Scene scene = scene_of(run);
-    const View side = side_view(run);
-    Scene from_hub = scene;
-    from_hub.ghosts.clear();  // behind the head
-    return {picture(scene, side, run, "Cutter head from the side with rock coloured by fate"),
-            picture(from_hub, axial_view(run), run, "Cutter head from the hub with rock coloured by fate"),
-            head_view(scene, side, surfaces), static_cast<int>(scene.rocks.size()), count_outside(scene.rocks, side)};
+    const View view = side_view(run);
+    const std::string still =
+        picture(view, run, "Cutter head from the side with rock coloured by fate", page.address(render(scene, view), name));
+    return {page.turnable(still, head_view(scene, view, page.surfaces())), static_cast<int>(scene.rocks.size()),
+            count_outside(scene.rocks, view)};
+}
+
+std::string draw_head_from_hub(const RunData& run, const Page& page, const std::string& name) {
+    Scene scene = scene_of(run);
+    scene.ghosts.clear();  // behind the head
+    const View view = axial_view(run);
+    return picture(view, run, "Cutter head from the hub with rock coloured by fate", page.address(render(scene, view), name));
 }
 
 }  // namespace cutterflow::postproc

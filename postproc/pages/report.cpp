@@ -5,6 +5,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/draw/head_series.hpp"
+#include "postproc/draw/page.hpp"
 #include "postproc/pages/figures.hpp"
 #include "postproc/pages/report_page.hpp"
 #include "postproc/pages/velocity_figures.hpp"
@@ -40,31 +41,43 @@ std::vector<Plot> plots_of(const Results& results, const RunData& run) {
     return plots;
 }
 
-PageFigures draw_figures(const Results& results, const RunData& run, const fs::path& scratch) {
-    PageFigures figures;
-    figures.head = draw_head(run, figures.surfaces);
+PageFigures draw_figures(const Results& results, const RunData& run, Page& page) {
+    PageFigures figures{{}, draw_head_from_side(run, page, "head_side"), draw_head_from_hub(run, page, "head_axial"), ""};
     if (!gnuplot_is_installed()) {
         figures.note =
             "Plots are missing: the program gnuplot was not found. Install it (Debian: apt-get install gnuplot-nox) and make the "
             "report again; the tables below hold the same numbers.";
         return figures;
     }
-    for (const Plot& plot : plots_of(results, run)) figures.plots[plot.script.name] = draw_plot(plot, scratch);
-    fs::remove_all(scratch);
+    for (const Plot& plot : plots_of(results, run)) figures.plots[plot.script.name] = page.draw(plot);
     return figures;
+}
+
+/// Writes results.json and the page.
+ReportSummary write_files(const RunData& run, const fs::path& results_file, const fs::path& page_file, PageForm form) {
+    ReportSummary summary{results_file, page_file, compute_results(run), ""};
+    write_file(summary.results_file, results_json(summary.results, run).dump(2) + "\n");
+    Page page(summary.page_file, form);
+    const PageFigures figures = draw_figures(summary.results, run, page);
+    summary.note = figures.note;
+    write_report_page(page, summary.results, run, figures);
+    return summary;
 }
 
 }  // namespace
 
 ReportSummary write_report(const fs::path& run_directory) {
-    const RunData run = read_run(run_directory);
-    ReportSummary summary{run_directory / names::results_json, run_directory / names::report_page, compute_results(run), ""};
-    write_file(summary.results_file, results_json(summary.results, run).dump(2) + "\n");
-    const PageFigures figures = draw_figures(summary.results, run, summary.page_file.parent_path() / "plots.part");
-    summary.note = figures.note;
-    write_file(summary.page_file, report_page(summary.results, run, figures));
+    const ReportSummary summary =
+        write_files(read_run(run_directory), run_directory / names::results_json, run_directory / names::report_page, PageForm::live);
     write_head_series(run_directory);
     return summary;
+}
+
+ReportSummary publish_report(const fs::path& run_directory, const fs::path& folder) {
+    const fs::path results = fs::path(names::results_json).filename(), page = fs::path(names::report_page).filename();
+    const RunData run = read_run(run_directory);
+    require_own_folder(folder, results);
+    return write_files(run, folder / results, folder / page, PageForm::still);
 }
 
 }  // namespace cutterflow::postproc

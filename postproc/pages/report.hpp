@@ -21,4 +21,8 @@ struct ReportSummary {
 /// \throws ToolError     when gnuplot is there and fails
 ReportSummary write_report(const std::filesystem::path& run_directory);
 
+/// The same for publishing: results.json and a still page with its pictures in `folder`; the run's own report stays as it is.
+/// \throws UserError  also when the folder holds something else already
+ReportSummary publish_report(const std::filesystem::path& run_directory, const std::filesystem::path& folder);
+
 }  // namespace cutterflow::postproc

@@ -211,7 +211,6 @@ std::string answer_section(const Results& results, const RunData& run, const Pag
 }
 
 std::string head_figure(const Results& results, const PageFigures& figures) {
-    if (figures.head.side_view.empty()) return "";
     std::string caption =
         "Left: from the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or "
         "two fingers to zoom</span>. Right: from the hub along the axis, "
@@ -221,8 +220,7 @@ std::string head_figure(const Results& results, const PageFigures& figures) {
                                figures.head.rocks_outside_view, figures.head.rocks_shown);
         caption = fate_legend(results.spillage->fates) + caption;
     }
-    return html::figure(html::replaceable(figures.head.side_view, "head", figures.head.view) + figures.head.axial_view, caption,
-                        "head wide");
+    return html::figure(figures.head.markup + figures.head_from_hub, caption, "head wide");
 }
 
 std::string velocity_figures(const RunData& run, const PageFigures& figures) {
@@ -469,16 +467,16 @@ std::string version_section(const json& versions) {
 
 }  // namespace
 
-std::string report_page(const Results& results, const RunData& run, const PageFigures& figures) {
+void write_report_page(const Page& page, const Results& results, const RunData& run, const PageFigures& figures) {
     const std::string title = run.operating_point.study_name.empty() ? std::string("Cutter head") : escape(run.operating_point.study_name);
-    std::string page = header(results, run);
-    page += unfinished_notice(results);
-    page += answer_section(results, run, figures);
-    if (!figures.note.empty()) page += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
-    page += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
-    page += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
-    page += version_section(results_json(results, run).at("versions")) + figures.surfaces.markup();
-    return html::document(title, page, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));
+    std::string body = header(results, run) + page.how_to_make_live("cutterflow report RUN");
+    body += unfinished_notice(results);
+    body += answer_section(results, run, figures);
+    if (!figures.note.empty()) body += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
+    body += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
+    body += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
+    body += version_section(results_json(results, run).at("versions"));
+    page.write(title, body, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));
 }
 
 }  // namespace cutterflow::postproc

@@ -10,12 +10,12 @@ namespace cutterflow::postproc {
 
 /// What the page shows besides numbers. A plot that is absent is left out.
 struct PageFigures {
-    std::map<std::string, std::string> plots;  ///< as draw_plot gives them, by the plot's name
+    std::map<std::string, std::string> plots;  ///< as Page draws them, by the plot's name
     HeadPicture head;
-    ViewSurfaces surfaces;  ///< of the head's view
-    std::string note;       ///< why plots are missing; empty when none are
+    std::string head_from_hub;
+    std::string note;  ///< why plots are missing; empty when none are
 };
 
-std::string report_page(const Results& results, const RunData& run, const PageFigures& figures);
+void write_report_page(const Page& page, const Results& results, const RunData& run, const PageFigures& figures);
 
 }  // namespace cutterflow::postproc

@@ -114,6 +114,24 @@ TEST_F(Pages, a_comparison_with_evil_names_is_drawn_and_fits) {
     EXPECT_GT(browser.evaluate("document.body.textContent.split('<img src=x').length"), 1);
 }
 
+TEST_F(Pages, a_published_comparison_shows_every_picture_and_runs_no_script) {
+    testing::SmallRun first("page_still_1"), second("page_still_2");
+    second.length_ratio = 2.0;
+    for (const auto* run : {&first, &second}) run->write();
+    const fs::path folder = testing::fresh_directory("page_still") / "page";
+    Chromium browser;
+    browser.open(write_comparison(compare_runs({first.directory, second.directory}), folder, PageForm::still), 1280, 1000);
+    EXPECT_EQ(browser.evaluate("document.scripts.length"), 0);
+    EXPECT_EQ(
+        browser.evaluate("[...document.querySelectorAll('figure')].filter((figure) => !figure.querySelector('svg')?.clientHeight).length"),
+        0);
+    EXPECT_EQ(browser.evaluate(R"js(Promise.all([...document.querySelectorAll('svg image')].map((image) =>
+      new Promise((done) => { const picture = new Image(); picture.onload = () => done(picture.naturalWidth); picture.onerror = () => done(0);
+                              picture.src = image.href.baseVal; }))).then((widths) => Math.min(...widths)))js"),
+              832);
+    EXPECT_EQ(nlohmann::json(browser.complaints()).dump(), "[]");
+}
+
 TEST_F(Pages, print_and_readers_without_scripts_get_the_pictures) {
     testing::SmallRun run("page_print");
     run.write();

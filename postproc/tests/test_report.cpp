@@ -111,6 +111,28 @@ TEST(TopBinPlot, puts_spilled_shares_against_outflow_and_shades_the_references_o
     EXPECT_TRUE(contains(page, "It is the reference’s band, not a result of this program."));
 }
 
+TEST(PublishReport, writes_a_page_without_scripts_with_its_pictures_beside_it) {
+    SmallRun run("report_still");
+    run.write();
+    const auto folder = testing::fresh_directory("published") / "page";
+    const ReportSummary summary = publish_report(run.directory, folder);
+    const std::string page = read_text(summary.page_file), live = read_text(write_report(run.directory).page_file);
+    EXPECT_FALSE(contains(page, "<script"));
+    EXPECT_TRUE(contains(page, "<code>cutterflow report RUN</code>"));
+    EXPECT_FALSE(contains(live, "cutterflow report RUN"));
+    EXPECT_EQ(occurrences(page, "<figcaption>"), occurrences(without_scripts(live), "<figcaption>"));
+    EXPECT_EQ(occurrences(page, "<svg"), occurrences(without_scripts(live), "<svg"));
+    for (const char* picture : {"head_side.png", "head_axial.png"}) {
+        EXPECT_TRUE(contains(page, std::string("href=\"") + picture));
+        EXPECT_EQ(read_text(folder / picture).substr(1, 3), "PNG");
+    }
+    EXPECT_EQ(read_text(summary.results_file), read_text(run.directory / "report/results.json"));
+    EXPECT_NO_THROW(publish_report(run.directory, folder));
+    const auto taken = testing::fresh_directory("published_taken");
+    testing::write_text(taken / "thesis.tex", "mine");
+    EXPECT_THROW(publish_report(run.directory, taken), UserError);
+}
+
 TEST(WriteReport, names_of_the_user_cannot_become_markup) {
     SmallRun run("report_escape");
     run.study_name = "<script>alert('x')</script> & \"rev B\"";
