@@ -87,6 +87,7 @@ const std::vector<Layer> k_layers = {
     {"validation/rotor/",
      {k_base, k_head_names, "meshing/dictionary/", "postproc/draw/", "cases/runner/", "cases/testing/", "validation/harness/"}},
     {"validation/studies/", {"geometry/", "meshing/", "validation/harness/", "validation/studies/"}},
+    {"validation/tree_checks/", {k_base}},
 };
 
 /// Third-party headers that only some folders may see.
