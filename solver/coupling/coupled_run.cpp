@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 /// Angles [rad] of mesh and walls may differ by rounding only.
 constexpr double k_angle_tolerance = 1e-9;
 
+/// Deviation [m, or of a unit vector] of a rotor's axis from the z axis that is rounding.
+constexpr double k_axis_tolerance = 1e-9;
+
 /// Rock is due when its time is this share of a step ahead: times are sums of steps and carry their rounding.
 constexpr double k_due_tolerance = 1e-3;
 
@@ -33,8 +36,19 @@ private:
     Clock::time_point start_;
 };
 
-void append(std::vector<Mistake>& all, const UserError& error) {
-    all.insert(all.end(), error.mistakes().begin(), error.mistakes().end());
+void append(std::vector<Mistake>& all, const std::vector<Mistake>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// The head's contour, bins and azimuths are about the z axis.
+std::vector<Mistake> check_axis(const RotationAxis& axis) {
+    const bool is_z = axis.direction.head<2>().norm() < k_axis_tolerance && axis.origin.head<2>().norm() < k_axis_tolerance;
+    if (is_z) return {};
+    const auto text = [](const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v[0], v[1], v[2]); };
+    return {{"constant/dynamicMeshDict",
+             fmt::format("the mesh turns about an axis along {} through {}", text(axis.direction), text(axis.origin)),
+             "Sections fates and outflow of constant/couplingProperties take the z axis for the head's",
+             "Place the head on the z axis, or remove the two sections"}};
 }
 
 }  // namespace
@@ -43,11 +57,12 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
                        Communicator& communicator, RunRecorder& recorder, const fs::path& case_folder)
     : settings_(settings), fluid_(fluid), dem_(dem), communicator_(communicator), recorder_(recorder), case_folder_(case_folder) {
     std::vector<Mistake> mistakes = check_settings(settings, properties, names::coupling_properties);
+    if (settings.fates || settings.outflow) append(mistakes, check_axis(fluid.rotor().axis));
     if (settings.has_rock && !settings.rock_feed.empty()) {
         try {
             feed_ = read_rock_feed(settings.rock_feed);
         } catch (const UserError& error) {
-            append(mistakes, error);
+            append(mistakes, error.mistakes());
         }
     }
     if (settings.fates && mistakes.empty()) {
@@ -57,14 +72,14 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
             if (settings.outflow) outflow_.emplace(contour, tracker.bins(), settings.outflow->offset);
             if (settings.has_rock) fates_ = tracker;
         } catch (const UserError& error) {
-            append(mistakes, error);
+            append(mistakes, error.mistakes());
         }
     }
     if (settings.velocity && mistakes.empty()) {
         try {
             velocity_.emplace(*settings.velocity, fluid);
         } catch (const UserError& error) {
-            append(mistakes, error);
+            append(mistakes, error.mistakes());
         }
     }
     if (!mistakes.empty()) throw UserError(mistakes);
@@ -115,7 +130,8 @@ void CoupledRun::insert_due_rock() {
         }
         const Rocks& rocks = dem_->rocks();
         const auto p = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), rock.id) - rocks.id.begin());
-        recorder_.event(fates_->place(rock.id, rock.diameter, rock.density, rocks.position[p], rocks.velocity[p], now()));
+        recorder_.event(fates_ ? fates_->place(rock.id, rock.diameter, rock.density, rocks.position[p], rocks.velocity[p], now())
+                               : rock_event(EventSurface::feed, EventDirection::in, rocks, p, now()));
     }
 }
 
@@ -169,15 +185,22 @@ void CoupledRun::book() {
     const Timer timer(cost_.mapping);
     balance_ = rock_->book();
     for (const std::string& warning : rock_->take_warnings()) recorder_.warning(fluid_.time(), warning);
-    follow_fates(moved_);
+    for (const RockEvent& event : follow_rock()) recorder_.event(event);
 }
 
-void CoupledRun::follow_fates(const DemStep& moved) {
-    for (const RockEvent& event : fates_->move(dem_->rocks(), step_start_, now())) recorder_.event(event);
-    for (std::size_t k = 0; k < moved.left_domain.size(); ++k)
-        for (const RockEvent& event :
-             fates_->leave(moved.left_domain[k], moved.left_position[k], moved.left_velocity[k], step_start_, now()))
-            recorder_.event(event);
+std::vector<RockEvent> CoupledRun::follow_rock() {
+    const Rocks& left = moved_.left;
+    std::vector<RockEvent> events;
+    if (fates_) events = fates_->move(dem_->rocks(), step_start_, now());
+    for (std::size_t k = 0; k < left.size(); ++k) {
+        if (fates_) {
+            const auto more = fates_->leave(left.id[k], left.position[k], left.velocity[k], step_start_, now());
+            events.insert(events.end(), more.begin(), more.end());
+        } else {
+            events.push_back(rock_event(EventSurface::domain, EventDirection::out, left, k, now()));
+        }
+    }
+    return events;
 }
 
 void CoupledRun::report() {
@@ -185,7 +208,7 @@ void CoupledRun::report() {
     report_loads_and_balance();
     if (outflow_) recorder_.outflow(fluid_.time(), outflow_->sample(fluid_));
     if (velocity_) velocity_->sample_if_due(fluid_);
-    if (has_rock()) recorder_.fates(fluid_.time(), fates_->totals());
+    if (fates_) recorder_.fates(fluid_.time(), fates_->totals());
     if (fluid_.write_if_due() && has_rock()) record_picture();
     // Half a step of slack, so that checkpoints do not fall behind their interval by a step each time.
     if (settings_.checkpoint && fluid_.time() + 0.5 * fluid_.time_step() >= last_checkpoint_ + settings_.checkpoint->interval)
@@ -225,7 +248,7 @@ void CoupledRun::report_loads_and_balance() {
 void CoupledRun::record_picture() {
     const Rocks& rocks = dem_->rocks();
     std::vector<Fate> fates;
-    for (const int id : rocks.id) fates.push_back(fates_->fate_of(id));
+    for (std::size_t p = 0; fates_ && p < rocks.size(); ++p) fates.push_back(fates_->fate_of(rocks.id[p]));
     const double duration = fluid_.time() - step_start_.time;
     std::vector<Vec3> hydrodynamic, contact;
     for (std::size_t p = 0; p < rocks.size(); ++p) {
@@ -251,12 +274,12 @@ void CoupledRun::report_cost(double step_seconds) {
 }
 
 bool CoupledRun::finished() const {
-    return settings_.stop && has_rock() && feed_.empty() && fates_->totals().undecided() <= settings_.stop->undecided;
+    return settings_.stop && fates_ && feed_.empty() && fates_->totals().undecided() <= settings_.stop->undecided;
 }
 
 void CoupledRun::finish() {
     if (settings_.checkpoint && fluid_.time() > last_checkpoint_) write_checkpoint();
-    if (has_rock()) recorder_.outcomes(fates_->outcomes());
+    if (fates_) recorder_.outcomes(fates_->outcomes());
     report_velocity();
     recorder_.finished(run_cost_);
     recorder_.flush();
@@ -301,11 +324,11 @@ void CoupledRun::write_state_files(const fs::path& folder) {
     state.ranks = communicator_.size();
     state.handled_feed = handled_feed_;
     if (has_rock()) {
-        state.rocks = fates_->rocks();
+        if (fates_) state.rocks = fates_->rocks();
         state.booked = rock_->booked();
         dem_->write_checkpoint(folder);
         write_carry(folder, communicator_.rank(), fluid_.cells().ids, rock_->carry());
-        recorder_.outcomes(fates_->outcomes());
+        if (fates_) recorder_.outcomes(fates_->outcomes());
     }
     if (communicator_.rank() != 0) return;
     write_state(folder, state);
@@ -343,7 +366,13 @@ void CoupledRun::resume(const fs::path& checkpoint) {
 
     dem_->read_checkpoint(checkpoint);
     require_equal_angles();
-    fates_->restore(state.rocks);
+    if (fates_) {
+        for (const int id : dem_->rocks().id)
+            if (state.rocks.count(id) == 0)
+                refuse(fmt::format("the checkpoint does not tell what became of rock {}", id), "Fates are followed from the first rock on",
+                       "Remove section fates, or the folder to start from the beginning");
+        fates_->restore(state.rocks);
+    }
     rock_->restore(std::move(carry), state.booked);
 }
 

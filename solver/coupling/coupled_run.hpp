@@ -69,7 +69,7 @@ private:
     bool has_rock() const { return rock_ != nullptr; }
     RunInstant now() const;
     void require_equal_angles() const;
-    void follow_fates(const DemStep& moved);
+    std::vector<RockEvent> follow_rock();
     void report_loads_and_balance();
     void report_cost(double step_seconds);
     void record_picture();

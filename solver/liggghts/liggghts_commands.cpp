@@ -76,8 +76,8 @@ std::string mesh_walls(const std::string& id, const std::vector<std::string>& me
                        fmt::join(mesh_ids, " "));
 }
 
-std::string plane_wall(const std::string& id, double z) {
-    return fmt::format("fix {} all wall/gran {} primitive type 2 zplane {:.17g}", id, k_contact_model, z);
+std::string plane_wall(const std::string& id, int axis, double position) {
+    return fmt::format("fix {} all wall/gran {} primitive type 2 {}plane {:.17g}", id, k_contact_model, "xyz"[axis], position);
 }
 
 std::string placeholder(const std::string& id) {

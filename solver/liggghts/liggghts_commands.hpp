@@ -32,7 +32,8 @@ std::string mesh(const std::string& id, const std::filesystem::path& stl);
 /// Right-handed rotation; a negative speed turns about the reversed axis.
 std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const RotationAxis& axis, double speed);
 std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids);
-std::string plane_wall(const std::string& id, double z);
+/// \param axis  0 x, 1 y, 2 z: the plane stands across it
+std::string plane_wall(const std::string& id, int axis, double position);
 /// A fix without effect that keeps a place in the list of fixes.
 std::string placeholder(const std::string& id);
 

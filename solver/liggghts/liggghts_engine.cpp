@@ -42,8 +42,8 @@ namespace {
 using coupling::Rocks;
 
 constexpr double k_skin_in_radii = 0.4;       // of the largest rock: neighbour lists hold until something moved half of it
-constexpr double k_skin_without_rock = 4e-4;  // of the domain's radius
-constexpr double k_margin_in_radii = 0.25;    // of the domain: room that a rock may use between leaving it and being removed
+constexpr double k_skin_without_rock = 4e-4;  // of the domain's half width
+constexpr double k_margin_in_radii = 0.25;    // of the domain's half width: room that a rock may use between leaving it and being removed
 constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at each rebuild
 constexpr const char* k_restart_file = "dem.restart";
 constexpr const char* k_state_file = "dem.json";
@@ -53,6 +53,21 @@ constexpr const char* k_contact_forces = "contact_forces";
 
 double rock_mass(double diameter, double density) {
     return density * k_pi / 6.0 * diameter * diameter * diameter;
+}
+
+/// Smallest upright box around a domain.
+commands::Box bounds(const coupling::DomainSettings& domain) {
+    commands::Box box{domain.lower, domain.upper};
+    if (domain.shape == coupling::DomainShape::box) return box;
+    box.low.head<2>() = domain.axis_point.head<2>().array() - domain.radius;
+    box.high.head<2>() = domain.axis_point.head<2>().array() + domain.radius;
+    return box;
+}
+
+/// A length of a domain's size: half its larger horizontal width [m].
+double half_width(const coupling::DomainSettings& domain) {
+    const commands::Box box = bounds(domain);
+    return 0.5 * (box.high - box.low).head<2>().maxCoeff();
 }
 
 /// A wall and what LIGGGHTS calls it.
@@ -93,15 +108,6 @@ public:
 private:
     int saved_[2];
 };
-
-void append(Rocks& to, const Rocks& from, std::size_t k) {
-    to.id.push_back(from.id[k]);
-    to.position.push_back(from.position[k]);
-    to.velocity.push_back(from.velocity[k]);
-    to.angular_velocity.push_back(from.angular_velocity[k]);
-    to.diameter.push_back(from.diameter[k]);
-    to.density.push_back(from.density[k]);
-}
 
 }  // namespace
 
@@ -165,8 +171,8 @@ private:
 
 namespace {
 
-const coupling::DemSettings& checked(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor) {
-    std::vector<Mistake> mistakes = check_settings(settings, rotor);
+const coupling::DemSettings& checked(const coupling::DemSettings& settings) {
+    std::vector<Mistake> mistakes = check_settings(settings);
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return settings;
 }
@@ -175,7 +181,7 @@ const coupling::DemSettings& checked(const coupling::DemSettings& settings, cons
 
 LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor,
                                                MPI_Comm communicator)
-    : settings_(checked(settings, rotor)), rotor_(rotor), context_(settings, rotor.axis) {
+    : settings_(checked(settings)), rotor_(rotor), context_(settings, rotor.axis) {
     read_walls();
     MPI_Comm_dup(communicator, &communicator_);
     register_contact_models();
@@ -209,19 +215,20 @@ void LiggghtsEngine::Implementation::read_walls() {
 
 /// Encloses the domain with room for rock that is leaving, and all steel in every position, because LIGGGHTS drops triangles outside.
 commands::Box LiggghtsEngine::Implementation::box() const {
-    const coupling::DomainSettings& domain = settings_.domain;
-    const double margin = k_margin_in_radii * domain.radius;
-    const Vec3 origin = rotor_.axis.origin;
-    commands::Box box{{origin.x() - domain.radius, origin.y() - domain.radius, domain.z_min},
-                      {origin.x() + domain.radius, origin.y() + domain.radius, domain.z_max}};
+    const double margin = k_margin_in_radii * half_width(settings_.domain);
+    commands::Box box = bounds(settings_.domain);
     for (const Wall& wall : walls_) {
         for (const Triangle& triangle : wall.surface.triangles()) {
             for (const Vec3& corner : triangle) {
                 Vec3 low = corner, high = corner;
                 if (wall.of_rotor) {
-                    const double radius = (corner - origin).head<2>().norm();
-                    low.head<2>() = origin.head<2>().array() - radius;
-                    high.head<2>() = origin.head<2>().array() + radius;
+                    // The circle that the corner runs about the axis.
+                    const Vec3& axis = rotor_.axis.direction;
+                    const Vec3 arm = corner - rotor_.axis.origin;
+                    const Vec3 along = axis.dot(arm) * axis;
+                    const Vec3 reach = (arm - along).norm() * (1.0 - axis.array().square()).max(0.0).sqrt();
+                    low = rotor_.axis.origin + along - reach;
+                    high = rotor_.axis.origin + along + reach;
                 }
                 box.low = box.low.cwiseMin(low);
                 box.high = box.high.cwiseMax(high);
@@ -272,12 +279,12 @@ void LiggghtsEngine::Implementation::declare_walls() {
         mesh_ids.push_back(wall.id);
     }
     std::vector<std::string> planes;
-    const auto add_plane = [&](const std::string& id, double z) {
+    for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
+        if (!settings_.domain.side_is_wall[side]) continue;
+        const std::string id = fmt::format("plane_{}", coupling::k_domain_sides[side]);
         add_body(id, false);
-        planes.push_back(commands::plane_wall(id, z));
-    };
-    if (settings_.domain.z_min_is_wall) add_plane("plane_low", settings_.domain.z_min);
-    if (settings_.domain.z_max_is_wall) add_plane("plane_high", settings_.domain.z_max);
+        planes.push_back(commands::plane_wall(id, static_cast<int>(side / 2), settings_.domain.position_of(side)));
+    }
 
     const auto property = [&](const char* name, int columns) {
         command(commands::rock_property(name, columns));
@@ -309,7 +316,7 @@ void LiggghtsEngine::Implementation::declare_motion() {
 }
 
 void LiggghtsEngine::Implementation::set_neighbours() {
-    const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock * settings_.domain.radius;
+    const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock * half_width(settings_.domain);
     const commands::Box extent = box();
     const double coarsest = std::cbrt((extent.high - extent.low).prod() / k_most_bins);
     commands(commands::neighbours(skin, std::max(largest_radius_ + 0.5 * skin, coarsest)));
@@ -404,14 +411,18 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
 
 bool LiggghtsEngine::Implementation::in_domain(const Vec3& position) const {
     const coupling::DomainSettings& domain = settings_.domain;
-    return (position - rotor_.axis.origin).head<2>().norm() <= domain.radius && position.z() >= domain.z_min &&
-           position.z() <= domain.z_max;
+    if (position.z() < domain.lower.z() || position.z() > domain.upper.z()) return false;
+    if (domain.shape == coupling::DomainShape::cylinder) return (position - domain.axis_point).head<2>().norm() <= domain.radius;
+    return (position.array() >= domain.lower.array()).all() && (position.array() <= domain.upper.array()).all();
 }
 
 bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double radius, double angle) const {
     const coupling::DomainSettings& domain = settings_.domain;
-    if (domain.z_min_is_wall && centre.z() - radius < domain.z_min) return true;
-    if (domain.z_max_is_wall && centre.z() + radius > domain.z_max) return true;
+    for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
+        if (!domain.side_is_wall[side]) continue;
+        const double outward = side % 2 == 0 ? -1.0 : 1.0;
+        if (outward * (centre[static_cast<Eigen::Index>(side / 2)] - domain.position_of(side)) + radius > 0.0) return true;
+    }
     const Vec3 in_rotor = rotate_about(rotor_.axis, -angle, centre);
     double turns_of_rotor = 0.0, turns_of_stator = 0.0;
     for (const Wall& wall : walls_) {
@@ -440,7 +451,7 @@ std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates)
         if (!in_domain(centre) || overlaps_rock(rocks_, centre, radius) || overlaps_rock(accepted, centre, radius) ||
             overlaps_wall(centre, radius, angle))
             continue;
-        append(accepted, candidates, k);
+        accepted.append(candidates, k);
     }
     if (accepted.size() == 0) return {};
     store_contact_forces();
@@ -531,13 +542,11 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
             done.impulse.push_back(impulse[k]);
             done.contact_impulse.push_back(contact_impulse[k]);
         } else {
-            done.left_domain.push_back(rocks_.id[k]);
-            done.left_position.push_back(rocks_.position[k]);
-            done.left_velocity.push_back(rocks_.velocity[k]);
+            done.left.append(rocks_, k);
             done.left_impulse.push_back(impulse[k]);
         }
     }
-    delete_rocks(done.left_domain);
+    delete_rocks(done.left.id);
     return done;
 }
 

@@ -15,7 +15,7 @@ namespace cutterflow::liggghts {
 /// is therefore checked before.
 class LiggghtsEngine final : public coupling::DemEngine {
 public:
-    /// \throws UserError  with every mistake of the settings: bounds, walls that cannot be read, an axis that is not along z
+    /// \throws UserError  with every mistake of the settings: bounds, walls that cannot be read
     LiggghtsEngine(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator);
     ~LiggghtsEngine() override;
 

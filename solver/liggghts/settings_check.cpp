@@ -45,9 +45,20 @@ void check_contact(const coupling::ContactSettings& contact, Checker& check) {
 }
 
 void check_domain(const coupling::DomainSettings& domain, Checker& check) {
-    check.positive("rock.domain.radius", domain.radius);
-    check.require(domain.z_min < domain.z_max, fmt::format("rock.domain.zMin = {}, zMax = {}", domain.z_min, domain.z_max),
-                  "zMin must be below zMax", "Correct them");
+    if (domain.shape == coupling::DomainShape::cylinder) {
+        check.positive("rock.domain.radius", domain.radius);
+        check.require(domain.lower.z() < domain.upper.z(),
+                      fmt::format("rock.domain.zMin = {}, zMax = {}", domain.lower.z(), domain.upper.z()), "zMin must be below zMax",
+                      "Correct them");
+        for (const std::size_t side : {0, 1, 2, 3})
+            check.require(!domain.side_is_wall[side], fmt::format("rock.domain.walls: {} of a cylinder", coupling::k_domain_sides[side]),
+                          "A cylinder's plane sides are zMin and zMax", "Give its mantle as an STL in rock.walls");
+        return;
+    }
+    for (Eigen::Index i = 0; i < 3; ++i)
+        check.require(domain.lower[i] < domain.upper[i],
+                      fmt::format("rock.domain: {0} from {1} to {2}", "xyz"[i], domain.lower[i], domain.upper[i]),
+                      "Corner lower must lie below corner upper", "Correct the corners");
 }
 
 void check_fluid(const coupling::DemSettings& settings, Checker& check) {
@@ -62,15 +73,11 @@ void check_fluid(const coupling::DemSettings& settings, Checker& check) {
 
 }  // namespace
 
-std::vector<Mistake> check_settings(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor) {
+std::vector<Mistake> check_settings(const coupling::DemSettings& settings) {
     Checker check;
     check_contact(settings.contact, check);
     check_domain(settings.domain, check);
     check_fluid(settings, check);
-    const Vec3& direction = rotor.axis.direction;
-    check.require(std::fabs(std::fabs(direction.z()) - 1.0) < 1e-12,
-                  fmt::format("rotor axis ({}, {}, {})", direction.x(), direction.y(), direction.z()),
-                  "The DEM's domain is a cylinder along z", "Turn the run's frame so that the rotor's axis is z");
     for (const coupling::WallSettings& wall : settings.walls) {
         const std::string path = std::filesystem::absolute(wall.file).string();
         check.require(path.size() <= k_longest_path && path.find('"') == std::string::npos,

@@ -4,11 +4,10 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/ports/dem_settings.hpp"
-#include "solver/ports/fluid_engine.hpp"
 
 namespace cutterflow::liggghts {
 
 /// Every mistake of the settings, the walls' files not opened.
-std::vector<Mistake> check_settings(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor);
+std::vector<Mistake> check_settings(const coupling::DemSettings& settings);
 
 }  // namespace cutterflow::liggghts

@@ -47,9 +47,10 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     events_ = open(k_rock, "events.csv",
                    "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,"
                    "density_kg_m3,bin");
-    fates_ = open(k_rock, "fates.csv",
-                  "time_s,placed_count,placed_kg,sucked_up_count,sucked_up_kg,spilled_count,spilled_kg,in_cutter_count,in_cutter_kg,"
-                  "never_entered_count,never_entered_kg");
+    if (settings.fates)
+        fates_ = open(k_rock, "fates.csv",
+                      "time_s,placed_count,placed_kg,sucked_up_count,sucked_up_kg,spilled_count,spilled_kg,in_cutter_count,in_cutter_kg,"
+                      "never_entered_count,never_entered_kg");
     rejected_ = open(k_rock, "rejected.csv", "id,time_s,reason");
 
     // Pictures of an earlier part of the run stay in the series.
@@ -144,7 +145,8 @@ void CsvRecorder::picture(const RockPicture& picture) {
     array("Float64", "velocity", 3, [&](std::size_t p) { vector(picture.velocity[p]); });
     array("Float64", "hydrodynamic_force", 3, [&](std::size_t p) { vector(picture.hydrodynamic_force[p]); });
     array("Float64", "contact_force", 3, [&](std::size_t p) { vector(picture.contact_force[p]); });
-    array("Int32", "fate", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", static_cast<int>(picture.fate[p])); });
+    if (!picture.fate.empty())
+        array("Int32", "fate", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", static_cast<int>(picture.fate[p])); });
     stream << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
     if (!stream) fail_to_write(root_ / k_rock / file);
     pictures_[picture.time] = file;

@@ -1,5 +1,7 @@
 #include "solver/observe/run_recorder.hpp"
 
+#include "geometry/base/axis_frame.hpp"
+
 namespace cutterflow::coupling {
 
 const char* fate_name(Fate fate) {
@@ -14,6 +16,13 @@ const char* surface_name(EventSurface surface) {
 
 const char* direction_name(EventDirection direction) {
     return direction == EventDirection::in ? "in" : "out";
+}
+
+RockEvent rock_event(EventSurface surface, EventDirection direction, const Rocks& rocks, std::size_t p, const RunInstant& now) {
+    const Vec3& position = rocks.position[p];
+    const double azimuth = to_cylindrical(RotationAxis{}, Vec3::UnitX(), position).azimuth;
+    return {now.time,        rocks.id[p], surface,     direction,         position,         rocks.velocity[p],
+            now.rotor_angle, azimuth,     position[2], rocks.diameter[p], rocks.density[p], ""};
 }
 
 double FateTotals::undecided() const {

@@ -8,6 +8,7 @@
 #include <gsl/span>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::coupling {
 
@@ -36,6 +37,15 @@ struct RockEvent {
     double density = 0.0;          ///< [kg/m3]
     std::string bin;               ///< of head events, else empty
 };
+
+/// One moment of the rocks' motion.
+struct RunInstant {
+    double time = 0.0;         ///< [s]
+    double rotor_angle = 0.0;  ///< [rad]
+};
+
+/// The event of rock `p` at its present place.
+RockEvent rock_event(EventSurface surface, EventDirection direction, const Rocks& rocks, std::size_t p, const RunInstant& now);
 
 /// A rock of the feed that could not be placed.
 struct RejectedRock {
@@ -104,7 +114,7 @@ struct RockPicture {
     gsl::span<const double> diameter;
     gsl::span<const Vec3> hydrodynamic_force;  ///< drag and the Du/Dt parts, mean over the step [N]
     gsl::span<const Vec3> contact_force;       ///< of rock and steel, mean over the step [N]
-    gsl::span<const Fate> fate;
+    gsl::span<const Fate> fate;                ///< empty when fates are not followed
 };
 
 /// A sub-model that was on, and why.

@@ -19,6 +19,15 @@ struct Rocks {
     std::vector<double> diameter;        ///< [m]
     std::vector<double> density;         ///< [kg/m3]
     std::size_t size() const { return id.size(); }
+    /// Appends rock `p` of `from`.
+    void append(const Rocks& from, std::size_t p) {
+        id.push_back(from.id[p]);
+        position.push_back(from.position[p]);
+        velocity.push_back(from.velocity[p]);
+        angular_velocity.push_back(from.angular_velocity[p]);
+        diameter.push_back(from.diameter[p]);
+        density.push_back(from.density[p]);
+    }
 };
 
 /// Force [N] that the fluid exerts on rock `index` (of rocks() as they were when advance was called) when it moves with `velocity` [m/s]:
@@ -31,14 +40,12 @@ struct DemStep {
     std::vector<Vec3>
         impulse;  ///< of HydrodynamicForce on each rock of rocks() after the call [N s]: sum of force times DEM step, ends half
     std::vector<Vec3> contact_impulse;  ///< of all contacts on each rock, in the order of `impulse` [N s]
-    std::vector<int> left_domain;       ///< ids of rocks that left the DEM domain in the call; no longer in rocks()
-    std::vector<Vec3> left_position;    ///< their last positions
-    std::vector<Vec3> left_velocity;
-    std::vector<Vec3> left_impulse;
-    double cutter_torque = 0.0;      ///< mean torque of rock contacts on the rotating steel about the axis [N m]
-    double max_overlap_ratio = 0.0;  ///< largest overlap over rock radius seen at the call's end
-    int substeps = 0;                ///< DEM steps of the call
-    int contacts = 0;                ///< rock-rock and rock-wall contacts at the call's end
+    Rocks left;                         ///< rocks that left the DEM domain in the call, in their last state; no longer in rocks()
+    std::vector<Vec3> left_impulse;     ///< as `impulse`, of `left` [N s]
+    double cutter_torque = 0.0;         ///< mean torque of rock contacts on the rotating steel about the axis [N m]
+    double max_overlap_ratio = 0.0;     ///< largest overlap over rock radius seen at the call's end
+    int substeps = 0;                   ///< DEM steps of the call
+    int contacts = 0;                   ///< rock-rock and rock-wall contacts at the call's end
 };
 
 class DemEngine {

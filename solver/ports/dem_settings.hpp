@@ -1,6 +1,7 @@
 #pragma once
 /// \file What the DEM needs to know: contact law, walls, domain, fluid. solver/foam fills it from section `rock` of
 /// constant/couplingProperties (and constant/g, constant/transportProperties); solver/liggghts works from it.
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,14 +30,36 @@ struct WallSettings {
     bool rotating = false;
 };
 
-/// Rock leaves the run when its centre is outside this cylinder about the rotor's axis (parallel to z). A plane end may be a wall.
+enum class DomainShape { box, cylinder };
+
+/// Plane sides of a domain, in the order of k_domain_sides. A cylinder has only the last two.
+enum class DomainSide { x_min, x_max, y_min, y_max, z_min, z_max };
+inline constexpr std::array<const char*, 6> k_domain_sides{"xMin", "xMax", "yMin", "yMax", "zMin", "zMax"};
+
+/// Rock leaves the run when its centre is outside the domain: a box along the axes, or an upright cylinder. Plane sides may be walls.
 struct DomainSettings {
-    double radius = 0.0;  ///< [m]
-    double z_min = 0.0;   ///< [m]
-    double z_max = 0.0;   ///< [m]
-    bool z_min_is_wall = false;
-    bool z_max_is_wall = false;
+    DomainShape shape = DomainShape::box;
+    Vec3 lower = Vec3::Zero();           ///< corner of a box [m]; of a cylinder z counts
+    Vec3 upper = Vec3::Zero();           ///< the opposite corner [m]; of a cylinder z counts
+    Vec3 axis_point = Vec3::Zero();      ///< a point on a cylinder's axis [m]; the axis is parallel to z
+    double radius = 0.0;                 ///< of a cylinder [m]
+    std::array<bool, 6> side_is_wall{};  ///< by DomainSide
+
+    bool is_wall(DomainSide side) const { return side_is_wall[static_cast<std::size_t>(side)]; }
+    void make_wall(DomainSide side) { side_is_wall[static_cast<std::size_t>(side)] = true; }
+    /// Position [m] of a plane side along its axis (0 x, 1 y, 2 z).
+    double position_of(std::size_t side) const { return (side % 2 == 0 ? lower : upper)[static_cast<Eigen::Index>(side / 2)]; }
 };
+
+/// A cylinder about the z axis.
+inline DomainSettings cylinder_domain(double radius, double z_min, double z_max) {
+    DomainSettings domain;
+    domain.shape = DomainShape::cylinder;
+    domain.radius = radius;
+    domain.lower.z() = z_min;
+    domain.upper.z() = z_max;
+    return domain;
+}
 
 struct DemSettings {
     ContactSettings contact;

@@ -111,8 +111,8 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
     }
     if (settings.fates)
         check_fates(check, *settings.fates);
-    else if (settings.has_rock || settings.outflow)
-        check.add("section fates is missing", "Rock and outflow are counted on the head's contour", "Add the section");
+    else if (settings.outflow)
+        check.add("section outflow without section fates", "Outflow is sampled along the contour of fates", "Add fates or remove outflow");
     if (settings.outflow) {
         check.require(settings.outflow->offset >= 0.0, "outflow.offset", settings.outflow->offset, "It must not be negative",
                       "Use 0.015 for a ring radius of 0.4 m");
@@ -123,6 +123,8 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
                       "It is a share of the placed mass, from 0 to below 1", "Use 0.05");
     if (settings.stop && !settings.has_rock)
         check.add("section stop without section rock", "Only rock is undecided", "Remove it or add rock");
+    if (settings.stop && settings.has_rock && !settings.fates)
+        check.add("section stop without section fates", "Rock is undecided until it has a fate", "Add fates or remove stop");
     if (settings.checkpoint) {
         check.require_positive("checkpoint.interval", settings.checkpoint->interval);
         check.require(settings.checkpoint->keep >= 1, "checkpoint.keep", settings.checkpoint->keep, "At least the newest one stays",

@@ -84,14 +84,21 @@ struct CheckpointSettings {
     int keep = 2;           ///< newest ones that stay
 };
 
-/// Everything that couplingProperties says to the coupled algorithm. Without rock only `outflow`, `velocity`, `checkpoint` and,
-/// for the outflow's bins, `fates` count.
+/// Roles of boundary patches, by name.
+struct PatchSettings {
+    std::string outlet;              ///< whose flow and pressure are reported; empty: none is
+    std::vector<std::string> steel;  ///< walls that hide the fluid behind them from rock; empty: all patches of type wall
+};
+
+/// Everything that couplingProperties says to the coupled algorithm. `kernel`, `closures`, `fates` and `stop` count with rock only, but for
+/// the contour of `fates`, which `outflow` needs too.
 struct CouplingSettings {
     bool has_rock = false;
+    PatchSettings patches;
     std::filesystem::path rock_feed;  ///< CSV, with rock
     KernelSettings kernel;
     ClosureSettings closures;
-    std::optional<FateSettings> fates;  ///< needed with rock and with outflow
+    std::optional<FateSettings> fates;  ///< needed by outflow and stop; without, rock is followed but not sorted by fate
     std::optional<OutflowSettings> outflow;
     std::optional<VelocitySettings> velocity;
     std::optional<StopSettings> stop;

@@ -42,11 +42,11 @@ meshing::FoamValue wall_list(const std::vector<Wall>& walls) {
 
 meshing::FoamDictionary rock_section(const CaseInputs& inputs) {
     meshing::FoamDictionary domain;
-    domain.add("radius", inputs.tank.radius)
+    domain.add("type", "cylinder")
+        .add("radius", inputs.tank.radius)
         .add("zMin", inputs.tank.z_min)
-        .add("zMinWall", true)
         .add("zMax", inputs.tank.z_max)
-        .add("zMaxWall", true);
+        .add("walls", meshing::FoamValue::list({"zMin", "zMax"}));
     meshing::FoamDictionary section;
     section.add("feed", meshing::FoamValue::quoted(names::rock_feed))
         .add("contact", contact_section(*inputs.rock))
@@ -130,6 +130,7 @@ void copy_surface(const fs::path& run_directory, const WallSource& surface) {
 
 meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
     meshing::FoamDictionary coupling;
+    coupling.add("patches", meshing::FoamDictionary().add("outlet", names::outlet_patch));
     if (inputs.rock) {
         const Rock& rock = *inputs.rock;
         meshing::FoamDictionary kernel, closures;

@@ -235,7 +235,7 @@ void KernelCoupling::map() {
     rock_momentum_.setZero();
     gross_impulse_ = 0.0;
     add_impulses(present_, step_.impulse, velocity_change, volumes);
-    if (!step_.left_domain.empty()) follow_departures();
+    if (!step_.left.id.empty()) follow_departures();
 
     std::vector<double> drag(rocks.size());
     for (std::size_t p = 0; p < rocks.size(); ++p) {
@@ -358,15 +358,15 @@ void KernelCoupling::follow_departures() {
     std::vector<int> id;
     std::vector<Vec3> position, impulse, velocity_change;
     std::vector<double> diameter, volume;
-    for (std::size_t k = 0; k < step_.left_domain.size(); ++k) {
+    for (std::size_t k = 0; k < step_.left.size(); ++k) {
         const auto p =
-            static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), step_.left_domain[k]) - before_.id.begin());
+            static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), step_.left.id[k]) - before_.id.begin());
         id.push_back(before_.id[p]);
         position.push_back(before_.position[p]);
         diameter.push_back(before_.diameter[p]);
         volume.push_back(physics::sphere_volume(before_.diameter[p]));
         impulse.push_back(step_.left_impulse[k]);
-        velocity_change.push_back(step_.left_velocity[k] - before_.velocity[p]);
+        velocity_change.push_back(step_.left.velocity[k] - before_.velocity[p]);
         booked_.volume -= volume.back();
         booked_.momentum -= properties_.density * volume.back() * flow_[p].velocity;
     }

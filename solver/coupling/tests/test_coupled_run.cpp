@@ -103,6 +103,59 @@ struct Rig {
     std::optional<CoupledRun> run;
 };
 
+TEST(CoupledRun, follows_rock_without_a_head) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder,
+                                              "1,0,0.1,0,0.2,0.02,2650\n"
+                                              "2,0.05,-0.1,0.02,-0.05,0.02,2700\n");
+    settings.fates.reset();
+    settings.checkpoint = CheckpointSettings{1.0, 2};
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3(0, 0, 1.0), k_still);
+    rig.fluid.writes_fields = true;
+    while (rig.fluid.time() < 0.3) rig.run->step();
+    EXPECT_FALSE(rig.run->finished());
+    rig.run->finish();
+
+    // Two come in, the first leaves upwards; nobody says in which state.
+    ASSERT_EQ(recorder.events.size(), 3u);
+    EXPECT_EQ(recorder.events[0].surface, EventSurface::feed);
+    EXPECT_EQ(recorder.events[1].id, 2);
+    const RockEvent& gone = recorder.events[2];
+    EXPECT_EQ(gone.surface, EventSurface::domain);
+    EXPECT_EQ(gone.direction, EventDirection::out);
+    EXPECT_EQ(gone.id, 1);
+    EXPECT_GT(gone.position[2], 0.35);
+    EXPECT_DOUBLE_EQ(gone.density, 2650.0);
+    EXPECT_TRUE(recorder.fate_rows.empty());
+    EXPECT_TRUE(recorder.last_outcomes.empty());
+    for (const BalanceRow& row : recorder.balance_rows) EXPECT_LT(row.solid_volume_error, 1e-9);
+
+    MemoryRecorder more;
+    Rig resumed(settings, folder.path(), more, Vec3(0, 0, 1.0), k_still);
+    resumed.fluid.restart_at(rig.fluid.time());
+    resumed.run->resume(newest_checkpoint(folder.path()));
+    EXPECT_EQ(resumed.dem.rocks().id, (std::vector<int>{2}));
+
+    // Fates cannot begin in the middle of a run.
+    CouplingSettings with_fates = case_settings(folder, "1,0,0.1,0,0.2,0.02,2650\n2,0.05,-0.1,0.02,-0.05,0.02,2700\n");
+    Rig late(with_fates, folder.path(), more, Vec3(0, 0, 1.0), k_still);
+    late.fluid.restart_at(rig.fluid.time());
+    EXPECT_THROW(late.run->resume(newest_checkpoint(folder.path())), UserError);
+}
+
+TEST(CoupledRun, refuses_fates_about_another_axis_than_z) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,0.2,0.02,2650\n");
+    MemoryRecorder recorder;
+    RotorMotion aside = turning(), tilted = turning();
+    aside.axis.origin = Vec3(0.05, 0.0, 0.0);
+    tilted.axis.direction = Vec3(0.0, 0.6, 0.8);
+    for (const RotorMotion& motion : {aside, tilted}) EXPECT_THROW(Rig(settings, folder.path(), recorder, Vec3::Zero(), motion), UserError);
+    settings.fates.reset();
+    for (const RotorMotion& motion : {aside, tilted}) EXPECT_NO_THROW(Rig(settings, folder.path(), recorder, Vec3::Zero(), motion));
+}
+
 TEST(CoupledRun, carries_rock_out_and_up_and_accounts_for_all_of_it) {
     const TemporaryFolder folder;
     // Up through the mouth, up beside it, one that never gets in, one that comes later.

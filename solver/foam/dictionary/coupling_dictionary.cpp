@@ -1,5 +1,10 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "geometry/base/run_files.hpp"
 #include "solver/foam/dictionary/dictionary_section.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
@@ -57,19 +62,40 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
     return wall;
 }
 
-void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
+void read_box(DictionarySection& section, coupling::DomainSettings& domain) {
+    section.read("lower", domain.lower, k_required);
+    section.read("upper", domain.upper, k_required);
+}
+
+void read_cylinder(DictionarySection& section, coupling::DomainSettings& domain) {
+    section.read("axisPoint", domain.axis_point, k_optional);
     section.read("radius", domain.radius, k_required);
-    section.read("zMin", domain.z_min, k_required);
-    section.read("zMax", domain.z_max, k_required);
-    section.read("zMinWall", domain.z_min_is_wall, k_optional);
-    section.read("zMaxWall", domain.z_max_is_wall, k_optional);
+    section.read("zMin", domain.lower.z(), k_required);
+    section.read("zMax", domain.upper.z(), k_required);
+}
+
+void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
+    const std::string type = section.read_choice("type", {"box", "cylinder"}, k_required);
+    domain.shape = type == "cylinder" ? coupling::DomainShape::cylinder : coupling::DomainShape::box;
+    if (type == "box") read_box(section, domain);
+    if (type == "cylinder") read_cylinder(section, domain);
+    std::vector<std::string> walls;
+    section.read("walls", walls, k_optional);
+    for (const std::string& wall : walls) {
+        const auto side = std::find(coupling::k_domain_sides.begin(), coupling::k_domain_sides.end(), wall);
+        if (side == coupling::k_domain_sides.end())
+            section.report("walls", fmt::format("{} is no side", wall),
+                           fmt::format("Sides are {}", fmt::join(coupling::k_domain_sides, ", ")));
+        else
+            domain.side_is_wall[static_cast<std::size_t>(side - coupling::k_domain_sides.begin())] = true;
+    }
 }
 
 void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::DemSettings dem;
     section.read("feed", result.coupling.rock_feed, folder, k_required);
     read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, dem.contact); });
-    for (const Foam::dictionary& dict : section.sections("walls", k_required)) {
+    for (const Foam::dictionary& dict : section.sections("walls", k_optional)) {
         DictionarySection wall = section.below(dict, "walls");
         dem.walls.push_back(read_wall(wall, folder));
         wall.finish();
@@ -138,6 +164,10 @@ void read_surroundings(const Foam::Time& time, coupling::DemSettings& dem, std::
 
 void read_file(DictionarySection& file, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::CouplingSettings& settings = result.coupling;
+    read_section(file, "patches", k_optional, [&](DictionarySection& section) {
+        section.read("outlet", settings.patches.outlet, k_optional);
+        section.read("steel", settings.patches.steel, k_optional);
+    });
     read_section(file, "rock", k_optional, [&](DictionarySection& section) { read_rock(section, folder, result); });
     read_section(file, "kernel", k_optional, [&](DictionarySection& section) { read_kernel(section, settings.kernel); });
     read_section(file, "closures", k_optional, [&](DictionarySection& section) { read_closures(section, settings.closures); });

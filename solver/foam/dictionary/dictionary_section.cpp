@@ -90,6 +90,32 @@ void DictionarySection::read(const std::string& key, std::filesystem::path& targ
     if (!text.empty()) target = folder / text;
 }
 
+void DictionarySection::read(const std::string& key, std::vector<std::string>& target, Presence presence) {
+    const Foam::tokenList* value = tokens(key, presence);
+    if (!value) return;
+    const bool is_list =
+        value->size() >= 2 && value->first() == Foam::token(Foam::token::BEGIN_LIST) && value->last() == Foam::token(Foam::token::END_LIST);
+    std::vector<std::string> words;
+    for (Foam::label i = 1; is_list && i + 1 < value->size(); ++i) {
+        const Foam::token& word = (*value)[i];
+        if (word.isWord()) words.push_back(word.wordToken());
+        if (word.isString()) words.push_back(word.stringToken());
+    }
+    if (is_list && static_cast<Foam::label>(words.size()) == value->size() - 2) {
+        target = std::move(words);
+    } else {
+        report_type(key, "a list of words ( a b )");
+    }
+}
+
+std::string DictionarySection::read_choice(const std::string& key, const std::vector<std::string>& choices, Presence presence) {
+    std::string word;
+    read(key, word, presence);
+    if (word.empty() || std::find(choices.begin(), choices.end(), word) != choices.end()) return word;
+    report(key, "= " + word, fmt::format("It must be one of {}", fmt::join(choices, ", ")));
+    return {};
+}
+
 const Foam::dictionary* DictionarySection::section(const std::string& key, Presence presence) {
     known_.push_back(key);
     if (!dict_.found(key, Foam::keyType::LITERAL)) {
@@ -117,6 +143,10 @@ std::vector<Foam::dictionary> DictionarySection::sections(const std::string& key
 
 DictionarySection DictionarySection::below(const Foam::dictionary& dict, const std::string& key) {
     return DictionarySection(dict, full_name(key), file_, mistakes_);
+}
+
+void DictionarySection::report(const std::string& key, const std::string& what, const std::string& rule) {
+    mistakes_.push_back({where(key), fmt::format("{} {}", full_name(key), what), rule, "Correct the value"});
 }
 
 void DictionarySection::finish() {

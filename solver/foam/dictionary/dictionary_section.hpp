@@ -30,6 +30,11 @@ public:
     /// A path is taken relative to `folder`.
     void read(const std::string& key, std::filesystem::path& target, const std::filesystem::path& folder, Presence presence);
 
+    /// A list of words ( a b c ).
+    void read(const std::string& key, std::vector<std::string>& target, Presence presence);
+    /// One of the words of `choices`; empty, with a mistake, when it is another.
+    std::string read_choice(const std::string& key, const std::vector<std::string>& choices, Presence presence);
+
     /// The section of that key, or null.
     const Foam::dictionary* section(const std::string& key, Presence presence);
     /// The list of sections of that key.
@@ -37,6 +42,9 @@ public:
 
     /// A section below this one, for messages.
     DictionarySection below(const Foam::dictionary& dict, const std::string& key);
+
+    /// Adds a mistake about the value of a key.
+    void report(const std::string& key, const std::string& what, const std::string& rule);
 
     void finish();
 

@@ -30,6 +30,7 @@ std::string line(int number) {
 }
 
 const char* const k_complete = R"(
+patches { outlet suction_end; steel (cutter "backplate"); }
 rock
 {
     feed "constant/rockFeed.csv";
@@ -40,7 +41,7 @@ rock
         { name cutter; file "constant/triSurface/cutter_dem.stl"; rotating true; }
         { name backplate; file "constant/triSurface/backplate_dem.stl"; rotating no; }
     );
-    domain { radius 2.5; zMin -0.875; zMinWall true; zMax 0.435; }
+    domain { type cylinder; axisPoint (0.1 0 0); radius 2.5; zMin -0.875; zMax 0.435; walls (zMin); }
 }
 kernel { gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
 closures { drag brown_lawler; hindrance di_felice; addedMass 0.4; dragModifier 1.1; sphericity 0.8; lift mei; viscousForce no; }
@@ -98,9 +99,16 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_EQ(read_back.dem->walls[0].name, "cutter");
     EXPECT_TRUE(read_back.dem->walls[0].rotating);
     EXPECT_FALSE(read_back.dem->walls[1].rotating);
-    EXPECT_DOUBLE_EQ(read_back.dem->domain.z_min, -0.875);
-    EXPECT_TRUE(read_back.dem->domain.z_min_is_wall);
-    EXPECT_FALSE(read_back.dem->domain.z_max_is_wall);
+    const coupling::DomainSettings& domain = read_back.dem->domain;
+    EXPECT_EQ(domain.shape, coupling::DomainShape::cylinder);
+    EXPECT_EQ(domain.axis_point, Vec3(0.1, 0.0, 0.0));
+    EXPECT_DOUBLE_EQ(domain.radius, 2.5);
+    EXPECT_DOUBLE_EQ(domain.lower.z(), -0.875);
+    EXPECT_DOUBLE_EQ(domain.upper.z(), 0.435);
+    EXPECT_TRUE(domain.is_wall(coupling::DomainSide::z_min));
+    EXPECT_FALSE(domain.is_wall(coupling::DomainSide::z_max));
+    EXPECT_EQ(c.patches.outlet, "suction_end");
+    EXPECT_THAT(c.patches.steel, ElementsAre("cutter", "backplate"));
     EXPECT_EQ(read_back.dem->gravity, Vec3(6.9, 0.0, -6.9));
     EXPECT_DOUBLE_EQ(read_back.dem->added_mass, 0.4);
     EXPECT_DOUBLE_EQ(read_back.dem->fluid.density, 1000.0);

@@ -95,7 +95,7 @@ inline coupling::DemSettings still_water() {
     coupling::DemSettings settings;
     settings.contact.youngs_modulus = 1.1e8;
     settings.contact.max_speed = 4.0;
-    settings.domain = {0.5, -0.5, 0.5, false, false};
+    settings.domain = coupling::cylinder_domain(0.5, -0.5, 0.5);
     settings.fluid = {k_water_density, k_water_viscosity};
     settings.added_mass = 0.5;
     settings.gravity = Vec3(0, 0, -9.81);

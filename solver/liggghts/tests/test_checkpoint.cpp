@@ -11,8 +11,8 @@ struct Mill {
     coupling::RotorMotion rotor;
 
     Mill() {
-        settings.domain.z_min = -0.1;
-        settings.domain.z_min_is_wall = true;
+        settings.domain.lower.z() = -0.1;
+        settings.domain.make_wall(coupling::DomainSide::z_min);
         settings.walls = {{"paddle", write_stl(folder / "paddle.stl", block(Vec3(0.05, -0.01, -0.08), Vec3(0.3, 0.01, 0.05), 3)), true},
                           {"plate", write_stl(folder / "plate.stl", block(Vec3(-0.4, -0.1, -0.08), Vec3(-0.38, 0.1, 0.05), 2)), false}};
         rotor.speed = 6.0;
@@ -133,7 +133,7 @@ TEST(Checkpoint, rock_can_be_inserted_and_removed_after_reading) {
     EXPECT_EQ(resumed.rocks().size(), 60u);
     const coupling::DemStep step = resumed.advance(2e-3, drag);
     EXPECT_EQ(step.impulse.size(), 60u);
-    EXPECT_TRUE(step.left_domain.empty());
+    EXPECT_TRUE(step.left.id.empty());
 }
 
 }  // namespace cutterflow::liggghts::tests

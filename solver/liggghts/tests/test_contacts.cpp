@@ -14,8 +14,8 @@ coupling::DemSettings above_wall(WallKind kind, const std::filesystem::path& fol
     coupling::DemSettings settings = still_water();
     settings.gravity.setZero();
     if (kind == WallKind::plane) {
-        settings.domain.z_min = 0.0;
-        settings.domain.z_min_is_wall = true;
+        settings.domain.lower.z() = 0.0;
+        settings.domain.make_wall(coupling::DomainSide::z_min);
     } else {
         // The rock lands on an inner corner, where six triangles meet.
         const auto file = write_stl(folder / "floor.stl", sheet(Vec3(-0.3, -0.3, 0), Vec3(0.6, 0, 0), Vec3(0, 0.6, 0), 6, 6));
@@ -117,8 +117,8 @@ TEST(Contacts, each_impact_of_a_pair_has_its_own_restitution) {
     coupling::DemSettings settings = still_water();
     LiggghtsEngine engine(
         [&] {
-            settings.domain.z_min = 0.0;
-            settings.domain.z_min_is_wall = true;
+            settings.domain.lower.z() = 0.0;
+            settings.domain.make_wall(coupling::DomainSide::z_min);
             return settings;
         }(),
         still_rotor(), MPI_COMM_WORLD);

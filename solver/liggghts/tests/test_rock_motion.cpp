@@ -79,7 +79,7 @@ TEST(RockMotion, velocity_dependent_forces_are_of_second_order) {
 
 TEST(RockMotion, a_ten_millimetre_rock_settles_at_the_speed_of_the_seeds) {
     coupling::DemSettings settings = still_water();
-    settings.domain.z_min = -2.0;
+    settings.domain.lower.z() = -2.0;
     settings.contact.youngs_modulus = 1e6;  // no contact here: long steps
     LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0, 0.1, 0.4), Vec3::Zero(), 0.01));
@@ -183,14 +183,14 @@ TEST(RockMotion, a_rock_that_leaves_the_domain_is_reported_once) {
     for (int call = 0; call < 30; ++call) {
         const coupling::DemStep step = engine.advance(2e-3, linear_drag(0.01));
         ASSERT_EQ(step.impulse.size(), engine.rocks().size());
-        ASSERT_EQ(step.left_impulse.size(), step.left_domain.size());
-        for (std::size_t k = 0; k < step.left_domain.size(); ++k) {
-            left.push_back(step.left_domain[k]);
-            const Vec3& position = step.left_position[k];
+        ASSERT_EQ(step.left_impulse.size(), step.left.size());
+        for (std::size_t k = 0; k < step.left.size(); ++k) {
+            left.push_back(step.left.id[k]);
+            const Vec3& position = step.left.position[k];
             EXPECT_TRUE(position.head<2>().norm() > 0.5 || position.z() < -0.5);
             EXPECT_LT(position.head<2>().norm(), 0.5 + 2e-3 * 2.0);
-            EXPECT_NEAR(step.left_velocity[k].norm(), 2.0, 0.2);
-            EXPECT_LT(step.left_impulse[k].dot(step.left_velocity[k]), 0.0);
+            EXPECT_NEAR(step.left.velocity[k].norm(), 2.0, 0.2);
+            EXPECT_LT(step.left_impulse[k].dot(step.left.velocity[k]), 0.0);
         }
     }
     std::sort(left.begin(), left.end());
@@ -215,8 +215,8 @@ TEST(RockMotion, a_force_that_is_no_number_is_a_defect_and_not_a_rock_that_left)
 // OpenFOAM runs in the same process with these traps on.
 TEST(RockMotion, no_floating_point_exception_is_raised) {
     coupling::DemSettings settings = still_water();
-    settings.domain.z_min = -0.1;
-    settings.domain.z_min_is_wall = true;
+    settings.domain.lower.z() = -0.1;
+    settings.domain.make_wall(coupling::DomainSide::z_min);
     const auto folder = scratch_folder();
     settings.walls = {{"paddle", write_stl(folder / "paddle.stl", block(Vec3(0.05, -0.01, -0.08), Vec3(0.3, 0.01, 0.05), 3)), true},
                       {"plate", write_stl(folder / "plate.stl", block(Vec3(-0.4, -0.1, -0.08), Vec3(-0.38, 0.1, 0.05), 2)), false}};

@@ -82,8 +82,8 @@ TEST(Walls, the_torque_on_a_paddle_balances_what_it_gives_to_the_rocks) {
 
 TEST(Walls, contacts_and_overlap_are_reported) {
     coupling::DemSettings settings = still_water();
-    settings.domain.z_min = 0.0;
-    settings.domain.z_min_is_wall = true;
+    settings.domain.lower.z() = 0.0;
+    settings.domain.make_wall(coupling::DomainSide::z_min);
     LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0, 0, 0.0101));
@@ -115,7 +115,7 @@ TEST(Insertion, keeps_what_it_is_given_to_the_bit) {
 
 TEST(Insertion, refuses_overlaps_with_rocks_planes_and_the_outside) {
     coupling::DemSettings settings = still_water();
-    settings.domain.z_min_is_wall = true;
+    settings.domain.make_wall(coupling::DomainSide::z_min);
     LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0, 0, 0));
@@ -153,8 +153,8 @@ TEST(Insertion, refuses_steel_where_it_stands_now_and_inside_it) {
 // Rock that comes between rocks in contact must not change their forces: the heap's energy goes on falling.
 TEST(Insertion, leaves_the_contacts_of_others_alone) {
     coupling::DemSettings settings = still_water();
-    settings.domain.z_min = 0.0;
-    settings.domain.z_min_is_wall = true;
+    settings.domain.lower.z() = 0.0;
+    settings.domain.make_wall(coupling::DomainSide::z_min);
     const auto run = [&](bool with_insertions) {
         LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
         coupling::Rocks rocks;
@@ -180,8 +180,8 @@ TEST(Insertion, leaves_the_contacts_of_others_alone) {
 
 TEST(Removal, takes_rocks_out_and_keeps_the_contacts_of_the_rest) {
     coupling::DemSettings settings = still_water();
-    settings.domain.z_min = 0.0;
-    settings.domain.z_min_is_wall = true;
+    settings.domain.lower.z() = 0.0;
+    settings.domain.make_wall(coupling::DomainSide::z_min);
     const auto run = [&](bool with_removal) {
         LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
         coupling::Rocks rocks;
@@ -210,15 +210,52 @@ TEST(Removal, takes_rocks_out_and_keeps_the_contacts_of_the_rest) {
     }
 }
 
+// A rock flies at each side of a box in turn. Walls throw it back with the restitution; it leaves through the open one.
+TEST(Walls, any_side_of_a_box_can_be_a_wall) {
+    coupling::DemSettings settings = still_water();
+    settings.domain = {};
+    settings.domain.lower = Vec3(-0.10, -0.15, -0.20);
+    settings.domain.upper = Vec3(0.25, 0.30, 0.35);
+    settings.domain.side_is_wall = {true, true, true, true, true, false};
+    settings.fluid.density = 0.0;
+    settings.gravity = Vec3::Zero();
+    settings.added_mass = 0.0;
+    settings.contact.wet_restitution = false;
+    settings.contact.restitution = 0.8;
+    const Vec3 middle(0.05, 0.05, 0.05);
+    for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
+        const auto axis = static_cast<Eigen::Index>(side / 2);
+        const double outward = side % 2 == 0 ? -1.0 : 1.0;
+        const double position = settings.domain.position_of(side);
+        Vec3 start = middle;
+        start[axis] = position - outward * 0.015;
+        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        ASSERT_EQ(engine.insert(one_rock(start, outward * Vec3::Unit(axis))).size(), 1u);
+        std::size_t left = 0;
+        for (int step = 0; step < 30; ++step) left += engine.advance(1e-3, no_force).left.size();
+        if (settings.domain.side_is_wall[side]) {
+            ASSERT_EQ(engine.rocks().size(), 1u) << coupling::k_domain_sides[side];
+            EXPECT_NEAR((engine.rocks().velocity[0] + 0.8 * outward * Vec3::Unit(axis)).norm(), 0.0, 2e-3)
+                << coupling::k_domain_sides[side];
+        } else {
+            EXPECT_EQ(left, 1u) << coupling::k_domain_sides[side];
+        }
+        Vec3 inside_wall = middle;
+        inside_wall[axis] = position - outward * 0.005;
+        coupling::Rocks another;
+        add_rock(another, 2, inside_wall);
+        EXPECT_EQ(engine.insert(another).size(), settings.domain.side_is_wall[side] ? 0u : 1u);
+    }
+}
+
 TEST(Settings, every_mistake_is_named) {
     coupling::DemSettings settings = still_water();
     settings.contact.youngs_modulus = 0.0;
     settings.contact.restitution = 1.2;
     settings.domain.radius = -1.0;
-    coupling::RotorMotion rotor;
-    rotor.axis.direction = Vec3::UnitX();
+    settings.domain.make_wall(coupling::DomainSide::x_max);
     try {
-        LiggghtsEngine engine(settings, rotor, MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
         FAIL() << "wrong settings were taken";
     } catch (const UserError& error) {
         EXPECT_EQ(error.mistakes().size(), 4u);

@@ -29,12 +29,6 @@ struct TrackedRock {
     double mass() const;
 };
 
-/// One moment of the rocks' motion, for the interpolation of crossings within a step.
-struct RunInstant {
-    double time = 0.0;         ///< [s]
-    double rotor_angle = 0.0;  ///< [rad]
-};
-
 /// Follows every rock. The head's volume is that of geometry::Contour, joined with the mouth and the pipe behind it, so that rock on its
 /// way up the pipe has not left. A rock changes sides once its centre is `hysteresis` diameters beyond the boundary; the event stands where
 /// it passes that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.

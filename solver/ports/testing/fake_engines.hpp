@@ -156,9 +156,7 @@ public:
         time_ += duration;
         for (std::size_t p = rocks_.size(); p-- > 0;) {
             if (!leaves || !leaves(rocks_.position[p])) continue;
-            step.left_domain.push_back(rocks_.id[p]);
-            step.left_position.push_back(rocks_.position[p]);
-            step.left_velocity.push_back(rocks_.velocity[p]);
+            step.left.append(rocks_, p);
             step.left_impulse.push_back(step.impulse[p]);
             step.impulse.erase(step.impulse.begin() + static_cast<std::ptrdiff_t>(p));
             step.contact_impulse.pop_back();

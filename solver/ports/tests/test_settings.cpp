@@ -70,10 +70,14 @@ TEST(Settings, count_the_void_fraction_once) {
     EXPECT_EQ(check_settings(settings, k_water, "x").size(), 2u);
 }
 
-TEST(Settings, outflow_and_rock_need_the_contour) {
-    CouplingSettings settings;
-    settings.outflow = OutflowSettings{0.015, 0.0};
+TEST(Settings, only_outflow_and_the_stop_rule_need_fates) {
+    CouplingSettings settings = good_settings();
+    settings.fates.reset();
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 2u);
+    settings.outflow.reset();
     EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
+    settings.stop.reset();
+    EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
 }
 
 TEST(Contour, is_read_and_a_bad_one_named) {

@@ -147,12 +147,9 @@ void write_cutter_case(const fs::path& folder, const Bed& bed) {
             "    contact {{ youngsModulus {}; poissonRock 0.35; poissonSteel 0.23; friction 0.10; restitution 0.97; wetRestitution false; "
             "timeStepFraction 0.1; maxSpeed 1.5; }}\n"
             "    walls ( {{ name sides; file \"constant/sides.stl\"; rotating false; }} );\n"
-            "    domain {{ radius {}; zMin 0; zMinWall true; zMax {}; zMaxWall true; }}\n}}\n"
-            "closures {{ drag brown_lawler; hindrance di_felice; addedMass 0.5; }}\n"
-            "fates\n{{\n    contour \"constant/contour.csv\"; ringRadius 0.001; zBackplate 0; binWidth 0.005;\n"
-            "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}",
+            "    domain {{ type cylinder; radius {}; zMin 0; zMax {}; walls (zMin zMax); }}\n}}\n"
+            "closures {{ drag brown_lawler; hindrance di_felice; addedMass 0.5; }}\n",
             bed.modulus, 1.05 * std::hypot(k_half_depth, k_half_width), k_height));
-    write_file(folder / "constant/contour.csv", "z_m,r_m\n-0.02,0.001\n0,0.001\n");
     write_dem_walls(folder / "constant/sides.stl");
     std::string feed = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
     for (std::size_t i = 0; i < bed.particles.size(); ++i) {

@@ -64,19 +64,13 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
     write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary",
                           box.motion.empty() ? "dynamicFvMesh staticFvMesh;" : box.motion);
     if (box.rocks.empty()) return;
-    // The DEM's room is the box; its corners lie on the cylinder about the z axis through the origin.
-    const double radius = std::max(std::hypot(box.lower.x(), box.lower.y()), std::hypot(box.upper.x(), box.upper.y()));
+    const std::string walls = std::string(box.rock_leaves_at_bottom ? "" : "zMin ") + (box.rock_leaves_at_top ? "" : "zMax");
     write_foam_dictionary(
         folder, "constant/couplingProperties", "dictionary",
         fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ({});\n"
-                    "    domain {{ radius {:.17g}; zMin {:.17g}; zMinWall {}; zMax {:.17g}; zMaxWall {}; }}\n}}\n"
-                    "kernel {{ {} }}\nclosures {{ {} }}\n"
-                    "fates\n{{\n    contour \"constant/contour.csv\";\n    ringRadius 0.001;\n    zBackplate 0;\n    binWidth 0.005;\n"
-                    "    mouth {{ centre (0 0 -1); direction (0 0 -1); radius 0.001; depth 0.001; }}\n}}\n{}",
-                    box.contact, box.walls, radius, box.lower.z(), !box.rock_leaves_at_bottom, box.upper.z(), !box.rock_leaves_at_top,
-                    box.kernel, box.closures, box.extra));
-    // There is no head in the box: its volume is a pin below the floor.
-    std::ofstream(folder / "constant/contour.csv") << "z_m,r_m\n-0.02,0.001\n0,0.001\n";
+                    "    domain {{ type box; lower {}; upper {}; walls ({}); }}\n}}\n"
+                    "kernel {{ {} }}\nclosures {{ {} }}\n{}",
+                    box.contact, box.walls, vector_text(box.lower), vector_text(box.upper), walls, box.kernel, box.closures, box.extra));
     std::ofstream feed(folder / "constant/rockFeed.csv");
     feed << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
     for (const FeedRock& rock : box.rocks)

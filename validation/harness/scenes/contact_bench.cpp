@@ -67,7 +67,8 @@ coupling::DemSettings dry_room(double size, bool floor, const Elastic& material,
     settings.contact.restitution = restitution;
     settings.contact.wet_restitution = false;
     settings.contact.max_speed = speed;
-    settings.domain = {size, floor ? 0.0 : -size, size, floor, false};
+    settings.domain = coupling::cylinder_domain(size, floor ? 0.0 : -size, size);
+    if (floor) settings.domain.make_wall(coupling::DomainSide::z_min);
     settings.fluid = {0.0, 0.0};
     settings.added_mass = 0.0;
     return settings;
