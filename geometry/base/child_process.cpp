@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::array<int, 3> k_stop_signals{SIGINT, SIGTERM, SIGHUP};
 
-// What the signal handler needs; a handler may touch nothing else.
+// State of the signal handler; a handler must not access anything else.
 constexpr std::size_t k_most_children = 256;
 std::array<volatile std::sig_atomic_t, k_most_children> g_children{};
 volatile std::sig_atomic_t g_received = 0;
@@ -43,7 +43,7 @@ extern "C" void pass_on(int signal_number) {
     errno = saved_errno;
 }
 
-/// Passes stop signals on to the children while any of them lives; the caller's own handling is back after the last.
+/// Forwards stop signals to the children while any of them runs; restores the caller's handlers after the last.
 class SignalRelay {
 public:
     SignalRelay() {
@@ -69,7 +69,7 @@ public:
         slot_ = std::find(g_children.begin(), g_children.end(), 0);
         Expects(slot_ != g_children.end());
         *slot_ = child;
-        if (g_received != 0) ::kill(child, g_received);  // it came before the child was known
+        if (g_received != 0) ::kill(child, g_received);  // received before the child was registered
     }
     static int received() { return g_received; }
 
@@ -96,7 +96,7 @@ private:
     int number_;
 };
 
-/// The Debian package that brings a program; empty when unknown.
+/// The Debian package of a program; empty when unknown.
 std::string package_of(const std::string& program) {
     static const std::set<std::string> openfoam{"blockMesh",           "snappyHexMesh", "checkMesh",      "surfaceFeatureExtract",
                                                 "createBaffles",       "createPatch",   "topoSet",        "splitMeshRegions",
@@ -113,7 +113,7 @@ std::string package_of(const std::string& program) {
 Mistake missing_program(const std::string& program) {
     const std::string package = package_of(std::filesystem::path(program).filename().string());
     if (package.empty())
-        return {"", fmt::format("the program {} was not found", program), "It is built with this project",
+        return {"", fmt::format("the program {} was not found", program), "It is part of this project",
                 "Run ./bootstrap in the repository, or add the program's folder to PATH"};
     return {"", fmt::format("the program {} was not found on PATH", program), fmt::format("It comes with the Debian package {}", package),
             fmt::format("Run ./bootstrap in the repository, or apt-get install {}", package)};
@@ -123,7 +123,7 @@ bool is_program(const std::filesystem::path& path) {
     return !std::filesystem::is_directory(path) && ::access(path.c_str(), X_OK) == 0;
 }
 
-/// Path of a program by name or path; empty when it is not there.
+/// Path of a program by name or path; empty if it does not exist.
 std::filesystem::path locate(const std::string& name) {
     if (name.find('/') == std::string::npos) return find_program(name);
     const std::filesystem::path path = std::filesystem::absolute(name);
@@ -151,7 +151,7 @@ void require_system(int error, const std::string& doing) {
     if (error != 0) throw std::system_error(error, std::generic_category(), doing);
 }
 
-/// Starts the program with its output on `output`, nothing on its standard input, in a process group of its own: the terminal's Ctrl-C
+/// Starts the program with its output on `output`, empty standard input, in a separate process group: the terminal's Ctrl-C
 /// reaches it through SignalRelay alone, once.
 pid_t spawn(const std::filesystem::path& program, const ChildCommand& command, int output) {
     posix_spawn_file_actions_t actions;
@@ -177,9 +177,10 @@ pid_t spawn(const std::filesystem::path& program, const ChildCommand& command, i
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (error != 0)
-        throw ToolError({"", fmt::format("{} could not be started: {}", program.string(), std::strerror(error)),
-                         fmt::format("It is to run in {}", command.working_directory.empty() ? "." : command.working_directory.string()),
-                         "Check that the folder exists and the program may be executed"});
+        throw ToolError(
+            {"", fmt::format("{} could not be started: {}", program.string(), std::strerror(error)),
+             fmt::format("Its working directory is {}", command.working_directory.empty() ? "." : command.working_directory.string()),
+             "Check that the folder exists and the program is executable"});
     return child;
 }
 
@@ -214,7 +215,7 @@ private:
     pid_t child_;
 };
 
-/// Copies the child's output to the log and hands its complete lines on.
+/// Copies the child's output to the log and passes each complete line to the callback.
 class OutputReader {
 public:
     OutputReader(const std::filesystem::path& log, const std::function<void(const std::string&)>& each_line) : each_line_(each_line) {
@@ -318,7 +319,7 @@ Mistake failure_of(const ChildCommand& command, const ChildResult& result) {
     const std::string how = signal_number > 0 ? fmt::format("was killed by signal {} ({})", signal_number, ::strsignal(signal_number))
                                               : fmt::format("ended with exit code {}", result.exit_code);
     return {"", fmt::format("{} {}{}", fmt::join(command.arguments, " "), how, log), "It must end with exit code 0",
-            "Read the log from its first error on"};
+            "Read the first error in the log"};
 }
 
 ChildResult require_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line) {

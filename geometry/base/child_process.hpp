@@ -12,7 +12,7 @@
 
 namespace cutterflow {
 
-/// What to start. Arguments go to the program as they are; no shell ever sees them.
+/// Command to start. Arguments are passed unchanged, without a shell.
 struct ChildCommand {
     std::vector<std::string> arguments;              ///< program (searched on PATH) and its arguments
     std::filesystem::path working_directory;         ///< empty: the caller's
@@ -29,7 +29,7 @@ struct ChildResult {
 };
 
 /// Runs a program to its end. `each_line` (may be empty) is called with every complete line of output while the program runs, after it
-/// was written to the log. Several may run at a time, each from its own thread. SIGINT and SIGTERM that reach the caller are passed on to
+/// was written to the log. Several may run in parallel, one per thread. SIGINT and SIGTERM that reach the caller are forwarded to
 /// the child, which is waited for; then the call throws Interrupted. (Every child that runs gets the signal.) \throws ToolError  when the
 /// program is not found or cannot be started (names it, its package when known, and what to do)
 ChildResult run_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
@@ -37,14 +37,14 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
 /// As run_child, but an exit code other than 0 throws ToolError, which quotes the log's last lines and names the log.
 ChildResult require_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
 
-/// What an exit code other than 0 is told as: how the program ended, the log's name and last lines.
+/// Message for an exit code other than 0: how the program ended, name and last lines of the log.
 Mistake failure_of(const ChildCommand& command, const ChildResult& result);
 
 /// Full path of a program on PATH; empty when there is none.
 std::filesystem::path find_program(const std::string& name);
 
 /// \param programs  names on PATH, or paths
-/// \throws ToolError  naming every one that is not there, its package and what to do
+/// \throws ToolError  naming every missing program, its package and the remedy
 void require_programs(const std::vector<std::string>& programs);
 
 /// The run was stopped by the user (SIGINT or SIGTERM); what was done is kept.

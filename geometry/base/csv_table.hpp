@@ -1,5 +1,5 @@
 #pragma once
-/// \file Numeric CSV files with one header line, read with every mistake at once.
+/// \file Numeric CSV files with one header line; all mistakes are reported together.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace cutterflow {
 /// The numbers of a CSV file by column.
 class CsvTable {
 public:
-    /// Reads the columns `required` (all of them) and `optional` (those that are there); others are refused.
+    /// Reads the columns `required` (all) and `optional` (those present); others are refused.
     /// Mistakes (file not readable, column missing or unknown, field missing or not a number) are appended to `mistakes`; rows with
     /// mistakes are left out.
     CsvTable(const std::filesystem::path& file, const std::vector<std::string>& required, const std::vector<std::string>& optional,

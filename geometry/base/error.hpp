@@ -1,5 +1,5 @@
 #pragma once
-/// \file The kinds of failure and their exit codes. Messages say what, value, rule, remedy, in that order.
+/// \file The kinds of failure and their exit codes. Messages contain what, value, rule, remedy, in that order.
 #include <stdexcept>
 #include <string>
 #include <vector>

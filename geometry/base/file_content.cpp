@@ -25,8 +25,8 @@ std::ifstream open_for_reading(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void throw_not_written(const std::filesystem::path& file, int error) {
-    throw UserError(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)), "Its folder must be writable and have room",
-                    "Check its permissions and the disk");
+    throw UserError(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)),
+                    "Its folder must be writable and have free space", "Check its permissions and the disk");
 }
 
 void write_all(int descriptor, const std::string& content, const std::filesystem::path& file) {
@@ -53,7 +53,7 @@ std::string read_file(const std::filesystem::path& file) {
 }
 
 void write_file(const std::filesystem::path& file, const std::string& content) {
-    std::error_code ignored;  // the open below tells what is wrong
+    std::error_code ignored;  // the open below reports the error
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
     std::filesystem::path temporary = file;
     temporary += fmt::format(".part{}", ::getpid());

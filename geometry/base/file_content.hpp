@@ -1,5 +1,5 @@
 #pragma once
-/// \file Whole files: read, written so that they are there entirely or not at all, and recognised by their content.
+/// \file Whole files: read, written atomically, and identified by their content.
 #include <filesystem>
 #include <string>
 

@@ -17,14 +17,14 @@ enum class ParameterKind { number, integer, text, choice, boolean, path, vector3
 
 using ParameterValue = std::variant<double, std::int64_t, std::string, bool, Vec3>;
 
-/// One key. The unit stands in the key's name too (`rotor.speed_rpm`); values keep the file's unit, conversion happens where a struct is
+/// One key. Its name contains the unit (`rotor.speed_rpm`); values keep the file's unit, conversion happens where a struct is
 /// filled.
 struct Parameter {
     std::string key;  ///< "section.name_unit"; for repeated tables "feed.count" with `repeated`
     ParameterKind kind = ParameterKind::number;
     std::string unit;                             ///< for people: "rpm", "m3/s", "-" ...
     std::optional<ParameterValue> default_value;  ///< none: the key is required, unless `optional`
-    bool optional = false;                        ///< may be absent without a default; `derived_from` says what is used then
+    bool optional = false;                        ///< may be absent without a default; `derived_from` describes the value used
     std::optional<double> minimum, maximum;       ///< inclusive bounds
     bool minimum_excluded = false;                ///< the minimum itself is not allowed (a discharge of 0)
     std::vector<std::string> choices;             ///< for ParameterKind::choice
@@ -52,7 +52,7 @@ public:
     void set(const std::string& key, ParameterValue value);
     std::vector<ParameterValues>& tables_for_writing(const std::string& name);
 
-    /// Where a key stands ("study.toml:12"), for messages; empty when it has its default.
+    /// Place of a key ("study.toml:12"), for messages; empty when it has its default.
     std::string where(const std::string& key) const;
     void set_where(const std::string& key, std::string where);
 
@@ -70,7 +70,7 @@ private:
 ///                    outside its bounds, not among its choices, missing
 ParameterValues read_parameters(const ParameterTable& table, const std::filesystem::path& file);
 
-/// As read_parameters, from text; `name` stands for the file in messages.
+/// As read_parameters, from text; messages show `name` as the file.
 ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name);
 
 /// A value as TOML writes it.

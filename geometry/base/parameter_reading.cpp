@@ -108,7 +108,7 @@ private:
     }
 
     void read_section(const toml::table& section, const std::string& prefix, ParameterValues& values) {
-        // toml++ sorts keys; mistakes are to appear in the file's order.
+        // toml++ sorts keys; report mistakes in the order of the file.
         std::vector<std::pair<std::string, const toml::node*>> entries;
         for (const auto& [key, node] : section) entries.emplace_back(std::string(key.str()), &node);
         std::sort(entries.begin(), entries.end(),
@@ -121,8 +121,8 @@ private:
         if (!is_section(table_, key)) return report_unknown(key, node);
         if (is_repeated_section(table_, key)) return read_repeated(key, node, values);
         if (const toml::table* section = node.as_table()) return read_section(*section, key, values);
-        add(where(node), fmt::format("{} = {} is no section", key, node_text(node)), fmt::format("{} holds keys of its own", key),
-            fmt::format("Write [{}] on a line of its own and its keys below", key));
+        add(where(node), fmt::format("{} = {} is not a section", key, node_text(node)), fmt::format("{} contains keys", key),
+            fmt::format("Write [{}] on a separate line and its keys below", key));
     }
 
     void read_repeated(const std::string& key, const toml::node& node, ParameterValues& values) {
@@ -130,7 +130,7 @@ private:
         const bool tables_only =
             array != nullptr && std::all_of(array->begin(), array->end(), [](const toml::node& item) { return item.is_table(); });
         if (!tables_only)
-            return add(where(node), fmt::format("{} is not a list of tables", key), fmt::format("{} may stand several times", key),
+            return add(where(node), fmt::format("{} is not a list of tables", key), fmt::format("{} may occur several times", key),
                        fmt::format("Write [[{}]] with two brackets and its keys below", key));
         for (const toml::node& item : *array) {
             ParameterValues member;
@@ -183,7 +183,7 @@ private:
         const std::string& text = std::get<std::string>(value);
         if (std::find(parameter.choices.begin(), parameter.choices.end(), text) != parameter.choices.end()) return true;
         const std::string nearest = nearest_word(text, parameter.choices);
-        add(where(node), fmt::format("{} = {} is no choice", parameter.key, quoted(text)),
+        add(where(node), fmt::format("{} = {} is not a valid choice", parameter.key, quoted(text)),
             fmt::format("It must be one of {}", join(parameter.choices, ", ")),
             nearest.empty() ? "Choose one of them" : fmt::format("Did you mean \"{}\"?", nearest));
         return false;

@@ -67,7 +67,7 @@ std::string entries_of(const ParameterTable& table, const std::string& section, 
 
 std::string repeated_toml(const ParameterTable& table, const std::string& section, const ParameterValues* values);
 
-/// Arrays of tables that stand directly inside `section`.
+/// Arrays of tables directly inside `section`.
 std::string nested_toml(const ParameterTable& table, const std::string& section, const ParameterValues* values) {
     std::string text;
     for (const std::string& inner : sections_of(table))

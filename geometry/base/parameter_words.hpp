@@ -1,5 +1,5 @@
 #pragma once
-/// \file Words about parameters that reading and listing share. For parameter_reading.cpp and parameter_text.cpp alone.
+/// \file Descriptions of parameters shared by reading and listing. Only for parameter_reading.cpp and parameter_text.cpp.
 #include <string>
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Progress of a long job: one line that rewrites itself on a terminal, a plain line now and then elsewhere.
+/// \file Progress of a long job: one line that is rewritten on a terminal, a plain line at intervals elsewhere.
 #include <chrono>
 #include <functional>
 #include <ostream>
@@ -10,14 +10,14 @@ namespace cutterflow {
 /// "42 s", "3 min 05 s", "2 h 10 min".
 std::string duration_text(double seconds);
 
-/// Shows how far a job is and when it will be done, judged by its pace since the start.
+/// Shows the progress of a job and its expected end, extrapolated from the pace since the start.
 class Progress {
 public:
     using Clock = std::function<double()>;  ///< seconds from any origin
 
     /// \param what      name of the job
     /// \param out       where lines go
-    /// \param terminal  `out` is a terminal: one line rewrites itself; otherwise a line at every tenth, and one a minute
+    /// \param terminal  `out` is a terminal: one line is rewritten; otherwise a line per tenth, and one per minute
     Progress(std::string what, std::ostream& out, bool terminal, Clock clock = steady_seconds());
     /// To standard error.
     explicit Progress(std::string what);
@@ -38,7 +38,7 @@ private:
     bool terminal_;
     Clock clock_;
     double start_s_;
-    double start_fraction_ = -1.0;  // a resumed job does not begin at 0
+    double start_fraction_ = -1.0;  // a resumed job does not start at 0
     double shown_s_ = -1.0;
     double shown_fraction_ = -1.0;
     std::size_t width_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Files of a run directory that two or more layers share, relative to it. docs/design/001-contracts.md says what stands in each.
+/// \file Files of a run directory that two or more layers share, relative to it. docs/design/001-contracts.md describes their content.
 
 namespace cutterflow::names {
 
@@ -15,7 +15,7 @@ inline constexpr const char* sample_points = "constant/samples";  ///< folder of
 inline constexpr const char* checkpoints = "checkpoints";
 inline constexpr const char* results_json = "report/results.json";
 inline constexpr const char* report_page = "report/index.html";
-inline constexpr const char* adv_json = "report/adv.json";  ///< measured velocities beside the model's
+inline constexpr const char* adv_json = "report/adv.json";  ///< measured and computed velocities
 inline constexpr const char* adv_page = "report/adv.html";
 
 }  // namespace cutterflow::names

@@ -1,10 +1,10 @@
 #pragma once
-/// \file Command lines as text: for the user to paste, and for scripts that a shell is to read.
+/// \file Command lines as text, for messages and for scripts.
 #include <string>
 
 namespace cutterflow {
 
-/// A word as sh reads it, whatever it holds: bare where it can be, else in single quotes.
+/// Text as one word for sh: unquoted where possible, else in single quotes.
 std::string shell_word(const std::string& text);
 
 }  // namespace cutterflow

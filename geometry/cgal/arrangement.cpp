@@ -1,4 +1,4 @@
-// Cascading intersections of constraints are few here.
+// Cascading intersections of constraints are rare here.
 #define CGAL_NO_CDT_2_WARNING
 
 #include "geometry/cgal/arrangement.hpp"
@@ -24,7 +24,7 @@ using Point = Kernel::Point_3;
 using Segment = Kernel::Segment_3;
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_intersections_tag>;
 
-/// Where a group of triangles of one plane is to be divided.
+/// Cuts of a group of triangles in one plane.
 struct Cuts {
     std::vector<Point> points;
     std::vector<Segment> segments;
@@ -37,7 +37,7 @@ struct Cuts {
     }
 };
 
-/// A plane seen along one coordinate axis, exactly.
+/// A plane projected along one coordinate axis, exactly.
 class PlaneView {
 public:
     explicit PlaneView(const Kernel::Triangle_3& triangle) : plane_(triangle.supporting_plane()) {
@@ -100,7 +100,7 @@ private:
         return {point(corners[0]), point(corners[1]), point(corners[2])};
     }
 
-    /// Notes the common part of two triangles as cuts of both.
+    /// Records the common part of two triangles as cuts of both.
     void intersect(std::size_t i, std::size_t j) {
         const auto common = CGAL::intersection(triangle(i), triangle(j));
         if (!common) return;
@@ -146,7 +146,7 @@ private:
         for (const auto face : triangulation.finite_face_handles()) {
             const Kernel::Point_2 inside = CGAL::centroid(face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point());
             Facet facet{{index[face->vertex(0)], index[face->vertex(1)], index[face->vertex(2)]}, 0, 0};
-            // Faces of the triangulation are counter-clockwise as seen; a triangle that is so, too, has them in their sense.
+            // Faces of the triangulation are counter-clockwise in the projection; a counter-clockwise triangle has the same sense.
             for (std::size_t m = 0; m < group.size(); ++m) {
                 if (outlines[m].bounded_side(inside) != CGAL::ON_BOUNDED_SIDE) continue;
                 facet.multiplicity += outlines[m].orientation() == CGAL::COUNTERCLOCKWISE ? 1 : -1;
@@ -168,7 +168,7 @@ private:
 Arrangement arrange(const TriangleSurface& surface, const std::vector<std::pair<std::size_t, std::size_t>>& crossing) try {
     return Arranger(surface).run(crossing);
 } catch (const CGAL::Failure_exception& failure) {
-    throw CheckFailure({"", "the triangles cannot be divided along their intersections", failure.message(), "Mend the surface in CAD"});
+    throw CheckFailure({"", "the triangles cannot be divided along their intersections", failure.message(), "Repair the surface in CAD"});
 }
 
 }  // namespace cutterflow::geometry

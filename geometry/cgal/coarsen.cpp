@@ -31,7 +31,7 @@ constexpr double k_longest_edge = 4.0 / 3.0;
 constexpr int k_rounds = 12;
 constexpr double k_worthwhile_share = 5e-3;        // of all edges that a pass over them must collapse for another one
 constexpr double k_least_normal_product = 0.7071;  // an operation may turn a triangle by 45 degrees at most
-constexpr double k_least_sliver_product = 0.2;     // a triangle without direction of its own: against the mean of its star
+constexpr double k_least_sliver_product = 0.2;     // a sliver has no reliable normal: compared with the mean of its star
 constexpr double k_sliver_angle = 1e-3;
 constexpr double k_flat_angle = 1.75;  // 100 degrees
 constexpr double k_least_gain = 1e-3;  // [rad] in the smallest angle
@@ -139,7 +139,7 @@ private:
         return std::all_of(samples.begin(), samples.end(), [&](std::uint32_t s) { return is_near(triangles, samples_[s]); });
     }
 
-    /// Takes the samples off the faces.
+    /// Removes the samples from the faces.
     Samples lift(const std::vector<Face>& faces) {
         Samples lifted;
         for (const Face f : faces) {
@@ -149,7 +149,7 @@ private:
         return lifted;
     }
 
-    /// Gives each sample to the nearest of the faces.
+    /// Assigns each sample to the nearest of the faces.
     void lay(const Samples& samples, const std::vector<Face>& faces) {
         samples_of_.resize(mesh_.num_faces());
         std::vector<Corners> triangles;
@@ -208,7 +208,7 @@ private:
         return true;
     }
 
-    /// What becomes of the triangles around a vertex when it goes to another place.
+    /// Effect of moving a vertex on the triangles around it.
     struct Star {
         std::vector<Corners> before, after;
         Vec3 mean = Vec3::Zero();  // sum of the normals before
@@ -217,7 +217,7 @@ private:
         double longest = 0.0;                                              // edge of the vertex
     };
 
-    /// \param merged  the vertex that it becomes one with, if any: their common triangles vanish
+    /// \param merged  the vertex it is merged with, if any: their common triangles vanish
     Star star_of(Vertex goes, const Vec3& to, Vertex merged = Mesh::null_vertex()) const {
         Star star;
         for (const Halfedge around : CGAL::halfedges_around_target(goes, mesh_)) {
@@ -241,7 +241,7 @@ private:
         return keep_near(star.samples, star.after);
     }
 
-    /// Smallest angle of the triangles around the source of h when it has gone to the target; -1 when it must not.
+    /// Smallest angle of the triangles around the source of h after moving it to the target; -1 if the move is not allowed.
     double angle_after_collapse(Halfedge h) const {
         if (mesh_.is_border(mesh_.source(h))) return -1.0;
         const Star star = star_of(mesh_.source(h), target(h), mesh_.target(h));
@@ -341,7 +341,7 @@ private:
         bool changed = false;
         for (const Face f : bad) {
             const auto [h, size] = longest_edge(f);
-            // A neighbour may have been divided meanwhile, and this triangle with it.
+            // Dividing a neighbour may have divided this triangle.
             if (smallest_angle(corners(f)) >= least_angle && size <= longest()) continue;
             changed |= split(h);
         }

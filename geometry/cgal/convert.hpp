@@ -25,8 +25,8 @@ CGAL::Surface_mesh<Point> to_mesh(const TriangleSurface& surface) {
     for (const Vec3& p : surface.points) points.emplace_back(p.x(), p.y(), p.z());
     const auto polygons = polygons_of(surface);
     if (!pmp::is_polygon_soup_a_polygon_mesh(polygons))
-        throw CheckFailure({"", "the triangles do not form a 2-manifold surface", "Every edge must join two triangles of like orientation",
-                            "Run \"cutterflow inspect\" on the surface: it says where"});
+        throw CheckFailure({"", "the triangles do not form a 2-manifold surface", "Every edge must join two triangles of equal orientation",
+                            "Run \"cutterflow inspect\" on the surface to find the place"});
     CGAL::Surface_mesh<Point> mesh;
     pmp::polygon_soup_to_polygon_mesh(points, polygons, mesh);
     return mesh;

@@ -22,7 +22,7 @@ ExactSolid::ExactSolid(const TriangleSurface& surface) : impl_(std::make_unique<
     impl_->mesh = detail::to_mesh<ExactPoint>(surface);
     if (!CGAL::is_closed(impl_->mesh))
         throw CheckFailure({"", "a surface to be combined with others is open", "A solid needs a closed surface",
-                            "Run \"cutterflow inspect\" on the surface: it says where"});
+                            "Run \"cutterflow inspect\" on the surface to find the place"});
 }
 
 ExactSolid::~ExactSolid() = default;
@@ -35,8 +35,8 @@ void ExactSolid::unite(const ExactSolid& other) {
                             "Let them overlap"});
 }
 
-// Evaluated first: of a lazy number the exact value counts, not the interval that happens to be known of it. And sorted: the order of the
-// intersections that corefinement finds follows memory addresses.
+// Lazy numbers are evaluated first, because their interval is not unique. Points are sorted, because the order of the
+// intersections of corefinement depends on memory addresses.
 TriangleSurface ExactSolid::surface() const {
     for (const auto vertex : impl_->mesh.vertices()) CGAL::exact(impl_->mesh.point(vertex));
     return sorted(detail::to_surface(impl_->mesh));

@@ -92,14 +92,14 @@ private:
             touched[mesh_.target(h)] = true;
             const Vertex merged = CGAL::Euler::collapse_edge(edge, mesh_);
             mesh_.point(merged) = kept;
-            // Whichever vertex survived carries on for both.
+            // The vertex that remains represents both.
             touched[merged] = true;
             return true;
         }
         return false;
     }
 
-    /// Between two feature edges, and free to go.
+    /// Between two feature edges and removable.
     bool is_inner_line_vertex(Vertex vertex, const Flags& feature) const {
         if (extreme_[vertex]) return false;
         int features = 0;
@@ -107,7 +107,7 @@ private:
         return features == 2;
     }
 
-    /// Would moving the source of h to its target leave every triangle nearly where it points?
+    /// Whether moving the source of h to its target nearly keeps every triangle's normal.
     bool keeps_normals(Halfedge h) const {
         const Vertex source = mesh_.source(h);
         const Vec3 from = position(mesh_, source);
@@ -145,7 +145,7 @@ TriangleSurface remeshed(const TriangleSurface& surface, double edge_length, dou
     Mesh mesh = detail::to_mesh<Mesh::Point>(surface);
     Flags feature = mesh.add_property_map<Edge, bool>("e:feature", false).first;
     pmp::detect_sharp_edges(mesh, feature_angle_deg, feature);
-    // Remeshing divides no protected edge, and asks that none be longer than 4/3 of the wanted length.
+    // Remeshing divides no protected edge and requires that none is longer than 4/3 of the target length.
     pmp::split_long_edges(mesh.edges(), 1.3 * edge_length, mesh, pmp::parameters::edge_is_constrained_map(feature));
     auto extreme = mesh.add_property_map<Vertex, bool>("v:extreme", false).first;
     const std::vector<bool> extremes = extreme_vertices(mesh);
@@ -158,7 +158,7 @@ TriangleSurface remeshed(const TriangleSurface& surface, double edge_length, dou
     remove_slivers(mesh, k_spurious_edge * edge_length);
     return detail::to_surface(mesh);
 } catch (const CGAL::Failure_exception&) {
-    // An assertion within the remeshing: it found no way to keep all feature edges.
+    // An assertion inside the remeshing: not all feature edges could be kept.
     throw CheckFailure({"", "the surface cannot be remeshed", "Feature lines must not nearly coincide", "Change the sizes a little"});
 }
 

@@ -13,7 +13,7 @@ std::vector<AxialBin> axial_bins(const Contour& contour, double width) {
     if (!(width > 0.0)) throw std::invalid_argument("the width of axial bins must be positive");
     std::vector<AxialBin> bins{{"gap", contour.z_ring(), contour.z_backplate()}};
     const double depth = contour.z_ring() - contour.z_hub();
-    // Two digits of the width, so that the bins of a small head have names of their own.
+    // Two digits of the width, so that the bins of a small head have distinct names.
     const int decimals = std::max(0, static_cast<int>(std::ceil(1.0 - std::log10(1e3 * width))));
     // A remainder of less than a thousandth of a bin is rounding, not a bin.
     for (int i = 0; i * width < depth - 1e-3 * width; ++i) {

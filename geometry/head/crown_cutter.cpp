@@ -26,7 +26,7 @@ constexpr std::array<double, 4> k_shortest_feature_edges{0.6, 0.4, 0.2, 0.05};
 /// The blades' outer edge lies within the ring by this share of its width: no faces of ring and blade coincide.
 constexpr double k_edge_inset = 0.08;
 constexpr double k_pick_tip = 0.5;      // width of a pick's tip over that of its base
-constexpr double k_pick_root = 0.8;     // how deep it stands in the blade, over its width
+constexpr double k_pick_root = 0.8;     // depth of the pick inside the blade, over its width
 constexpr double k_pick_spacing = 1.2;  // least distance of picks over their width
 
 /// The outer edge of a blade in the meridional half plane, by arc length from the ring end.
@@ -157,7 +157,7 @@ TriangleSurface crown_hub(const CrownParameters& p, double edge) {
     return solid_of_revolution(section, circle_segments(p.hub_radius, edge), edge);
 }
 
-/// Where picks may stand on the edge, as parameters u of the sheet: a width clear of ring and hub.
+/// Range of the picks on the edge, as parameters u of the sheet: one width clear of ring and hub.
 struct PickRange {
     double from = 1.0, to = 0.0;
 };
@@ -233,7 +233,7 @@ void require_consistent(const CrownParameters& p) {
                 "Take fewer or narrower picks");
         require(k_pick_root * p.pick_width < std::min(p.blade_depth_at_ring, p.blade_depth_at_hub),
                 fmt::format("picks.width_m = {}", p.pick_width),
-                fmt::format("A pick stands {} of its width deep in the blade, which is {} deep", k_pick_root,
+                fmt::format("A pick reaches {} of its width into the blade, which is {} deep", k_pick_root,
                             std::min(p.blade_depth_at_ring, p.blade_depth_at_hub)),
                 "Make the picks narrower or the blades deeper");
     }
@@ -249,8 +249,8 @@ void require_simple(const TriangleSurface& blade) {
 void require_one_solid(const TriangleSurface& cutter) {
     const SoundnessReport report = inspect_surface(cutter);
     if (report.components.size() > 1)
-        throw CheckFailure({"", fmt::format("the cutter falls into {} parts", report.components.size()),
-                            "Ring, blades and hub must hang together",
+        throw CheckFailure({"", fmt::format("the cutter consists of {} separate parts", report.components.size()),
+                            "Ring, blades and hub must be connected",
                             "Make the blades deeper or thicker, so that they reach into ring and hub"});
     const std::vector<Mistake> defects = defects_of(report, "the generated cutter");
     if (!defects.empty())

@@ -23,7 +23,7 @@ namespace cutterflow::geometry {
 /// rock towards the suction side (+z) when n_z > 0 there, that is when the blade's ring end trails its hub end: `wrap` > 0 is the
 /// azimuth by which the hub end leads, and such a head carries for positive rotation. wrap < 0 is its mirror image.
 ///
-/// A pick is a square frustum, half as wide at its tip, on the blade's outer edge. Picks stand at equal distances along the edge, clear of
+/// A pick is a square frustum, half as wide at its tip, on the blade's outer edge. Picks have equal distances along the edge, clear of
 /// ring and hub; their axes lean from the meridional direction in which the strip points outwards towards the carrying sense of rotation.
 struct CrownParameters {
     double ring_radius = 0.0;  ///< outer radius of the ring

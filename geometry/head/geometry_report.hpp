@@ -29,7 +29,7 @@ GeometryInspection inspect_cutter(const ImportedSurface& imported, const std::st
 void require_head(const GeometryInspection& inspection);
 
 /// geometry.json: `file, unit {name, detected, reason}, surface {...}, defects {...}, sound, head {...}` with units in the keys; `no_head`
-/// says why a sound surface is none.
+/// states why a sound surface is not a head.
 nlohmann::json to_json(const GeometryInspection& inspection);
 
 /// The same for people, a line each.

@@ -20,7 +20,7 @@ struct Carrying {
     double measure = 0.0;
 };
 
-/// \pre the surface stands in the run's frame (axis z, suction side at +z)
+/// \pre the surface is in the run's frame (axis z, suction side at +z)
 Carrying carrying_sense(const TriangleSurface& surface);
 
 /// A head understood. Lengths in metres.
@@ -31,7 +31,7 @@ struct Head {
     TriangleSurface surface;                                         ///< in the run's frame
     double ring_radius = 0.0;                                        ///< outer radius of the ring at the ring plane
     double lowest_z = 0.0;                                           ///< of the hub's end, negative: the head's height is -lowest_z
-    double steel_above_ring = 0.0;  ///< how far steel nearer to the axis (a shaft) stands out above the ring plane
+    double steel_above_ring = 0.0;                                   ///< height above the ring plane of steel nearer to the axis (a shaft)
     Carrying carrying;
     RevolutionContour contour;      ///< from the lowest point to the ring plane
     std::optional<double> passage;  ///< passage_between_blades; none without blades

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Names of the cutter scene that two or more layers share: patches, zones, surfaces and point sets of a run directory.
-/// docs/design/001-contracts.md says what stands in each file.
+/// docs/design/001-contracts.md describes each file.
 
 namespace cutterflow::names {
 

@@ -36,7 +36,7 @@ struct RevolutionContour {
 };
 
 /// Nodes from z_low to z_high [m], denser where the profile bends, down to 1/4096 of the height at steps.
-/// \param tolerance  wanted error [m]; steps of the profile may exceed it, `error` says what was reached
+/// \param tolerance  target error [m]; steps of the profile may exceed it, `error` is the actual one
 RevolutionContour fit_contour(const RadiusProfile& profile, double z_low, double z_high, double tolerance);
 
 /// CSV with the header `z_m,r_m`. \throws UserError  when the file cannot be written

@@ -63,7 +63,7 @@ public:
         RotationalSymmetry found = judge(best_principal_axis());
         if (found.contrast >= k_contrast)
             return found.blade_count == 0 ? found : judge(fitted(found.axis, found.blade_count, k_fit_samples));
-        // Nearly equal moments of inertia in all directions tell nothing.
+        // Nearly equal moments of inertia give no axis.
         for (const Candidate& candidate : best_directions()) {
             const RotationalSymmetry symmetry = judge(fitted(candidate.axis, candidate.blades, k_scan_samples));
             if (symmetry.contrast > found.contrast) found = symmetry;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file The unit of a surface file. STL, OBJ and PLY do not say it: it is given, or told from the size a cutter head can have.
+/// \file The unit of a surface file. STL, OBJ and PLY do not contain it: it is given, or derived from plausible sizes of a cutter head.
 #include <optional>
 #include <string>
 

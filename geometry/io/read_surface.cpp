@@ -59,7 +59,7 @@ std::size_t announced_size(const std::string& stl) {
     return k_stl_head + k_stl_triangle * static_cast<std::size_t>(triangles);
 }
 
-/// Many a binary STL also starts with "solid": only the size tells.
+/// Binary STL files may also start with "solid": only the file size decides.
 bool is_ascii_stl(const std::string& bytes) {
     if (bytes.size() >= k_stl_head && announced_size(bytes) == bytes.size()) return false;
     return bytes.compare(0, 5, "solid") == 0 && bytes.find('\0') == std::string::npos;

@@ -43,7 +43,7 @@ std::vector<Hole> find_holes(const TriangleSurface& surface) {
     std::vector<Hole> holes;
     std::multimap<std::uint32_t, Step> steps = open_steps(surface);
     while (!steps.empty()) {
-        // A walk along open edges; whenever it comes back to a point of its own, the loop since then is a hole.
+        // Walk along open edges; when the walk returns to one of its points, the loop since then is a hole.
         std::vector<std::uint32_t> path{steps.begin()->first};
         std::vector<std::size_t> triangles;
         std::map<std::uint32_t, std::ptrdiff_t> place{{path.front(), 0}};

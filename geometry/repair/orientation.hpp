@@ -3,7 +3,7 @@
 
 namespace cutterflow::geometry::repair {
 
-/// Within each sheet (triangles that hang together over edges of exactly two) all triangles take the sense of the larger part by area.
+/// Within each sheet (triangles connected over edges of exactly two) all triangles are oriented like the larger part by area.
 /// count: triangles flipped.
 Stepped orient_consistently(const TracedSurface& traced);
 

@@ -21,7 +21,7 @@ TriangleSurface corners_of(const Arrangement& arrangement) {
     return surface;
 }
 
-/// Facets that hang together over edges of two facets have the same space on either side.
+/// Facets connected over edges of two facets have the same space on either side.
 std::vector<std::size_t> patch_roots(const TriangleSurface& facets) {
     DisjointSets patches(facets.triangles.size());
     for_each_edge(sorted_edge_uses(facets), [&](auto first, auto last) {

@@ -21,7 +21,7 @@ constexpr std::size_t k_holes_named = 5;
 /// Patching costs the cube of it.
 constexpr std::size_t k_most_hole_points = 1500;
 constexpr int k_tidying_passes = 8;
-/// Points that touched must not be welded again when the result is repaired once more.
+/// Separated points must not be welded again when the result is repaired a second time.
 constexpr double k_parting_per_weld_distance = 3.0;
 /// Closed crumbs that exact arithmetic leaves where walls nearly coincide.
 constexpr double k_crumb_volume = 1e-6;
@@ -39,7 +39,7 @@ TracedSurface rounded_to_single(TracedSurface traced) {
     return traced;
 }
 
-/// For each triangle the number of its sheet: triangles that hang together over edges of exactly two.
+/// For each triangle the number of its sheet: triangles connected over edges of exactly two.
 std::vector<std::size_t> sheet_roots(const TriangleSurface& surface, const std::vector<EdgeUse>& uses) {
     DisjointSets sheets(surface.triangles.size());
     for_each_edge(uses, [&](auto first, auto last) {
@@ -295,7 +295,7 @@ private:
         }
         const Stepped united = outer_boundary(now());
         if (united.traced.surface.triangles.empty())
-            throw Refused{{{name_, "the surface encloses nothing", "It must bound a solid", "Export the solid's surface"}},
+            throw Refused{{{name_, "the surface encloses no volume", "It must bound a solid", "Export the solid's surface"}},
                           {{"crossing", crossing}}};
         const double volume = volume_of(united.traced.surface);
         require_change_within(volume - volume_, volume_, limits().overlap, "uniting the shells changes the sum of their volumes by {}", "",
@@ -303,7 +303,7 @@ private:
         take("unite shells", "shells", {united.traced, shells}, fmt::format("{} pairs of triangles crossed", united.count));
     }
 
-    /// Rounds to single precision, which an STL holds, and mends what rounding breaks, until nothing crosses.
+    /// Rounds to the single precision of an STL and repairs the defects of rounding, until nothing crosses.
     void tidy() {
         const double before = volume_;
         Stepped tidied{rounded_to_single(now()), 0};
@@ -318,12 +318,12 @@ private:
                       tidied.count + joined_points.count + high.count + single.count + seamed.count + parted.count};
             if (is_closed(tidied.traced.surface) && find_self_intersections(tidied.traced.surface).empty()) break;
             tidied.traced = rounded_to_single(outer_boundary(tidied.traced).traced);
-            // What keeps on crossing is a sliver a little higher than the last limit.
+            // A remaining crossing is a sliver slightly higher than the last limit.
             height = std::min(2.0 * height, std::max(height, 0.5 * limits().weld_distance));
         }
         require_change_within(volume_of(tidied.traced.surface) - before, before, limits().volume_change,
                               "rounding changes the volume by {}", "--volume-change-percent", {});
-        take("round to single precision", "points and triangles touched", tidied, "what a binary STL holds");
+        take("round to single precision", "points and triangles touched", tidied, "the precision of a binary STL");
     }
 
     /// Drops closed components inside the solid, and crumbs.

@@ -1,6 +1,6 @@
 #pragma once
-/// \file Repair of users' surfaces: from triangles as some program has exported them to the boundary of one solid, or a refusal that says
-/// where.
+/// \file Repair of users' surfaces: from exported triangles to the boundary of one solid, or a refusal with the
+/// place.
 #include <map>
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace cutterflow::geometry::repair {
 
-/// What a repair may do. A surface that needs more is refused.
+/// Limits of a repair. A surface that needs more is refused.
 struct RepairLimits {
     double weld_distance = 0.0;    ///< [m] points nearer than this are one; borders nearer than this are a seam
     double hole_size = 0.0;        ///< [m] longest side of a hole's bounding box
@@ -30,10 +30,9 @@ struct RepairStep {
     std::string name;
     std::string counted;  ///< what `count` counts
     std::size_t count = 0;
-    double volume_change =
-        0.0;                   ///< [m3], signed; holes count as closed by a cone on their middle; means little until all faces are oriented
-    double area_change = 0.0;  ///< [m2], signed
-    std::string remark;        ///< more numbers, with their limits
+    double volume_change = 0.0;  ///< [m3], signed; holes closed by a cone to their middle; meaningful once all faces are oriented
+    double area_change = 0.0;    ///< [m2], signed
+    std::string remark;          ///< more numbers, with their limits
 };
 
 /// The faces for which a surface was refused.

@@ -7,8 +7,8 @@ namespace cutterflow::geometry::repair {
 /// `distance` [m] of it. count: edges divided.
 Stepped join_seams(const TracedSurface& traced, double distance);
 
-/// Parts the surface where it touches itself in a point alone: of the fans of triangles that meet there the largest keeps the point, each
-/// other one gets a point of its own, `distance` [m] from it towards the middle of the fan. count: points added.
+/// Separates the surface where it touches itself in a single point: of the fans of triangles that meet there the largest keeps the point,
+/// each other one gets a new point, `distance` [m] from it towards the middle of the fan. count: points added.
 Stepped part_touching_points(const TracedSurface& traced, double distance);
 
 }  // namespace cutterflow::geometry::repair

@@ -1,5 +1,5 @@
 #pragma once
-/// \file A surface whose triangles still know which triangle of the file they come from.
+/// \file A surface with the source triangle in the file of each triangle.
 #include <cstdint>
 
 #include "geometry/surface/surface.hpp"

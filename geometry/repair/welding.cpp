@@ -35,7 +35,7 @@ private:
     std::array<std::int64_t, 3> cell_of(const Vec3& point) const {
         return {std::llround(point.x() / cell_), std::llround(point.y() / cell_), std::llround(point.z() / cell_)};
     }
-    /// Far cells may share a key: they cost time alone, as distances decide.
+    /// Distant cells may share a key: that costs only time, because distances decide.
     static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
         return static_cast<std::uint64_t>(cell[0]) * 73856093U ^ static_cast<std::uint64_t>(cell[1]) * 19349663U ^
                static_cast<std::uint64_t>(cell[2]) * 83492791U;
@@ -89,7 +89,7 @@ void mark_inner_walls(const TriangleSurface& surface, const std::map<Triangle, T
     if (std::find(is_opposed.begin(), is_opposed.end(), true) == is_opposed.end()) return;
     const std::vector<EdgeUse> uses = sorted_edge_uses(surface);
     DisjointSets groups(surface.triangles.size());
-    std::map<std::size_t, int> walls;  // by group: edges of its border that speak for a wall, less those that speak against
+    std::map<std::size_t, int> walls;  // by group: border edges consistent with a wall, less the others
     std::vector<std::pair<std::size_t, int>> votes;
     for_each_edge(uses, [&](auto first, auto last) {
         std::size_t opposed = surface.triangles.size();

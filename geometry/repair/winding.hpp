@@ -3,7 +3,7 @@
 
 namespace cutterflow::geometry::repair {
 
-/// Signed solid angle of a triangle seen from a point, over 4 pi; positive when the point sees its back (VanOosteromStrackee1983).
+/// Signed solid angle of a triangle at a point, over 4 pi; positive when the point is on its back side [VanOosteromStrackee1983].
 /// 0 for a point in the triangle's plane outside it.
 double solid_angle_share(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& seen_from);
 

@@ -1,12 +1,12 @@
 #pragma once
-/// \file The surface of a wall as the DEM reads it: few triangles of bounded quality, near enough to the steel for the rock.
+/// \file The surface of a wall for the DEM: few triangles of bounded quality, within a given distance of the steel.
 #include <string>
 
 #include "geometry/surface/surface.hpp"
 
 namespace cutterflow::geometry {
 
-/// What is asked of a contact surface.
+/// Bounds of a contact surface.
 struct ContactSurfaceBounds {
     double deviation = 0.0;    ///< [m] largest distance of the steel's surface and the contact surface, both ways
     double edge_length = 0.0;  ///< [m]; edges get at most a third longer

@@ -65,7 +65,7 @@ void find_components(const TriangleSurface& surface, const std::vector<EdgeUse>&
                      [](const SurfaceComponent& a, const SurfaceComponent& b) { return a.area > b.area; });
 }
 
-/// Triangles around each point must form one fan: hang together over edges that end in the point.
+/// Triangles around each point must form one fan: be connected over edges that end in the point.
 void find_point_defects(const TriangleSurface& surface, const std::vector<EdgeUse>& uses, SoundnessReport& report) {
     const std::vector<std::size_t> fan_of = fans_of_corners(surface, uses);
     std::vector<std::set<std::size_t>> fans(surface.points.size());
@@ -122,7 +122,7 @@ std::vector<Mistake> defects_of(const SoundnessReport& report, const std::string
     };
     const std::string export_again = "Export the head from CAD as one watertight solid";
     state(report.degenerate_triangles, "triangle(s) without area", "Every triangle must have an area", export_again);
-    state(report.duplicate_triangles, "triangle(s) are there twice", "Each triangle may appear once", export_again);
+    state(report.duplicate_triangles, "duplicate triangle(s)", "Each triangle may appear once", export_again);
     state(report.border_edges, "open edge(s)", "The surface must be closed", "Close the hole in CAD, or export with joined faces");
     state(report.non_manifold_edges, "edge(s) with more than two triangles", "Every edge must join two triangles",
           "Unite touching bodies into one solid");

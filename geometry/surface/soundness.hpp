@@ -1,5 +1,5 @@
 #pragma once
-/// \file Is a surface the boundary of a solid? What is wrong with it, how often and where.
+/// \file Whether a surface is the boundary of a solid: its defects with number and place.
 #include <string>
 #include <vector>
 
@@ -15,7 +15,7 @@ struct Defect {
     std::vector<Vec3> places;            ///< the first few [m]
 };
 
-/// A part of the surface that hangs together over edges.
+/// A part of the surface connected over edges.
 struct SurfaceComponent {
     std::size_t triangles = 0;
     double area = 0.0;    ///< [m2]
@@ -40,7 +40,7 @@ struct SoundnessReport {
 
     bool closed() const { return border_edges.count == 0 && non_manifold_edges.count == 0; }
     bool consistently_oriented() const { return misoriented_edges.count == 0; }
-    /// Every component encloses a positive volume. A cavity does not, and is no use in a rotor either.
+    /// Every component encloses a positive volume. A cavity does not.
     bool outward() const;
     bool sound() const;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Triangle surfaces as plain arrays: what import, generators, inspection and meshing hand to each other.
+/// \file Triangle surfaces as plain arrays, shared by import, generators, inspection and meshing.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ namespace cutterflow::geometry {
 /// Point indices of one triangle, counter-clockwise seen from outside the solid.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A triangulated surface with shared points. Closed and outward oriented when it bounds a solid; `inspect_surface` tells.
+/// A triangulated surface with shared points. Closed and outward oriented when it bounds a solid; `inspect_surface` checks it.
 struct TriangleSurface {
     std::vector<Vec3> points;  ///< [m] unless a function says otherwise
     std::vector<Triangle> triangles;

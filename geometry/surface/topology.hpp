@@ -1,5 +1,5 @@
 #pragma once
-/// \file How triangles hang together: their edges with every triangle that passes along them, and sets of what belongs together.
+/// \file Connectivity of triangles: edges with every triangle that uses them, and disjoint sets.
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -45,10 +45,10 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-/// For each triangle the number of its component: triangles that hang together over edges, numbered from 0 in order of appearance.
+/// For each triangle the number of its component: triangles connected over edges, numbered from 0 in order of appearance.
 std::vector<std::size_t> component_numbers(const TriangleSurface& surface, const std::vector<EdgeUse>& uses);
 
-/// Triangles around a point that hang together over edges ending in it form a fan. For each corner, 3 t + k for point k of triangle t, a
+/// Triangles around a point that are connected over edges ending in it form a fan. For each corner, 3 t + k for point k of triangle t, a
 /// number that corners of the same fan share and no others.
 std::vector<std::size_t> fans_of_corners(const TriangleSurface& surface, const std::vector<EdgeUse>& uses);
 
