@@ -45,7 +45,7 @@ std::string foam_list(const std::vector<double>& numbers) {
     return fmt::format("({})", fmt::join(numbers, " "));
 }
 
-/// Adds up what the programs take, and tells the observer.
+/// Sums the cost of the programs and notifies the observer.
 class StepRunner {
 public:
     StepRunner(fs::path directory, double total_weight, const MeshObserver& observer)
@@ -71,14 +71,14 @@ private:
     double done_ = 0.0;
 };
 
-/// cutterInterfaceRestore needs the mesh as blockMesh made it.
+/// Copies the mesh of blockMesh, which cutterInterfaceRestore needs.
 void keep_background(const fs::path& mesh_case) {
     fs::remove_all(mesh_case / "constant" / "background");
     fs::create_directories(mesh_case / "constant" / "background");
     fs::copy(mesh_case / "constant" / "polyMesh", mesh_case / "constant" / "background" / "polyMesh", fs::copy_options::recursive);
 }
 
-/// On several ranks the mesh is whole again afterwards.
+/// On several ranks the mesh is reconstructed afterwards.
 std::vector<Step> steel_cutting(int ranks) {
     const Step cut = {"snappyHexMesh", {"-overwrite"}, 80.0, ranks};
     if (ranks == 1) return {cut};
@@ -90,7 +90,7 @@ void remove_processors(const fs::path& mesh_case) {
     }
 }
 
-/// The mesh alone, without what snappyHexMesh and topoSet leave beside it.
+/// The mesh only, without the other files of snappyHexMesh and topoSet.
 void move_mesh(const fs::path& mesh_case, const fs::path& run_directory) {
     const fs::path target = run_directory / "constant" / "polyMesh";
     fs::remove_all(target);

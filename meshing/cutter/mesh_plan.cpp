@@ -13,9 +13,9 @@
 namespace cutterflow::meshing {
 namespace {
 
-// Cells between steel and interface. snappyHexMesh refines the cells on both sides of each pair of cell centres that the steel parts; with
-// the steel 1.75 cells from the interface the centres stand 0.25 and 1.25 cells outside it, so that one whole layer at the interface
-// stays as blockMesh made it and small errors of the surface cannot move the choice.
+// Cells between steel and interface. snappyHexMesh refines the cells on both sides of each pair of cell centres separated by steel; with
+// the steel 1.75 cells from the interface the centres are 0.25 and 1.25 cells outside it, so that one whole layer at the interface
+// stays unrefined, also with small errors of the surface.
 constexpr double k_clearance_cells = 1.75;
 constexpr int k_annulus_cells = 3;  // the layer at the interface and those that the head's outer surface can touch
 // Beyond this width over height of a cell in the gap, the step from a halved to a whole cell is skewer than 65 degrees.
@@ -27,7 +27,7 @@ constexpr double k_passage_cells_min = 2.0;  // of the cutter's, across the pass
 constexpr double k_cutter_cell = 0.5;        // of the background's, by one level of refinement
 // Corner of the core over the annulus' inner radius: cells of the core about as wide as those of the annulus are high.
 constexpr double k_core_ratio = 0.82;
-// Bulge that makes the core's corners 120 degrees, as three blocks that meet want it.
+// Bulge with which the core's corners have 120 degrees: three blocks meet there.
 constexpr double k_core_bulge = 0.80;
 
 // Calibrated on the presets' meshes of the model cutter, docs/design/003-meshing.md.
@@ -61,7 +61,7 @@ CellRow even_row(double from, double to, int cells) {
     return {from, to, cells, 1.0};
 }
 
-/// The row seen from its other end.
+/// The row in reverse direction.
 CellRow reversed(const CellRow& row) {
     return {row.from, row.to, row.cells, 1.0 / row.expansion};
 }
@@ -109,7 +109,7 @@ double needed_thickness(double ring_radius, const MeshResolution& resolution) {
     return k_cutter_cell * resolution.cell_size * ring_radius;
 }
 
-/// "Use preset standard or ", or nothing when none would do.
+/// "Use preset standard or ", or nothing when no preset is fine enough.
 template <class Enough>
 std::string finer_preset(const Enough& enough) {
     for (const char* name : k_presets)

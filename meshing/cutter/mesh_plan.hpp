@@ -23,16 +23,16 @@ struct MeshResolution {
 /// \throws UserError  for another name
 MeshResolution mesh_preset(const std::string& name);
 
-/// What the mesh must know of the cutter, in the run's frame.
+/// Sizes of the cutter that determine the mesh, in the run's frame.
 struct CutterExtent {
     double radius = 0.0;  ///< largest distance from the axis [m]
     double z_min = 0.0;   ///< lowest point [m]
     double z_max = 0.0;   ///< highest point [m]; 0 for a head that ends in its ring plane
     double area = 0.0;    ///< of the surface [m2]
     double volume = 0.0;  ///< of the steel [m3]
-    /// Diameter of the largest sphere that passes between the blades [m] (passage_between_blades); none: not asked for.
+    /// Diameter of the largest sphere that passes between the blades [m] (passage_between_blades); none: not computed.
     std::optional<double> passage{};
-    std::optional<double> thickness{};  ///< of the thinnest steel [m] (smallest_thickness); none: not asked for
+    std::optional<double> thickness{};  ///< of the thinnest steel [m] (smallest_thickness); none: not computed
 };
 
 /// All but passage and thickness. \pre the surface is closed, outward oriented and in the run's frame
@@ -87,7 +87,7 @@ struct Clearance {
     double cells = 0.0;
 };
 
-/// Expected figures; the actual ones stand in MeshReport.
+/// Expected figures; the actual ones are in MeshReport.
 struct MeshPrediction {
     double cells = 0.0;
     double cell_size_min = 0.0;              ///< cube root of the smallest cell's volume, roughly [m]
@@ -130,7 +130,7 @@ struct MeshPlan {
 MeshPlan plan_mesh(const MeshInput& input);
 
 /// What the mesh will resolve poorly, with the preset that would resolve it: steel thinner than a cell of the
-/// cutter's (docs/design/003-meshing.md has what becomes of it).
+/// cutter's (effect: docs/design/003-meshing.md).
 std::vector<Mistake> mesh_warnings(const MeshInput& input);
 
 }  // namespace cutterflow::meshing

@@ -21,12 +21,12 @@ using nlohmann::json;
 
 constexpr const char* k_number = "([-+0-9.eE]+)";
 
-/// The number behind `before` in the log, where it stands first.
+/// The number after the first `before` in the log.
 double number_after(const std::string& log, const std::string& before, const std::string& name) {
     std::smatch found;
     if (!std::regex_search(log, found, std::regex(before + k_number)))
-        throw ToolError({"", fmt::format("{} does not say '{}'", name, before), "checkMesh of OpenFOAM 1912 ends with the mesh's quality",
-                         "Look into the log for what stopped it"});
+        throw ToolError({"", fmt::format("{} does not contain '{}'", name, before),
+                         "checkMesh of OpenFOAM 1912 ends with the mesh's quality", "Read the error in the log"});
     return std::stod(found[1]);
 }
 
@@ -120,8 +120,7 @@ std::vector<MeshGate> check_mesh_gates(const MeshPlan& plan, const CheckMeshFigu
     const double outlet = k_pi * in.steel.mouth.radius * in.steel.mouth.radius;
     const double split = split_faces(figures.rotor_side, plan.interface_faces()) + split_faces(figures.stator_side, plan.interface_faces());
     const std::string finer = "Use a finer mesh.preset";
-    const std::string look_at_log =
-        "Look at the sets that checkMesh wrote and repair the cutter's surface there, or use a finer mesh.preset";
+    const std::string look_at_log = "Open the sets that checkMesh wrote and repair the cutter's surface there, or use a finer mesh.preset";
     return {
         {"failed checks of checkMesh", static_cast<double>(quality.failed_checks), 0.0, false, look_at_log},
         {"non-orthogonality, deg", quality.non_orthogonality_max, 75.0, false, finer},

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What a mesh turned out to be, judged by its gates.
+/// \file Properties of a mesh, and its gates.
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace cutterflow::meshing {
 
-/// What checkMesh says.
+/// Figures of checkMesh.
 struct CheckMeshFigures {
     double non_orthogonality_max = 0.0;   ///< [deg]
     double non_orthogonality_mean = 0.0;  ///< [deg]
@@ -20,10 +20,10 @@ struct CheckMeshFigures {
 };
 
 /// Reads the log of `checkMesh`.
-/// \throws ToolError  when the log has no end or lacks a figure; `name` stands for the log in the message
+/// \throws ToolError  when the log is incomplete; `name` is the log's name in the message
 CheckMeshFigures parse_check_mesh(const std::string& log, const std::string& name);
 
-/// What cutterInterfaceRestore says of one side.
+/// Figures of cutterInterfaceRestore for one side.
 struct InterfaceSide {
     std::size_t faces = 0;
     bool restored = false;
@@ -36,7 +36,7 @@ struct PatchFigures {
     double cell_size = 0.0;  ///< mean cube root of the volumes behind the faces [m]
 };
 
-/// What cutterInterfaceRestore and cutterMeshProbe say.
+/// Figures of cutterInterfaceRestore and cutterMeshProbe.
 struct ProbeFigures {
     std::size_t cells = 0;
     double volume_min = 0.0, volume_max = 0.0;  ///< of a cell [m3]
@@ -60,7 +60,7 @@ struct MeshGate {
     bool passed() const { return at_least ? value >= limit : value <= limit; }
 };
 
-/// A change with which a mesh was tried again after a gate had failed.
+/// Change of the next attempt after a failed gate.
 struct MeshRetry {
     std::string failed_gate;
     std::string change;

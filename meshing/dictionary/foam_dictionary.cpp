@@ -67,7 +67,7 @@ FoamDictionary::~FoamDictionary() = default;
 
 FoamDictionary& FoamDictionary::append(std::string written_key, FoamValue value) {
     const bool known = std::any_of(entries_.begin(), entries_.end(), [&](const FoamEntry& e) { return e.key == written_key; });
-    if (known) throw std::invalid_argument("the key '" + written_key + "' stands twice in one OpenFOAM dictionary");
+    if (known) throw std::invalid_argument("the key '" + written_key + "' occurs twice in one OpenFOAM dictionary");
     entries_.push_back({std::move(written_key), {std::move(value)}});
     return *this;
 }
@@ -140,7 +140,7 @@ FoamValue FoamValue::dimensions(const std::array<int, 7>& exponents) {
 FoamValue FoamValue::raw(const std::string& tokens) {
     const bool clean = std::none_of(tokens.begin(), tokens.end(), [](char c) { return std::strchr(";{}\n", c) != nullptr; });
     if (tokens.empty() || !clean || !brackets_balanced(tokens))
-        throw std::invalid_argument("'" + tokens + "' cannot stand as it is in an OpenFOAM dictionary");
+        throw std::invalid_argument("'" + tokens + "' cannot be written unquoted in an OpenFOAM dictionary");
     FoamValue value(true);
     value.plain_ = tokens;
     return value;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Text of OpenFOAM dictionaries. Knows the syntax, not OpenFOAM: brackets, quotes, semicolons and numbers are right, what stands in
-/// them is the caller's business.
+/// \file Text of OpenFOAM dictionaries: guarantees the syntax (brackets, quotes, semicolons, numbers), not the content.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -48,7 +48,7 @@ private:
     std::vector<FoamEntry> entries_;
 };
 
-/// What stands behind a key.
+/// The value of a key.
 class FoamValue {
 public:
     FoamValue(double number);  ///< shortest text that reads back as the same number; \throws std::invalid_argument unless finite

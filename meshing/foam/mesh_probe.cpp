@@ -1,5 +1,5 @@
-/// \file cutterMeshProbe: what checkMesh does not say of a rotor mesh: volumes of the zones, areas of the patches, cell sizes, and the
-/// weights of the sliding interface at given rotor angles.
+/// \file cutterMeshProbe: figures of a rotor mesh that checkMesh does not report: volumes of the zones, areas of the patches, cell sizes,
+/// and the weights of the sliding interface at given rotor angles.
 ///
 /// For the weights it turns the rotor's points about the z axis and lets the cyclicAMI patches recompute them, as a moving-mesh run would.
 /// A weight is the part of a face that the other side covers; the interpolation divides by it, so that a weight away from 1 is a wrong
