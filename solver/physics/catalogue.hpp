@@ -1,5 +1,5 @@
 #pragma once
-/// \file The closures of the coupled solver in one table, from which selection by name, range warnings, the manual and a test are made.
+/// \file The closures of the coupled solver in one table: the source of selection by name, range warnings, the manual and a test.
 #include <string>
 #include <string_view>
 #include <variant>
@@ -60,13 +60,13 @@ LiftLaw find_lift_law(std::string_view name);            ///< k_no_closure: null
 /// Names of a kind, in the table's order.
 std::vector<std::string> closure_names(ClosureKind kind);
 
-/// What stands in place of a name where hindrance or lift is left out.
+/// The name that switches hindrance or lift off.
 inline constexpr std::string_view k_no_closure = "none";
 
-/// What a user may choose: the names of a kind, and k_no_closure where the kind may be left out.
+/// Choices of a user: the names of a kind, and k_no_closure where the kind is optional.
 std::vector<std::string> closure_choices(ClosureKind kind);
 
-/// Whether a drag law holds the void fraction itself, so that hindrance must be left out. False for a name that is not known.
+/// Whether a drag law contains the void fraction, so that hindrance must be off. False for an unknown name.
 bool drag_law_holds_void_fraction(std::string_view name);
 
 }  // namespace cutterflow::physics

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Closed forms of contacts: wet restitution, Hertz and Rayleigh times, the stiffness that an impact speed asks for.
+/// \file Closed forms of contacts: wet restitution, Hertz and Rayleigh times, the stiffness for an impact speed.
 
 namespace cutterflow::physics {
 
@@ -10,7 +10,7 @@ double impact_stokes(double density_ratio, double added_mass_coefficient, double
 /// Restitution in the fluid [-]:  e_wet = e_dry exp(-35/St); 0 for St = 0. [Legendre2006]
 double wet_restitution(double dry_restitution, double stokes);
 
-/// Damping factor alpha [-] of a Hertz contact that never pulls: the damping force is alpha sqrt(m* k_n) overlap^(1/4) times the normal
+/// Damping factor alpha [-] of a Hertz contact without tension: the damping force is alpha sqrt(m* k_n) overlap^(1/4) times the normal
 /// speed, k_n = 4/3 E* sqrt(R*), until it would outweigh the elastic force. With zeta = alpha/sqrt(5):
 ///
 ///   -ln e = 2 zeta acos(zeta) / sqrt(1 - zeta^2)
@@ -19,7 +19,8 @@ double wet_restitution(double dry_restitution, double stokes);
 /// q = overlap^(5/4) carries over to Hertz [AntypovElliott2011]. \param restitution in [k_smallest_restitution, 1]
 double hertz_damping_factor(double restitution);
 
-/// Just above critical damping's, exp(-2). Less (2 % of the energy) asks for damping that the time steps of stiff contacts do not resolve.
+/// Just above that of critical damping, exp(-2). Lower values (2 % of the energy) need damping that the time steps of stiff contacts do not
+/// resolve.
 inline constexpr double k_smallest_restitution = 0.14;
 
 /// A normal impact of two bodies, as the effective values of Hertz' law.

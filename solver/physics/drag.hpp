@@ -5,7 +5,7 @@
 
 namespace cutterflow::physics {
 
-/// What a drag law may depend on.
+/// Arguments of a drag law.
 struct DragState {
     double reynolds = 0.0;       ///< |slip| d / nu [-], > 0, without the void fraction
     double void_fraction = 1.0;  ///< [-]
@@ -25,7 +25,7 @@ double schiller_naumann_drag_coefficient(const DragState& state);
 ///   D = 5.378 e^(6.2122 psi). [HaiderLevenspiel1989]
 double haider_levenspiel_drag_coefficient(const DragState& state);
 
-/// Gidaspow's law, which holds the void fraction a itself, as a drag coefficient of one rock [-] in the sense of drag_coefficient_per_slip
+/// Gidaspow's law, which contains the void fraction a, as a drag coefficient of one rock [-] in the sense of drag_coefficient_per_slip
 /// (with hindrance 1). The published momentum exchange coefficient belongs to the form in which the fluid feels a grad p (model A); with
 /// the full pressure gradient and buoyancy in pure fluid (model B, the solver's form) the force on rock is that over a:
 ///   a <= 0.8, Ergun:   Cd = 4/3 (150 (1 - a) / (a^2 Re) + 1.75/a)
@@ -48,10 +48,10 @@ double di_felice_exponent(double particle_reynolds);
 /// fraction. [DiFelice1994, NieuwboerVanRheeKeetels2023]
 double di_felice_factor(double void_fraction, double particle_reynolds);
 
-/// Hindrance of drag laws that hold the void fraction themselves, and of rock that is to be alone [-]: 1.
+/// Hindrance of drag laws that contain the void fraction, and of single rock [-]: 1.
 double no_hindrance(double void_fraction, double particle_reynolds);
 
-/// What the surrounding fluid and the rock bring into its force.
+/// Properties of rock and surrounding fluid that determine the force.
 struct RockInFluid {
     double diameter = 0.0;             ///< [m]
     double fluid_density = 0.0;        ///< [kg/m3]
@@ -73,7 +73,7 @@ double drag_coefficient_per_slip(const RockInFluid& rock, double slip_speed, Dra
 double sphere_volume(double diameter);
 
 /// Force [N] on a rock in accelerating fluid:  (1 + C_AM) rho_f V Du/Dt: the pressure gradient of the accelerating fluid and the part of
-/// added mass that follows the fluid. The other part, -C_AM rho_f V dv/dt, stands in the rock's inertia. [NieuwboerVanRheeKeetels2023]
+/// added mass that follows the fluid. The other part, -C_AM rho_f V dv/dt, is part of the rock's inertia. [NieuwboerVanRheeKeetels2023]
 Vec3 fluid_acceleration_force(double volume, double fluid_density, double added_mass_coefficient, const Vec3& material_acceleration);
 
 /// The part of the undisturbed flow's stress on a rock that is viscous [N]:  V rho_f div(tau), tau = nu (grad u + grad u^T) less its

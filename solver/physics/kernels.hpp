@@ -1,6 +1,6 @@
 #pragma once
 /// \file Weights of the mapping between rock and fluid, as functions of (distance / kernel width)^2. Unnormalised: the mapping divides by
-/// the volume-weighted sum over the cells that it finds. Both vanish with zero slope at the cut, so that no cell pops in or out.
+/// the volume-weighted sum over the cells that it finds. Both vanish with zero slope at the cut, so that cells enter and leave smoothly.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +21,7 @@ inline double gaussian_weight(double q) {
 /// From this many widths on the quadratic weight is faded out.
 inline constexpr double k_quadratic_fade_start = 2.0;
 
-/// Quadratic weight from fluid to rock, which favours fluid that the rock does not disturb:  q for r <= 2 sigma, then q s^2 (3 - 2 s) with
+/// Quadratic weight from fluid to rock, small where the rock disturbs the fluid:  q for r <= 2 sigma, then q s^2 (3 - 2 s) with
 /// s = (9 - q)/(9 - 4), which goes to zero with zero slope at r = 3 sigma. (The hard cut of the source drops a cell at its largest weight.)
 /// [NieuwboerVanRheeKeetels2023]
 inline double quadratic_weight(double q) {
@@ -36,10 +36,12 @@ inline double quadratic_weight(double q) {
 inline constexpr double k_gaussian_integral = 11.770376;
 inline constexpr double k_quadratic_integral = 285.71962;
 
-/// Share of the quadratic weight in what rock sees of the fluid: 1 for rock as large as cells and above (the reference's weight), 0 for
+/// Share of the quadratic weight in the sampling weight: 1 for rock as large as cells and above (the reference's weight), 0 for
 /// rock below half a cell, smooth between. The quadratic weight is a shell: waves in the fluid about 3 sigma long it shows with the wrong
 /// sign (-0.14 of their height), so that drag feeds them. Rock that is small beside its kernel hardly disturbs the fluid that it
-/// sees and may look with the weight by which it pushes, under which drag can only take energy out.
+/// rock below half a cell, smooth between. The quadratic weight is a shell: it samples waves of about 3 sigma with the wrong
+/// sign (-0.14 of their height), so that drag amplifies them. Rock that is small relative to its kernel hardly disturbs the sampled
+/// fluid and uses the deposit kernel, with which drag can only remove energy.
 /// \param own_width_share  gamma d / sigma, in (0, 1]
 inline double quadratic_share(double own_width_share) {
     // sigma = 1.5 dx there, so 1/3 is a rock of half a cell and 2/3 one of a cell.

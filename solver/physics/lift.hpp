@@ -19,7 +19,7 @@ double mei_lift_coefficient(double particle_reynolds, double shear_reynolds);
 using LiftLaw = double (*)(double particle_reynolds, double shear_reynolds);
 
 /// Lift [N]:  (pi/8) C_L rho_f d^2 |slip| (slip x vorticity)/|vorticity|; 0 without slip or vorticity. The coefficient is that of slip
-/// normal to the vorticity; what slip along it adds to the drag direction is left out. \param vorticity  curl of the fluid's velocity [1/s]
+/// normal to the vorticity; the effect of slip along it is neglected. \param vorticity  curl of the fluid's velocity [1/s]
 Vec3 lift_force(const RockInFluid& rock, const Vec3& slip, const Vec3& vorticity, LiftLaw lift);
 
 }  // namespace cutterflow::physics
