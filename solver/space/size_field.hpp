@@ -9,7 +9,7 @@
 
 namespace cutterflow::coupling {
 
-/// Every rank holds centres and sizes of all cells of the mesh (32 bytes a cell), so that no rank has to ask another.
+/// Every rank has centres and sizes of all cells of the mesh (32 bytes per cell), so that no communication is needed.
 class SizeField {
 public:
     SizeField(const Cells& cells, Communicator& communicator);

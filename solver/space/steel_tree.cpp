@@ -12,7 +12,7 @@ constexpr std::size_t k_leaf_size = 4;
 constexpr double k_edge_slack = 1e-9;
 // Halving bounds the depth by the logarithm of the count; a depth-first walk keeps one entry per level and one more.
 constexpr int k_stack_size = 64;
-// Of the rays that tell inside from outside: along no line that meshes of heads have, and nearly level.
+// Direction of the rays for inside/outside: along no line that occurs in meshes of heads, and nearly horizontal.
 const Vec3 k_ray_direction = Vec3(0.6471, 0.7624, 1e-3).normalized();
 
 }  // namespace
@@ -48,7 +48,7 @@ void SteelTree::build(std::vector<Item>& items, std::size_t begin, std::size_t e
         middle_lower = middle_lower.cwiseMin(items[i].middle);
         middle_upper = middle_upper.cwiseMax(items[i].middle);
     }
-    // A little thicker than the triangles, so that the slab test needs no slack of its own.
+    // Slightly thicker than the triangles, so that the slab test needs no tolerance.
     const Vec3 margin = Vec3::Constant(1e-9 * (upper - lower).norm());
     nodes_[self].box = {lower - margin, upper + margin};
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Line of sight past triangles: a bounding volume hierarchy that answers "does anything stand between" and "how far is the nearest".
+/// \file Line of sight past triangles: a bounding volume hierarchy for segment intersection and nearest distance.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -17,12 +17,12 @@ public:
 
     bool empty() const { return triangles_.empty(); }
 
-    /// True when a triangle meets the segment from a to b [m]. Edges count, so that no segment slips between two triangles that share one.
+    /// True when a triangle meets the segment from a to b [m]. Edges count, so that no segment passes between two triangles that share one.
     bool blocks(const Vec3& a, const Vec3& b) const;
 
     /// True when the point [m] lies inside the solid that the triangles bound: a ray from it crosses them an odd number of times. The ray
-    /// rises by a thousandth, so that floor and cover of a tank, which may be among the triangles, do not meet it.
-    /// \pre  the triangles close their solids, but for openings above or below
+    /// rises by a thousandth, so that it does not meet floor and cover of a tank, which may be among the triangles.
+    /// \pre  the triangles close their solids, except for openings above or below
     bool contains(const Vec3& point) const;
 
     /// Distance [m] from a point to the nearest triangle, or `limit` when none is nearer.

@@ -5,14 +5,14 @@
 namespace cutterflow::coupling {
 namespace {
 
-/// Below this sum of the nodes' weights the rock's centre is a source of its own, so that a rock in a tight corner still sees.
+/// Below this sum of the nodes' weights the rock's centre becomes a node, so that a rock in a tight corner keeps a view.
 constexpr double k_least_node_weight = 0.1;
-/// Kept hidden cells (4 bytes each) above which nodes that are out of use are dropped.
+/// Stored hidden cells (4 bytes each) above which unused nodes are dropped.
 constexpr std::size_t k_most_kept_cells = 32u << 20;
-/// A kept list reaches this much further than asked, because a rock's kernel widens gradually into coarser cells.
+/// A stored list reaches this much further than requested, because a rock's kernel widens gradually into coarser cells.
 constexpr double k_list_margin = 1.1;
 
-/// The vertices of an icosahedron on the unit sphere and its centre: where a rock's surroundings look from.
+/// The vertices of an icosahedron on the unit sphere and its centre: view points around a rock.
 const std::array<Vec3, 13>& view_points() {
     static const std::array<Vec3, 13> points = [] {
         std::array<Vec3, 13> p;
@@ -34,7 +34,8 @@ const std::array<Vec3, 13>& view_points() {
 }
 
 /// Where the lattice's nodes stand between whole multiples of its spacing. Steel likes round coordinates: a node in the plane of a face
-/// would see past it or not by rounding.
+/// Offset of the lattice from multiples of its spacing. Steel often has round coordinates: for a node in the plane of a face
+/// rounding would decide the visibility.
 const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);
 
 std::uint64_t key_of(int level, const std::array<std::int64_t, 3>& index) {
@@ -142,7 +143,7 @@ Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::arra
     return point;
 }
 
-/// Share of the points around the rock (in the steel-free ball about its centre) that see a node.
+/// Share of the points around the rock (in the steel-free ball about its centre) with a line of sight to a node.
 double Visibility::seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const Vec3& node) const {
     if ((node - position).norm() <= clearance) return 1.0;
     const double radius = std::min(clearance, spacing);

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Which part of a rock a cell sees past the steel, so that nothing is mapped through a thin blade.
+/// \file Visible fraction of a rock from a cell past the steel, so that nothing is mapped through a thin blade.
 #include <array>
 #include <cstdint>
 #include <unordered_map>
@@ -31,16 +31,20 @@ private:
 /// the two. Nodes, steel and cells of one zone do not move against each other, so a node's hidden cells are found once and kept; cells of
 /// the other zone are looked at anew for every mesh position. A node that the rock's surroundings cannot see (beyond a blade, inside steel)
 /// loses its weight in proportion, the others take it over. The visible fraction is the product over the steel of both zones.
-/// Where no steel is within reach nothing of this is done.
+/// trilinear weights, which change smoothly as the rock moves. A cell is hidden from a node when a triangle intersects the line
+/// between them. Nodes, steel and cells of one zone do not move relative to each other, so a node's hidden cells are computed once and
+/// stored; those of the other zone are computed for every mesh position. A node without line of sight to the rock's surroundings (beyond a
+/// blade, inside steel) loses its weight in proportion to the other nodes. The visible fraction is the product over the steel of both
+/// zones. Without steel within reach all cells are visible.
 class Visibility {
 public:
     Visibility(const Steel& steel, const CellTrees& trees);
 
-    /// The mesh stands at this position from now on.
+    /// Sets the position of the mesh.
     void set_frames(const ZoneFrames& frames);
 
-    /// Looks from a rock at `position` [m, absolute] at all cells within `reach` [m]. \param spacing  of the lattice [m]; it is rounded to
-    /// quarter octaves, so that rocks of one size share their nodes. Replaces what was seen before.
+    /// Computes the visibility of all cells within `reach` [m] of a rock at `position` [m, absolute]. \param spacing  of the lattice [m];
+    /// it is rounded to quarter octaves, so that rocks of one size share their nodes. Replaces the previous result.
     void look_from(const Vec3& position, double reach, double spacing);
 
     /// As look_from, from the position alone (no lattice).
@@ -53,7 +57,7 @@ public:
         return fraction > k_rounding ? fraction : 0.0;
     }
 
-    /// Numbers of kept nodes and of line-of-sight tests so far, for measurements.
+    /// Numbers of stored nodes and of line-of-sight tests so far, for measurements.
     std::size_t kept_nodes() const { return nodes_[stator].size() + nodes_[rotor].size(); }
     std::size_t tests() const { return tests_; }
 
@@ -67,7 +71,7 @@ private:
     };
     struct SamplePoint {
         Vec3 position;
-        double clearance = 0.0;  // distance to the steel, or the reach that was asked for
+        double clearance = 0.0;  // distance to the steel, or the requested reach
         double clearance_limit = -1.0;
         std::array<HiddenCells, 2> hidden;  // by the cells' zone
         std::uint64_t last_used = 0;
