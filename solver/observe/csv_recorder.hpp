@@ -1,5 +1,5 @@
 #pragma once
-/// \file The files of postProcessing/ that a run writes (docs/design/001-contracts.md).
+/// \file The files of postProcessing/ (docs/design/001-contracts.md).
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,14 +11,14 @@
 
 namespace cutterflow::coupling {
 
-/// Writes rows as they come, into folders named by the start time of this (re)started run. For one rank only.
+/// Writes rows immediately, into folders named by the start time of this (re)started run. For one rank only.
 class CsvRecorder final : public RunRecorder {
 public:
     /// \param start_time  of the run [s]; files of an earlier start at the same time are replaced
     /// \throws std::runtime_error  when a file cannot be written
     CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time);
 
-    /// What stands in cost.json beside the numbers: the sub-models that are on, and versions by program.
+    /// Further content of cost.json: the active sub-models, and versions by program.
     void describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions);
 
     void event(const RockEvent& event) override;
@@ -32,7 +32,7 @@ public:
     void outcomes(gsl::span<const RockOutcome> outcomes) override;
     void velocity(const VelocitySets& sets, double time) override;
     void finished(const RunCost& cost) override;
-    /// Goes to standard error at once and into cost.json.
+    /// Written to standard error at once and to cost.json.
     void warning(double time, const std::string& text) override;
     void flush() override;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What a run tells about itself, step by step. CsvRecorder writes the files of docs/design/001-contracts.md; tests keep the rows.
+/// \file Records of a run, per step. CsvRecorder writes the files of docs/design/001-contracts.md; tests keep the rows.
 #include <array>
 #include <optional>
 #include <string>
@@ -68,11 +68,11 @@ struct FateTotals {
     double undecided() const;
 };
 
-/// What became of one rock.
+/// Outcome of one rock.
 struct RockOutcome {
     int id = 0;
     Fate fate = Fate::never_entered;
-    std::string last_exit_bin;                                  ///< empty: it never left the head
+    std::string last_exit_bin;                                  ///< empty: never left the head
     std::optional<double> first_exit_time, first_exit_azimuth;  ///< [s], [rad]
     Vec3 position = Vec3::Zero();                               ///< last known [m]
     double diameter = 0.0;
@@ -82,7 +82,7 @@ struct RockOutcome {
 struct LoadsRow {
     double time = 0.0, rotor_angle = 0.0;
     double torque_pressure = 0.0, torque_viscous = 0.0, torque_rock = 0.0;  ///< on the cutter about +z [N m]
-    double power = 0.0;                                                     ///< what the drive must give [W]
+    double power = 0.0;                                                     ///< of the drive [W]
 };
 
 struct BalanceRow {
@@ -97,7 +97,7 @@ struct BalanceRow {
     double courant_max = 0.0;
     double overlap_ratio_max = 0.0;
     int dem_substeps = 0, rocks = 0, contacts = 0;
-    double exchanged_volume = 0.0;    ///< of fluid that made room for rock since the start, less what came back where rock left [m3]
+    double exchanged_volume = 0.0;    ///< of fluid displaced by rock since the start, less fluid that replaced removed rock [m3]
     double exchanged_momentum = 0.0;  ///< amount of that fluid's momentum [N s]
 };
 
@@ -117,7 +117,7 @@ struct RockPicture {
     gsl::span<const Fate> fate;                ///< empty when fates are not followed
 };
 
-/// A sub-model that was on, and why.
+/// An active sub-model, and why it is active.
 struct ModelNote {
     std::string name, why;
 };
@@ -150,13 +150,13 @@ public:
     /// Rewrites the tables of averaged velocities. \param time  up to which they go [s]
     virtual void velocity(const VelocitySets& sets, double time) = 0;
     virtual void finished(const RunCost& cost) = 0;
-    /// Something that the reader of results should know; told once.
+    /// A warning for the reader of the results, recorded once.
     virtual void warning(double time, const std::string& text) = 0;
-    /// Brings every row to the disk.
+    /// Writes all rows to the disk.
     virtual void flush() = 0;
 };
 
-/// Keeps nothing: the ranks that do not write.
+/// Discards everything: for ranks that do not write.
 class SilentRecorder final : public RunRecorder {
 public:
     void event(const RockEvent&) override {}

@@ -39,7 +39,7 @@ FateTracker::FateTracker(const FateSettings& settings, geometry::Contour contour
       contour_(std::move(contour)),
       bins_(geometry::axial_bins(contour_, settings.bin_width)),
       pipe_direction_(settings.mouth.direction.normalized()) {
-    // The pipe is prolonged down to the ring plane, so that no gap is left between the head's volume and the mouth.
+    // The pipe is extended down to the ring plane, so that no gap remains between the head's volume and the mouth.
     const double rise = pipe_direction_[2];
     pipe_start_ = rise > 0.0 ? std::min(0.0, (contour_.z_ring() - settings.mouth.centre[2]) / rise) : 0.0;
 }
@@ -128,7 +128,7 @@ std::vector<RockEvent> FateTracker::leave(int id, const Vec3& position, const Ve
     std::vector<RockEvent> events = follow(rock, position, velocity, before, after);
     const PipePlace place = place_in_pipe(position);
     if (!rock.sucked_up && place.depth > 0.0 && place.radius <= settings_.mouth.radius) {
-        // The pipe ends before the depth that counts; sucked up rock is told by its mouth event all the same.
+        // The pipe ends before the required depth; sucked-up rock always has a mouth event.
         rock.sucked_up = true;
         events.push_back(event(rock, EventSurface::mouth, EventDirection::in, position, velocity, after));
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What becomes of every rock: fates, crossings and last exits, decided from the motion of its centre.
+/// \file Fates, crossings and last exits of every rock, decided from the motion of its centre.
 #include <map>
 #include <optional>
 #include <string>
@@ -30,18 +30,18 @@ struct TrackedRock {
 };
 
 /// Follows every rock. The head's volume is that of geometry::Contour, joined with the mouth and the pipe behind it, so that rock on its
-/// way up the pipe has not left. A rock changes sides once its centre is `hysteresis` diameters beyond the boundary; the event stands where
-/// it passes that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.
+/// way up the pipe has not left. A rock changes sides once its centre is `hysteresis` diameters beyond the boundary; the event is placed
+/// where it passes that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.
 class FateTracker {
 public:
     FateTracker(const FateSettings& settings, geometry::Contour contour);
 
     const std::vector<geometry::AxialBin>& bins() const { return bins_; }
 
-    /// A rock is in the run from now on. \return its feed event
+    /// Adds a rock. \return its feed event
     RockEvent place(int id, double diameter, double density, const Vec3& position, const Vec3& velocity, const RunInstant& now);
 
-    /// Takes the rocks' new positions. \return crossings in order of time
+    /// Updates the rocks' positions. \return crossings in order of time
     std::vector<RockEvent> move(const Rocks& rocks, const RunInstant& before, const RunInstant& after);
 
     /// A rock left the domain at `position`; inside the suction pipe that is sucked up. \return its events
@@ -59,7 +59,7 @@ public:
     double signed_distance(const Vec3& position) const;
 
 private:
-    /// Where a point stands about the mouth's axis [m].
+    /// Position of a point relative to the mouth's axis [m].
     struct PipePlace {
         double depth, radius;
     };

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Sets of points at which a run averages the velocity: places of measurement, planes for pictures.
+/// \file Sets of points at which a run averages the velocity: measurement points, planes for pictures.
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@
 namespace cutterflow::coupling {
 
 struct SamplePoint {
-    Vec3 place = Vec3::Zero();  ///< [m]; of a rotating point where it stands at rotor angle 0
+    Vec3 place = Vec3::Zero();  ///< [m]; of a rotating point at rotor angle 0
     bool rotating = false;      ///< turns with the head
 };
 
-/// A set and what is known of it so far. Velocities are absolute, in components (radial, tangential by the right hand about the axis,
+/// A set and its averages so far. Velocities are absolute, in components (radial, tangential by the right hand about the axis,
 /// axial) at the point's own place; on the axis radial is x.
 struct VelocitySet {
     std::string name;
@@ -27,7 +27,7 @@ struct VelocitySet {
 /// Reads `x_m,y_m,z_m,rotating` (0 or 1). \throws UserError with every mistake of the file
 std::vector<SamplePoint> read_sample_points(const std::filesystem::path& file);
 
-/// Samples all sets at once whenever the rotor has turned on by the interval.
+/// Samples all sets whenever the rotor has turned by the interval.
 class VelocitySets {
 public:
     /// \param fluid  its rotor turns
@@ -58,7 +58,7 @@ private:
 
     // All sets one after the other.
     std::vector<SamplePoint> points_;
-    std::vector<std::uint8_t> always_dry_;  // in steel that stands still for the point
+    std::vector<std::uint8_t> always_dry_;  // inside steel that does not move relative to the point
     std::vector<Vec3> place_;               // at present, absolute frame
 };
 

@@ -24,14 +24,14 @@ struct WeightedVelocity {
 
 /// Velocity of a number of points against the angle that the rotor has turned since averaging began.
 ///
-/// A sample holds half way to the samples before and after it (the trapezoidal rule in angle: second order, and nearly exact for what
-/// repeats with the revolution); the first one also back to where averaging began. What is cut by the end of a revolution or phase is
-/// shared out by angle. Samples for which a point is in steel count nothing for it.
+/// A sample holds half-way to the samples before and after it (trapezoidal rule in angle: second order, and nearly exact for functions
+/// periodic in the revolution); the first one also back to the start of averaging. At the end of a revolution or phase it is divided
+/// by angle. Samples in which a point is inside steel do not count for it.
 class VelocityStatistics {
 public:
     /// \param period  angle [rad] after which each point's phases repeat, one per point
     /// \param phases  bins of equal width per period; 0: no phase averages
-    /// \param origin  angle [rad] at which the rotor stood when averaging began, from which phases are counted
+    /// \param origin  rotor angle [rad] at the start of averaging, from which phases are counted
     VelocityStatistics(std::vector<double> period, int phases, double origin);
 
     /// \param angle     turned since averaging began [rad], larger than at the sample before
