@@ -19,7 +19,7 @@ std::vector<std::string> basics();
 std::vector<std::string> create_box(const Box& box);
 std::string read_restart(const std::filesystem::path& file);
 std::string write_restart(const std::filesystem::path& file);
-/// Of rock pairs. LIGGGHTS does not look for lost rock: the engine does, and says what happened.
+/// Of rock pairs. LIGGGHTS does not check for lost rock; the engine does and reports it.
 std::vector<std::string> contact_model();
 std::string timestep(double seconds);
 std::string run(int steps, bool set_up);
@@ -32,7 +32,7 @@ std::string mesh(const std::string& id, const std::filesystem::path& stl);
 /// Right-handed rotation; a negative speed turns about the reversed axis.
 std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const RotationAxis& axis, double speed);
 std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids);
-/// \param axis  0 x, 1 y, 2 z: the plane stands across it
+/// \param axis  0 x, 1 y, 2 z: normal of the plane
 std::string plane_wall(const std::string& id, int axis, double position);
 /// A fix without effect that keeps a place in the list of fixes.
 std::string placeholder(const std::string& id);

@@ -86,7 +86,7 @@ struct Marker {
     Vec3 start = Vec3::Zero();
 };
 
-/// Keeps standard output and error off the screen for its lifetime: LIGGGHTS prints in places that no switch reaches.
+/// Redirects standard output and error during its lifetime: some output of LIGGGHTS has no switch.
 class QuietOutput {
 public:
     QuietOutput() : saved_{dup(STDOUT_FILENO), dup(STDERR_FILENO)} {
@@ -322,7 +322,7 @@ void LiggghtsEngine::Implementation::set_neighbours() {
     commands(commands::neighbours(skin, std::max(largest_radius_ + 0.5 * skin, coarsest)));
 }
 
-/// Brings LIGGGHTS' lists up to date after rocks came or went; the forces of existing contacts stay as they were.
+/// Updates LIGGGHTS' lists after rocks were added or removed; the forces of existing contacts are kept.
 void LiggghtsEngine::Implementation::set_up() {
     store_contact_forces();
     command(commands::run(0, true));

@@ -10,7 +10,7 @@
 
 namespace cutterflow::liggghts {
 
-/// Rocks with contacts, walls and added mass (see rock_motion.hpp for the equation of motion, contact_models/ for the contact law).
+/// Rocks with contacts, walls and added mass (see rock_motion.hpp for the equation of motion, contacts/ for the contact law).
 /// MPI must have been initialised. LIGGGHTS ends the process itself when one of its own checks fails; everything that comes from the user
 /// is therefore checked before.
 class LiggghtsEngine final : public coupling::DemEngine {

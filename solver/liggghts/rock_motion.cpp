@@ -60,7 +60,7 @@ Vec3 RockMotion::spin_acceleration(int rock) const {
     return Vec3(atom->torque[rock]) / (0.4 * atom->rmass[rock] * radius * radius);
 }
 
-/// Comes after the walls', which were declared before.
+/// Runs after the walls' post_force, because the walls were declared before.
 void RockMotion::post_force(int) {
     context_.wall_contacts->resolve();
 }

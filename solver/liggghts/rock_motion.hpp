@@ -15,7 +15,7 @@ namespace cutterflow::liggghts {
 ///
 /// Forces that depend on velocity (drag, damping) are evaluated once per step for the velocity at its end as the step's first acceleration
 /// predicts it, which keeps the order of two: during the evaluation LIGGGHTS' velocities are the predicted ones, on ghosts too. At the
-/// start of a call of advance the hydrodynamic force is evaluated anew, so that no half kick uses an old law. LIGGGHTS' own fix nve/sphere
+/// start of a call of advance the hydrodynamic force is evaluated again, so that no half kick uses an old law. LIGGGHTS' own fix nve/sphere
 /// has one added-mass ratio for all rocks, lags half a step in the velocity and writes to a screen that other ranks than 0 do not have.
 class RockMotion final : public LAMMPS_NS::Fix {
 public:

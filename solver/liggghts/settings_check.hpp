@@ -1,5 +1,5 @@
 #pragma once
-/// \file The DEM's settings against their rules, before LIGGGHTS sees them: LIGGGHTS ends the process at a mistake.
+/// \file Checks of the DEM's settings before LIGGGHTS reads them: LIGGGHTS ends the process at a mistake.
 #include <vector>
 
 #include "geometry/base/error.hpp"

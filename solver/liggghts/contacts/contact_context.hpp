@@ -1,5 +1,5 @@
 #pragma once
-/// \file What the contact models of one engine share. LIGGGHTS creates them; they find this by the LIGGGHTS instance they belong to.
+/// \file Shared data of the contact models of one engine. LIGGGHTS creates the models; they find this object by their LIGGGHTS instance.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -16,7 +16,7 @@ class FixPropertyAtom;
 
 namespace cutterflow::liggghts {
 
-/// Marks a contact that begins without approach; its damping is that of the smallest restitution.
+/// Impact speed of a contact that begins without approach; its damping is that of the smallest restitution.
 inline constexpr double k_smallest_impact_speed = 1e-12;  // [m/s]
 
 /// A body of steel: all triangles of one STL, or one plane.
@@ -39,7 +39,7 @@ struct ContactTally {
 
 class WallContacts;
 
-/// The law for rock on rock and rock on steel with one Young's modulus, one friction and one dry restitution; materials of their own per
+/// The law for rock on rock and rock on steel with one Young's modulus, one friction and one dry restitution; different materials per
 /// pair would become a table here.
 struct ContactContext {
     coupling::ContactSettings contact;

@@ -10,7 +10,7 @@ struct ElasticPair {
     double shear = 0.0;   ///< G* [Pa], 1/G* = sum (2 - nu)/G with G = E / (2 (1 + nu))
 };
 
-/// \see seeds S0-18, S0-19
+/// Effective constants of a pair. [NieuwboerVanRheeKeetels2023]
 ElasticPair elastic_pair(double youngs_modulus, double poisson_a, double poisson_b);
 
 struct Contact {
@@ -26,12 +26,12 @@ struct Contact {
     double friction = 0.0;        ///< mu [-]
 };
 
-/// Springs that share a contact's area, each of which sticks or slips by itself. With 4 an oblique impact comes within 1 % of what 64 give.
+/// Springs that share a contact's area, each of which sticks or slips independently. With 4 an oblique impact is within 1 % of 64 springs.
 inline constexpr int k_springs = 4;
 
-/// What a contact remembers of its tangential motion; doubles alone, because LIGGGHTS keeps them in its histories.
+/// History of a contact's tangential motion; only doubles, because LIGGGHTS stores them in its histories.
 struct SlipMemory {
-    double contact_radius = 0.0;        ///< a of the step before [m]
+    double contact_radius = 0.0;        ///< a of the previous step [m]
     double stretch[k_springs][3] = {};  ///< s of each spring [m]
 };
 
@@ -43,8 +43,8 @@ struct SlipMemory {
 /// Spring i covers the part l_i of (0, a) from i to i + 1 quarters of the radius that the impact reaches, the last one all beyond, and
 /// bears the share p_i of Hertz' pressure; so slip begins at the edge and works inwards (Cattaneo and Mindlin), and the sums are Mindlin's
 /// stiffness 8 G* a and Coulomb's limit. This is the method of dimensionality reduction, exact as the springs become many while slip keeps
-/// its line [PopovHess2015]. Newly touched area begins without stretch and what separates takes its force along, so that no history makes
-/// energy. \param time_step  [s]; 0 evaluates the force and leaves the memory \see seeds S0-18 to S0-20
+/// its line [PopovHess2015]. Newly touched area begins without stretch and separating area takes its force away, so that no history creates
+/// energy. \param time_step  [s]; 0 evaluates the force and leaves the memory unchanged. [AntypovElliott2011, NieuwboerVanRheeKeetels2023]
 Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory);
 
 }  // namespace cutterflow::liggghts

@@ -19,7 +19,7 @@ constexpr double k_same_contact = 0.93969262078590838;   // cos 20 degrees
 constexpr double k_other_contact = 0.81915204428899179;  // cos 35 degrees
 constexpr double k_continues = 0.70710678118654752;      // cos 45 degrees
 
-/// Share of a touch that a deeper one leaves, by the cosine of the angle between their normals.
+/// Remaining share of a touch beside a deeper one, by the cosine of the angle between their normals.
 double share_beside(double cosine) {
     return std::clamp((k_same_contact - cosine) / (k_same_contact - k_other_contact), 0.0, 1.0);
 }
@@ -30,7 +30,7 @@ bool is_live(const WallContactRecord& record, double step) {
 
 using Records = std::array<WallContactRecord*, WallContacts::max_contacts>;
 
-/// The record of the step before that a touch goes on in, else null.
+/// The record of the previous step that a touch continues, else null.
 WallContactRecord* continued(const Records& records, const Records& taken, const WallTouch& touch, double step) {
     WallContactRecord* best = nullptr;
     double nearest = k_continues;
@@ -53,7 +53,7 @@ WallContactRecord* unused(const Records& records, const Records& taken, double s
     return ended != records.end() ? *ended : *std::find_if(records.begin(), records.end(), is_free);
 }
 
-/// Impact speed that the body has with this rock already, 0 without one.
+/// Impact speed of an existing contact between the body and this rock, 0 without one.
 double known_impact_speed(const Records& records, int body, double step) {
     for (const WallContactRecord* record : records)
         if (is_live(*record, step) && static_cast<int>(record->body) == body) return record->impact_speed;

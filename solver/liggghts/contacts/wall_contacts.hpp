@@ -1,5 +1,6 @@
 #pragma once
-/// \file Contacts of rocks with steel: LIGGGHTS finds which triangles a rock touches, this makes contacts of them and applies the law.
+/// \file Contacts of rocks with steel: LIGGGHTS finds the triangles that a rock touches; this class merges them into contacts and applies
+/// the law.
 #include <vector>
 
 #include "solver/liggghts/contacts/contact_context.hpp"
@@ -30,13 +31,13 @@ struct WallContactRecord {
 /// often smaller than the region that touches, stiffness then jumps with the number of touched triangles (a rock at 1 m/s on facets of 1 to
 /// 3 mm returned 0.80 to 1.14 of its speed where 0.90 was set), and spring and impact speed are lost at every edge. Here
 ///
-/// * a touch counts as one of its own only when its normal differs from that of a deeper one by more than 35 degrees, and not at all below
+/// * a touch counts as a separate contact when its normal differs from that of a deeper one by more than 35 degrees, and not at all below
 ///   20, with a smooth transition: on a smooth surface the nearest point of the steel alone makes the force, which then has a potential;
-/// * a contact of the step before goes on in the one of the same body whose normal is nearest;
+/// * a contact of the previous step is continued by the touch of the same body with the nearest normal;
 /// * the impact speed belongs to rock and body and lasts until no triangle of the body touches the rock.
 class WallContacts {
 public:
-    static constexpr int max_contacts = 6;  ///< of one rock at a time; the deepest count
+    static constexpr int max_contacts = 6;  ///< of one rock; the deepest ones count
     static constexpr int columns = max_contacts * static_cast<int>(sizeof(WallContactRecord) / sizeof(double));
 
     WallContacts(LAMMPS_NS::LAMMPS* lammps, ContactContext& context, LAMMPS_NS::FixPropertyAtom* records)

@@ -19,7 +19,7 @@ NORMAL_MODEL(ROCK_PAIR, rock, 40)
 namespace LIGGGHTS {
 namespace ContactModels {
 
-/// What the pair's history keeps from the first touch until the rocks separate, in the order in which the model declares it.
+/// The pair's history from the first touch until the rocks separate, in the order in which the model declares it.
 struct RockPairRecord {
     double impact_speed = 0.0;  ///< [m/s]; 0: never used
     double last_touch = 0.0;    ///< step
@@ -85,7 +85,8 @@ public:
 
 private:
     /// A first touch stores the approach speed and forgets all slip. LIGGGHTS clears the history of a pair that separates only when it
-    /// happens to see it close by, therefore the step of the last touch decides.
+    /// A first touch stores the approach speed and clears all slip. LIGGGHTS clears the history of a separated pair only while the pair
+    /// is in its neighbour list, therefore the step of the last touch decides.
     void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, bool keep) const {
         const double step = static_cast<double>(update->ntimestep);
         const bool first_touch = record.impact_speed == 0.0 || record.last_touch < step - 1.0;
