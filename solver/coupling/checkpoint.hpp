@@ -13,7 +13,7 @@
 
 namespace cutterflow::coupling {
 
-/// What a run knows beside fluid and DEM. Written and read back to the bit.
+/// State of a run besides fluid and DEM. Written and read back bit by bit.
 struct RunState {
     double time = 0.0;
     double rotor_angle = 0.0;
@@ -30,12 +30,12 @@ RunState read_state(const std::filesystem::path& folder);
 /// carry.<rank>: the momentum that this rank's cells have yet to receive, with their numbers in the whole mesh.
 void write_carry(const std::filesystem::path& folder, int rank, gsl::span<const std::int64_t> cell_ids, gsl::span<const Vec3> carry);
 /// The same for the cells of this rank, from the files of all `written_by` ranks of the run that wrote them.
-/// \throws UserError  when a file is not there or cut short, or holds nothing for one of the cells
+/// \throws UserError  when a file is missing or truncated, or has no entry for one of the cells
 std::vector<Vec3> read_carry(const std::filesystem::path& folder, int written_by, gsl::span<const std::int64_t> cell_ids);
 
 /// velocity.sums: what the velocity averages hold so far.
 void write_velocity(const std::filesystem::path& folder, const VelocitySets& sets);
-/// \throws UserError  when the file is not there or holds sums of other points
+/// \throws UserError  when the file is missing or has sums of other points
 void read_velocity(const std::filesystem::path& folder, VelocitySets& sets);
 
 /// Newest complete checkpoint of a case (`checkpoints/<time>`), or an empty path.

@@ -19,7 +19,7 @@ constexpr double k_angle_tolerance = 1e-9;
 /// Deviation [m, or of a unit vector] of a rotor's axis from the z axis that is rounding.
 constexpr double k_axis_tolerance = 1e-9;
 
-/// Rock is due when its time is this share of a step ahead: times are sums of steps and carry their rounding.
+/// Tolerance on release times, as a fraction of the step (simulated time accumulates rounding).
 constexpr double k_due_tolerance = 1e-3;
 
 /// Adds the wall time of its life to a sum [s].
@@ -162,8 +162,8 @@ void CoupledRun::require_equal_angles() const {
     // The walls' angle is measured within one turn.
     if (std::abs(std::remainder(walls - mesh, 2.0 * k_pi)) <= k_angle_tolerance * std::max(1.0, std::abs(mesh))) return;
     throw CheckFailure(
-        {"", fmt::format("the rotor's walls stand at {:.12g} rad, its mesh at {:.12g} rad, at time {:.9g} s", walls, mesh, fluid_.time()),
-         "Fluid and rock must see the same rotor", "Report this as a defect"});
+        {"", fmt::format("the rotor's walls are at {:.12g} rad, its mesh at {:.12g} rad, at time {:.9g} s", walls, mesh, fluid_.time()),
+         "The rotor's angle must be equal for fluid and rock", "Report this as a defect"});
 }
 
 void CoupledRun::map_rock() {
@@ -210,7 +210,7 @@ void CoupledRun::report() {
     if (velocity_) velocity_->sample_if_due(fluid_);
     if (fates_) recorder_.fates(fluid_.time(), fates_->totals());
     if (fluid_.write_if_due() && has_rock()) record_picture();
-    // Half a step of slack, so that checkpoints do not fall behind their interval by a step each time.
+    // Half a step of tolerance, so that checkpoints do not lag their interval by one step each time.
     if (settings_.checkpoint && fluid_.time() + 0.5 * fluid_.time_step() >= last_checkpoint_ + settings_.checkpoint->interval)
         write_checkpoint();
 }
@@ -342,7 +342,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     };
     if (std::abs(state.time - fluid_.time()) > 1e-9 * std::max(1.0, std::abs(state.time)))
         refuse(fmt::format("the checkpoint is of time {:.9g} s, the run starts at {:.9g} s", state.time, fluid_.time()),
-               "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start anew");
+               "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start from the beginning");
     handled_feed_ = state.handled_feed;
     last_checkpoint_ = fluid_.time();
     // Every rank holds the same sums and reads the same file.
@@ -360,7 +360,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
         failed = 1.0;
         reason = error.what();
     }
-    // One rank's trouble ends the run on all of them.
+    // A failure on one rank ends the run on all ranks.
     communicator_.max(gsl::span<double>(&failed, 1));
     if (failed > 0.0) refuse(reason.empty() ? "the carried momentum of another rank does not fit" : reason, "", "");
 

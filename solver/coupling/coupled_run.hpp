@@ -29,7 +29,7 @@ namespace cutterflow::coupling {
 ///   move_rock         (rho_s + C_AM rho_f) V dv/dt = D(v)(u - v) + (1 + C_AM) rho_f V Du/Dt + weight - buoyancy + contacts, every DEM step
 ///   map_rock          alpha from w(x(t)) and w(x(t + dt)), both on the mesh at t + dt; momentum exchange with w(x(t + dt))
 ///   end_fluid_step    momentum, pressure with d(alpha)/dt, turbulence
-///   book              what the fluid did not receive of the rocks' impulse is carried to the next step; fates, balances
+///   book              impulse of the rocks that the fluid did not receive is carried to the next step; fates, balances
 ///   report            rows, fields, checkpoint
 /// Without rock only the fluid's two stages and their reports remain.
 class CoupledRun {
@@ -46,10 +46,10 @@ public:
     /// True when the stop rule holds: every feed is in and the undecided share is small enough.
     bool finished() const;
 
-    /// Writes what stands at the run's end: a checkpoint of the present time (when checkpoints are on), outcomes, cost.
+    /// Writes the end of the run: a checkpoint of the present time (when checkpoints are on), outcomes, cost.
     void finish();
 
-    /// Takes up the state of a checkpoint folder (rock, fates, accumulators, carried momentum). The fluid already stands at its time.
+    /// Restores the state of a checkpoint folder (rock, fates, accumulators, carried momentum). The fluid is already at its time.
     /// \throws UserError  when the checkpoint is of another time, another number of ranks or cannot be read
     void resume(const std::filesystem::path& checkpoint);
 

@@ -11,8 +11,8 @@
 namespace cutterflow::coupling {
 namespace {
 
-/// Share of the carry that a step hands to the fluid. All of it at once rings where drag is stiff (K dt above the void fraction alpha, as
-/// in a gas): with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
+/// Share of the carry that the fluid receives per step. The whole carry oscillates where drag is stiff (K dt above the void fraction alpha,
+/// as in a gas): with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
 constexpr double k_carry_share = 0.5;
 
 /// Rock and interface travel at most this share of kernel width and cell size per step.
@@ -30,7 +30,7 @@ std::vector<double> void_fraction_of(const std::vector<double>& solid_fraction) 
     return void_fraction;
 }
 
-/// A cell that is all but full of rock leaves the fluid's equations without a meaning.
+/// Above this solid fraction the fluid's equations are meaningless.
 constexpr double k_solvable_solid_fraction = 0.95;
 
 double largest_of(const std::vector<double>& solid_fraction, Communicator& communicator) {
@@ -275,7 +275,7 @@ void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
         }
 }
 
-/// The old void fraction on the cells as they stand now. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
+/// The old void fraction on the present cells. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
 /// displace is sum alpha_w v.S, and the rock of the swept space, sum (1 - alpha_w) v.S dt, was there before and is no more. So the old
 /// kernel of each rock holds, on the present cells, its volume less what was swept:
 ///   V_old = V (1 + dt sum_c w_c v.S_c).

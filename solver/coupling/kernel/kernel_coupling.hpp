@@ -1,5 +1,5 @@
 #pragma once
-/// \file What fluid and rock exchange over one step: void fraction, forces on rock, momentum for the fluid.
+/// \file Exchange of fluid and rock over one step: void fraction, forces on rock, momentum for the fluid.
 #include <set>
 #include <string>
 #include <utility>
@@ -24,14 +24,14 @@ struct FlowAtRock {
     Vec3 stress_divergence = Vec3::Zero();  ///< div(tau) [m/s2], without viscous force only
 };
 
-/// How well one step conserved, and what it held.
+/// Conservation errors and maximum solid fraction of one step.
 struct ExchangeBalance {
     double solid_volume_error = 0.0;       ///< |volume on the mesh - volume of rock| / volume of rock
     double momentum_exchange_error = 0.0;  ///< |rock + fluid + carry| / sum |impulse|
     double solid_fraction_max = 0.0;
 };
 
-/// Fluid that rock has taken the place of at insertion, less what flowed back where rock left; no source in the fluid's equations.
+/// Fluid displaced at insertion of rock, less fluid that replaced removed rock; no source in the fluid's equations.
 struct BookedExchange {
     double volume = 0.0;           ///< [m3]
     Vec3 momentum = Vec3::Zero();  ///< of that fluid [N s]
@@ -59,8 +59,8 @@ public:
     /// Samples the flow at every rock on the present mesh.
     void sample();
 
-    /// Longest step [s] in which rock travels a quarter of its kernel width and of the cells around it, seen from the cells of either zone,
-    /// and the rotor interface a quarter of a cell; infinity without rock.
+    /// Longest step [s] in which rock travels a quarter of its kernel width and of the cells around it, relative to the cells of either
+    /// zone, and the rotor interface a quarter of a cell; infinity without rock.
     double travel_limit() const;
 
     /// Moves the rocks over the fluid's time step with the sampled flow.
@@ -73,10 +73,10 @@ public:
     gsl::span<const double> void_fraction_new() const { return void_fraction_new_; }
     MomentumExchange exchange() const { return {source_, drag_rate_, inertia_}; }
 
-    /// Takes note of what the fluid received.
+    /// Updates the carry from the momentum that the fluid received.
     ExchangeBalance book();
 
-    /// What came up since the last call and was not told before: closures outside their range, rock whose centre lies in steel.
+    /// New warnings since the last call: closures outside their range, rock whose centre lies in steel.
     std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
 
     const std::vector<FlowAtRock>& flow() const { return flow_; }

@@ -11,8 +11,9 @@
 namespace cutterflow::coupling {
 namespace {
 
-// Spacing of the visibility's lattice over the kernel width. What a rock sees is interpolated between nodes and changes by 1/h per metre at
-// most, its Gaussian by exp(-1/2)/sigma: from h = 0.82 sigma on a cell that comes in view fills at most twice as fast as one in open water.
+// Spacing of the visibility's lattice over the kernel width. The visible fraction is interpolated between nodes and changes by 1/h per
+// metre at most, its Gaussian by exp(-1/2)/sigma: from h = 0.82 sigma on a cell that comes in view fills at most twice as fast as one in
+// open water.
 constexpr double k_lattice_spacing = 0.85;
 
 }  // namespace
@@ -119,7 +120,8 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& s
 }
 
 /// Rocks that see no cell (the mesh's steel and the DEM's walls differ a little, and the centre of a small rock can lie inside the mesh's
-/// steel): they look from the centre of the nearest cell.
+/// Rocks without a visible cell (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie inside the
+/// mesh's steel) are mapped from the centre of the nearest cell.
 void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils,
                              std::vector<double>& sums) {
     hidden_rocks_ += hidden.size();
@@ -154,7 +156,7 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
             throw CheckFailure({"",
                                 fmt::format("rock {} at ({:.6g} {:.6g} {:.6g}) m has no cell of the mesh within {:.3g} m", rocks.id[p],
                                             x[0], x[1], x[2], physics::k_kernel_reach * stencils.width[p]),
-                                "Rock must stay where the fluid is", "Let rock.domain end inside the mesh"});
+                                "Rock must stay inside the mesh", "Let rock.domain end inside the mesh"});
         }
     }
     stencils = std::move(replaced);

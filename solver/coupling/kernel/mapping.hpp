@@ -29,7 +29,7 @@ struct Stencils {
     std::vector<double> deposit;         ///< w: from rock to fluid [1/m3]
     std::vector<double> sample;          ///< psi: from fluid to rock [1/m3]
     std::size_t size() const { return width.size(); }
-    /// Of no rock, in the same memory.
+    /// Empties the stencils but keeps their capacity.
     void clear();
 };
 
@@ -39,12 +39,13 @@ public:
     /// Keeps references to the engine's arrays.
     Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator);
 
-    /// The mesh stands at this rotor angle [rad] from now on.
+    /// Sets the rotor angle [rad] of the mesh.
     void set_rotor_angle(double angle);
 
     /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are kept and handed out once
-    /// more: what is new in one step is old in the next. Collective.
-    /// \param stencils  what it held is lost, its memory is used again: a step would spend more on asking for it than on some of its sums
+    /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are stored and reused: the
+    /// new positions of one step are the old ones of the next. Collective.
+    /// \param stencils  overwritten; buffers are reused because allocating them would dominate the cost
     /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
     void build(const RockShapes& rocks, Stencils& stencils);
 
@@ -77,7 +78,7 @@ private:
     Communicator& communicator_;
     ZoneFrames frames_;
     double angle_ = 0.0;
-    Kept last_;  // of no use once the mesh has turned
+    Kept last_;  // unused once the mesh has turned
     bool has_turned_ = false;
     std::size_t hidden_rocks_ = 0;
     std::vector<Neighbour> found_;
