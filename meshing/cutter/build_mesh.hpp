@@ -26,7 +26,6 @@ std::vector<std::filesystem::path> write_mesh_case(const std::filesystem::path& 
 /// blockMesh (rotor and stator without common points), surfaceFeatureExtract and snappyHexMesh (steel), cutterInterfaceRestore
 /// (interface points back in place), topoSet and createPatch (outlet, cyclicAMI), checkMesh and cutterMeshProbe (figures).
 /// \param programs  folder of cutterInterfaceRestore and cutterMeshProbe
-/// \param ranks     of snappyHexMesh, as write_mesh_case was told; decomposePar and reconstructParMesh stand before and after it when there
 /// \param ranks     of snappyHexMesh, as in write_mesh_case; above 1 decomposePar and reconstructParMesh run before and after it
 /// \param retries   earlier attempts, for the report
 /// \return the report; a mesh whose gates failed is kept for inspection: require_mesh_gates decides

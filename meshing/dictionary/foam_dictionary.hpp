@@ -1,5 +1,4 @@
 #pragma once
-/// \file Text of OpenFOAM dictionaries. Knows the syntax, not OpenFOAM: brackets, quotes, semicolons and numbers are right, what stands in
 /// \file Text of OpenFOAM dictionaries: guarantees the syntax (brackets, quotes, semicolons, numbers), not the content.
 #include <array>
 #include <cstdint>

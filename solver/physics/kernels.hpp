@@ -37,8 +37,6 @@ inline constexpr double k_gaussian_integral = 11.770376;
 inline constexpr double k_quadratic_integral = 285.71962;
 
 /// Share of the quadratic weight in the sampling weight: 1 for rock as large as cells and above (the reference's weight), 0 for
-/// rock below half a cell, smooth between. The quadratic weight is a shell: waves in the fluid about 3 sigma long it shows with the wrong
-/// sign (-0.14 of their height), so that drag feeds them. Rock that is small beside its kernel hardly disturbs the fluid that it
 /// rock below half a cell, smooth between. The quadratic weight is a shell: it samples waves of about 3 sigma with the wrong
 /// sign (-0.14 of their height), so that drag amplifies them. Rock that is small relative to its kernel hardly disturbs the sampled
 /// fluid and uses the deposit kernel, with which drag can only remove energy.

@@ -33,7 +33,6 @@ const std::array<Vec3, 13>& view_points() {
     return points;
 }
 
-/// Where the lattice's nodes stand between whole multiples of its spacing. Steel likes round coordinates: a node in the plane of a face
 /// Offset of the lattice from multiples of its spacing. Steel often has round coordinates: for a node in the plane of a face
 /// rounding would decide the visibility.
 const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);

@@ -27,10 +27,6 @@ private:
 /// Visible fraction of a rock from each cell around it.
 ///
 /// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: the eight nodes around its centre with
-/// trilinear weights, which pass smoothly from node to node as the rock moves. A cell is hidden from a node when a triangle stands between
-/// the two. Nodes, steel and cells of one zone do not move against each other, so a node's hidden cells are found once and kept; cells of
-/// the other zone are looked at anew for every mesh position. A node that the rock's surroundings cannot see (beyond a blade, inside steel)
-/// loses its weight in proportion, the others take it over. The visible fraction is the product over the steel of both zones.
 /// trilinear weights, which change smoothly as the rock moves. A cell is hidden from a node when a triangle intersects the line
 /// between them. Nodes, steel and cells of one zone do not move relative to each other, so a node's hidden cells are computed once and
 /// stored; those of the other zone are computed for every mesh position. A node without line of sight to the rock's surroundings (beyond a

@@ -119,7 +119,6 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& s
     sums[2 * rock + 1] = sample_sum;
 }
 
-/// Rocks that see no cell (the mesh's steel and the DEM's walls differ a little, and the centre of a small rock can lie inside the mesh's
 /// Rocks without a visible cell (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie inside the
 /// mesh's steel) are mapped from the centre of the nearest cell.
 void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils,

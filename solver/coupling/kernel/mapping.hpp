@@ -42,7 +42,6 @@ public:
     /// Sets the rotor angle [rad] of the mesh.
     void set_rotor_angle(double angle);
 
-    /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are kept and handed out once
     /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are stored and reused: the
     /// new positions of one step are the old ones of the next. Collective.
     /// \param stencils  overwritten; buffers are reused because allocating them would dominate the cost

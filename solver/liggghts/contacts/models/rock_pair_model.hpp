@@ -84,7 +84,6 @@ public:
     }
 
 private:
-    /// A first touch stores the approach speed and forgets all slip. LIGGGHTS clears the history of a pair that separates only when it
     /// A first touch stores the approach speed and clears all slip. LIGGGHTS clears the history of a separated pair only while the pair
     /// is in its neighbour list, therefore the step of the last touch decides.
     void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, bool keep) const {
