@@ -29,9 +29,9 @@ private:
 /// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: the eight nodes around its centre with
 /// trilinear weights, which change smoothly as the rock moves. A cell is hidden from a node when a triangle intersects the line
 /// between them. Nodes, steel and cells of one zone do not move relative to each other, so a node's hidden cells are computed once and
-/// stored; those of the other zone are computed for every mesh position. A node without line of sight to the rock's surroundings (beyond a
-/// blade, inside steel) loses its weight in proportion to the other nodes. The visible fraction is the product over the steel of both
-/// zones. Without steel within reach all cells are visible.
+/// stored; those of the other zone are computed for every mesh position. A node that is hidden from part of the rock's surroundings
+/// (beyond a blade, inside steel) loses weight in proportion to that part; the other nodes take it over. The visible fraction is the
+/// product over the steel of both zones. Without steel within reach all cells are visible.
 class Visibility {
 public:
     Visibility(const Steel& steel, const CellTrees& trees);

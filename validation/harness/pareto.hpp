@@ -1,5 +1,5 @@
 #pragma once
-/// \file Error against cost, one option at a time, the others at the program's defaults: what the pareto cases share.
+/// \file Error against cost, one option at a time, the others at the program's defaults: shared by the pareto cases.
 #include <filesystem>
 #include <functional>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file The record of a verification case: its program adds quantities, `cutterflow verify` reads them.
-/// docs/design/009-verification.md tells how to add a case.
+/// docs/design/009-verification.md describes how to add a case.
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -35,7 +35,7 @@ public:
     void at_least(const std::string& name, const std::string& unit, double value, double limit, const About& about);
     /// A number without a tolerance; with a reference its distance is in the table.
     void report(const std::string& name, const std::string& unit, double value, std::optional<double> reference, const About& about);
-    /// A quantity that does not settle; the note says how it moves.
+    /// A quantity that does not converge; the note describes how it changes.
     void not_converged(const std::string& name, const std::string& unit, const About& about);
 
     /// Shown on the page beside the quantities. A table of the same title replaces the one before.

@@ -1,4 +1,4 @@
-// Circular Couette flow through a sliding interface that stands still or turns: velocity and torque have closed forms (seeds T0-01).
+// Circular Couette flow through a sliding interface that stands still or turns: velocity and torque have closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -55,7 +55,7 @@ TEST_P(Bounce, returns_the_dry_restitution) {
     }
 }
 
-// Values of seeds T0-04 for 20 mm, 2650 kg/m3 in water of 20 degrees, e_dry 0.97.
+// Values of Legendre2006 for 20 mm, 2650 kg/m3 in water of 20 degrees, e_dry 0.97.
 TEST_P(Bounce, returns_the_wet_restitution) {
     const coupling::DemSettings settings = above_wall(GetParam(), scratch_folder());
     const std::pair<double, double> speed_and_restitution[] = {{1.0, 0.965}, {0.1, 0.923}, {0.01, 0.588}};

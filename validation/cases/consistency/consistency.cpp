@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr double k_end = 0.15, k_halfway = 0.1;
 
-/// Linear solvers go on to rounding, so that what is left is the program's own difference between ranks and not where a solver stopped.
+/// Linear solvers converge to rounding, so that the remaining difference between ranks is the program's own.
 void solve_to_rounding(const fs::path& folder) {
     const fs::path file = folder / "system/fvSolution";
     std::string text = std::regex_replace(read_file(file), std::regex("tolerance +[^;]+;"), "tolerance 1e-13;");

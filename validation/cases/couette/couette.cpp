@@ -1,4 +1,4 @@
-/// Circular Couette flow through a sliding interface that stands still, turns with the inner wall or against the flow.
+/// Circular Couette flow through a sliding interface that is at rest, turns with the inner wall or against the flow.
 #include <algorithm>
 #include <cmath>
 

@@ -59,7 +59,7 @@ double largest(const std::vector<double>& values) {
     return most;
 }
 
-/// What balance.csv and the pictures of rock say.
+/// Results of balance.csv and the snapshots of rock.
 void read_records(const fs::path& folder, double cell_size, Outcome& outcome) {
     const auto balance = read_columns(folder / "postProcessing/balance/0/balance.csv");
     const std::vector<double>& time = balance.at("time_s");
@@ -358,7 +358,7 @@ BoxCase small_box() {
     return box;
 }
 
-// --- Rows with something more to look at than stability ---
+// --- Rows that check more than stability ---
 
 /// Runs the cells of a row, adds them to the table and holds the number of those that hold against their number.
 class Matrix {

@@ -28,7 +28,7 @@ coupling::DemSettings in_fluid(coupling::DemSettings settings, double density, d
     return settings;
 }
 
-/// Time between looks at the DEM: a hundredth of the contact's.
+/// Sampling interval of the DEM: a hundredth of the contact time.
 double sample_of(const Elastic& material, double speed) {
     const double mass = 4.0 / 3.0 * k_pi * std::pow(k_radius, 3) * material.density;
     return physics::hertz_time({mass, k_radius, 0.5 * material.youngs_modulus, speed}) / 100.0;

@@ -1,5 +1,5 @@
 /// One rock settling in still water reaches the terminal speed of its own force balance, whatever the ratio of rock to cell: the kernels
-/// must hand it the flow that it does not disturb itself. (seeds T0-02, row 14)
+/// must sample the undisturbed flow. [NieuwboerVanRheeKeetels2023]
 #include <algorithm>
 #include <cmath>
 

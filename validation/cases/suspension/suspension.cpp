@@ -1,5 +1,5 @@
 /// A settling uniform suspension carries its rock on the fluid: grad p = (alpha_c rho_c + alpha_p rho_p) g, so the reduced pressure has the
-/// gradient alpha_p (rho_p - rho_c) g / rho_c. Catches every wrong sign or doubled term in the force balance (seeds C0-02).
+/// gradient alpha_p (rho_p - rho_c) g / rho_c. Detects every wrong sign or doubled term in the force balance.
 #include <cmath>
 
 #include <fmt/format.h>

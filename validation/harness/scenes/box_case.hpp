@@ -27,7 +27,7 @@ enum class BoxSides {
     duct,      ///< slip walls along z, inflow at the bottom, the top at p* = 0
 };
 
-/// A box of water with uniform hexahedra and rock, laminar, seeds' water unless told otherwise.
+/// A box of water with uniform hexahedra and rock, laminar, with the fluid of [NieuwboerVanRheeKeetels2023] by default.
 struct BoxCase {
     Vec3 lower, upper;           ///< corners [m]
     std::array<int, 3> cells{};  ///< number along x, y, z

@@ -1,10 +1,10 @@
 #pragma once
-/// \file The force balance of a settling rock, written anew apart from the solver's closures: what coupled runs are held against.
+/// \file The force balance of a settling rock, independent of the solver's closures: the reference of coupled runs.
 
 namespace cutterflow::validation {
 
 /// A sphere in still water of a given void fraction: weight, buoyancy in pure water, Brown and Lawler's drag, Di Felice's hindrance, added
-/// mass 1/2 (seeds S0-08 to S0-11).
+/// mass 1/2 [NieuwboerVanRheeKeetels2023].
 struct FallingRock {
     double diameter = 0.01;        ///< [m]
     double density = 2650.0;       ///< [kg/m3]

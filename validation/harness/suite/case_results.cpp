@@ -35,7 +35,7 @@ auto value_of(const Table& table, const std::string& word) {
     return found->first;
 }
 
-/// JSON has no infinity and no not-a-number: null stands for them.
+/// JSON has no infinity and no not-a-number: both become null.
 nlohmann::json number_json(const std::optional<double>& value) {
     return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
 }

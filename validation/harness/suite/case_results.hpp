@@ -1,6 +1,6 @@
 #pragma once
 /// \file What a verification case found: quantities held against a reference, as JSON and on pages.
-/// docs/design/009-verification.md says what stands in the files.
+/// docs/design/009-verification.md describes the files.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@ enum class CaseVerdict {
     fail,
     not_converged,  ///< meshes, steps or runs do not settle on a value that could be judged
     skipped,        ///< could not be run here
-    reported,       ///< told without a tolerance: a distance to an experiment, a cost
+    reported,       ///< without a tolerance: a distance to an experiment, a cost
 };
 
 /// What is held against the tolerance.

@@ -11,16 +11,16 @@
 
 namespace cutterflow::validation {
 
-/// One folder of validation/cases, as the head of its README.md tells it.
+/// One folder of validation/cases, from the head of its README.md.
 struct VerificationCase {
     std::string name;                ///< of the folder and of the program
     std::string title;               ///< the README's first line
     Effort effort = Effort::fast;    ///< the least effort at which it has something to check
     std::vector<std::string> needs;  ///< programs without which it is skipped
-    bool resumes = false;            ///< its program goes on with what it finds in its folder
+    bool resumes = false;            ///< its program resumes from the files in its folder
 };
 
-/// Where things stand.
+/// Folders and programs.
 struct VerificationPlaces {
     std::filesystem::path cases;     ///< validation/cases
     std::filesystem::path programs;  ///< one program a case
@@ -40,7 +40,7 @@ struct VerificationSettings {
     bool resume = false;  ///< cases finished with the same programs and at least this effort are kept; begun ones that can go on do so
 };
 
-/// Runs cases one after the other; each finished one is kept in the folder at once. A case that fails is told of and the others go on.
+/// Runs cases one after the other; each finished one is kept in the folder at once. A failed case is reported; the others continue.
 /// \return results of these cases, in their order
 /// \throws UserError    when the folder holds something else
 /// \throws Interrupted  when the user stops it; what is finished is kept

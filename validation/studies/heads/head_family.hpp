@@ -1,5 +1,5 @@
 #pragma once
-/// \file The family of parametric heads on which what Cutterflow says of "any cutter" is measured.
+/// \file The family of parametric heads on which statements about "any cutter" are measured.
 #include "geometry/head/crown_cutter.hpp"
 
 namespace cutterflow::validation {

@@ -1,6 +1,6 @@
 /// 24 parametric heads through `cutterflow mesh` at preset draft: a table of gates, cells and core seconds, and exit code 4 when a head
 /// fails a gate or has a quarter more or fewer cells than predicted. Usage: mesh_study DIRECTORY; a head that is meshed already is only
-/// read, so that an interrupted study goes on.
+/// read, so that an interrupted study resumes.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
