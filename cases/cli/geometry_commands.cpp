@@ -67,7 +67,7 @@ void add_inspect(CLI::App& app) {
     command->add_option("cutter", options->cutter, "STL, OBJ or PLY file")->required();
     command->add_option(
         "--unit", options->unit,
-        "Its unit of length (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives a plausible size");
+        "Unit of length (m, mm, cm, inch, ft); default: metres, millimetres or inches, the first that gives a plausible size");
     command->add_option("-o,--output", options->output, "Folder to write inspection.json and index.html (pictures, contour) to");
     command->add_option("--contour", options->contour, "CSV file to write the contour of revolution to");
     command->add_flag("--json", options->json, "Print JSON");

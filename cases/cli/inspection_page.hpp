@@ -1,5 +1,5 @@
 #pragma once
-/// \file What `cutterflow inspect` knows of a surface as files: inspection.json and a page with pictures.
+/// \file The files of `cutterflow inspect`: inspection.json and a page with pictures.
 #include <filesystem>
 
 #include "geometry/head/geometry_report.hpp"
@@ -9,7 +9,7 @@ namespace cutterflow::cases {
 /// Writes inspection.json (as geometry.json) and index.html, one file that needs no network: three views of the surface, the contour r(z),
 /// the numbers, and the defects with marks at their places.
 /// \param surface  in the file's frame [m]
-/// \param folder   made when it is not there
+/// \param folder   created if missing
 /// \throws UserError  when the folder holds anything already
 void write_inspection(const geometry::GeometryInspection& inspection, const geometry::TriangleSurface& surface,
                       const std::filesystem::path& folder);

@@ -33,8 +33,8 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", CUTTERFLOW_VERSION);
     app.footer(
-        "Begin with: cutterflow new --cutter head.stl my_study.toml\n"
-        "Exit codes: 0 done, 1 defect of the program, 2 wrong input, 3 another program failed, 4 a check was not passed.");
+        "Start with: cutterflow new --cutter head.stl my_study.toml\n"
+        "Exit codes: 0 done, 1 defect of the program, 2 wrong input, 3 an external program failed, 4 a check failed.");
     cli::add_new(app);
     cli::add_params(app);
     cli::add_generate_cutter(app);
@@ -69,8 +69,7 @@ int main(int argc, char** argv) {
         std::cerr << "cutterflow: " << interrupted.what() << std::endl;
         return k_interrupted;
     } catch (const std::filesystem::filesystem_error& error) {
-        const UserError told(error.what(), "Folders and files that are named must be there, or be ones that can be made",
-                             "Check the path and its permissions");
+        const UserError told(error.what(), "Every path must exist or be creatable", "Check the path and its permissions");
         std::cerr << "cutterflow: " << told.what() << std::endl;
         return static_cast<int>(told.code());
     } catch (const std::exception& error) {

@@ -93,9 +93,10 @@ void run_repair(const RepairOptions& options) {
 }  // namespace
 
 void add_repair(CLI::App& app) {
-    auto* command = app.add_subcommand("repair", "Repair a cutter's surface into one watertight solid, or say where that is not possible.");
+    auto* command =
+        app.add_subcommand("repair", "Repair a cutter's surface into one watertight solid, or report where that is not possible.");
     const auto options = std::make_shared<RepairOptions>();
-    command->add_option("cutter", options->input, "STL, OBJ or PLY file; it is not touched")->required();
+    command->add_option("cutter", options->input, "STL, OBJ or PLY file; it is not changed")->required();
     command->add_option("-o,--output", options->output, "STL file to write, in metres")->required();
     command->add_option("--unit", options->unit,
                         "Unit of length of the file (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives "
@@ -108,11 +109,12 @@ void add_repair(CLI::App& app) {
         ->check(k_not_negative);
     command
         ->add_option("--volume-change-percent", options->volume_change_percent,
-                     "Volume that repairing may change or leave uncertain (uniting shells apart)")
+                     "Allowed change or uncertainty of the volume (except by uniting shells)")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     command
-        ->add_option("--area-change-percent", options->area_change_percent, "Area that patches and resolved self-intersections may change")
+        ->add_option("--area-change-percent", options->area_change_percent,
+                     "Allowed change of the area by patches and resolved self-intersections")
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     command->add_option("--report", options->report, "JSON file to write the report to");

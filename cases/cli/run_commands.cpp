@@ -36,7 +36,7 @@ fs::path run_folder(const RunOptions& options) {
     return options.output ? fs::path(*options.output) : fs::path("runs") / fs::path(options.study).stem();
 }
 
-/// cutterFoam stands beside this program.
+/// cutterFoam is in the folder of this program.
 fs::path solver_path() {
     return fs::read_symlink("/proc/self/exe").parent_path() / "cutterFoam";
 }
@@ -58,7 +58,7 @@ std::vector<std::string> programs_for(const RunOptions& options, const std::stri
     return programs;
 }
 
-/// Progress goes to standard error: standard output holds what was asked for.
+/// Progress goes to standard error; standard output has the requested result.
 void say(const std::string& text) {
     std::cerr << "  " << text << std::endl;
 }
@@ -67,7 +67,7 @@ cases::StageObserver stage_lines(std::size_t count) {
     return [count, index = std::make_shared<std::size_t>(0)](const cases::Stage& stage, cases::StageEvent event, double wall_s) {
         if (event != cases::StageEvent::ends) ++*index;
         const std::string title = fmt::format("[{}/{}] {}", *index, count, stage.name);
-        if (event == cases::StageEvent::skipped) std::cerr << title << ": done before" << std::endl;
+        if (event == cases::StageEvent::skipped) std::cerr << title << ": already done" << std::endl;
         if (event == cases::StageEvent::begins) std::cerr << title << std::endl;
         if (event == cases::StageEvent::ends) std::cerr << title << ": done in " << duration_text(wall_s) << std::endl;
     };
@@ -80,9 +80,10 @@ void go_through_stages(const RunOptions& options, const cases::RunDirectory& dir
     try {
         cases::run_stages(directory, manifest, pipeline.stages(), until, options.resume, stage_lines(count));
     } catch (const Interrupted& interrupted) {
-        throw Interrupted(fmt::format("{}. What is done is kept in {}; go on with: cutterflow {} {} -o {} --ranks {}{}", interrupted.what(),
-                                      directory.path().string(), until == "mesh" ? "mesh" : "run", shell_word(options.study),
-                                      shell_word(run_folder(options).string()), options.ranks, until == "mesh" ? "" : " --resume"));
+        throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow {} {} -o {} --ranks {}{}",
+                                      interrupted.what(), directory.path().string(), until == "mesh" ? "mesh" : "run",
+                                      shell_word(options.study), shell_word(run_folder(options).string()), options.ranks,
+                                      until == "mesh" ? "" : " --resume"));
     } catch (const std::exception&) {
         // Whatever failed first on a full disk, what to do is the same.
         if (const std::optional<Mistake> full = pipeline.full_disk()) throw ToolError(*full);
@@ -134,7 +135,7 @@ void report(const ReportOptions& options) {
         return;
     }
     if (options.folder.empty())
-        throw UserError("report without a run directory", "A report is made of a run", "Give the directory: cutterflow report DIR");
+        throw UserError("report without a run directory", "A report needs a run", "Give the directory: cutterflow report DIR");
     if (options.adv_points) return adv_report(options);
     const postproc::ReportSummary summary =
         options.still_folder ? postproc::publish_report(options.folder, *options.still_folder) : postproc::write_report(options.folder);
@@ -145,14 +146,14 @@ void report(const ReportOptions& options) {
 
 void add_run_options(CLI::App& command, RunOptions& options) {
     command.add_option("study", options.study, "The study file")->required();
-    command.add_option("-o,--output", options.output, "Run directory; without it runs/<name of the study file>");
+    command.add_option("-o,--output", options.output, "Run directory; default runs/<name of the study file>");
     command.add_option("--ranks", options.ranks, "Processes, at most the machine's cores")->capture_default_str();
 }
 
 }  // namespace
 
 void add_mesh(CLI::App& app) {
-    auto* command = app.add_subcommand("mesh", "Read the cutter and make the mesh of a study.");
+    auto* command = app.add_subcommand("mesh", "Read the cutter and build the mesh of a study.");
     const auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
     command->add_flag("--json", options->json, "Print mesh.json");
@@ -160,26 +161,24 @@ void add_mesh(CLI::App& app) {
 }
 
 void add_run(CLI::App& app) {
-    auto* command = app.add_subcommand("run", "Go through every stage that is not done yet: geometry, mesh, case, start, run, report.");
+    auto* command = app.add_subcommand("run", "Execute every unfinished stage: geometry, mesh, case, start, run, report.");
     const auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
     command->add_option("--start-from", options->start_from,
-                        "Run directory whose frozen-rotor flow is taken when it is the same to the byte, as that of a repeat is");
-    command->add_flag("--resume", options->resume, "Go on with an interrupted run from its last checkpoint");
+                        "Run directory whose frozen-rotor flow is reused if its case is identical byte by byte, as for a repeat");
+    command->add_flag("--resume", options->resume, "Resume an interrupted run from its last checkpoint");
     command->add_flag("--json", options->json, "Print results.json");
     command->callback([options] { run(*options); });
 }
 
 void add_report(CLI::App& app) {
-    auto* command = app.add_subcommand("report", "Make the report of a run directory anew, finished or not.");
+    auto* command = app.add_subcommand("report", "Rewrite the report of a run directory, finished or not.");
     const auto options = std::make_shared<ReportOptions>();
     command->add_option("run_directory", options->folder, "The run directory");
     auto* points =
         command->add_option("--adv", options->adv_points,
                             "Compare with velocities measured at the points of this CSV file, which the run sampled (report.adv_points)");
-    command
-        ->add_option("--revolutions", options->revolutions,
-                     "Average over the last so many revolutions of the run; without it all whole ones")
+    command->add_option("--revolutions", options->revolutions, "Number of last revolutions to average over; default: all whole ones")
         ->needs(points);
     command
         ->add_option("--static", options->still_folder,

@@ -62,7 +62,7 @@ void add_box(CLI::App& app) {
 }
 
 void add_funnel(CLI::App& app) {
-    auto* command = app.add_subcommand("funnel", "A funnel about the z axis: its spout ends at z = 0, the cone stands above it.");
+    auto* command = app.add_subcommand("funnel", "A funnel about the z axis: its spout ends at z = 0, the cone is above it.");
     const auto funnel = std::make_shared<geometry::FunnelParameters>();
     const auto solid = std::make_shared<Solid>();
     command->add_option("--inlet-radius-m", funnel->inlet_radius, "Inner radius of the cone's upper end")->required();

@@ -31,7 +31,8 @@ struct NewOptions {
 void write_new_study(const NewOptions& options) {
     require_new_file(options.study);
     if (!options.cutter.empty() && !fs::exists(options.cutter))
-        throw UserError(fmt::format("--cutter {} is not there", options.cutter), "The study names a surface of a cutter", "Check the path");
+        throw UserError(fmt::format("--cutter {} does not exist", options.cutter), "The study names a surface of a cutter",
+                        "Check the path");
     if (options.unit) geometry::length_unit_of(*options.unit);  // refuses what is none
     // The study refers to the cutter from its own folder.
     const fs::path folder = fs::absolute(options.study).parent_path();

@@ -38,7 +38,7 @@ struct SweepOptions {
     bool emit = false;
 };
 
-/// What CLI11 did not know: most likely a key that a sweep does not vary.
+/// Options unknown to CLI11: most likely a key that a sweep does not vary.
 void require_known_axes(const std::vector<std::string>& words) {
     const std::vector<std::string> known{"--rpm", "--discharge", "--design", "--repeats"};
     std::vector<Mistake> mistakes;
@@ -47,7 +47,7 @@ void require_known_axes(const std::vector<std::string>& words) {
         const std::string axis = word.substr(0, word.find('='));
         const std::string nearest = nearest_word(axis, known);
         mistakes.push_back({"", fmt::format("a sweep over {}", axis), fmt::format("A sweep varies {}", fmt::join(known, ", ")),
-                            nearest.empty() ? "Write other changes into studies of their own, and compare the runs with cutterflow compare"
+                            nearest.empty() ? "Write other changes into separate studies, and compare the runs with cutterflow compare"
                                             : fmt::format("Did you mean {}?", nearest)});
     }
     if (mistakes.empty() && !words.empty())
@@ -79,15 +79,15 @@ void sweep(const SweepOptions& options) {
         return;
     }
     if (local)
-        say(fmt::format("{} points, {} at a time on {} rank(s) each, in {}", points.size(), jobs, options.ranks, folder.string()));
+        say(fmt::format("{} points, {} in parallel on {} rank(s) each, in {}", points.size(), jobs, options.ranks, folder.string()));
     else
         say(fmt::format("{} points by Slurm, on {} core(s) each, in {}", points.size(), options.ranks, folder.string()));
     cases::SweepOutcome outcome;
     try {
         outcome = cases::run_sweep(points, settings, say);
     } catch (const Interrupted& interrupted) {
-        throw Interrupted(fmt::format("{}. What is done is kept in {}; give the same command with --resume to go on", interrupted.what(),
-                                      folder.string()));
+        throw Interrupted(
+            fmt::format("{}. Finished work is kept in {}; repeat the command with --resume", interrupted.what(), folder.string()));
     }
     if (outcome.done.size() > 1)
         std::cout << fmt::format("the comparison: {}\n",
@@ -119,7 +119,7 @@ void compare(const CompareOptions& options) {
 void add_sweep(CLI::App& app) {
     auto* command = app.add_subcommand("sweep", "Run a study at several speeds, discharges, designs and repeats, and compare them.");
     const auto options = std::make_shared<SweepOptions>();
-    command->add_option("study", options->study, "The study that all points begin from")->required();
+    command->add_option("study", options->study, "The study that all points start from")->required();
     command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(k_positive);
     command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")->delimiter(',')->check(k_positive);
     command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
@@ -128,11 +128,11 @@ void add_sweep(CLI::App& app) {
                      "Repeats that differ by placement and angle of release; three or more give intervals")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
-    command->add_option("-o,--output", options->output, "Folder of the sweep; without it runs/<name of the study file>_sweep");
-    command->add_option("--ranks", options->ranks, "Processes of each run; as many runs go on at a time as the cores carry")
+    command->add_option("-o,--output", options->output, "Folder of the sweep; default runs/<name of the study file>_sweep");
+    command->add_option("--ranks", options->ranks, "Processes per run; runs execute in parallel up to the available cores")
         ->capture_default_str();
-    command->add_flag("--resume", options->resume, "Go on with a sweep that was stopped or killed, or add points to it");
-    command->add_option("--launcher", options->launcher, "Who runs the points: this machine, or Slurm as a job array")
+    command->add_flag("--resume", options->resume, "Resume a stopped or killed sweep, or add points to it");
+    command->add_option("--launcher", options->launcher, "Where the points run: on this machine, or by Slurm as a job array")
         ->check(CLI::IsMember({"local", "slurm"}))
         ->capture_default_str();
     command
@@ -148,10 +148,9 @@ void add_sweep(CLI::App& app) {
 }
 
 void add_compare(CLI::App& app) {
-    auto* command =
-        app.add_subcommand("compare", "Put runs side by side: designs, speeds, discharges, repeats; differences from the first.");
+    auto* command = app.add_subcommand("compare", "Compare runs: designs, speeds, discharges, repeats; differences from the first.");
     const auto options = std::make_shared<CompareOptions>();
-    command->add_option("run_directories", options->runs, "Run directories; repeats of one study are taken together")->required();
+    command->add_option("run_directories", options->runs, "Run directories; repeats of one study are combined")->required();
     command->add_option("-o,--output", options->output, "Folder for the page and comparison.json");
     command->add_option("--static", options->still_folder, "Folder for comparison.json and a page without scripts, to publish");
     command->add_flag("--json", options->json, "Print comparison.json");

@@ -93,14 +93,14 @@ void verify(const VerifyOptions& options) {
     if (options.list) return list(all, options.json);
     const std::vector<validation::VerificationCase> chosen = selected(all, options);
     if (options.publish && chosen.empty() && validation::read_verification(options.output).empty())
-        throw UserError(fmt::format("{} holds no results", options.output), "What is published was run before",
+        throw UserError(fmt::format("{} contains no results", options.output), "Only results of earlier runs can be published",
                         "Name the folder of the results with -o, or cases to run");
     std::vector<VerifiedCase> results;
     try {
         results = validation::run_verification(chosen, where, {options.output, effort_of(options), options.resume}, say);
     } catch (const Interrupted& interrupted) {
-        throw Interrupted(fmt::format("{}. Finished cases are kept in {}; give the same command with --resume to go on", interrupted.what(),
-                                      options.output));
+        throw Interrupted(
+            fmt::format("{}. Finished cases are kept in {}; repeat the command with --resume", interrupted.what(), options.output));
     }
     nlohmann::json rows = nlohmann::json::array();
     std::vector<std::string> failed;
@@ -120,19 +120,18 @@ void verify(const VerifyOptions& options) {
 }  // namespace
 
 void add_verify(CLI::App& app) {
-    auto* command = app.add_subcommand("verify", "Run cases with a known answer and say how far off the program is.");
+    auto* command = app.add_subcommand("verify", "Run cases with a known answer and report the errors of the program.");
     const auto options = std::make_shared<VerifyOptions>();
     command->add_option("cases", options->names, "Cases by name");
     auto* const fast = command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
     command->add_option("--pareto", options->pareto,
-                        "Error against cost, one chart an option, defaults marked: the cases pareto_<name> (an hour or so)");
+                        "Error against cost, one chart per option, defaults marked: the cases pareto_<name> (about an hour)");
     command->add_flag("--all", options->all, "All cases, in full");
-    command->add_flag("--long", options->longest, "What takes hours too")->excludes(fast);
+    command->add_flag("--long", options->longest, "Also the parts that take hours")->excludes(fast);
     command->add_flag("--list", options->list, "List the cases");
     command->add_option("-o,--output", options->output, "Folder of the results")->capture_default_str();
     command->add_flag("--resume", options->resume, "Keep the cases of the folder that were finished with the same programs");
-    command->add_flag("--publish", options->publish,
-                      "Keep the folder's results in docs/results/validation and make docs/validation.md anew");
+    command->add_flag("--publish", options->publish, "Copy the folder's results to docs/results/validation and rewrite docs/validation.md");
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->callback([options] {
         for (const std::string& name : options->pareto) options->names.push_back("pareto_" + name);

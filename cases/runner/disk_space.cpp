@@ -58,7 +58,7 @@ Mistake full_disk(const fs::path& folder, double needed) {
         fmt::format("the disk of {} is full: {} are written, {} free", folder.string(), size_text(written), size_text(free_bytes(folder))),
         fmt::format("The run is predicted to write about {} in all, {} more", size_text(needed),
                     size_text(std::max(0.0, needed - written))),
-        "Free space and go on with --resume; what is done is kept up to the last checkpoint"};
+        "Free space and use --resume; results are kept up to the last checkpoint"};
 }
 
 }  // namespace cutterflow::cases

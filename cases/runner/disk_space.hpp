@@ -15,7 +15,7 @@ void require_free_bytes(const std::filesystem::path& folder, double needed);
 /// Does the disk take nothing more that is worth speaking of?
 bool is_disk_full(const std::filesystem::path& folder);
 
-/// What to tell when work in a run directory ended because its disk is full. \param needed  bytes that the whole run is predicted to write;
+/// Message when work in a run directory ended because its disk is full. \param needed  bytes that the whole run is predicted to write;
 /// 0: not known
 Mistake full_disk(const std::filesystem::path& folder, double needed);
 

@@ -29,7 +29,7 @@ void require_ranks(int ranks) {
     const int cores = available_cores();
     if (ranks < 1) throw UserError(fmt::format("--ranks {}", ranks), "A run needs one process or more", "Use --ranks 1");
     if (ranks <= cores) return;
-    throw UserError(fmt::format("--ranks {} on {} core(s)", ranks, cores), "A rank needs a core of its own",
+    throw UserError(fmt::format("--ranks {} on {} core(s)", ranks, cores), "Each rank needs a core",
                     fmt::format("Use --ranks {}, or a machine with more cores", cores));
 }
 

@@ -16,7 +16,7 @@ double machine_slowness();
 /// Refuses what would fail later.
 /// \param programs  names, or paths, of what will be started
 /// \throws UserError  for more ranks than cores, and when the environment of an OpenFOAM other than v1912 is loaded
-/// \throws ToolError  naming every program that is not there
+/// \throws ToolError  naming every missing program
 void require_machine(int ranks, const std::vector<std::string>& programs);
 
 }  // namespace cutterflow::cases

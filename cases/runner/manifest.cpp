@@ -50,7 +50,7 @@ Manifest::Manifest(std::filesystem::path file) : file_(std::move(file)) {
     } catch (const std::exception& error) {
         throw UserError(fmt::format("{} cannot be read: {}", file_.string(), error.what()),
                         fmt::format("It must be a manifest ({}) as cutterflow writes it", k_schema),
-                        "Use another run directory; this one's state is not known");
+                        "Use another run directory; the state of this one is unknown");
     }
 }
 

@@ -68,15 +68,18 @@ geometry::RevolutionContour read_contour_csv(const fs::path& file) {
     std::string line;
     std::getline(lines, line);
     if (line != "z_m,r_m")
-        throw UserError(fmt::format("{} begins with \"{}\"", file.string(), line), "Its first line must be z_m,r_m", "Begin anew");
+        throw UserError(fmt::format("{} begins with \"{}\"", file.string(), line), "Its first line must be z_m,r_m",
+                        "Start again in another directory");
     while (std::getline(lines, line)) {
         double z = 0.0, radius = 0.0;
         if (std::sscanf(line.c_str(), "%lf,%lf", &z, &radius) != 2)
-            throw UserError(fmt::format("{} has the line \"{}\"", file.string(), line), "A line must hold two numbers", "Begin anew");
+            throw UserError(fmt::format("{} has the line \"{}\"", file.string(), line), "A line must hold two numbers",
+                            "Start again in another directory");
         contour.z.push_back(z);
         contour.radius.push_back(radius);
     }
-    if (contour.z.empty()) throw UserError(file.string() + " holds no contour", "It must have lines of two numbers", "Begin anew");
+    if (contour.z.empty())
+        throw UserError(file.string() + " contains no contour", "It must have lines of two numbers", "Start again in another directory");
     return contour;
 }
 
@@ -119,7 +122,7 @@ double smallest_diameter(const Study& study) {
     return smallest;
 }
 
-/// What a run left that was stopped before its first checkpoint: there is nothing to go on from.
+/// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed.
 void remove_unfinished_run(const fs::path& directory) {
     std::vector<fs::path> left;
     for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
@@ -161,7 +164,7 @@ RunHead read_run_head(const RunDirectory& directory) {
         return {size, std::move(contour)};
     } catch (const nlohmann::json::exception& error) {
         throw UserError(fmt::format("{} cannot be read: {}", file.string(), error.what()), "It must be as the geometry stage writes it",
-                        "Begin anew in another directory with -o");
+                        "Start again in another directory with -o");
     }
 }
 
@@ -252,7 +255,7 @@ StageOutcome Pipeline::make_mesh() {
             meshing::require_mesh_gates(report);
             break;
         }
-        say_(fmt::format("a gate failed ({}); once more with {}", retry->failed_gate, retry->change));
+        say_(fmt::format("a gate failed ({}); next attempt with {}", retry->failed_gate, retry->change));
         retries.push_back(*retry);
     }
     for (const std::string& file : files_below(directory_.path(), "constant/polyMesh")) outputs.push_back(file);
@@ -314,7 +317,7 @@ StageOutcome Pipeline::make_start() {
     const CaseInputs inputs = case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks);
     if (start_is_done(settings_.start_from)) {
         if (const auto taken = take_start_flow(directory_.path(), settings_.start_from, inputs)) {
-            say_(fmt::format("the same as that of {}, and taken from there", settings_.start_from.string()));
+            say_(fmt::format("identical to that of {}, copied from there", settings_.start_from.string()));
             return {files_below(directory_.path(), "0"), 0.0};
         }
     }
@@ -358,8 +361,9 @@ StageOutcome Pipeline::run_solver(bool resume) {
     if (goes_on) {
         const RankChange change = move_checkpoint_to_ranks(directory_.path(), settings_.ranks);
         core_s += change.core_s;
-        if (change.from != settings_.ranks) say_(fmt::format("the checkpoint goes from {} ranks to {}", change.from, settings_.ranks));
-        say_("going on from the last checkpoint");
+        if (change.from != settings_.ranks)
+            say_(fmt::format("the checkpoint is converted from {} ranks to {}", change.from, settings_.ranks));
+        say_("resuming from the last checkpoint");
     } else {
         remove_unfinished_run(directory_.path());
         require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
@@ -383,13 +387,13 @@ StageOutcome Pipeline::make_report() {
     const postproc::ReportSummary summary = postproc::write_report(directory_.path());
     if (!summary.note.empty()) say_(summary.note);
     if (study.report.adv_points) make_adv_report(*study.report.adv_points);
-    return {{names::resolved_study}, 0.0};  // the report itself is made anew at any time
+    return {{names::resolved_study}, 0.0};  // the report itself can be rewritten at any time
 }
 
 void Pipeline::make_adv_report(const fs::path& points) const {
     try {
         const postproc::AdvComparison comparison = postproc::compare_with_measurement(directory_.path(), points);
-        say_(fmt::format("measured velocities beside the model's: {}", postproc::write_adv_report(comparison, directory_.path()).string()));
+        say_(fmt::format("measured and computed velocities: {}", postproc::write_adv_report(comparison, directory_.path()).string()));
     } catch (const UserError& error) {
         // A run that ended before a whole revolution was averaged has its report all the same.
         say_(fmt::format("no comparison with measured velocities: {}", error.what()));

@@ -46,7 +46,7 @@ public:
     /// geometry, mesh, case, start, run, report. They refer to this object.
     std::vector<Stage> stages();
 
-    /// What to tell of a stage that failed because the disk is full; none when it is not.
+    /// Message of a stage that failed because the disk is full; none when it is not.
     std::optional<Mistake> full_disk() const;
 
 private:

@@ -70,8 +70,8 @@ RankChange move_checkpoint_to_ranks(const fs::path& run_directory, int ranks) {
     RankChange change{ranks_that_hold(run_directory, time), 0.0};
     if (change.from == ranks) return change;
     if (change.from == 0)
-        throw UserError(fmt::format("{} holds no fields of its checkpoint {}", run_directory.string(), time),
-                        "A run is resumed from the fields of its newest checkpoint", "Begin anew in another directory with -o");
+        throw UserError(fmt::format("{} contains no fields of its checkpoint {}", run_directory.string(), time),
+                        "A run is resumed from the fields of its newest checkpoint", "Start again in another directory with -o");
     if (change.from > 1) change.core_s += require_child(meshing::foam_command(run_directory, "reconstructPar", {})).core_s;
     remove_processor_folders(run_directory);
     change.core_s += split(run_directory, ranks, {"-time", time, "-copyUniform"});

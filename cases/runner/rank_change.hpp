@@ -1,10 +1,10 @@
 #pragma once
-/// \file Splitting a run's case over ranks, at its start and when it goes on with another number of them.
+/// \file Decomposition of a run's case over ranks, at its start and when it resumes on another number of them.
 #include <filesystem>
 
 namespace cutterflow::cases {
 
-/// Writes system/decomposeParDict and splits the case as it stands. \return core seconds
+/// Writes system/decomposeParDict and decomposes the present case. \return core seconds
 double decompose(const std::filesystem::path& run_directory, int ranks);
 
 struct RankChange {

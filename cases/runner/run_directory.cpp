@@ -28,7 +28,7 @@ void require_openfoam_path(const fs::path& path) {
     const std::size_t bad = text.find_first_of(" \t\n\r\"'`\\$(){}[];#*?|<>&!");
     if (bad == std::string::npos) return;
     throw UserError(fmt::format("the folder \"{}\" has '{}' in its path", text, text[bad]),
-                    "OpenFOAM's programs cannot take paths with spaces, quotes, brackets or other signs of a shell",
+                    "OpenFOAM's programs accept no paths with spaces, quotes, brackets or other shell characters",
                     "Choose a path of letters, digits, '-', '_', '.' and '/' with -o");
 }
 
@@ -59,8 +59,8 @@ int take_lock(const fs::path& path) {
 void require_usable_run_directory(const fs::path& path) {
     require_openfoam_path(fs::absolute(path));
     if (!fs::is_directory(path) || may_hold_a_run(path)) return;
-    throw UserError(fmt::format("{} holds files and no {}", path.string(), names::manifest),
-                    "A run directory is empty, or one that cutterflow made; nothing is overwritten", "Choose another with -o");
+    throw UserError(fmt::format("{} contains files but no {}", path.string(), names::manifest),
+                    "A run directory is empty or made by cutterflow; nothing is overwritten", "Choose another with -o");
 }
 
 RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexically_normal()) {
@@ -68,7 +68,7 @@ RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexi
     std::error_code failed;
     fs::create_directories(path_, failed);
     if (failed || !fs::is_directory(path_))
-        throw UserError(fmt::format("{} cannot be a run directory", path_.string()), "It must be a folder that is there or can be made",
+        throw UserError(fmt::format("{} cannot be a run directory", path_.string()), "It must be a folder that exists or can be created",
                         "Choose another with -o");
     lock_ = take_lock(path_);
 }

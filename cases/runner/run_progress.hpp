@@ -1,5 +1,5 @@
 #pragma once
-/// \file How far a run is, told from the solver's log.
+/// \file Progress of a run, read from the solver's log.
 #include <filesystem>
 #include <string>
 

@@ -60,9 +60,9 @@ public:
         for (std::size_t i = 0; i <= first && i < stages_.size(); ++i) {
             const StageRecord* record = manifest_.find(stages_[i].name);
             if (record == nullptr || record->inputs == stages_[i].inputs || !has_results_from(i)) continue;
-            throw UserError(fmt::format("{} holds results of another study: {}", directory_.path().string(),
+            throw UserError(fmt::format("{} contains results of another study: {}", directory_.path().string(),
                                         fmt::join(changed_inputs(record->inputs, stages_[i].inputs), ", ")),
-                            "Results are never overwritten", "Give the changed study a directory of its own with -o, or change it back");
+                            "Results are never overwritten", "Use another directory for the changed study with -o, or undo the change");
         }
     }
 
@@ -71,8 +71,8 @@ public:
         const StageRecord* record = manifest_.find(stages_[first].name);
         if (record == nullptr || record->inputs != stages_[first].inputs) return;
         throw UserError(fmt::format("the stage {} in {} was interrupted", stages_[first].name, directory_.path().string()),
-                        "What it computed is kept",
-                        "Add --resume to go on from its last checkpoint, or begin anew in another directory with -o");
+                        "Its results are kept",
+                        "Add --resume to continue from its last checkpoint, or start again in another directory with -o");
     }
 
     /// Stages whose records are no longer true once stage `i` begins.
@@ -100,9 +100,9 @@ private:
         const bool there = std::filesystem::exists(path);
         if (there && sha256_of_file(path) == hash) return;
         mistakes.push_back({path.string(), there ? "this generated file was changed by hand" : "this generated file was removed",
-                            fmt::format("It is the stage {}'s and is not overwritten", stage),
+                            fmt::format("It belongs to the stage {} and is not overwritten", stage),
                             there ? fmt::format("Keep your version as overrides/{} in a new run directory, or undo the change", file)
-                                  : "Begin anew in another directory with -o"});
+                                  : "Start again in another directory with -o"});
     }
 
     const RunDirectory& directory_;

@@ -13,7 +13,7 @@ namespace cutterflow::cases {
 
 /// What a stage's work comes back with.
 struct StageOutcome {
-    std::vector<std::string> outputs;  ///< files that it wrote and that nobody changes by hand, relative to the run directory
+    std::vector<std::string> outputs;  ///< files that it wrote and that must not be changed by hand, relative to the run directory
     double core_s = 0.0;
 };
 
@@ -22,7 +22,7 @@ struct Stage {
     std::map<std::string, std::string> inputs;  ///< what it depends on besides the stages before it
     /// Files (or folders, with a final '/') of earlier stages that it changes.
     std::vector<std::string> rewrites;
-    /// It keeps what an interrupted run of it did and goes on from there, when asked to; its results are kept from being overwritten.
+    /// Can be resumed after an interruption, on request; its results are never overwritten.
     bool resumable = false;
     std::function<StageOutcome(bool resume)> work;
 };
@@ -32,7 +32,7 @@ enum class StageEvent { skipped, begins, ends };
 using StageObserver = std::function<void(const Stage&, StageEvent, double wall_s)>;
 
 /// Goes through `stages` (all of a run, in order) up to and including `until`. All rules are checked before the first of them begins.
-/// \param resume  whether an interrupted resumable stage may go on
+/// \param resume  whether an interrupted resumable stage may continue
 /// \throws UserError  when inputs changed and results of a resumable stage exist; when a file that a stage wrote was changed or removed;
 /// when
 ///                    a resumable stage was interrupted and `resume` is false

@@ -46,8 +46,9 @@ std::string submit_to_slurm(const fs::path& script) {
     const std::string job = answer.text.substr(0, answer.text.find_first_of(";\n"));
     const bool number = !job.empty() && std::all_of(job.begin(), job.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
     if (answer.exit_code == 0 && number) return job;
-    throw ToolError({"", fmt::format("sbatch refused {}: {}", script.string(), answer.text), "The scheduler must take the job",
-                     "Set what your cluster asks for (SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT ...) and go on with --resume"});
+    throw ToolError(
+        {"", fmt::format("sbatch refused {}: {}", script.string(), answer.text), "The scheduler must accept the job",
+         "Set the variables that your cluster requires (SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT ...) and use --resume"});
 }
 
 void wait_for_slurm(const std::string& job, const std::function<void()>& looked) {

@@ -20,7 +20,7 @@ std::string slurm_script(const std::string& job_name, const std::vector<SlurmTas
 std::string submit_to_slurm(const std::filesystem::path& script);
 
 /// Waits until no element of the job is queued or running. A scheduler that does not answer is asked again. `looked` is called after each
-/// look. \throws Interrupted  when the user stops the waiting; the job goes on
+/// query. \throws Interrupted  when the user stops the waiting; the job continues
 void wait_for_slurm(const std::string& job, const std::function<void()>& looked);
 
 }  // namespace cutterflow::cases

@@ -61,7 +61,7 @@ std::vector<Combination> combinations_of(const SweepAxes& axes) {
     return all;
 }
 
-/// "a_60rpm_0.12m3_s": what repeats of a point have in common.
+/// "a_60rpm_0.12m3_s": common part of the names of a point's repeats.
 std::string setting_name(const Combination& combination, const std::string& study) {
     std::vector<std::string> parts;
     if (combination.design) parts.push_back(safe(fs::path(*combination.design).stem().string()));
@@ -133,14 +133,14 @@ void write_studies(const std::vector<SweepPoint>& points, const SweepSettings& s
     const fs::path studies = settings.folder / k_studies;
     if (!fs::exists(studies)) {
         if (fs::exists(settings.folder) && !fs::is_empty(settings.folder))
-            throw UserError(fmt::format("{} holds something else already", settings.folder.string()), "Nothing is overwritten",
+            throw UserError(fmt::format("{} already contains something else", settings.folder.string()), "Nothing is overwritten",
                             "Name another folder with -o");
         for (const SweepPoint& point : points) write_file(studies / (point.name + ".toml"), point.text);
         return;
     }
     if (!settings.resume)
-        throw UserError(fmt::format("{} holds a sweep already", settings.folder.string()), "Its runs are kept",
-                        "Add --resume to go on with it, or name another folder with -o");
+        throw UserError(fmt::format("{} already contains a sweep", settings.folder.string()), "Its runs are kept",
+                        "Add --resume to continue it, or name another folder with -o");
     std::vector<Mistake> mistakes;
     std::vector<const SweepPoint*> added;
     for (const SweepPoint& point : points) {
@@ -148,14 +148,14 @@ void write_studies(const std::vector<SweepPoint>& points, const SweepSettings& s
         if (!fs::exists(file))
             added.push_back(&point);
         else if (read_file(file) != point.text)
-            mistakes.push_back({file.string(), "the study of this point is another", "A point's results belong to its study",
-                                "Name another folder with -o, or change the study back"});
+            mistakes.push_back({file.string(), "the study of this point has changed", "A point's results belong to its study",
+                                "Name another folder with -o, or undo the change"});
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     for (const SweepPoint* point : added) write_file(studies / (point->name + ".toml"), point->text);
 }
 
-/// Share done as "run: 42 %, ..." tells it; nothing for other lines.
+/// Share done from a line "run: 42 %, ..."; nothing for other lines.
 std::optional<double> share_of(const std::string& line) {
     const std::string start = "  run: ";
     const std::size_t percent = line.find(" %");
@@ -273,7 +273,7 @@ private:
                 say_(fmt::format("{}: done in {}", points_[i].name, duration_text(result.wall_s)));
             } else {
                 failures_[i] = failure_of(command, result).text();
-                say_(fmt::format("{}: failed, the others go on; see {}", points_[i].name, command.log.string()));
+                say_(fmt::format("{}: failed, the sweep continues; see {}", points_[i].name, command.log.string()));
             }
         } catch (const Interrupted& stop) {
             const std::lock_guard<std::mutex> lock(mutex_);
@@ -361,7 +361,7 @@ private:
     void wait_for_earlier_job() {
         if (!fs::exists(job_file())) return;
         const std::string job = read_file(job_file());
-        say_(fmt::format("waiting for job {}, handed in before, should it still be under way", job));
+        say_(fmt::format("waiting for job {}, submitted earlier, if it is still running", job));
         wait(job);
     }
 
@@ -377,7 +377,7 @@ private:
         try {
             wait_for_slurm(job, [this] { look(); });
         } catch (const Interrupted&) {
-            throw Interrupted(fmt::format("the waiting for job {} was stopped, the job goes on (scancel {} ends it)", job, job));
+            throw Interrupted(fmt::format("the waiting for job {} was stopped, the job continues (scancel {} ends it)", job, job));
         }
     }
 
@@ -421,8 +421,8 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     Designs designs;
     for (const Combination& combination : combinations_of(axes)) {
         if (combination.design && !fs::exists(*combination.design)) {
-            add_once({"", fmt::format("--design {} is not there", *combination.design),
-                      "Its path is relative to where the command is given", "Check the path"},
+            add_once({"", fmt::format("--design {} does not exist", *combination.design), "Its path is relative to the current folder",
+                      "Check the path"},
                      mistakes);
             continue;
         }

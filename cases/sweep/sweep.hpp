@@ -18,7 +18,7 @@ struct SweepAxes {
 
 struct SweepPoint {
     std::string name;           ///< also of its run directory
-    std::string text;           ///< of its study file, which stands in the sweep's folder
+    std::string text;           ///< of its study file, which is in the sweep's folder
     std::string design;         ///< points of one design share geometry and mesh
     std::string start_donor{};  ///< of a repeat: the first one of its setting, whose frozen-rotor flow it takes if that is done; else empty
 };
@@ -36,17 +36,17 @@ struct SweepSettings {
     std::filesystem::path folder;
     std::filesystem::path program;  ///< cutterflow
     int ranks = 1;                  ///< of each run
-    int jobs = 1;                   ///< runs at a time
+    int jobs = 1;                   ///< runs in parallel
     bool resume = false;
     Launcher launcher = Launcher::local;
 };
 
 struct SweepOutcome {
     std::vector<std::filesystem::path> done;  ///< run directories
-    std::vector<std::string> failed;          ///< what to tell of each point that failed
+    std::vector<std::string> failed;          ///< message of each failed point
 };
 
-/// Takes every point to its report. A point that fails is told of and the others go on. Lines for the user go to `say`.
+/// Runs every point to its report. A failed point is reported; the others continue. Lines for the user go to `say`.
 /// \throws UserError    when the folder holds another sweep, or this one and `resume` is false
 /// \throws Interrupted  when the user stops it; what is done is kept, jobs that Slurm has go on
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,

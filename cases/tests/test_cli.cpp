@@ -144,7 +144,7 @@ TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {
     EXPECT_EQ(call({"check", "mine.toml"}).code, 0);
     expect_refused(call({"new", "mine.toml"}), 2, "Nothing is overwritten");
     expect_refused(call({"new", "other.toml", "--unit", "parsec"}), 2, "unknown unit");
-    expect_refused(call({"new", "other.toml", "--cutter", "nowhere.stl"}), 2, "nowhere.stl is not there");
+    expect_refused(call({"new", "other.toml", "--cutter", "nowhere.stl"}), 2, "nowhere.stl does not exist");
     expect_refused(call({"new", "mine.toml/other.toml"}), 2, "cannot");
 }
 
@@ -416,7 +416,7 @@ TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
     const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
     expect_refused(outcome, 2, "x is not a number above 0");
     EXPECT_EQ(call({"sweep", study(), "--discharge", "nan"}).code, 2);
-    expect_refused(call({"sweep", study(), "--design", "a.stl,b.stl"}), 2, "--design b.stl is not there");
+    expect_refused(call({"sweep", study(), "--design", "a.stl,b.stl"}), 2, "--design b.stl does not exist");
     expect_refused(call({"sweep", study(), "--rpm", "30", "--emit", "slurm", "--ranks", "0"}), 2, "--ranks 0");
     expect_refused(call({"sweep", study(), "--rpm", "30", "--emit", "slurm", "-o", "my sweep"}), 2, "OpenFOAM");
 }
@@ -473,7 +473,7 @@ TEST_F(Cli, an_interrupt_stops_the_program_under_way_and_says_how_to_go_on) {
     EXPECT_TRUE(fs::exists(folder_ / "blockMesh.stopped"));
     const std::string text = read_file(folder_ / "output");
     expect_contains(text, "blockMesh was stopped by Interrupt");
-    expect_contains(text, "go on with: cutterflow mesh study.toml -o runs/a --ranks 1");
+    expect_contains(text, "resume with: cutterflow mesh study.toml -o runs/a --ranks 1");
     const nlohmann::json stages = nlohmann::json::parse(read_file(folder_ / "runs/a/manifest.json")).at("stages");
     EXPECT_EQ(stages.at("geometry").at("state"), "done");
     EXPECT_EQ(stages.at("mesh").at("state"), "started");
@@ -482,7 +482,7 @@ TEST_F(Cli, an_interrupt_stops_the_program_under_way_and_says_how_to_go_on) {
     const ChildResult failed = run_child(command);
     EXPECT_EQ(failed.exit_code, 3);
     const std::string failure = read_file(folder_ / "output");
-    expect_contains(failure, "geometry: done before");
+    expect_contains(failure, "geometry: already done");
     expect_contains(failure, "the disk is full");
     expect_contains(failure, "log.blockMesh");
 }

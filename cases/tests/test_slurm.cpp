@@ -200,7 +200,7 @@ TEST_F(Slurm, DISABLED_takes_real_runs_through_a_cancelled_job) {
     EXPECT_FALSE(fs::exists(folder_ / "sweep/60rpm/report/results.json"));
     EXPECT_EQ(sweep(true), 0) << read_file(folder_ / "resumed.log");
     EXPECT_THAT(read_file(folder_ / "resumed.log"), HasSubstr("run of 1 point(s)"));
-    EXPECT_THAT(read_file(folder_ / "sweep/logs/60rpm.run.log"), HasSubstr("going on from the last checkpoint"));
+    EXPECT_THAT(read_file(folder_ / "sweep/logs/60rpm.run.log"), HasSubstr("resuming from the last checkpoint"));
     for (const SweepPoint& point : points_) EXPECT_TRUE(fs::exists(folder_ / "sweep" / point.name / "report/results.json")) << point.name;
     EXPECT_TRUE(fs::exists(folder_ / "sweep/comparison/index.html"));
 }

@@ -93,7 +93,7 @@ struct Rock {
     bool viscous_force = true;
 };
 
-/// How fates are told and outflow is sampled.
+/// Settings of fates and outflow sampling.
 struct Fates {
     double hysteresis = 0.25;              ///< of the rock's diameter
     double bin_width = 0.0;                ///< [m]
@@ -103,7 +103,7 @@ struct Fates {
 
 /// A point at which the run averages the velocity.
 struct VelocityPoint {
-    Vec3 place = Vec3::Zero();  ///< [m]; of a rotating point where it stands at rotor angle 0
+    Vec3 place = Vec3::Zero();  ///< [m]; of a rotating point at rotor angle 0
     bool rotating = false;      ///< turns with the head
 };
 
@@ -142,7 +142,7 @@ double tip_speed(const CaseInputs& inputs);
 /// Mean speed [m/s] in the suction mouth.
 double mouth_speed(const CaseInputs& inputs);
 
-/// Gravity [m/s2] in the run's frame for a ladder that stands `inclination` [rad] below horizontal: g (cos, 0, -sin).
+/// Gravity [m/s2] in the run's frame for a ladder `inclination` [rad] below horizontal: g (cos, 0, -sin).
 Vec3 gravity_of(double inclination);
 
 /// Longest time step [s] whatever the Courant number: the rotor turns one degree.

@@ -34,8 +34,8 @@ json to_json(const WallSurfaceReport& report) {
 
 std::string WallSurfaceReport::text() const {
     if (!kept_because.empty())
-        return fmt::format("rock meets the {} triangles of the {} as they are: {}", triangles_given, wall, kept_because);
-    return fmt::format("rock meets {} triangles of the {} (of {}), {:.2g} mm off at most ({:.2g} allowed), smallest angle {:.0f} degrees",
+        return fmt::format("rock touches the {} original triangles of the {}: {}", triangles_given, wall, kept_because);
+    return fmt::format("rock touches {} triangles of the {} (of {}), {:.2g} mm off at most ({:.2g} allowed), smallest angle {:.0f} degrees",
                        triangles, wall, triangles_given, 1e3 * deviation, 1e3 * allowed_deviation, smallest_angle * k_degrees);
 }
 

@@ -33,7 +33,7 @@ meshing::FoamDictionary typed(const std::string& type, meshing::FoamValue value)
     return typed(type).add("value", uniform(std::move(value)));
 }
 
-/// What stands on each group of patches of one field.
+/// Boundary conditions of one field by group of patches.
 struct Boundary {
     meshing::FoamDictionary inlet, outlet, cutter, wall;
 };
@@ -154,7 +154,7 @@ std::vector<FoamFile> field_files(const CaseInputs& inputs) {
     const Boundary velocity = {typed("pressureInletOutletVelocity", zero),
                                typed("flowRateOutletVelocity").add("volumetricFlowRate", inputs.discharge).add("value", uniform(zero)),
                                typed("movingWallVelocity", zero), typed("noSlip")};
-    // Where the velocity is given: the gradient that the forces of rock on the near fluid ask for; zero without rock.
+    // Where the velocity is given: the gradient that balances the forces of rock near the patch; zero without rock.
     const meshing::FoamDictionary given_flux = typed("fixedFluxPressure", 0.0);
     const Boundary pressure = {typed("fixedValue", 0.0), given_flux, given_flux, given_flux};
     const meshing::FoamDictionary calculated = typed("calculated", 0.0);

@@ -25,7 +25,7 @@ struct PlacedFeed {
     std::vector<std::string> reasons;  ///< why rocks were rejected
 };
 
-/// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses stand in the proportion of the shares.
+/// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses are in proportion to the shares.
 /// Rounded so that a given count is kept exactly.
 std::vector<std::size_t> rocks_per_class(const FeedRequest& request);
 
@@ -45,7 +45,7 @@ FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::C
 /// \throws UserError  when a region has no free place at all
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene);
 
-/// What to tell the user: counts, and why rocks were rejected.
+/// Lines for the user: counts, and why rocks were rejected.
 std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds);
 
 /// Text of constant/rockFeed.csv and of feed.json (docs/design/001-contracts.md).

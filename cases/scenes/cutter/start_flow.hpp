@@ -21,7 +21,7 @@ inline constexpr int k_convergence_window = 50;
 /// Value and drift of a history (one value per iteration, oldest first, not empty).
 Monitor monitor_of(const std::vector<double>& history);
 
-/// How the start went. It need not be converged to the last digit: the transient run goes on from it.
+/// Result of the start. It need not be fully converged: the transient run continues from it.
 struct StartFlowReport {
     int iterations = 0;
     Monitor outlet_pressure;      ///< area mean of p* at the outlet [m2/s2]
