@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr double k_same_place = 1e-6;  // [m]
 constexpr double k_hit_share = 0.25;
-constexpr const char* k_sample_again = "Put the points into the study (report.adv_points) and run it in a directory of its own";
+constexpr const char* k_sample_again = "Add the points to the study (report.adv_points) and run it in a new directory";
 
 /// Means of a point's place in the averaged revolutions, Cartesian, in the frame of the instrument (relative to a turning one).
 struct PlaceMean {
@@ -53,7 +53,7 @@ Sampled read_sampled(const fs::path& directory) {
                        {{"revolution", "point", velocity[0], velocity[1], velocity[2], "wet_share"}, {}, velocity, k_sample_again});
     }
     if (sampled.places.empty())
-        throw UserError(fmt::format("{} holds no velocities at points of measurement", directory.string()),
+        throw UserError(fmt::format("{} contains no velocities at measurement points", directory.string()),
                         "The run averages the velocity at the points that its study names", k_sample_again);
     sampled.whole_revolutions = static_cast<int>(sampled.places.number("revolutions")[0]);
     return sampled;
@@ -168,11 +168,11 @@ AdvResult result_at(const Sampled& sampled, std::size_t first, const AdvPoint& p
 int revolutions_to_average(const Sampled& sampled, std::optional<int> wanted) {
     const int whole = sampled.whole_revolutions;
     if (whole == 0)
-        throw UserError("the run holds no whole revolution of velocities at points", "Means are taken over whole revolutions",
-                        "Let it run longer (run.max_revolutions), or let averaging begin earlier (report.outflow_start_s)");
+        throw UserError("the run has no whole revolution of velocities at points", "Means are over whole revolutions",
+                        "Run longer (run.max_revolutions), or start averaging earlier (report.outflow_start_s)");
     if (wanted && (*wanted < 1 || *wanted > whole))
         throw UserError(fmt::format("--revolutions {}", *wanted),
-                        fmt::format("The run holds {} whole revolution(s) of velocities at points", whole),
+                        fmt::format("The run has {} whole revolution(s) of velocities at points", whole),
                         fmt::format("Use 1 to {}", whole));
     return wanted.value_or(whole);
 }

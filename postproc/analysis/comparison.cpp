@@ -258,7 +258,7 @@ std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
     return settings;
 }
 
-/// What stands behind "rocks" of a setting: sizes, densities and how many were asked for.
+/// The batch of a setting in words: sizes, densities and requested numbers.
 std::string batch_text(const RunData& run) {
     if (!run.feed) return "no rock";
     std::vector<std::string> classes;

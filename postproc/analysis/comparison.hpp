@@ -11,7 +11,7 @@
 namespace cutterflow::postproc {
 
 inline constexpr const char* k_comparison_schema = "cutterflow.comparison/1";
-inline constexpr int k_fewest_repeats = 3;  ///< fewer say nothing about scatter
+inline constexpr int k_fewest_repeats = 3;  ///< fewer do not determine the scatter
 
 struct ComparedRun {
     RunData run;

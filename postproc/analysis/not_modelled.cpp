@@ -10,11 +10,11 @@ const std::vector<NotModelled>& not_modelled() {
         {"bed", "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
         {"hauling (swing motion)", "the head turns but does not travel; rock is not swept into the head by the swing"},
         {"continuous feed", "one batch of rock; production and spillage do not reach a steady state as in continuous dredging"},
-        {"pick points and adapters", "only what the cutter's surface file holds; teeth left out there stir neither flow nor rock"},
+        {"pick points and adapters", "only what the cutter's surface file contains; teeth missing there affect neither flow nor rock"},
         {"lift and rock spin forces",
-         "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source holds for grains"},
+         "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source is valid for grains"},
         {"rock shape and breakage", "rocks are spheres that do not break; sizes are those of the feed"},
-        {"unresolved wakes", "rock is a smoothed body force on the flow; the wake of a single rock is in the drag law alone"},
+        {"unresolved wakes", "rock is a smoothed body force on the flow; the wake of a single rock is only in the drag law"},
         {"pump and pipeline", "the discharge is imposed; it does not drop when the mixture becomes heavier"},
     };
     return table;

@@ -84,7 +84,7 @@ struct Results {
 /// \throws CheckFailure  when the fates of the rock do not add up
 Results compute_results(const RunData& run);
 
-/// The contract's document. Undefined numbers are null; `*_reason` beside them says why.
+/// The contract's document. Undefined numbers are null; `*_reason` gives the reason.
 nlohmann::json results_json(const Results& results, const RunData& run);
 
 }  // namespace cutterflow::postproc

@@ -13,7 +13,7 @@ namespace cutterflow::postproc {
 namespace {
 
 constexpr double k_mass_tolerance = 1e-6;  ///< relative; the tables are text with a limited number of digits
-constexpr const char* k_remedy = "Keep the run directory and report this as a defect of the fate bookkeeping";
+constexpr const char* k_remedy = "Keep the run directory and report this as a defect of the fates";
 
 RockAmount amount(const Table& fates, const std::string& fate, std::size_t row) {
     return {static_cast<int>(std::lround(fates.number(fate + "_count")[row])), fates.number(fate + "_kg")[row]};
@@ -24,7 +24,7 @@ double with_tolerance(double time) {
     return time + 1e-9 * std::max(1.0, std::abs(time));
 }
 
-/// The last row of fates at which it and the events tell the same story.
+/// The last row of fates that agrees with the events.
 std::size_t last_agreed_row(const Table& fates, const Table& events, bool finished) {
     RockHistories histories;
     std::optional<std::size_t> agreed;
@@ -38,7 +38,7 @@ std::size_t last_agreed_row(const Table& fates, const Table& events, bool finish
     if (!agreed || (finished && *agreed != last)) {
         const Fates end = fates_at(fates, last);
         throw CheckFailure({"postProcessing/rock",
-                            fmt::format("events.csv tells of {} spilled and {} sucked up rocks, fates.csv of {} and {} at t = {:.6g} s",
+                            fmt::format("events.csv has {} spilled and {} sucked up rocks, fates.csv {} and {} at t = {:.6g} s",
                                         histories.spilled(), histories.sucked_up(), end.spilled.count, end.sucked_up.count, end.time),
                             "Both are written from the same crossings", k_remedy});
     }
@@ -66,7 +66,7 @@ void require_same_mass(const std::vector<BinSpillage>& bins, const Fates& fates)
     double mass = 0.0;
     for (const BinSpillage& bin : bins) mass += bin.spilled.mass;
     if (std::abs(mass - fates.spilled.mass) <= k_mass_tolerance * fates.placed.mass) return;
-    throw CheckFailure({"postProcessing/rock", fmt::format("the bins hold {:.9g} kg, spilled are {:.9g} kg", mass, fates.spilled.mass),
+    throw CheckFailure({"postProcessing/rock", fmt::format("the bins contain {:.9g} kg, spilled are {:.9g} kg", mass, fates.spilled.mass),
                         "Bins add up to the spilled rock", k_remedy});
 }
 
@@ -84,7 +84,7 @@ std::vector<RatiosAt> ratios_every(const Table& fates, std::size_t last, double 
     return series;
 }
 
-/// Time at which the first rock came in, for runs whose events do not tell.
+/// Time of the first rock, for runs whose events lack it.
 double first_placed_time(const Table& fates) {
     for (std::size_t row = 0; row < fates.rows(); ++row) {
         if (fates.number("placed_count")[row] > 0.0) return fates.number("time_s")[row];
@@ -101,8 +101,8 @@ Fates fates_at(const Table& fates, std::size_t row) {
     const double mass = now.sucked_up.mass + now.spilled.mass + now.in_cutter.mass + now.never_entered.mass;
     if (count != now.placed.count || std::abs(mass - now.placed.mass) > k_mass_tolerance * now.placed.mass) {
         throw CheckFailure({"postProcessing/rock/fates.csv",
-                            fmt::format("at t = {:.6g} s the four fates hold {} rocks and {:.9g} kg, placed are {} and {:.9g} kg", now.time,
-                                        count, mass, now.placed.count, now.placed.mass),
+                            fmt::format("at t = {:.6g} s the four fates contain {} rocks and {:.9g} kg, placed are {} and {:.9g} kg",
+                                        now.time, count, mass, now.placed.count, now.placed.mass),
                             "The four fates add up to the placed rock", k_remedy});
     }
     return now;

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Where the rock went: fates, spillage ratios with their bounds, axial bins of the last exit.
+/// \file Spillage: fates, ratios with their bounds, axial bins of the last exit.
 #include <map>
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ struct Fates {
 /// \throws CheckFailure  when the four counts do not add up to placed, or their masses to 1e-6 of it
 Fates fates_at(const Table& fates, std::size_t row);
 
-/// Ratios by mass. Each is absent when it is not defined; `reason` says why.
+/// Ratios by mass. Each is absent when undefined; `reason` gives the reason.
 struct SpillageRatios {
     std::optional<double> ratio;      ///< spilled / (spilled + sucked_up)
     std::optional<double> ratio_min;  ///< spilled / placed: as if all undecided rock were sucked up
@@ -36,7 +36,7 @@ struct SpillageRatios {
 
 SpillageRatios ratios_of(const Fates& fates);
 
-/// What the events say of one rock up to some time.
+/// State of one rock up to some time, from the events.
 struct RockHistory {
     double mass = 0.0;       ///< [kg]
     double volume = 0.0;     ///< [m3]

@@ -12,11 +12,11 @@ struct TimeAverage {
 };
 
 inline constexpr int k_batches = 10;         ///< aimed at; at least this many of one period each, fewer when the window is short
-inline constexpr int k_fewest_batches = 4;   ///< less say nothing
-inline constexpr int k_steps_per_batch = 5;  ///< fewer say nothing
+inline constexpr int k_fewest_batches = 4;   ///< fewer do not determine an error
+inline constexpr int k_steps_per_batch = 5;  ///< fewer do not determine an error
 
-/// Mean over [start, end] of a value that holds from the time before it to its own time (a value of a time step stands at the step's end).
-/// The first value holds as long as the second.
+/// Mean over [start, end] of a value that holds from the time before it to its own time (a value of a time step is given at the step's
+/// end). The first value holds as long as the second.
 ///
 /// The standard error of the mean comes from batch means: s / sqrt(n), s the standard deviation of n means over equal stretches. A stretch
 /// is a whole number of `period`s, so that what repeats in each period (the passing of a blade) is not taken for scatter; the stretches end

@@ -55,8 +55,8 @@ std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) 
     require_child({{"gnuplot", script.filename().string()}, scratch_directory, scratch_directory / (plot.name + ".log"), {}});
     const std::string svg = read_text(scratch_directory / (plot.name + ".svg"));
     if (svg.find("<svg") == std::string::npos || svg.find("</svg>") == std::string::npos) {
-        throw ToolError({"", fmt::format("gnuplot drew nothing for {}", script.string()), "It writes an SVG file",
-                         "Look into its log in the same folder"});
+        throw ToolError(
+            {"", fmt::format("gnuplot drew nothing for {}", script.string()), "It writes an SVG file", "Read its log in the same folder"});
     }
     return as_element(svg, plot.name);
 }

@@ -24,7 +24,7 @@ TriangleSurface read_binary_stl(const std::filesystem::path& file) {
     if (bytes.size() >= k_header_bytes) std::memcpy(&count, bytes.data() + 80, sizeof count);
     if (bytes.size() < k_header_bytes || bytes.size() != k_header_bytes + count * k_facet_bytes) {
         throw UserError(fmt::format("{} is not a complete binary STL file ({} bytes)", file.string(), bytes.size()), "",
-                        "Make the geometry stage of the run anew");
+                        "Repeat the geometry stage of the run");
     }
     TriangleSurface surface(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -181,7 +181,7 @@ std::string trust_list(const Results& results) {
     if (results.spillage) {
         item("Statistical error",
              "no replicate: one batch, one placement. An interval needs three or more repeats that vary placement and "
-             "release angle; the bounds above are not one, they only say what the undecided rock could still do.");
+             "release angle; the bounds above are not an interval but the range of outcomes of the undecided rock.");
     }
     item("Mesh error", "not in this report: compare with the same study on a finer mesh preset before using a number as an absolute one.");
     item("Balances", conservation_text(results.conservation));
@@ -407,7 +407,7 @@ std::string model_section(const RunData& run) {
     }
     for (const NotModelled& item : not_modelled()) off.push_back({escape(item.name), escape(item.consequence)});
     std::string content =
-        on.empty() ? "<p>The run has not yet written which models were on.</p>" : html::table({"model that was on", "why"}, on, false);
+        on.empty() ? "<p>The run has not yet written its active models.</p>" : html::table({"active model", "reason"}, on, false);
     content += "<h3>What is not modelled</h3>" + html::table({"", "what that means for the result"}, off, false);
     return html::section("Models", content);
 }

@@ -72,7 +72,7 @@ public:
         }
         if (header_.empty())
             add(name_, "the file has no header line", "It names the columns and their units",
-                "Begin with a template: cutterflow report --adv-template");
+                "Start from a template: cutterflow report --adv-template");
         if (mistakes_.empty() && points_.empty())
             add(name_, "the file has no points", "One line below the header is one point", "Add lines");
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
@@ -88,8 +88,8 @@ private:
         const std::string where = fmt::format("{}:{}", name_, number);
         header_ = fields_of(line);
         if (header_.size() == 1 && line.find_first_of(";\t") != std::string::npos) {
-            add(where, fmt::format("the columns of \"{}\" are set apart by semicolons or tabs", trimmed(line)),
-                "They are set apart by commas, and decimals by points", "Export the table anew, or replace them");
+            add(where, fmt::format("the columns of \"{}\" are separated by semicolons or tabs", trimmed(line)),
+                "Columns are separated by commas; the decimal sign is a point", "Export the table again, or replace them");
             throw UserError(std::move(mistakes_));
         }
         read_as_.resize(header_.size());
@@ -110,7 +110,7 @@ private:
         }
         for (std::size_t i = 0; i < header_.size(); ++i)
             if (!read_as_[i])
-                add(where, fmt::format("column \"{}\" is not known or stands twice", header_[i]),
+                add(where, fmt::format("column \"{}\" is unknown or duplicate", header_[i]),
                     "Columns are name, x y z or r theta z, frame, u_radial, u_tangential, u_axial with their units", "Rename or remove it");
         good_header_ = mistakes_.empty();
     }
@@ -127,7 +127,7 @@ private:
                                         [&](const std::string& column) { return column.rfind(start, 0) == 0 || column == quantity.name; });
         if (found == header_.end())
             return add(where, fmt::format("column {} is missing", quantity.name),
-                       fmt::format("It is called by its unit: {}", units_text(quantity)), "Add the column");
+                       fmt::format("Its name contains its unit: {}", units_text(quantity)), "Add the column");
         const std::size_t index = use(found);
         const auto unit = quantity.units->find(found->size() > start.size() ? found->substr(start.size()) : std::string());
         if (unit == quantity.units->end())
@@ -160,11 +160,11 @@ private:
     }
 
     void read_texts(const std::vector<std::string>& fields, AdvPoint& point) {
-        if (point.name.empty()) add(point.where, "the name is empty", "Every point has a name of its own", "Name the point");
+        if (point.name.empty()) add(point.where, "the name is empty", "Every point has a unique name", "Name the point");
         const auto [first, fresh] = names_.emplace(point.name, point.where);
         if (!fresh)
-            add(point.where, fmt::format("the name \"{}\" stands in {} too", point.name, first->second),
-                "Every point has a name of its own", "Rename one of them");
+            add(point.where, fmt::format("the name \"{}\" stands in {} too", point.name, first->second), "Every point has a unique name",
+                "Rename one of them");
         const std::string& frame = fields[texts_.at("frame")];
         point.rotating = frame == "rotating";
         if (frame != "rotating" && frame != "still")
@@ -220,11 +220,11 @@ std::string adv_template() {
            "lies\n"
            "# below it), theta = 0 on the lowest side, positive by the right hand about z. Instead of r and theta: x_mm,y_mm, x to the "
            "lowest side.\n"
-           "# Units stand in the header: lengths m, cm, mm; angles deg, rad; velocities m_s, cm_s, mm_s. An empty velocity was not "
+           "# Units are in the header: lengths m, cm, mm; angles deg, rad; velocities m_s, cm_s, mm_s. An empty velocity was not "
            "measured.\n"
            "# frame: still, or rotating for an instrument that turns with the head (r, theta, z at rotor angle 0) and measures the "
            "velocity\n"
-           "# relative to it. u_tangential is positive by the right hand about z. Lines that begin with # do not count.\n"
+           "# relative to it. u_tangential is positive by the right hand about z. Lines that start with # are ignored.\n"
            "# In the study: report.adv_points = \"points.csv\".\n"
            "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\n"
            "A1,430,90,-60,still,,,\n"

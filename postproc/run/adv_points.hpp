@@ -28,10 +28,10 @@ struct AdvPoint {
 };
 
 /// Reads a CSV file. Its header names, in any order: `name`; `x_m,y_m,z_m` or `r_m,theta_deg,z_m`; `frame` (still or rotating);
-/// `u_radial_m_s,u_tangential_m_s,u_axial_m_s`. Units stand in the header: lengths m, cm, mm; angles deg, rad; velocities m_s, cm_s,
+/// `u_radial_m_s,u_tangential_m_s,u_axial_m_s`. Units are in the header: lengths m, cm, mm; angles deg, rad; velocities m_s, cm_s,
 /// mm_s. Lines that begin with # are left out; an empty velocity was not measured.
 /// \throws UserError  with every mistake of the file: columns that are missing, unknown or of an unknown unit, lines with another number of
-///                    fields, fields that are no numbers, frames and names that are wrong or stand twice
+///                    fields, fields that are no numbers, frames and names that are wrong or duplicate
 std::vector<AdvPoint> read_adv_points(const std::filesystem::path& file);
 
 /// A commented file that read_adv_points accepts.

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* k_rerun = "Make the run anew with this version of Cutterflow";
+constexpr const char* k_rerun = "Repeat the run with this version of Cutterflow";
 
 /// Object of a JSON file; empty object when the file is absent.
 json read_json(const fs::path& file) {
@@ -28,19 +28,19 @@ json read_json(const fs::path& file) {
     return value;
 }
 
-/// Collects what is wrong with the values of a file, so that all of it is said at once.
+/// Collects all mistakes in the values of a file.
 class StudyReader {
 public:
     explicit StudyReader(fs::path file) : file_(std::move(file)) {
         if (!fs::exists(file_))
-            throw UserError(fmt::format("{} is no run directory", file_.parent_path().string()),
-                            fmt::format("A run directory holds {}, which `cutterflow run` writes", file_.filename().string()),
-                            "Check the path, or make the run first");
+            throw UserError(fmt::format("{} is not a run directory", file_.parent_path().string()),
+                            fmt::format("A run directory contains {}, written by `cutterflow run`", file_.filename().string()),
+                            "Check the path, or run the study first");
         try {
             root_ = toml::parse_file(file_.string());
         } catch (const toml::parse_error& error) {
             throw UserError(fmt::format("{} cannot be read as TOML: {}", file_.string(), error.description()), "",
-                            "Give the directory of a run that `cutterflow run` made");
+                            "Give a run directory written by `cutterflow run`");
         }
     }
     double number(const std::string& key) {
@@ -75,7 +75,7 @@ public:
         }
         return values;
     }
-    /// What tells repeats apart: seed and angle of release of each feed; empty without rock.
+    /// Distinguishes repeats: seed and angle of release of each feed; empty without rock.
     std::string release() const {
         std::ostringstream text;
         toml::table study = root_;
@@ -117,7 +117,7 @@ private:
             values[path] = node.value_or(std::string());
     }
     void miss(const std::string& key, const std::string& what) {
-        mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report computes with it", k_rerun});
+        mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report needs it", k_rerun});
     }
     fs::path file_;
     toml::table root_;
@@ -152,7 +152,7 @@ AdvProbe read_adv_probe(const StudyReader& study) {
 double required_number(const json& object, const char* key, const fs::path& file) {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_number()) {
-        throw UserError({{file.string(), fmt::format("{} is missing or not a number", key), "The report computes with it", k_rerun}});
+        throw UserError({{file.string(), fmt::format("{} is missing or not a number", key), "The report needs it", k_rerun}});
     }
     return found->get<double>();
 }
@@ -258,7 +258,7 @@ std::optional<RockTables> read_rock(const fs::path& directory) {
 
 void require_computed(const RunData& run) {
     if (!run.balance.empty() && !run.cost.empty() && !run.loads.empty()) return;
-    throw UserError(fmt::format("{} holds no computed time step", (run.directory / "postProcessing").string()),
+    throw UserError(fmt::format("{} contains no computed time step", (run.directory / "postProcessing").string()),
                     "A report needs the tables balance, cost and loads of cutterFoam",
                     "Start or continue the run: cutterflow run --resume");
 }
@@ -278,11 +278,11 @@ void require_whole(const RunData& run) {
                                 "The tables of a finished run reach its end", "Copy the run directory again as a whole"});
     if (!run.rock && run.feed && run.feed->requested > run.feed->rejected)
         mistakes.push_back(
-            {(folder / "rock").string(), "holds no fates", "The study feeds rock", "Copy the run directory again as a whole"});
+            {(folder / "rock").string(), "contains no fates", "The study feeds rock", "Copy the run directory again as a whole"});
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-/// SHA-256 of the cutter's file as the run took it; empty when the manifest does not tell.
+/// SHA-256 of the cutter's file used by the run; empty when the manifest lacks it.
 std::string cutter_of(const json& manifest) {
     const json::json_pointer place("/stages/geometry/inputs/cutter.file");
     return manifest.contains(place) && manifest.at(place).is_string() ? manifest.at(place).get<std::string>() : "";
@@ -324,7 +324,7 @@ RunData read_run(const fs::path& directory) {
     for (const geometry::AxialBin& bin : run.bins) bin_names.push_back(bin.name);
     bin_names.insert(bin_names.begin(), "time_s");
     run.outflow = read_joined_table(directory, "outflow", "contour_velocity.csv",
-                                    {bin_names, {}, {}, "Make the report with the bin width of the run (report.bin_width_m)"});
+                                    {bin_names, {}, {}, "Use the bin width of the run (report.bin_width_m)"});
     run.loads = read_joined_table(
         directory, "loads", "loads.csv",
         {{"time_s", "rotor_angle_rad", "torque_pressure_n_m", "torque_viscous_n_m", "torque_rock_n_m", "power_w"}, {}, {}, k_rerun});

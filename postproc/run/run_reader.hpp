@@ -42,7 +42,7 @@ struct RockClass {
     std::optional<double> settling_velocity;  ///< of a single rock in still water [m/s]
 };
 
-/// What feed.json says, summed over the feeds.
+/// Content of feed.json, summed over the feeds.
 struct FeedSummary {
     int requested = 0;
     int rejected = 0;
@@ -71,12 +71,12 @@ struct RunData {
     Table cost;
     Table plane_axial, plane_under_ring;                    ///< mean velocity on planes; empty when the run did not sample them
     nlohmann::json geometry, mesh, manifest, cost_summary;  ///< objects, empty when the file is absent
-    int blades = 1;                                         ///< of the cutter; 1 when the geometry does not tell
+    int blades = 1;                                         ///< of the cutter; 1 when unknown
     AdvProbe adv_probe;                                     ///< with which the run sampled its places of measurement, if it has any
     bool finished = false;                                  ///< the run came to its end
     std::map<std::string, std::string> setting{};  ///< values by key: the study without its name and what repeats vary (seed and time of
                                                    ///< release), the cutter by its content; equal for repeats
-    std::string release{};                         ///< seed and time of release of each feed: what tells repeats apart; empty without rock
+    std::string release{};                         ///< seed and time of release of each feed, which distinguish repeats; empty without rock
     int seed = 0;                                  ///< of the first feed
     nlohmann::json prediction{};                   ///< of the run's cost, before it; empty when the file is absent
 };

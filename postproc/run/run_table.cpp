@@ -54,8 +54,8 @@ double parse_number(std::string_view field, bool may_be_empty, const std::string
     double value = 0.0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
-        throw UserError({{where, fmt::format("{} = \"{}\"", column, field), "The column holds finite numbers",
-                          "Look into the run's log for what went wrong at that time"}});
+        throw UserError(
+            {{where, fmt::format("{} = \"{}\"", column, field), "The column has finite numbers", "Read the run's log at that time"}});
     }
     return value;
 }
@@ -71,7 +71,7 @@ void require_columns(const std::vector<std::string>& columns, const TableRules& 
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-/// Two times are the same when they differ by less than the six digits of a folder's name can tell.
+/// Two times are equal when they differ by less than the six digits of a folder's name resolve.
 double time_tolerance(double time) {
     return 6e-6 * std::abs(time);
 }
@@ -187,7 +187,7 @@ Table read_joined_table(const std::filesystem::path& run_directory, const std::s
         if (table.columns() != joined.columns()) {
             throw UserError(
                 fmt::format("{} has other columns than the same table of an earlier start of the run", (folder / file).string()),
-                "A run is continued by the program that began it", "Run anew with one version of cutterFoam");
+                "A run must be continued by the version that started it", "Repeat the run with one version of cutterFoam");
         }
         joined.append(table);
     }

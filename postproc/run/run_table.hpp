@@ -7,7 +7,7 @@
 
 namespace cutterflow::postproc {
 
-/// What a reader asks of a table. Columns beyond these are read as numbers too when their name is not in `texts`.
+/// Requirements of a reader on a table. Columns beyond these are read as numbers too when their name is not in `texts`.
 struct TableRules {
     std::vector<std::string> numbers;       ///< required columns of finite numbers
     std::vector<std::string> texts;         ///< required columns of text

@@ -150,7 +150,7 @@ TEST(AdvPoints, names_every_mistake_of_a_file_at_once) {
     testing::write_text(file, "# nothing\n");
     EXPECT_THAT(refusal(file), HasSubstr("no header line"));
     testing::write_text(file, "name;x_mm;y_mm\nA;1;2\n");
-    EXPECT_THAT(refusal(file), HasSubstr("set apart by semicolons or tabs"));
+    EXPECT_THAT(refusal(file), HasSubstr("separated by semicolons or tabs"));
 }
 
 TEST(AdvPlaces, average_a_cubic_field_over_the_probes_volume_exactly) {

@@ -284,7 +284,7 @@ TEST(ReadRun, refuses_a_directory_without_a_computed_step) {
         read_run(run.directory);
         FAIL();
     } catch (const UserError& error) {
-        EXPECT_NE(std::string(error.what()).find("holds no computed time step"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("contains no computed time step"), std::string::npos);
     }
     EXPECT_THROW(read_run(run.directory / "elsewhere"), UserError);
 }
