@@ -54,7 +54,7 @@ void run(int argc, char** argv) {
     coupled.finish();
 }
 
-/// Says why the run ends, once, and ends all ranks with the failure's code. Failures that the user can mend are thrown on every rank alike;
+/// Reports why the run ends, once, and ends all ranks with the failure's code. User errors are thrown on every rank;
 /// anything else may have struck one rank alone, so that the others must be stopped.
 int explain(const std::exception& error) {
     int started = 0;

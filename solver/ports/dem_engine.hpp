@@ -31,7 +31,7 @@ struct Rocks {
 };
 
 /// Force [N] that the fluid exerts on rock `index` (of rocks() as they were when advance was called) when it moves with `velocity` [m/s]:
-/// drag and the Du/Dt parts. Neither weight nor buoyancy (the engine adds both) nor the -dv/dt part of added mass (it stands in the
+/// drag and the Du/Dt parts. Neither weight nor buoyancy (the engine adds both) nor the -dv/dt part of added mass (it is part of the
 /// engine's inertia).
 using HydrodynamicForce = std::function<Vec3(std::size_t index, const Vec3& velocity)>;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file What the DEM needs to know: contact law, walls, domain, fluid. solver/foam fills it from section `rock` of
+/// \file Settings of the DEM: contact law, walls, domain, fluid. solver/foam fills it from section `rock` of
 /// constant/couplingProperties (and constant/g, constant/transportProperties); solver/liggghts works from it.
 #include <array>
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace cutterflow::coupling {
 
-/// Contact law of rock on rock and rock on steel (seeds S0-18 to S0-21). Both materials have the same Young's modulus.
+/// Contact law of rock on rock and rock on steel (docs/theory/contact.md). Both materials have the same Young's modulus.
 struct ContactSettings {
     double youngs_modulus = 0.0;      ///< [Pa]
     double poisson_rock = 0.24;       ///< [-]
@@ -23,7 +23,7 @@ struct ContactSettings {
     double max_speed = 0.0;           ///< impact speed for the Hertz time [m/s]
 };
 
-/// A wall given as STL [m, run frame]; a rotating one stands in its file at rotor angle 0.
+/// A wall given as STL [m, run frame]; a rotating one is given at rotor angle 0.
 struct WallSettings {
     std::string name;
     std::filesystem::path file;

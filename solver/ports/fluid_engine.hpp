@@ -19,8 +19,8 @@ struct RotorMotion {
     double angle(double time) const { return speed * time; }
 };
 
-/// The cells of this rank. They do not move in their zone's frame: rotor cells are given at rotor angle 0, stator cells where they stand.
-/// The arrays (and those of Steel) stay as they are, in place and value, for the engine's life.
+/// The cells of this rank. They do not move in their zone's frame: rotor cells are given at rotor angle 0, stator cells in the absolute
+/// frame. The arrays (and those of Steel) stay as they are, in place and value, for the engine's life.
 struct Cells {
     gsl::span<const Vec3> centres;           ///< [m], zone's frame
     gsl::span<const double> volumes;         ///< [m3]
@@ -47,7 +47,8 @@ struct FluidFields {
     gsl::span<const double> void_fraction;        ///< [-]
 };
 
-/// What the rocks hand to the fluid over one step, per cell. The fluid's momentum equation (divided by the fluid's density) receives
+/// Momentum that the rocks transfer to the fluid over one step, per cell. The fluid's momentum equation (divided by the fluid's density)
+/// receives
 ///   explicit_source - drag_rate (u_new - u_old) - inertia (Du/Dt_new - Du/Dt_old)   [m/s2]
 /// where "old" are the fields that FluidEngine::fields() showed when the step began, carried by the moving cells.
 struct MomentumExchange {
@@ -78,7 +79,7 @@ public:
     virtual RotorMotion rotor() const = 0;
     virtual FluidFields fields() const = 0;
 
-    /// Curl of the velocity of fields() [1/s], per cell; computed when asked. Collective.
+    /// Curl of the velocity of fields() [1/s], per cell; computed on request. Collective.
     virtual gsl::span<const Vec3> vorticity() = 0;
     /// div(tau), tau the laminar and turbulent stress of the velocity of fields() over density [m/s2], per cell; as vorticity().
     virtual gsl::span<const Vec3> stress_divergence() = 0;
@@ -99,15 +100,15 @@ public:
     virtual gsl::span<const double> wall_retreat() const = 0;
 
     /// Ends the step: solves momentum, pressure (with d(alpha)/dt from the two void fractions, both evaluated on the moved mesh) and
-    /// turbulence. \param void_fraction_old  for the rocks' old positions, less the rock that moving steel has driven from where it stands
-    /// now (wall_retreat); \param void_fraction_new  for their new ones; one per cell.
+    /// turbulence. \param void_fraction_old  void fraction of the old rock positions on the new mesh, corrected for the volume swept by
+    /// moving walls (wall_retreat); \param void_fraction_new  for their new ones; one per cell.
     virtual void end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                           const MomentumExchange& exchange) = 0;
 
     /// Replaces the present void fraction without a source (rock was inserted or removed).
     virtual void reset_void_fraction(gsl::span<const double> void_fraction) = 0;
 
-    /// What the fluid really received in the last step, per cell [m/s2]: the expression at MomentumExchange with the solved fields.
+    /// Momentum that the fluid received in the last step, per cell [m/s2]: the expression at MomentumExchange with the solved fields.
     virtual gsl::span<const Vec3> received() const = 0;
 
     /// Fluid velocity at points of the absolute frame (whole mesh; collective): value of the cell that holds or is nearest to the point,
@@ -116,9 +117,9 @@ public:
 
     virtual FluidLoads loads() = 0;
 
-    /// Writes the fields when the case's write control says so. \return true when it wrote
+    /// Writes the fields when due by the case's write control. \return true when it wrote
     virtual bool write_if_due() = 0;
-    /// Writes the fields of the present time as a restart state, whatever the write control says.
+    /// Writes the fields of the present time as a restart state, regardless of the write control.
     virtual void write_now() = 0;
 };
 

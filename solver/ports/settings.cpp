@@ -48,8 +48,7 @@ void check_fluid(Checker& check, const FluidProperties& fluid) {
 }
 
 void check_kernel(Checker& check, const KernelSettings& kernel) {
-    check.require(kernel.gamma >= 0.5, "kernel.gamma", kernel.gamma, "The kernel must be at least half a rock wide",
-                  "Use 1.0, the paper's value");
+    check.require(kernel.gamma >= 0.5, "kernel.gamma", kernel.gamma, "The kernel must be at least half a rock wide", "Use 1.0");
     check.require(kernel.min_width_in_cells >= 1.0, "kernel.minWidthInCells", kernel.min_width_in_cells,
                   "A kernel narrower than a cell is noise", "Use 1.5");
     check.require(kernel.max_solid_fraction > 0.0 && kernel.max_solid_fraction <= 0.9, "kernel.maxSolidFraction", kernel.max_solid_fraction,
@@ -66,7 +65,7 @@ void check_closures(Checker& check, const ClosureSettings& closures) {
     check.require_closure(ClosureKind::lift, "closures.lift", closures.lift);
     if (physics::drag_law_holds_void_fraction(closures.drag) && closures.hindrance != physics::k_no_closure)
         check.add(fmt::format("closures.drag = {} with closures.hindrance = {}", closures.drag, closures.hindrance),
-                  "This drag law holds the void fraction itself: hindrance would count it twice", "Set: hindrance none;");
+                  "This drag law contains the void fraction: hindrance would count it twice", "Set: hindrance none;");
 }
 
 void check_fates(Checker& check, const FateSettings& fates) {
@@ -93,8 +92,8 @@ void check_velocity(Checker& check, const VelocitySettings& velocity) {
         const bool plain = !set.name.empty() && std::all_of(set.name.begin(), set.name.end(),
                                                             [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
         if (!plain)
-            check.add(fmt::format("velocity.sets: the name '{}'", set.name), "Results are called by it", "Use letters, digits, - and _");
-        if (!names.insert(set.name).second) check.add(key + " stands twice", "Results are called by the name", "Rename one of them");
+            check.add(fmt::format("velocity.sets: the name '{}'", set.name), "Results are named after it", "Use letters, digits, - and _");
+        if (!names.insert(set.name).second) check.add(key + " is defined twice", "Results are named after the set", "Rename one of them");
         check.require(set.phases >= 0 && set.phases <= 360, key + ".phases", set.phases, "It must lie between 0 and 360", "Use 12");
     }
 }

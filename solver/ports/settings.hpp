@@ -1,5 +1,5 @@
 #pragma once
-/// \file What the coupled algorithm needs to know, as plain numbers. solver/foam fills it from constant/couplingProperties.
+/// \file Settings of the coupled algorithm, as plain numbers. solver/foam fills it from constant/couplingProperties.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,7 +30,7 @@ struct ClosureSettings {
     std::string hindrance = "di_felice";
     double added_mass = 0.5;     ///< C_AM [-]
     double drag_modifier = 1.0;  ///< factor on the drag of every rock [-]
-    double sphericity = 1.0;     ///< of every rock [-], for drag laws that ask for it
+    double sphericity = 1.0;     ///< of every rock [-], for drag laws that use it
     std::string lift = "none";
     bool viscous_force = true;  ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
 };
@@ -90,7 +90,7 @@ struct PatchSettings {
     std::vector<std::string> steel;  ///< walls that hide the fluid behind them from rock; empty: all patches of type wall
 };
 
-/// Everything that couplingProperties says to the coupled algorithm. `kernel`, `closures`, `fates` and `stop` count with rock only, but for
+/// All settings of couplingProperties for the coupled algorithm. `kernel`, `closures`, `fates` and `stop` count with rock only, but for
 /// the contour of `fates`, which `outflow` needs too.
 struct CouplingSettings {
     bool has_rock = false;
@@ -105,7 +105,7 @@ struct CouplingSettings {
     std::optional<CheckpointSettings> checkpoint;
 };
 
-/// Every mistake of the settings (not of the files they name); `where` stands in front of each, as "constant/couplingProperties".
+/// Every mistake of the settings (not of the files they name); `where` precedes each, as "constant/couplingProperties".
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where);
 
 /// Reads the contour `z_m,r_m`. \throws UserError with every mistake of the file

@@ -9,7 +9,7 @@ namespace cutterflow::foam {
 
 class FoamSession;
 
-/// What the case says about rock. Paths are absolute.
+/// The case's settings of rock. Paths are absolute.
 struct CouplingDictionary {
     coupling::CouplingSettings coupling;
     std::optional<coupling::DemSettings> dem;  ///< with rock; without a log

@@ -11,7 +11,7 @@
 
 namespace cutterflow::foam {
 
-/// Every read marks its key as known; finish() reports the keys that nobody read. A read of an absent or wrong entry leaves the target.
+/// Every read marks its key as known; finish() reports the unread keys. A read of an absent or wrong entry leaves the target.
 class DictionarySection {
 public:
     enum class Presence { optional, required };

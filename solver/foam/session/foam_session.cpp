@@ -57,8 +57,8 @@ const Foam::argList& parse_arguments(int argc, char** argv) {
     return *arguments;
 }
 
-/// A directory name holds few digits of the time; the exact value and time step stand in uniform/time. Without them a restarted rotor
-/// would stand at another angle than the one it was stopped at.
+/// A directory name has few digits of the time; the exact value and time step are in uniform/time. Without them a restarted rotor
+/// would have another angle than before.
 void restore_exact_time(Foam::Time& time) {
     const Foam::IOdictionary saved(
         Foam::IOobject("time", time.timeName(), "uniform", time, Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false));
@@ -72,7 +72,7 @@ void restore_exact_time(Foam::Time& time) {
 
 namespace {
 
-/// A run that goes on from its latest time goes on from its newest checkpoint: what was written after it is dropped, before the time is
+/// A run that starts from its latest time resumes from its newest checkpoint: what was written after it is dropped, before the time is
 /// picked. Collective.
 void go_back_to_checkpoint(const std::filesystem::path& case_folder) {
     if (Foam::UPstream::master()) {

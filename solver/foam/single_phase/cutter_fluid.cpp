@@ -93,7 +93,7 @@ void CutterFluid::create_face_velocity() {
     Uf_.reset(new surfaceVectorField(registered("Uf", mesh_, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), fvc::interpolate(U_)));
 }
 
-/// OpenFOAM makes a field's old value when it is first asked for, and once more in the same step: too late for one that is set by hand.
+/// OpenFOAM creates a field's old value at its first use and stores it again in the same step, which overwrites a value set by hand.
 void CutterFluid::start_old_times() {
     alpha_.oldTime();
     U_.oldTime();
@@ -102,7 +102,7 @@ void CutterFluid::start_old_times() {
     if (Uf_.valid()) Uf_().oldTime();
 }
 
-/// A condition that follows the flux reads its values from a file but not which way the flow went; the viscosity of realizableKE, made from
+/// Flux-dependent conditions read their values from a file but not the flow direction; the viscosity of realizableKE, computed from
 /// gradients, would begin a resumed run with another one.
 void CutterFluid::evaluate_flux_conditions() {
     for (fvPatchVectorField& patch : U_.boundaryFieldRef())

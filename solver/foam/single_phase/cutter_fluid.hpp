@@ -30,7 +30,7 @@ std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 ///   alpha Du/Dt = -grad p* + div(alpha tau) + S - K (u - u_old) - M (Du/Dt - Du/Dt_old)              [m/s2]
 ///
 /// with void fraction alpha, S, K, M of coupling::MomentumExchange and tau the laminar and turbulent stress over density. The pressure
-/// gradient is not weighted by alpha: buoyancy is no part of the exchange (seeds S0-01, C0-02).
+/// gradient is not weighted by alpha: buoyancy is no part of the exchange [NieuwboerVanRheeKeetels2023].
 ///
 /// On a moving mesh cells keep their u while alpha, which belongs to the rock, does not travel with them. Both void fractions are given on
 /// the moved mesh, so the flux through cell faces that the mesh sweeps must be taken out of the old one: with
@@ -45,7 +45,7 @@ public:
 
     bool running();
 
-    /// Picks the time step (as coupling::FluidEngine::begin_step says), advances the time and moves the mesh.
+    /// Chooses the time step (see coupling::FluidEngine::begin_step), advances the time and moves the mesh.
     void begin_step(double travel_limit, double stop_time);
 
     /// Solves the step. Arrays have one entry per cell; without rock all are empty.

@@ -71,7 +71,7 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
     fvc::makeAbsolute(flux, U_);
 }
 
-/// The two sides of the sliding interface are polygons of their own, so that what leaves one is not quite what enters the other. Half of
+/// The two sides of the sliding interface are different polygons, so that their fluxes differ slightly. Half of
 /// the difference, shared out by area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last
 /// pressure.
 void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
@@ -90,11 +90,11 @@ void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarF
 }
 
 /// What is left in a closed domain's sum of continuity [1/s] (rounding), which would all go to the pressure's reference cell; 0 in an open
-/// one. To be asked before forces at walls enter the flux: pressure balances those there.
+/// one. Call it before forces at walls enter the flux: pressure balances those there.
 dimensionedScalar CutterFluid::domain_surplus(const surfaceScalarField& flux) const {
     if (!p_.needReference()) return dimensionedScalar(dimless / dimTime, Zero);
     surfaceScalarField through(alphaf_ * flux);
-    for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interface sees to it
+    for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interface handles it
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(through)().internalField());
     return outflow.weightedAverage(mesh_.V());
 }

@@ -56,7 +56,7 @@ void CutterFluid::take_exchange(const coupling::MomentumExchange& exchange) {
     inertia_.correctBoundaryConditions();
 }
 
-/// Du/Dt with the operators that stand in the matrix: Euler on the moving cells and convection by the relative flux.
+/// Du/Dt with the operators of the matrix: Euler on the moving cells and convection by the relative flux.
 void CutterFluid::update_material_acceleration() {
     const volScalarField::Internal divergence(growth_rate(mesh_) + fvc::div(phi_)().internalField());
     DuDt_.ref() = fvc::ddt(U_)().internalField() + fvc::div(phi_, U_)().internalField() - divergence * U_.internalField();

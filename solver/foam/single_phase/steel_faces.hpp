@@ -18,7 +18,7 @@ struct SteelFaces {
 
 /// Gathers the faces of every patch of type wall; a face belongs to the rotor when its cell does. Collective.
 /// \param in_rotor  one per cell of this rank, 1 for rotor cells
-/// \param rotor_angle  [rad], at which the mesh stands
+/// \param rotor_angle  [rad] of the mesh
 SteelFaces gather_steel_faces(const Foam::fvMesh& mesh, gsl::span<const std::uint8_t> in_rotor, const RotationAxis& axis,
                               double rotor_angle);
 

@@ -50,7 +50,7 @@ double CutterFluid::next_write_time() const {
     return end - time_.value() > k_time_tolerance * time_.deltaTValue() ? std::min(next, end) : next;
 }
 
-/// A fixed time step is the user's choice; that it is too long for the rock is said once.
+/// A fixed time step is the user's choice; a step too long for the rock is reported once.
 void CutterFluid::warn_of_long_step(double travel_limit) {
     if (long_step_warned_ || time_.deltaTValue() <= travel_limit) return;
     long_step_warned_ = true;

@@ -102,7 +102,7 @@ void VelocitySampler::sample(const Foam::volVectorField& velocity, double time, 
     }
     communicator.max(nearest);
 
-    // Several ranks may be equally near: the lowest one speaks.
+    // Several ranks may be equally near: the lowest one answers.
     std::vector<double> speaker(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) speaker[i] = -candidates[i].distance == nearest[i] ? -communicator.rank() : -1e9;
     communicator.max(speaker);

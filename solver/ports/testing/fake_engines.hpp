@@ -89,8 +89,8 @@ public:
     std::function<Vec3(const Vec3& position, double time)> flow;
     std::vector<Vec3> velocity, acceleration;
     std::vector<double> void_fraction, void_fraction_old;
-    std::vector<Vec3> curl, stress;  // of the flow, as a test wants them
-    std::vector<double> retreat;     // of walls, as a test wants it
+    std::vector<Vec3> curl, stress;  // of the flow, set by the test
+    std::vector<double> retreat;     // of walls, set by the test
     std::vector<double> travel_limits;
     FluidLoads given_loads;
     bool writes_fields = false;
