@@ -68,7 +68,8 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
       alphaPhi_(unregistered("phi", mesh), alphaf_ * phi_),
       DuDt_(of_rock("DuDt", mesh, rock), mesh, dimensionedVector(dimAcceleration, Zero), zeroGradientFvPatchVectorField::typeName),
       transport_(U_, phi_),
-      turbulence_(TurbulenceModel::New(alpha_, U_, alphaPhi_, phi_, transport_)),
+      phase_turbulence_(PhaseTurbulence::New(alpha_, U_, alphaPhi_, phi_, transport_)),
+      turbulence_(phase_turbulence_(), alphaPhi_),
       density_(read_density(transport_, rock)),
       viscosity_(gMax(transport_.nu()().primitiveField())),
       alpha_rate_(unregistered("alphaRate", mesh), mesh, dimensionedScalar(dimless / dimTime, Zero)),
@@ -83,7 +84,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
     create_face_velocity();
     start_old_times();
     evaluate_flux_conditions();
-    turbulence_->validate();
+    turbulence_.validate();
     restore_state();
     if (rock_ == Rock::present && !DuDt_.headerOk()) update_material_acceleration();
 }
@@ -168,12 +169,12 @@ void CutterFluid::write_now() {
 }
 
 std::string CutterFluid::turbulence_model() const {
-    return turbulence_->type();
+    return turbulence_.type();
 }
 
 void CutterFluid::correct_turbulence() {
     transport_.correct();
-    turbulence_->correct();
+    turbulence_.correct();
 }
 
 tmp<vectorField> CutterFluid::vorticity() const {
@@ -181,7 +182,7 @@ tmp<vectorField> CutterFluid::vorticity() const {
 }
 
 tmp<vectorField> CutterFluid::stress_divergence() const {
-    const volScalarField nuEff("nuEff", turbulence_->nuEff());
+    const volScalarField nuEff("nuEff", turbulence_.nuEff());
     return fvc::div(nuEff * dev2(T(fvc::grad(U_))))().primitiveField() + fvc::laplacian(nuEff, U_)().primitiveField();
 }
 

@@ -6,13 +6,12 @@
 
 #include <gsl/span>
 
+#include "solver/foam/single_phase/registered_turbulence.hpp"
 #include "solver/ports/fluid_engine.hpp"
 
-#include "PhaseIncompressibleTurbulenceModel.H"
 #include "dynamicFvMesh.H"
 #include "fvMatrices.H"
 #include "pimpleControl.H"
-#include "singlePhaseTransportModel.H"
 #include "surfaceFields.H"
 #include "volFields.H"
 
@@ -65,7 +64,7 @@ public:
     const Foam::volScalarField& void_fraction() const { return alpha_; }
     const Foam::volVectorField& material_acceleration() const { return DuDt_; }
     const Foam::vectorField& received() const { return received_; }
-    Foam::tmp<Foam::volScalarField> effective_viscosity() const { return turbulence_->nuEff(); }
+    Foam::tmp<Foam::volScalarField> effective_viscosity() const { return turbulence_.nuEff(); }
     Foam::tmp<Foam::vectorField> vorticity() const;          ///< curl u [1/s]
     Foam::tmp<Foam::vectorField> stress_divergence() const;  ///< div(tau) [m/s2]
     /// As turbulenceProperties selects it: "realizableKE", "laminar" ...
@@ -78,8 +77,6 @@ public:
     Foam::tmp<Foam::scalarField> continuity_residual() const;
 
 private:
-    using TurbulenceModel = Foam::PhaseIncompressibleTurbulenceModel<Foam::singlePhaseTransportModel>;
-
     void create_face_velocity();
     void start_old_times();
     void evaluate_flux_conditions();
@@ -124,7 +121,8 @@ private:
     Foam::volVectorField DuDt_;
 
     Foam::singlePhaseTransportModel transport_;
-    Foam::autoPtr<TurbulenceModel> turbulence_;
+    Foam::autoPtr<PhaseTurbulence> phase_turbulence_;
+    RegisteredTurbulence turbulence_;
     double density_;
     double viscosity_;
 

@@ -18,7 +18,7 @@ tmp<fvVectorMatrix> CutterFluid::momentum_matrix() {
 
 /// -div(alpha tau). The viscosity weighted with alpha carries the plain viscosity's name, so that ordinary fvSchemes hold for it.
 tmp<fvVectorMatrix> CutterFluid::viscous_matrix() {
-    const volScalarField nuEff("nuEff", alpha_ * turbulence_->nuEff());
+    const volScalarField nuEff("nuEff", alpha_ * turbulence_.nuEff());
     return -fvc::div(nuEff * dev2(T(fvc::grad(U_)))) - fvm::laplacian(nuEff, U_);
 }
 
