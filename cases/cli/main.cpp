@@ -17,7 +17,7 @@ using namespace cutterflow;
 
 constexpr int k_interrupted = 130;  // as shells count SIGINT
 
-/// CLI11 would only say that a sub-command is missing.
+/// Names the nearest command, which CLI11 does not do.
 void require_known_command(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
     for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());

@@ -57,7 +57,7 @@ void require_known_axes(const std::vector<std::string>& words) {
 }
 
 void sweep(const SweepOptions& options) {
-    // Slurm's nodes may have more cores than the machine that hands the jobs in.
+    // Slurm's nodes may have more cores than the submitting machine.
     const bool local = options.launcher == "local" && !options.emit;
     cases::require_machine(local ? options.ranks : std::min(options.ranks, 1), {});
     const fs::path folder =

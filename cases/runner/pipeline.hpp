@@ -39,7 +39,7 @@ class Pipeline {
 public:
     using Say = std::function<void(const std::string&)>;
 
-    /// \param say  receives lines for the user (warnings, what a stage found)
+    /// \param say  receives lines for the user (warnings, results of a stage)
     /// \throws UserError  with every mistake of the study file
     Pipeline(const RunDirectory& directory, PipelineSettings settings, Say say);
 

@@ -11,7 +11,7 @@
 
 namespace cutterflow::cases {
 
-/// The mesh that a study asks for.
+/// Input of a study's mesh plan.
 meshing::MeshInput mesh_input_of(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter);
 
 /// What a run is to be computed on.

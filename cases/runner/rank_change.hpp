@@ -13,7 +13,7 @@ struct RankChange {
 };
 
 /// Brings the fields of the newest checkpoint to `ranks` ranks, by way of the undecomposed case (reconstructPar, decomposePar), which then
-/// holds all times that the processor folders held. Interrupted anywhere, it can be done once more: processor folders go only when the
+/// has all times of the processor folders. It can be repeated after any interruption: processor folders are removed only when the
 /// whole case holds what they did.
 /// \pre there is a checkpoint
 /// \throws UserError  when the fields of the checkpoint are nowhere \throws ToolError  when a program failed

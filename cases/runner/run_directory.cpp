@@ -50,8 +50,8 @@ int take_lock(const fs::path& path) {
                         "Check its permissions, or choose another with -o");
     if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
     ::close(lock);
-    throw UserError(fmt::format("{} is in use by another process", path.string()), "One process at a time works in a run directory",
-                    "Wait for it, or end it, or choose another directory with -o");
+    throw UserError(fmt::format("{} is in use by another process", path.string()), "Only one process may work in a run directory",
+                    "Wait for it, end it, or choose another directory with -o");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::string slurm_script(const std::string& job_name, const std::vector<SlurmTas
 /// Hands a script to sbatch. \return the job's number \throws ToolError when sbatch refuses
 std::string submit_to_slurm(const std::filesystem::path& script);
 
-/// Waits until no element of the job is queued or running. A scheduler that does not answer is asked again. `looked` is called after each
+/// Waits until no element of the job is queued or running. A scheduler that does not answer is queried again. `looked` is called after each
 /// query. \throws Interrupted  when the user stops the waiting; the job continues
 void wait_for_slurm(const std::string& job, const std::function<void()>& looked);
 

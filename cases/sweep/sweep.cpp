@@ -236,7 +236,7 @@ public:
     SweepOutcome take_all() {
         for (const SweepPoint& point : points_to_mesh(points_, settings_)) {
             say_(fmt::format("{}: mesh", point.name));
-            run_child(command_of(settings_, point, "mesh"));  // when it fails, the point's own run will say why
+            run_child(command_of(settings_, point, "mesh"));  // on failure the point's own run reports the reason
         }
         share_meshes(points_, settings_);
         std::vector<std::thread> workers;
@@ -301,7 +301,7 @@ private:
     SweepProgress progress_;
 };
 
-/// Its last stage is done. What became of a job is told by its run directory: a scheduler forgets.
+/// Whether the last stage is done. The run directory shows the result of a job; a scheduler forgets it.
 bool has_report(const fs::path& run) {
     if (!fs::exists(run / names::manifest)) return false;
     const Manifest manifest(run / names::manifest);
@@ -318,7 +318,7 @@ std::vector<SweepPoint> without_report(const std::vector<SweepPoint>& points, co
 
 /// Writes the job array that takes `points` through `what`. \return the script
 fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::string& what) {
-    SweepSettings absolute = settings;  // a job begins where its user was when it was handed in, or elsewhere
+    SweepSettings absolute = settings;  // the working directory of a job is not defined
     absolute.folder = fs::absolute(settings.folder).lexically_normal();
     std::vector<SlurmTask> tasks;
     for (const SweepPoint& point : points) {
@@ -357,7 +357,7 @@ public:
 private:
     fs::path job_file() const { return settings_.folder / "slurm.job"; }
 
-    /// The process that handed in a job may be gone, and the job still under way.
+    /// The process that submitted a job may have ended while the job is still running.
     void wait_for_earlier_job() {
         if (!fs::exists(job_file())) return;
         const std::string job = read_file(job_file());

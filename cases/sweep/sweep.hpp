@@ -1,5 +1,5 @@
 #pragma once
-/// \file Many points of one study: speeds, discharges, designs, repeats. A folder of run directories, filled by as many runs at a time as
+/// \file Many points of one study: speeds, discharges, designs, repeats. A folder of run directories, filled by as many parallel runs as
 /// the cores carry.
 #include <filesystem>
 #include <functional>
@@ -26,10 +26,10 @@ struct SweepPoint {
 /// The points of a sweep. Repeats differ in the seed of the placement and in the rotor's angle at the release, both the same for the same
 /// repeat of all points, so that designs are compared in pairs.
 /// \param folder  of the sweep
-/// \throws UserError  with every mistake of all points that can be seen without running them
+/// \throws UserError  with every mistake of all points that can be found without running them
 std::vector<SweepPoint> sweep_points(const std::filesystem::path& study, const SweepAxes& axes, const std::filesystem::path& folder);
 
-/// Who runs the points: this process, as many at a time as the cores carry, or the scheduler Slurm, each as an element of a job array.
+/// Where the points run: in this process, in parallel up to the available cores, or by Slurm, each as an element of a job array.
 enum class Launcher { local, slurm };
 
 struct SweepSettings {
@@ -48,7 +48,7 @@ struct SweepOutcome {
 
 /// Runs every point to its report. A failed point is reported; the others continue. Lines for the user go to `say`.
 /// \throws UserError    when the folder holds another sweep, or this one and `resume` is false
-/// \throws Interrupted  when the user stops it; what is done is kept, jobs that Slurm has go on
+/// \throws Interrupted  when the user stops it; finished work is kept, submitted Slurm jobs continue
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say);
 

@@ -43,8 +43,8 @@ double largest_radius(const TriangleSurface& surface) {
 }
 
 /// Over how much of the height the outer radius shrinks from k_wide to k_half of its largest, at the lower end less at the upper: positive
-/// when the head hangs below its ring. The ring ends at once, the blades run in to the hub; a shaft is too thin to count, and picks that
-/// stand out farther than the ring do not move it.
+/// when the head is below its ring. The head ends abruptly at the ring and tapers towards the hub; a shaft is too thin to count, and picks
+/// that protrude farther than the ring have no effect.
 double ring_is_above(const TriangleSurface& surface) {
     const RadiusProfile profile(surface);
     std::vector<double> radii;

@@ -8,7 +8,7 @@ namespace cutterflow::geometry {
 /// Diameter [m] of the largest sphere that gets between the blades from outside into the head. On its way in, the sphere's centre crosses
 /// every surface that the contour, scaled about the middle of the ring plane, makes; on each of them the largest sphere is found that
 /// touches no steel, and the smallest of these is the passage; below, the hub closes them. One pitch is looked at: all are alike in a
-/// symmetric head. \param contour  of the head, ring plane z = 0 \param blades  2 or more \pre the surface is closed and stands in the
+/// symmetric head. \param contour  of the head, ring plane z = 0 \param blades  2 or more \pre the surface is closed and in the
 /// run's frame
 double passage_between_blades(const TriangleSurface& head, const RevolutionContour& contour, int blades);
 

@@ -15,7 +15,7 @@ struct PipeParameters {
 };
 
 /// A cone about the z axis that narrows or widens from the inlet, its upper end, to a cylindrical spout below it, which ends at z = 0 and
-/// may be of no length [m].
+/// may have zero length [m].
 struct FunnelParameters {
     double inlet_radius = 0.0;   ///< inside, at the upper end
     double outlet_radius = 0.0;  ///< inside, of the spout

@@ -76,7 +76,7 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
 /// Keys of the studies in which settings differ, with the value of each setting (empty: the study has none).
 std::map<std::string, std::vector<std::string>> differing_keys(const Comparison& comparison);
 
-/// The batch of every setting in words (rocks asked for, sizes, densities, seeds) when they are not all the same; else
+/// The batch of every setting in words (requested rocks, sizes, densities, seeds) when they are not all the same; else
 /// nothing. Settings with different batches are compared, but a difference may then be that of the batches.
 std::vector<std::string> differing_batches(const Comparison& comparison);
 

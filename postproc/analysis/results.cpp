@@ -111,7 +111,7 @@ std::optional<int> whole_number(const json& object, const char* key) {
     return found->get<int>();
 }
 
-/// prediction.json holds rates with and without rock: they are taken for the time that the run went through.
+/// prediction.json has rates with and without rock, applied to the simulated time.
 std::optional<PredictedCost> predicted_cost(const json& prediction, double end_time, double revolutions) {
     if (prediction.empty()) return std::nullopt;
     const double flow_time = std::min(end_time, prediction.at("first_release_s").get<double>());

@@ -6,7 +6,7 @@
 namespace cutterflow::postproc {
 namespace {
 
-/// Start of the step that value i stands for.
+/// Start of the step of value i.
 double step_start(const std::vector<double>& times, std::size_t i) {
     if (i > 0) return times[i - 1];
     return times.size() > 1 ? 2.0 * times[0] - times[1] : times[0];

@@ -30,7 +30,7 @@ std::string read_text(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// gnuplot's file as an element of a page: without prolog and tool tips, with ids of its own.
+/// gnuplot's file as an element of a page: without prolog and tool tips, with unique ids.
 std::string as_element(const std::string& file, const std::string& name) {
     std::string svg = file.substr(file.find("<svg"));
     svg = std::regex_replace(svg, std::regex("<title>[^<]*</title>|<desc>[^<]*</desc>"), "");
@@ -51,7 +51,7 @@ std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) 
     std::ofstream(script) << fmt::format("set terminal svg noenhanced size {},{} dynamic font \"sans-serif,12.5\"\nset output \"{}.svg\"\n",
                                          plot.width, plot.height, plot.name)
                           << k_style << plot.commands << "unset output\n";
-    // gnuplot runs in the scratch directory: no path of the user's stands in the script.
+    // gnuplot runs in the scratch directory: the script contains no path of the user.
     require_child({{"gnuplot", script.filename().string()}, scratch_directory, scratch_directory / (plot.name + ".log"), {}});
     const std::string svg = read_text(scratch_directory / (plot.name + ".svg"));
     if (svg.find("<svg") == std::string::npos || svg.find("</svg>") == std::string::npos) {

@@ -1,12 +1,12 @@
 #pragma once
-/// \file Plots by gnuplot, a child program, as SVG to stand inside a page.
+/// \file Plots by gnuplot, a child program, as SVG inside a page.
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace cutterflow::postproc {
 
-/// A plot: gnuplot commands without terminal and output. Data stand in the commands as named blocks.
+/// A plot: gnuplot commands without terminal and output. Data are named blocks in the commands.
 struct PlotScript {
     std::string name;  ///< letters and underscores; makes ids of the SVG unique in a page
     int width = 0, height = 0;

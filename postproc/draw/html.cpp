@@ -95,7 +95,7 @@ footer { margin-top: 44px; border-top: 1px solid var(--line); padding-top: 10px;
 }
 )css";
 
-/// JSON that can stand in a script element: "<" would begin markup.
+/// JSON for a script element: "<" would begin markup.
 std::string script_text(const nlohmann::json& data) {
     std::string text = data.dump();
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");

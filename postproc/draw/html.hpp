@@ -26,7 +26,7 @@ std::string data(const std::string& id, const nlohmann::json& data);
 
 std::string figure(const std::string& content, const std::string& caption, const std::string& css_class = "");
 
-/// A list of colours and what they stand for (markup).
+/// A list of colours and their meanings (markup).
 std::string legend(const std::vector<std::pair<std::string, std::string>>& entries);
 
 std::string section(const std::string& title, const std::string& content);

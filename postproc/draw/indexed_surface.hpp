@@ -10,7 +10,7 @@ namespace cutterflow::postproc {
 
 inline constexpr std::size_t k_most_triangles = 60000;  ///< of a surface in a page or a series of pictures
 
-/// Points stand on a cubic grid: low + step * (i, j, k).
+/// Points are on a cubic grid: low + step * (i, j, k).
 struct IndexedSurface {
     Vec3 low = Vec3::Zero();  ///< [m]
     double step = 0.0;        ///< [m]

@@ -1,5 +1,5 @@
 #pragma once
-/// \file The scripts that stand inside every page, as text taken into the program when it is built.
+/// \file The scripts inside every page, linked into the program.
 #include <string>
 
 namespace cutterflow::postproc::scripts {

@@ -6,7 +6,7 @@
 
 namespace cutterflow::postproc {
 
-/// Writes both files into the run's report/. Without gnuplot the page has its tables and says what is missing.
+/// Writes both files into the run's report/. Without gnuplot the page has its tables and names the missing program.
 /// \return the page
 std::filesystem::path write_adv_report(const AdvComparison& comparison, const std::filesystem::path& run_directory);
 

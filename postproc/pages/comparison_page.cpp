@@ -81,7 +81,7 @@ std::string settings_table(const Comparison& comparison) {
     return "<div class=\"legend\">" + html::table({"setting", "name", "cutter", "mesh", "runs", "finished"}, rows, false) + "</div>";
 }
 
-/// What was asked for differently; sizes that follow from it stand there, too.
+/// Keys that differ between the studies, with the sizes derived from them.
 std::string studies_table(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (const auto& [key, values] : differing_keys(comparison)) {

@@ -14,7 +14,7 @@ inline constexpr double k_onset_low = 0.05, k_onset_high = 0.23;
 /// Shades the band in a plot whose x axis is that velocity, and gives the axis the range from `low` to `high` and the band.
 void add_onset_band(Plot& plot, double low, double high);
 
-/// What a caption says of the band.
+/// Caption of the band.
 std::string onset_band_text();
 
 }  // namespace cutterflow::postproc

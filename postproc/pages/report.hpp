@@ -15,7 +15,7 @@ struct ReportSummary {
 };
 
 /// Reads a run directory, finished or not, with or without rock, and writes both files; each is written beside its place and renamed, so
-/// that a reader never sees half of one. Without gnuplot the page has tables and pictures but no plots, and says so.
+/// that a reader never meets an incomplete file. Without gnuplot the page has tables and pictures but no plots, and states it.
 /// \throws UserError     when the directory is no run, nothing was computed yet, or a file breaks its contract
 /// \throws CheckFailure  when the fates of the rock do not add up
 /// \throws ToolError     when gnuplot is there and fails

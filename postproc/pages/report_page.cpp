@@ -36,7 +36,7 @@ std::string spaced(std::string word) {
     return escape(word);
 }
 
-/// "cell_size_min_m" as "cell size min [m]": units stand at the end of a key.
+/// "cell_size_min_m" as "cell size min [m]": units are at the end of a key.
 std::string key_text(const std::string& key) {
     static const std::map<std::string, std::string> phrases{{"core_s", "core time [s]"},
                                                             {"wall_s", "wall time [s]"},

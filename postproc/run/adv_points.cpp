@@ -21,7 +21,7 @@ const Units k_lengths{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}};
 const Units k_angles{{"deg", k_pi / 180.0}, {"rad", 1.0}};
 const Units k_velocities{{"m_s", 1.0}, {"cm_s", 1e-2}, {"mm_s", 1e-3}};
 
-/// A quantity of the table and the units in which it may stand.
+/// A quantity of the table and its allowed units.
 struct Quantity {
     const char* name;
     const Units* units;
@@ -50,7 +50,7 @@ std::string units_text(const Quantity& quantity) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Where a quantity stands, and what its numbers are multiplied by.
+/// Column and conversion factor of a quantity.
 struct Column {
     std::size_t index = 0;
     double factor = 1.0;
@@ -163,7 +163,7 @@ private:
         if (point.name.empty()) add(point.where, "the name is empty", "Every point has a unique name", "Name the point");
         const auto [first, fresh] = names_.emplace(point.name, point.where);
         if (!fresh)
-            add(point.where, fmt::format("the name \"{}\" stands in {} too", point.name, first->second), "Every point has a unique name",
+            add(point.where, fmt::format("the name \"{}\" is also in {}", point.name, first->second), "Every point has a unique name",
                 "Rename one of them");
         const std::string& frame = fields[texts_.at("frame")];
         point.rotating = frame == "rotating";

@@ -143,7 +143,7 @@ TEST(AdvPoints, names_every_mistake_of_a_file_at_once) {
         "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\n"
         "A,100,0,-50,still,1,2,3\nA,100,0,-50,moving,1,2,3\nB,-1,x,-50,still,1,2,3\n,1,2,3,still,nan,2,3\nC,1,2,3,still,1,2\n");
     const std::string lines = refusal(file);
-    for (const char* part : {"points.csv:3: the name \"A\" stands in", "points.csv:3: frame = \"moving\"", "points.csv:4: r = -0.001 m",
+    for (const char* part : {"points.csv:3: the name \"A\" is also in", "points.csv:3: frame = \"moving\"", "points.csv:4: r = -0.001 m",
                              "points.csv:4: theta_deg = \"x\" is not a number", "points.csv:5: the name is empty",
                              "points.csv:5: u_radial_cm_s = \"nan\" is not a number", "points.csv:6: 7 fields instead of 8"})
         EXPECT_THAT(lines, HasSubstr(part));

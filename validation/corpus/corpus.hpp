@@ -7,7 +7,7 @@
 namespace cutterflow::validation {
 
 struct DamagedFile {
-    std::string name;                      ///< file name; its end says the format
+    std::string name;                      ///< file name; its extension is the format
     std::function<std::string()> content;  ///< bytes
     double sound_volume = 0.0;             ///< [m3] of the solid before it was damaged
     std::string refusal;                   ///< words of the refusal; empty: the file must be repaired

@@ -23,7 +23,7 @@ inline constexpr double k_largest_volume_error = 0.005;
 inline constexpr int k_core_limit_s = 60;
 
 /// Writes the file, has it repaired by the program and holds the result against what is known of the file: a repaired surface, read back,
-/// is sound and has the volume of the solid within k_largest_volume_error; a refusal says the expected words and leaves no output; the
+/// is sound and has the volume of the solid within k_largest_volume_error; a refusal contains the expected words and leaves no output; the
 /// input is as it was.
 /// \param folder  for the files, emptied of those of this name
 Verdict judge(const DamagedFile& file, const std::filesystem::path& cutterflow, const std::filesystem::path& folder);

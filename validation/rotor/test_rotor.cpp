@@ -121,7 +121,7 @@ TEST_P(Rotor, takes_a_batch_of_rock_without_a_blow) {
 
 INSTANTIATE_TEST_SUITE_P(Ranks, Rotor, ::testing::Values(1, 2));
 
-/// Starts cutterFoam and kills it once it has gone on for some steps after its first checkpoint with rock.
+/// Starts cutterFoam and kills it some steps after its first checkpoint with rock.
 void run_and_kill(const fs::path& folder) {
     const ChildCommand command = meshing::foam_command(folder, cutter_foam());
     const pid_t child = fork();
@@ -200,7 +200,7 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
     EXPECT_LE(apart, 1e-3 * k_rock_diameter);
 }
 
-/// The run as it was at its checkpoint of 0.1 s, gone on with from there on another number of ranks.
+/// The run at its checkpoint of 0.1 s, resumed on another number of ranks.
 RockPicture gone_on_with(const fs::path& whole, int ranks) {
     const fs::path folder = scratch_folder(fmt::format("rotor_on_{}_ranks", ranks));
     fs::copy(whole, folder, fs::copy_options::recursive);

@@ -90,7 +90,7 @@ const std::vector<Layer> k_layers = {
     {"validation/tree_checks/", {k_base}},
 };
 
-/// Third-party headers that only some folders may see.
+/// Third-party headers that only some folders may include.
 struct Quarantine {
     std::string what;
     std::regex header;

@@ -11,7 +11,7 @@
 
 namespace cutterflow::cases {
 
-/// \throws UserError  with the line of the study that names a cutter's file which is not there
+/// \throws UserError  with the line of the study that names a missing cutter file
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder);
 
 /// The study's cutter, read and understood.

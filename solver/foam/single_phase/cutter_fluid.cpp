@@ -110,7 +110,7 @@ void CutterFluid::evaluate_flux_conditions() {
         if (isA<directionMixedFvPatchVectorField>(patch) || isA<mixedFvPatchVectorField>(patch)) patch.evaluate();
 }
 
-/// The time step in full: uniform/time keeps only as many digits as writePrecision says.
+/// The time step with all digits: uniform/time has only the digits of writePrecision.
 void CutterFluid::restore_state() {
     string time_step;
     if (!state_.readIfPresent("timeStep", time_step)) return;

@@ -37,7 +37,7 @@ std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 ///   alpha_old* V_old = alpha_old V - dt sum(alpha_f meshPhi)
 ///
 /// the pair {alpha_old*, alpha_f (phi - meshPhi)} obeys the same discrete continuity as {alpha_old, alpha_f phi}: a uniform velocity
-/// stays uniform, rock at rest in the turning zone raises no flow, and transport equations of turbulence see no source.
+/// stays uniform, rock at rest in the turning zone causes no flow, and transport equations of turbulence have no source.
 class CutterFluid {
 public:
     CutterFluid(Foam::dynamicFvMesh& mesh, Rock rock);

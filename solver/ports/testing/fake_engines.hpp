@@ -80,7 +80,7 @@ public:
     bool write_if_due() override { return writes_fields; }
     void write_now() override { log += "write "; }
 
-    /// Starts again at a time, as a resumed run does.
+    /// Restarts at a given time, as a resumed run.
     void restart_at(double time) { time_ = time; }
 
     SyntheticMesh mesh;

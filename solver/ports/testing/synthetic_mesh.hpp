@@ -29,7 +29,7 @@ struct SyntheticMesh {
         ids.push_back(static_cast<std::int64_t>(ids.size()));
     }
 
-    /// Cubes of edge dx that fill a box; `keep` (may be empty) says which centres stay.
+    /// Cubes of edge dx that fill a box; `keep` (may be empty) selects the centres that remain.
     void add_box(const Vec3& lower, const Vec3& upper, double dx, bool rotor, const std::function<bool(const Vec3&)>& keep = {}) {
         const Eigen::Vector3i n = ((upper - lower) / dx).array().round().cast<int>();
         for (int k = 0; k < n[2]; ++k)

@@ -25,7 +25,7 @@ struct Continuity {
     double largest_local = 0.0;  ///< of all steps: sum over cells of |surplus| in a step, over the room's volume [-]
 };
 
-/// What the solver's log says of continuity.
+/// Continuity errors in the solver's log.
 Continuity read_continuity(const std::filesystem::path& log) {
     std::ifstream stream(log);
     const std::string local = "sum local = ", cumulative = "cumulative = ";

@@ -40,7 +40,7 @@ struct Impact {
     double duration = 0.0;             ///< of the contact [s]
 };
 
-/// Lets balls fly until a contact has begun and ended. The DEM is asked every `sample` seconds.
+/// Lets balls fly until a contact has begun and ended. The DEM is sampled every `sample` seconds.
 /// \throws std::runtime_error  when no contact ends within 100,000 samples
 Impact collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed = 0.0);
 

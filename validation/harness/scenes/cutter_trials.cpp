@@ -41,7 +41,7 @@ double top_outflow(const nlohmann::json& results) {
     throw std::runtime_error(std::string("the run has no bin ") + k_top_bin);
 }
 
-/// \return its cost; the outflow [m/s] stands in the place of the error
+/// \return its cost; the outflow [m/s] takes the place of the error
 Trial run_trial(const fs::path& folder, const CutterOptions& options) {
     write_file(folder / "study.toml", study(options));
     const fs::path common = folder.parent_path(), donor = common / k_default / "run";

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int k_corners = 4;
 
-/// Circles of four vertices each, at both ends of the cylinder. Vertex k stands at 45 + 90 k degrees.
+/// Circles of four vertices each, at both ends of the cylinder. Vertex k is at 45 + 90 k degrees.
 class Circles {
 public:
     explicit Circles(double height) : height_(height) {}

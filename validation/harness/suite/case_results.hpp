@@ -34,7 +34,7 @@ struct VerifiedQuantity {
     std::string unit;  ///< "-" for a bare number
     std::optional<double> reference;
     std::optional<double> value;
-    std::optional<double> error;  ///< as the rule says
+    std::optional<double> error;  ///< as defined by the rule
     std::optional<double> tolerance;
     std::optional<double> aim;  ///< stricter than the tolerance; gates nothing
     Rule rule = Rule::none;
@@ -76,7 +76,7 @@ std::string quantity_text(const VerifiedQuantity& quantity);
 std::string verification_text(const VerifiedCase& result);
 
 /// The same content as Markdown (docs/validation.md) and as an HTML page. `link` goes in front of a case's name to make the path of its
-/// README. Charts are drawn with the help of files in `scratch`; without gnuplot they stand as tables.
+/// README. Charts are drawn with the help of files in `scratch`; without gnuplot they are tables.
 std::string verification_markdown(const std::vector<VerifiedCase>& results, const std::string& link);
 std::string verification_page(const std::vector<VerifiedCase>& results, const std::string& link, const std::filesystem::path& scratch);
 

@@ -57,7 +57,7 @@ VerificationCase read_case(const fs::path& folder, std::vector<Mistake>& mistake
             words_of(head_value(text, "needs")), head_value(text, "resumes") == "yes"};
 }
 
-/// Where a program that a case needs stands: beside cutterflow or on PATH; empty when it is not there.
+/// Path of a program that a case needs: in cutterflow's folder or on PATH; empty when missing.
 fs::path tool(const VerificationPlaces& places, const std::string& name) {
     return fs::exists(places.tools / name) ? places.tools / name : find_program(name);
 }
@@ -134,7 +134,7 @@ void require_no_dearer_results(const std::vector<VerificationCase>& cases, const
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-/// Makes the folder in which a case's program works. What an earlier start left there stays when the case can go on with it.
+/// Creates the folder of a case's program. Files of an earlier start are kept if the case can resume from them.
 void prepare_work(const VerificationCase& one, const VerificationSettings& settings, const std::string& programs) {
     const fs::path work = settings.folder / one.name, mark = work / k_programs;
     const bool goes_on = settings.resume && one.resumes && fs::exists(mark) && read_file(mark) == programs;
@@ -197,7 +197,7 @@ std::string effort_text(Effort effort) {
 
 std::vector<VerificationCase> find_verification_cases(const fs::path& folder) {
     if (!fs::is_directory(folder))
-        throw UserError(fmt::format("there is no folder {}", folder.string()), "The verification cases stand in the source tree",
+        throw UserError(fmt::format("there is no folder {}", folder.string()), "The verification cases are in the source tree",
                         "Run cutterflow from the clone that it was built in");
     std::vector<VerificationCase> cases;
     std::vector<Mistake> mistakes;

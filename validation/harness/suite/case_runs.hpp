@@ -31,13 +31,13 @@ struct VerificationPlaces {
 /// All cases, by name. \throws UserError  with every README whose head is wrong
 std::vector<VerificationCase> find_verification_cases(const std::filesystem::path& folder);
 
-/// Cases by name. \throws UserError  for names that are not there; it lists those that are
+/// Cases by name. \throws UserError  for unknown names; it lists the known ones
 std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& all, const std::vector<std::string>& names);
 
 struct VerificationSettings {
     std::filesystem::path folder;  ///< receives <case>.json, <case>/ (what the case wrote), <case>.log, the pages
     Effort effort = Effort::standard;
-    bool resume = false;  ///< cases finished with the same programs and at least this effort are kept; begun ones that can go on do so
+    bool resume = false;  ///< cases finished with the same programs and at least this effort are kept; resumable ones are resumed
 };
 
 /// Runs cases one after the other; each finished one is kept in the folder at once. A failed case is reported; the others continue.

@@ -86,7 +86,7 @@ postproc::PlotScript chart_plot(const Chart& chart, const std::string& name) {
                                      point.standard ? postproc::palette::spilled : postproc::palette::outflow,
                                      postproc::quoted(label_text(point))));
     }
-    // At least half a decade of error, so that points that agree are seen to.
+    // At least half a decade of error, so that agreement of points is visible.
     const double middle = std::sqrt(low[1] * high[1]), reach = std::max(std::sqrt(high[1] / low[1]) * 1.3, 1.8);
     plot.commands = postproc::data_block("points", rows);
     plot.commands += fmt::format(

@@ -38,8 +38,8 @@ nlohmann::json exhibits_json(const Exhibits& exhibits);
 /// \throws nlohmann::json::exception  when the JSON is not what exhibits_json makes
 Exhibits exhibits_from_json(const nlohmann::json& json);
 
-/// `name` as postproc::PlotScript has it. An error of 0 has no place on a logarithmic axis: it stands at a hundredth of the smallest other
-/// one.
+/// `name` as postproc::PlotScript has it. An error of 0 has no place on a logarithmic axis: it is drawn at a hundredth of the smallest
+/// other one.
 postproc::PlotScript chart_plot(const Chart& chart, const std::string& name);
 
 /// The chart's numbers, for pages without pictures.

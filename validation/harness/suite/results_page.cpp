@@ -107,7 +107,7 @@ std::vector<std::string> missed_aims(const std::vector<VerifiedCase>& results, c
     return lines;
 }
 
-/// What a case's notes say, each once, with the quantities that they belong to.
+/// The notes of a case, each once, with their quantities.
 std::vector<std::string> notes(const VerifiedCase& result, const Markup& markup) {
     std::vector<std::string> lines;
     std::set<std::string> said;

@@ -6,7 +6,7 @@
 
 namespace cutterflow::validation {
 
-/// What was done to a head of the family, and how far what understand_head says is from it.
+/// Transformation of a head of the family, and the error of understand_head.
 struct AxisCheck {
     geometry::CrownParameters head;
     double noise = 0.0;            ///< standard deviation of each coordinate of each point, over the ring radius
