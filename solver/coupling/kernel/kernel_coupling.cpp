@@ -326,13 +326,12 @@ void KernelCoupling::check_ranges() {
 
 void KernelCoupling::check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id) {
     for (const physics::ClosureRange& range : closure.ranges) {
-        const double value = numbers.named(range.argument);
-        // Below their range Reynolds numbers lead to Stokes' drag and constant hindrance: only the upper ends mislead.
-        const bool below = value < range.minimum && range.argument.substr(0, 2) != "Re";
-        if (below || value > range.maximum)
-            warn_once(std::string(closure.name) + std::string(range.argument),
+        const double value = numbers.value_of(range.argument);
+        const std::string_view symbol = physics::argument_symbol(range.argument);
+        if (range.excludes(value))
+            warn_once(std::string(closure.name) + std::string(symbol),
                       fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
-                                  range.argument, value, id, range.minimum, range.maximum, closure.citation));
+                                  symbol, value, id, range.minimum, range.maximum, closure.citation));
     }
 }
 
