@@ -38,27 +38,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Which stage a key of the study belongs to: the first that uses it. Later stages depend on earlier ones as a whole.
-std::string stage_of(const std::string& key) {
-    const std::string section = key.substr(0, key.find('.'));
-    if (section == "cutter" || section == "tank") return "geometry";
-    if (section == "suction" && key != "suction.discharge_m3_s") return "geometry";
-    if (section == "mesh") return "mesh";
-    if (section == "name" || section == "scale") return "report";
-    return "case";
-}
-
-void add_table_inputs(const ParameterValues& values, const std::string& prefix, const std::string& section,
+/// Adds the members of the array of tables `section` that belong to `stage`, and of the arrays inside it.
+void add_table_inputs(const ParameterValues& values, const std::string& prefix, const std::string& section, const std::string& stage,
                       std::map<std::string, std::string>& inputs) {
     int index = 0;
     for (const ParameterValues& member : values.tables(section)) {
         const std::string name = fmt::format("{}[{}]", prefix, ++index);
         for (const Parameter& parameter : study_table()) {
-            const std::size_t dot = parameter.key.rfind('.');
-            if (!parameter.repeated || parameter.key.substr(0, dot) != section || !member.has(parameter.key)) continue;
-            inputs[name + parameter.key.substr(dot)] = toml_text(*member.find(parameter.key));
+            if (!parameter.repeated || parameter.stage != stage || parameter.key.substr(0, parameter.key.rfind('.')) != section ||
+                !member.has(parameter.key))
+                continue;
+            inputs[name + parameter.key.substr(section.size())] = toml_text(*member.find(parameter.key));
         }
-        if (section == "feed") add_table_inputs(member, name + ".class", "feed.class", inputs);
+        for (const std::string& inner : repeated_sections(study_table(), section))
+            add_table_inputs(member, name + inner.substr(section.size()), inner, stage, inputs);
     }
 }
 
@@ -140,11 +133,11 @@ void remove_unfinished_run(const fs::path& directory) {
 std::map<std::string, std::string> stage_inputs(const ParameterValues& values, const fs::path& study_folder, const std::string& stage) {
     std::map<std::string, std::string> inputs;
     for (const Parameter& parameter : study_table())
-        if (!parameter.repeated && stage_of(parameter.key) == stage && values.has(parameter.key))
+        if (!parameter.repeated && parameter.stage == stage && values.has(parameter.key))
             inputs[parameter.key] = toml_text(*values.find(parameter.key));
-    if (stage == "geometry") inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
-    if (stage == "case") add_table_inputs(values, "feed", "feed", inputs);
-    if (stage == "case" && values.has("report.adv_points"))
+    for (const std::string& section : repeated_sections(study_table(), "")) add_table_inputs(values, section, section, stage, inputs);
+    if (stage == k_geometry_stage) inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
+    if (stage == k_case_stage && values.has("report.adv_points"))
         inputs["report.adv_points"] = adv_places_hash(study_folder / values.text("report.adv_points"));
     return inputs;
 }
@@ -186,12 +179,12 @@ std::vector<Stage> Pipeline::stages() {
         for (const std::string& file : files) all["overrides/" + file] = sha256_of_file(directory_.file("overrides/" + file));
         return all;
     };
-    return {{"geometry", inputs("geometry"), {}, false, [this](bool) { return make_geometry(); }},
-            {"mesh", with_overrides(inputs("mesh"), mesh_files), mesh_files, false, [this](bool) { return make_mesh(); }},
-            {"case", with_overrides(inputs("case"), case_files), case_files, false, [this](bool) { return make_case(); }},
+    return {{k_geometry_stage, inputs(k_geometry_stage), {}, false, [this](bool) { return make_geometry(); }},
+            {k_mesh_stage, with_overrides(inputs(k_mesh_stage), mesh_files), mesh_files, false, [this](bool) { return make_mesh(); }},
+            {k_case_stage, with_overrides(inputs(k_case_stage), case_files), case_files, false, [this](bool) { return make_case(); }},
             {"start", {}, {"0/"}, false, [this](bool) { return make_start(); }},
             {"run", {}, {"system/decomposeParDict"}, true, [this](bool resume) { return run_solver(resume); }},
-            {"report", inputs("report"), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
+            {k_report_stage, inputs(k_report_stage), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
 }
 
 Study Pipeline::resolved_study(const HeadSize& head) const {

@@ -12,6 +12,12 @@
 
 namespace cutterflow::cases {
 
+/// Stages of a run that keys of the study belong to (Parameter::stage). A stage depends on the ones before it as a whole.
+inline constexpr const char* k_geometry_stage = "geometry";
+inline constexpr const char* k_mesh_stage = "mesh";
+inline constexpr const char* k_case_stage = "case";
+inline constexpr const char* k_report_stage = "report";
+
 /// What derived defaults follow: sizes of the head in the run's frame.
 struct HeadSize {
     double ring_radius = 0.0;           ///< [m]
@@ -103,7 +109,7 @@ struct Study {
     double tank_top(const HeadSize& head) const;     ///< z [m]
 };
 
-/// Every key of a study.
+/// Every key of a study, each with its stage.
 const ParameterTable& study_table();
 
 /// Reads a study file; values as the file gives them, plain defaults filled in, derived ones still absent.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/runner/machine.hpp"
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/io/read_surface.hpp"
@@ -294,10 +295,10 @@ TEST_F(Cli, generate_solid_writes_solids_of_known_volume_and_inspect_shows_them_
          {"--radius-m", "0.4", "--thickness-m", "0.02", "--gap-m", "0.03", "--mouth-radius-m", "0.1", "--mouth-offset-m", "0.22",
           "--mouth-azimuth-deg", "90", "--pipe-wall-m", "0.01", "--pipe-length-m", "0.3"}}};
     // pi w (2 r + w) l; x y z; pi w (r + q + w) h; plate without the mouth, and the pipe on it.
-    const std::map<std::string, double> volumes{{"pipe", M_PI * 0.02 * 0.22 * 0.5},
+    const std::map<std::string, double> volumes{{"pipe", k_pi * 0.02 * 0.22 * 0.5},
                                                 {"box", 0.006},
-                                                {"funnel", M_PI * 0.02 * 0.42 * 0.3},
-                                                {"backplate", M_PI * (0.15 * 0.02 + 0.0021 * 0.3)}};
+                                                {"funnel", k_pi * 0.02 * 0.42 * 0.3},
+                                                {"backplate", k_pi * (0.15 * 0.02 + 0.0021 * 0.3)}};
     for (const auto& [solid, options] : sizes) {
         const std::string file = solid + ".stl";
         std::vector<std::string> arguments{"generate-solid", solid, "--edge-m", "0.05", "-o", file};

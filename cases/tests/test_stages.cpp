@@ -5,8 +5,11 @@
 
 #include <cstdlib>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cases/runner/pipeline.hpp"
+#include "cases/study/study.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -84,6 +87,33 @@ TEST_F(Stages, are_done_once_and_in_order) {
     EXPECT_EQ(manifest.find("run")->core_s, 0.5);
     EXPECT_EQ(manifest.find("run")->outputs.at("run.txt"), sha256("of run"));
     EXPECT_EQ(manifest.find("run")->finished.size(), 20u);
+}
+
+TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row_names) {
+    const fs::path folder = fs::temp_directory_path();
+    const std::string cutter = fmt::format("cutterflow_stage_inputs_{}.stl", ::getpid());
+    write_file(folder / cutter, "solid");
+    ParameterValues values, feed, rock;
+    std::map<std::string, std::string> stage_of;
+    for (const Parameter& parameter : study_table()) {
+        if (parameter.key == "report.adv_points") continue;  // counts by the content of its file
+        const bool of_class = parameter.key.rfind("feed.class.", 0) == 0, of_feed = parameter.key.rfind("feed.", 0) == 0;
+        ParameterValues& place = of_class ? rock : of_feed ? feed : values;
+        place.set(parameter.key, parameter.key == "cutter.file" ? cutter : std::string("given"));
+        const std::string name = parameter.key.substr(parameter.key.rfind('.') + 1);
+        stage_of[of_class ? "feed[1].class[1]." + name : of_feed ? "feed[1]." + name : parameter.key] = parameter.stage;
+    }
+    feed.tables_for_writing("feed.class").push_back(rock);
+    values.tables_for_writing("feed").push_back(feed);
+    std::map<std::string, std::string> found;
+    for (const std::string stage : {k_geometry_stage, k_mesh_stage, k_case_stage, k_report_stage})
+        for (const auto& [key, value] : stage_inputs(values, folder, stage)) EXPECT_TRUE(found.emplace(key, stage).second) << key;
+    EXPECT_EQ(found, stage_of);
+    EXPECT_EQ(found.at("suction.mouth_radius_m"), "geometry");
+    EXPECT_EQ(found.at("suction.discharge_m3_s"), "case");
+    EXPECT_EQ(found.at("mesh.preset"), "mesh");
+    EXPECT_EQ(found.at("scale.length_ratio"), "report");
+    fs::remove(folder / cutter);
 }
 
 TEST_F(Stages, changed_inputs_redo_what_follows_while_there_are_no_results) {

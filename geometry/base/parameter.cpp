@@ -37,9 +37,6 @@ const std::string& ParameterValues::text(const std::string& key) const {
 bool ParameterValues::boolean(const std::string& key) const {
     return get<bool>(key);
 }
-const Vec3& ParameterValues::vector3(const std::string& key) const {
-    return get<Vec3>(key);
-}
 
 const std::vector<ParameterValues>& ParameterValues::tables(const std::string& name) const {
     static const std::vector<ParameterValues> none;

@@ -9,13 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/base/vec3.hpp"
-
 namespace cutterflow {
 
-enum class ParameterKind { number, integer, text, choice, boolean, path, vector3 };
+enum class ParameterKind { number, integer, text, choice, boolean, path };
 
-using ParameterValue = std::variant<double, std::int64_t, std::string, bool, Vec3>;
+using ParameterValue = std::variant<double, std::int64_t, std::string, bool>;
 
 /// One key. Its name contains the unit (`rotor.speed_rpm`); values keep the file's unit, conversion happens where a struct is
 /// filled.
@@ -32,6 +30,7 @@ struct Parameter {
     std::string derived_from;                     ///< how an absent optional value is derived
     bool repeated = false;  ///< member of an array of tables: of [[feed]] for "feed.count"; arrays nest ("feed.class.share")
     std::string reference;  ///< key in docs/references.bib, may be empty
+    std::string stage;      ///< of a run: the first one that uses the key; empty where the table's files have no stages
 };
 
 using ParameterTable = std::vector<Parameter>;
@@ -45,7 +44,6 @@ public:
     std::int64_t integer(const std::string& key) const;
     const std::string& text(const std::string& key) const;  ///< text, choice or path
     bool boolean(const std::string& key) const;
-    const Vec3& vector3(const std::string& key) const;
     /// The tables of an array of tables, in the file's order; their keys are full ("feed.count").
     const std::vector<ParameterValues>& tables(const std::string& name) const;
 
@@ -83,6 +81,9 @@ std::string commented_toml(const ParameterTable& table, const ParameterValues* v
 /// The table as aligned text for a terminal, and as a Markdown manual page.
 std::string parameters_text(const ParameterTable& table);
 std::string parameters_markdown(const ParameterTable& table);
+
+/// Arrays of tables that stand directly in `section` ("": at the top of the file): {"feed.class"} in "feed".
+std::vector<std::string> repeated_sections(const ParameterTable& table, const std::string& section);
 
 /// The word of `known` nearest to `word` (edit distance at most a third of its length), or empty.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);

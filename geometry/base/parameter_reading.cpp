@@ -50,18 +50,6 @@ std::optional<double> number_in(const toml::node& node) {
     return std::nullopt;
 }
 
-std::optional<Vec3> vector_in(const toml::node& node) {
-    const toml::array* array = node.as_array();
-    if (array == nullptr || array->size() != 3) return std::nullopt;
-    Vec3 vector;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::optional<double> component = number_in(*array->get(i));
-        if (!component) return std::nullopt;
-        vector[static_cast<Eigen::Index>(i)] = *component;
-    }
-    return vector;
-}
-
 /// The node's value if it has the parameter's type.
 std::optional<ParameterValue> typed_value(const Parameter& parameter, const toml::node& node) {
     switch (parameter.kind) {
@@ -78,9 +66,6 @@ std::optional<ParameterValue> typed_value(const Parameter& parameter, const toml
             return std::nullopt;
         case ParameterKind::boolean:
             if (const auto* boolean = node.as_boolean()) return boolean->get();
-            return std::nullopt;
-        case ParameterKind::vector3:
-            if (const auto vector = vector_in(node)) return *vector;
             return std::nullopt;
     }
     throw std::logic_error("unknown ParameterKind");
@@ -153,8 +138,7 @@ private:
 
     bool check_finite(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
         const auto* number = std::get_if<double>(&value);
-        const auto* vector = std::get_if<Vec3>(&value);
-        if ((number == nullptr || std::isfinite(*number)) && (vector == nullptr || vector->allFinite())) return true;
+        if (number == nullptr || std::isfinite(*number)) return true;
         add(where(node), fmt::format("{} = {} is not finite", parameter.key, node_text(node)), "It must be a finite number",
             "Correct the value");
         return false;

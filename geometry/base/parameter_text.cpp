@@ -70,8 +70,7 @@ std::string repeated_toml(const ParameterTable& table, const std::string& sectio
 /// Arrays of tables directly inside `section`.
 std::string nested_toml(const ParameterTable& table, const std::string& section, const ParameterValues* values) {
     std::string text;
-    for (const std::string& inner : sections_of(table))
-        if (section_of(inner) == section && is_repeated_section(table, inner)) text += repeated_toml(table, inner, values);
+    for (const std::string& inner : repeated_sections(table, section)) text += repeated_toml(table, inner, values);
     return text;
 }
 
@@ -96,27 +95,28 @@ std::string markdown_cell(std::string text) {
 
 }  // namespace
 
+std::vector<std::string> repeated_sections(const ParameterTable& table, const std::string& section) {
+    std::vector<std::string> repeated;
+    for (const std::string& inner : sections_of(table))
+        if (!inner.empty() && section_of(inner) == section && is_repeated_section(table, inner)) repeated.push_back(inner);
+    return repeated;
+}
+
 std::string toml_text(const ParameterValue& value) {
     if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
     if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
-    if (const auto* boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
-    const Vec3& vector = std::get<Vec3>(value);
-    return fmt::format("[{}, {}, {}]", vector.x(), vector.y(), vector.z());
+    return std::get<bool>(value) ? "true" : "false";
 }
 
 std::string commented_toml(const ParameterTable& table, const ParameterValues* values) {
     std::string text;
-    std::string arrays;
     for (const std::string& section : sections_of(table)) {
-        if (is_repeated_section(table, section)) {
-            if (!is_repeated_section(table, section_of(section))) arrays += repeated_toml(table, section, values);
-            continue;
-        }
+        if (is_repeated_section(table, section)) continue;
         if (!section.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
         text += entries_of(table, section, values);
     }
-    return text + arrays;
+    return text + nested_toml(table, "", values);
 }
 
 std::string parameters_text(const ParameterTable& table) {

@@ -50,8 +50,6 @@ std::string kind_text(ParameterKind kind) {
             return "true or false";
         case ParameterKind::path:
             return "a path in quotes";
-        case ParameterKind::vector3:
-            return "three numbers [x, y, z]";
     }
     throw std::logic_error("unknown ParameterKind");
 }

@@ -305,19 +305,6 @@ TriangleSurface crown_blade(const CrownParameters& p) {
     return blade;
 }
 
-double crown_blade_sheet_volume(const CrownParameters& p) {
-    const BladeSheet sheet(p);
-    TriangleSurface fine;
-    const Grid grid = add_offset_sheet(fine, sheet, 400, 60, 0.0);
-    double volume = 0.0;
-    for (int i = 0; i < grid.rows; ++i) {
-        fine.triangles.clear();
-        for (int j = 0; j < grid.columns; ++j) add_quad(fine, grid.at(i, j), grid.at(i + 1, j), grid.at(i + 1, j + 1), grid.at(i, j + 1));
-        volume += sheet.thickness((i + 0.5) / grid.rows) * area_of(fine);
-    }
-    return volume;
-}
-
 std::vector<TriangleSurface> crown_picks(const CrownParameters& p) {
     const BladeSheet sheet(p);
     const PickRange range = range_for_picks(p);

@@ -70,9 +70,6 @@ TriangleSurface united_crown_parts(const CrownParameters& parameters);
 /// The strip of one blade, before it is united: closed surface around the sheet at azimuth 0 of its ring end.
 TriangleSurface crown_blade(const CrownParameters& parameters);
 
-/// Integral [m3] of the thickness over the blade's sheet: the blade's volume to second order in thickness x curvature.
-double crown_blade_sheet_volume(const CrownParameters& parameters);
-
 /// The picks of the blade of crown_blade, one closed surface each, from the ring on.
 std::vector<TriangleSurface> crown_picks(const CrownParameters& parameters);
 

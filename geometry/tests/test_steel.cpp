@@ -101,11 +101,24 @@ TEST(CrownCutter, the_shipped_model_has_the_sizes_of_its_file) {
     EXPECT_NEAR(radius, 0.40, 1e-6);
 }
 
+/// Integral [m3] of the thickness over the blade's sheet, from a blade of a hundredth of its thickness: thickness counts in proportion as
+/// far as it is small beside the sheet's curvature.
+double sheet_volume(CrownParameters p) {
+    p.blade_thickness /= 100.0;
+    p.blade_thickness_at_hub /= 100.0;
+    return 100.0 * volume_of(crown_blade(p));
+}
+
 TEST(CrownCutter, a_blade_has_the_volume_of_its_sheet_times_its_thickness) {
     const CrownParameters p = model_crown();
     const TriangleSurface blade = crown_blade(p);
     EXPECT_TRUE(inspect_surface(blade).sound());
-    EXPECT_NEAR(volume_of(blade) / crown_blade_sheet_volume(p), 1.0, 0.005);
+    EXPECT_NEAR(volume_of(blade) / sheet_volume(p), 1.0, 0.005);
+    // The two faces of a strip of even thickness, with next to no rim.
+    CrownParameters thin = p;
+    thin.blade_thickness = thin.blade_thickness_at_hub = 1e-5;
+    const TriangleSurface strip = crown_blade(thin);
+    EXPECT_NEAR(volume_of(strip) / (0.5 * area_of(strip) * 1e-5), 1.0, 0.005);
 }
 
 TEST(CrownCutter, its_volume_lies_between_its_parts_alone_and_their_sum) {
@@ -113,7 +126,7 @@ TEST(CrownCutter, its_volume_lies_between_its_parts_alone_and_their_sum) {
     const double ring = k_pi * (p.ring_radius * p.ring_radius - p.ring_inner_radius * p.ring_inner_radius) * p.ring_height;
     const double cap = k_pi * p.hub_cap_height / 6.0 * (3.0 * p.hub_radius * p.hub_radius + p.hub_cap_height * p.hub_cap_height);
     const double hub = k_pi * p.hub_radius * p.hub_radius * p.hub_height + cap;
-    const double blades = p.blade_count * crown_blade_sheet_volume(p);
+    const double blades = p.blade_count * volume_of(crown_blade(p));
     const double volume = volume_of(model_cutter());
     // A fifth of a blade at most is buried in ring and hub at each end.
     EXPECT_LT(volume, ring + hub + blades);
@@ -187,7 +200,7 @@ TEST(CrownCutter, with_picks_and_a_thickness_profile_has_the_volume_of_its_parts
     EXPECT_TRUE(report.sound());
     EXPECT_EQ(report.components.size(), 1u);
     const TriangleSurface blade = crown_blade(p);
-    EXPECT_NEAR(volume_of(blade) / crown_blade_sheet_volume(p), 1.0, 0.005);
+    EXPECT_NEAR(volume_of(blade) / sheet_volume(p), 1.0, 0.005);
 }
 
 TEST(CrownCutter, picks_are_frusta_that_lean_as_far_as_asked) {

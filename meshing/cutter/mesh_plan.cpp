@@ -285,10 +285,6 @@ double first_cell(const CellRow& row) {
     return first_of(row.to - row.from, row.cells, row_growth(row));
 }
 
-double last_cell(const CellRow& row) {
-    return first_cell(row) * row.expansion;
-}
-
 CellRow growing_row(double from, double to, double first, double growth) {
     const double length = to - from;
     if (!(length > 0.0) || !(first > 0.0) || !(growth > 1.0))

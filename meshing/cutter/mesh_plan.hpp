@@ -67,9 +67,8 @@ struct CellRow {
 /// \pre from < to, first > 0, growth > 1
 CellRow growing_row(double from, double to, double first, double growth);
 
-/// Sizes of the first and the last cell of a row [m].
+/// Size of the first cell of a row [m].
 double first_cell(const CellRow& row);
-double last_cell(const CellRow& row);
 
 /// The rotor zone: a cylinder about the axis, meshed as a prism of `facets` sides.
 struct RotorZone {

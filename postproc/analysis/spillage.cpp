@@ -8,6 +8,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -139,7 +140,7 @@ void RockHistories::advance(const Table& events, double time) {
 void RockHistories::take(const Table& events, std::size_t row) {
     RockHistory& rock = rocks_[static_cast<int>(std::lround(events.number("id")[row]))];
     const double diameter = events.number("diameter_m")[row];
-    rock.volume = k_pi / 6.0 * diameter * diameter * diameter;
+    rock.volume = sphere_volume(diameter);
     rock.mass = rock.volume * events.number("density_kg_m3")[row];
     const std::string& surface = events.text("surface")[row];
     const bool out = events.text("direction")[row] == "out";

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "geometry/head/contour.hpp"
 #include "postproc/run/adv_points.hpp"
@@ -31,7 +32,7 @@ struct OperatingPoint {
     std::string swing_direction;  ///< may be empty
     std::string mesh_preset;      ///< may be empty
     double revolution_s() const { return 60.0 / speed_rpm; }
-    double angular_speed() const { return 2.0 * 3.14159265358979323846 * speed_rpm / 60.0; }  ///< [rad/s], > 0
+    double angular_speed() const { return rpm_to_rad_s(speed_rpm); }  ///< [rad/s], > 0
 };
 
 /// Rock of one size in a feed.

@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "geometry/head/axial_bins.hpp"
 
 namespace cutterflow::postproc::testing {
@@ -58,7 +59,7 @@ private:
 };
 
 double mass_of(double diameter) {
-    return k_density * k_pi / 6.0 * diameter * diameter * diameter;
+    return sphere_mass(diameter, k_density);
 }
 
 geometry::Contour head_contour() {

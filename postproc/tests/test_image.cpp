@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "postproc/draw/image.hpp"
 #include "postproc/draw/rendering.hpp"
@@ -74,7 +75,7 @@ TEST(Rendering, sphere_covers_its_area) {
     for (int y = 0; y < 100; ++y) {
         for (int x = 0; x < 100; ++x) covered += pixel(image, x, y)[0] < 250 ? 1 : 0;
     }
-    EXPECT_NEAR(covered, 3.14159 * 15.0 * 15.0, 60);
+    EXPECT_NEAR(covered, k_pi * 15.0 * 15.0, 60);
     EXPECT_LT(pixel(image, 55, 60)[0], 128);  // picture y goes down
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/base/axis_frame.hpp"
+
 namespace cutterflow::postproc {
 namespace {
 
@@ -44,7 +46,7 @@ TEST(TimeAverage, what_repeats_every_period_is_no_scatter) {
     std::vector<double> times, values;
     for (int i = 1; i <= 600; ++i) {
         times.push_back(0.01 * i);
-        values.push_back(3.0 + std::sin(2.0 * 3.14159265358979 * 0.01 * i));
+        values.push_back(3.0 + std::sin(2.0 * k_pi * 0.01 * i));
     }
     const auto average = time_average(times, values, 0.0, 6.0, 1.0);
     ASSERT_TRUE(average && average->standard_error);

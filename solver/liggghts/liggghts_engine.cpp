@@ -27,6 +27,7 @@
 #include "update.h"
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/liggghts/contacts/contact_registration.hpp"
 #include "solver/liggghts/contacts/wall_contacts.hpp"
 #include "solver/liggghts/liggghts_commands.hpp"
@@ -50,10 +51,6 @@ constexpr const char* k_state_file = "dem.json";
 constexpr const char* k_motion = "rock_motion";
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_contact_forces = "contact_forces";
-
-double rock_mass(double diameter, double density) {
-    return density * k_pi / 6.0 * diameter * diameter * diameter;
-}
 
 /// Smallest upright box around a domain.
 commands::Box bounds(const coupling::DomainSettings& domain) {
@@ -400,7 +397,7 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         const double radius = 0.5 * rocks_.diameter[k];
-        const double mass = rock_mass(rocks_.diameter[k], rocks_.density[k]);
+        const double mass = sphere_mass(rocks_.diameter[k], rocks_.density[k]);
         const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.youngs, contact.max_speed};
         const physics::Impact on_steel{mass, radius, context_.rock_steel.youngs, contact.max_speed};
         shortest = std::min({shortest, physics::hertz_time(on_rock), physics::hertz_time(on_steel),
@@ -477,7 +474,7 @@ void LiggghtsEngine::Implementation::create_rock(const Rocks& rocks, std::size_t
     std::copy_n(rocks.angular_velocity[k].data(), 3, atom.omega[i]);
     atom.radius[i] = 0.5 * rocks.diameter[k];
     atom.density[i] = rocks.density[k];
-    atom.rmass[i] = rock_mass(rocks.diameter[k], rocks.density[k]);
+    atom.rmass[i] = sphere_mass(rocks.diameter[k], rocks.density[k]);
     for (int f = 0; f < lammps_->modify->nfix; ++f)
         if (lammps_->modify->fix[f]->create_attribute) lammps_->modify->fix[f]->set_arrays(i);
 }

@@ -5,17 +5,10 @@
 #include "atom.h"
 #include "update.h"
 
+#include "geometry/base/sphere.hpp"
 #include "solver/liggghts/contacts/wall_contacts.hpp"
 
 namespace cutterflow::liggghts {
-
-namespace {
-
-double sphere_volume(double radius) {
-    return 4.0 / 3.0 * k_pi * radius * radius * radius;
-}
-
-}  // namespace
 
 RockMotion::RockMotion(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, ContactContext& context, const Vec3& gravity)
     : Fix(lammps, narg, arg), context_(context), gravity_(gravity) {
@@ -51,13 +44,12 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
 Vec3 RockMotion::acceleration(int rock) const {
     const double mass = atom->rmass[rock];
     const double radius = atom->radius[rock];
-    const Vec3 weight = (mass - context_.fluid.density * sphere_volume(radius)) * gravity_;
+    const Vec3 weight = (mass - context_.fluid.density * sphere_volume(2.0 * radius)) * gravity_;
     return (Vec3(atom->f[rock]) + states_[rock].hydrodynamic + weight) / context_.mass_with_added_mass(mass, radius);
 }
 
 Vec3 RockMotion::spin_acceleration(int rock) const {
-    const double radius = atom->radius[rock];
-    return Vec3(atom->torque[rock]) / (0.4 * atom->rmass[rock] * radius * radius);
+    return Vec3(atom->torque[rock]) / sphere_inertia(2.0 * atom->radius[rock], atom->rmass[rock]);
 }
 
 /// Runs after the walls' post_force, because the walls were declared before.

@@ -9,70 +9,131 @@
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::physics {
+namespace {
+
+bool is_reynolds_number(ClosureArgument argument) {
+    return argument == ClosureArgument::reynolds || argument == ClosureArgument::particle_reynolds ||
+           argument == ClosureArgument::shear_reynolds;
+}
+
+double& member_of(DragState& state, ClosureArgument argument) {
+    switch (argument) {
+        case ClosureArgument::reynolds:
+            return state.reynolds;
+        case ClosureArgument::void_fraction:
+            return state.void_fraction;
+        case ClosureArgument::sphericity:
+            return state.sphericity;
+        case ClosureArgument::particle_reynolds:
+        case ClosureArgument::shear_reynolds:
+        case ClosureArgument::dry_restitution:
+        case ClosureArgument::stokes:
+            break;
+    }
+    throw std::logic_error(fmt::format("a drag law does not take {}", argument_symbol(argument)));
+}
+
+}  // namespace
+
 const std::vector<Closure>& catalogue() {
+    using A = ClosureArgument;
     static const std::vector<Closure> table{
         {"brown_lawler",
          ClosureKind::drag,
          "Cd = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re)",
          brown_lawler_drag_coefficient,
-         {{"Re", 1e-3, 2e5}},
+         {{A::reynolds, 1e-3, 2e5}},
          "BrownLawler2003"},
         {"schiller_naumann",
          ClosureKind::drag,
          "Cd = 24/Re (1 + 0.15 Re^0.687), 0.44 from Re = 1000 on",
          schiller_naumann_drag_coefficient,
-         {{"Re", 1e-3, 2e5}},
+         {{A::reynolds, 1e-3, 2e5}},
          "SchillerNaumann1935"},
         {"haider_levenspiel",
          ClosureKind::drag,
          "Cd = 24/Re (1 + A Re^B) + C/(1 + D/Re), A = 8.1716 e^(-4.0655 psi), B = 0.0964 + 0.5565 psi, C = 73.69 e^(-5.0748 psi), "
          "D = 5.378 e^(6.2122 psi)",
          haider_levenspiel_drag_coefficient,
-         {{"Re", 1e-3, 2.5e4}, {"sphericity", 0.6, 1.0}},
+         {{A::reynolds, 1e-3, 2.5e4}, {A::sphericity, 0.6, 1.0}},
          "HaiderLevenspiel1989"},
         {"gidaspow",
          ClosureKind::drag,
          "Cd = 4/3 (150 (1 - a)/(a^2 Re) + 1.75/a) up to a = 0.8, Cd0(a Re) a^-2.65 above, Cd0 of Schiller and Naumann",
          gidaspow_drag_coefficient,
-         {{"Re", 1e-3, 2e5}, {"void_fraction", 0.3, 1.0}},
+         {{A::reynolds, 1e-3, 2e5}, {A::void_fraction, 0.3, 1.0}},
          "Gidaspow1994"},
         {"koch_hill",
          ClosureKind::drag,
          "Cd = 24/Re a (F0 + F3 a Re/2), F3 = 0.0673 + 0.212 s + 0.0232/a^5, s = 1 - a, F0 = [1 + 3 sqrt(s/2) + 135/64 s ln s + 16.14 s]/"
          "[1 + 0.681 s - 8.48 s^2 + 8.16 s^3], 10 s/a^3 from s = 0.4 on",
          koch_hill_drag_coefficient,
-         {{"Re", 1e-3, 150.0}, {"void_fraction", 0.35, 1.0}},
+         {{A::reynolds, 1e-3, 150.0}, {A::void_fraction, 0.35, 1.0}},
          "KochHill2001"},
         {"di_felice",
          ClosureKind::hindrance,
          "void_fraction^(1 - beta), beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_p)^2/2)",
          di_felice_factor,
-         {{"void_fraction", 0.3, 1.0}, {"Re_p", 1e-2, 2e5}},
+         {{A::void_fraction, 0.3, 1.0}, {A::particle_reynolds, 1e-2, 2e5}},
          "DiFelice1994"},
         {"mei",
          ClosureKind::lift,
          "C_L = 4.11 eps J(eps), eps = sqrt(Re_G)/Re_p",
          mei_lift_coefficient,
-         {{"Re_p", 1e-2, 1.0}, {"Re_G", 1e-4, 1.0}},
+         {{A::particle_reynolds, 1e-2, 1.0}, {A::shear_reynolds, 1e-4, 1.0}},
          "Mei1992"},
         {"sphere", ClosureKind::added_mass, "C_AM = 1/2", k_sphere_added_mass, {}, "NieuwboerVanRheeKeetels2023"},
         {"legendre",
          ClosureKind::restitution,
          "e_wet = e_dry exp(-35/St)",
          wet_restitution,
-         {{"e_dry", 0.0, 1.0}, {"St", 0.0, 1e5}},
+         {{A::dry_restitution, 0.0, 1.0}, {A::stokes, 0.0, 1e5}},
          "Legendre2006"},
     };
     return table;
 }
 
-double RockNumbers::named(std::string_view argument) const {
-    if (argument == "Re") return reynolds;
-    if (argument == "Re_p") return particle_reynolds;
-    if (argument == "Re_G") return shear_reynolds;
-    if (argument == "void_fraction") return void_fraction;
-    if (argument == "sphericity") return sphericity;
-    throw std::out_of_range(fmt::format("{} is no number of a rock", argument));
+std::string_view argument_symbol(ClosureArgument argument) {
+    switch (argument) {
+        case ClosureArgument::reynolds:
+            return "Re";
+        case ClosureArgument::particle_reynolds:
+            return "Re_p";
+        case ClosureArgument::shear_reynolds:
+            return "Re_G";
+        case ClosureArgument::void_fraction:
+            return "void_fraction";
+        case ClosureArgument::sphericity:
+            return "sphericity";
+        case ClosureArgument::dry_restitution:
+            return "e_dry";
+        case ClosureArgument::stokes:
+            return "St";
+    }
+    throw std::logic_error("unknown ClosureArgument");
+}
+
+bool ClosureRange::excludes(double value) const {
+    return !(value <= maximum && (value >= minimum || is_reynolds_number(argument)));
+}
+
+double RockNumbers::value_of(ClosureArgument argument) const {
+    switch (argument) {
+        case ClosureArgument::reynolds:
+            return reynolds;
+        case ClosureArgument::particle_reynolds:
+            return particle_reynolds;
+        case ClosureArgument::shear_reynolds:
+            return shear_reynolds;
+        case ClosureArgument::void_fraction:
+            return void_fraction;
+        case ClosureArgument::sphericity:
+            return sphericity;
+        case ClosureArgument::dry_restitution:
+        case ClosureArgument::stokes:
+            break;
+    }
+    throw std::logic_error(fmt::format("a rock in the flow has no {}", argument_symbol(argument)));
 }
 
 double Closure::evaluate(const std::vector<double>& arguments) const {
@@ -84,20 +145,15 @@ double Closure::evaluate(const std::vector<double>& arguments) const {
         double operator()(double (*function)(double, double)) const { return function(arguments[0], arguments[1]); }
         double operator()(DragLaw drag) const {
             DragState state;
-            for (std::size_t i = 0; i < arguments.size(); ++i) {
-                const std::string_view name = closure.ranges[i].argument;
-                (name == "Re" ? state.reynolds : name == "sphericity" ? state.sphericity : state.void_fraction) = arguments[i];
-            }
+            for (std::size_t i = 0; i < arguments.size(); ++i) member_of(state, closure.ranges[i].argument) = arguments[i];
             return drag(state);
         }
     };
     return std::visit(Call{*this, arguments}, function);
 }
 
-const ClosureRange* Closure::outside(const std::vector<double>& arguments) const {
-    for (std::size_t i = 0; i < ranges.size(); ++i)
-        if (!(arguments.at(i) >= ranges[i].minimum && arguments[i] <= ranges[i].maximum)) return &ranges[i];
-    return nullptr;
+bool Closure::depends_on(ClosureArgument argument) const {
+    return std::any_of(ranges.begin(), ranges.end(), [&](const ClosureRange& range) { return range.argument == argument; });
 }
 
 const Closure& find_closure(ClosureKind kind, std::string_view name) {
@@ -135,9 +191,7 @@ std::vector<std::string> closure_choices(ClosureKind kind) {
 
 bool drag_law_holds_void_fraction(std::string_view name) {
     for (const Closure& closure : catalogue())
-        if (closure.kind == ClosureKind::drag && closure.name == name)
-            return std::any_of(closure.ranges.begin(), closure.ranges.end(),
-                               [](const ClosureRange& range) { return range.argument == "void_fraction"; });
+        if (closure.kind == ClosureKind::drag && closure.name == name) return closure.depends_on(ClosureArgument::void_fraction);
     return false;
 }
 

@@ -12,22 +12,40 @@ namespace cutterflow::physics {
 
 enum class ClosureKind { drag, hindrance, lift, added_mass, restitution };
 
-/// Where a closure may be used: bounds (inclusive) of its argument.
-struct ClosureRange {
-    std::string_view argument;  ///< as RockNumbers names it, or "e_dry", "St"
-    double minimum = 0.0;
-    double maximum = 0.0;
+/// A dimensionless number on which a closure depends.
+enum class ClosureArgument {
+    reynolds,           ///< Re = |slip| d / nu
+    particle_reynolds,  ///< Re_p = void fraction times Re
+    shear_reynolds,     ///< Re_G = |vorticity| d^2 / nu
+    void_fraction,
+    sphericity,
+    dry_restitution,  ///< e_dry
+    stokes            ///< St of an impact, physics::impact_stokes
 };
 
-/// The dimensionless numbers of a rock in the flow, by the names that ranges use.
+/// Symbol of an argument: "Re", "Re_p", "void_fraction" ...
+std::string_view argument_symbol(ClosureArgument argument);
+
+/// Where a closure holds: bounds (inclusive) of one argument.
+struct ClosureRange {
+    ClosureArgument argument;
+    double minimum = 0.0;
+    double maximum = 0.0;
+
+    /// Whether the closure's value is wrong at `value`: it is above the range, below it, or no number. Below its range a Reynolds number is
+    /// harmless: all closures tend to the limit of creeping flow there.
+    bool excludes(double value) const;
+};
+
+/// The dimensionless numbers of a rock in the flow.
 struct RockNumbers {
-    double reynolds = 0.0;           ///< "Re", |slip| d / nu
-    double particle_reynolds = 0.0;  ///< "Re_p", void fraction times Re
-    double shear_reynolds = 0.0;     ///< "Re_G", |vorticity| d^2 / nu
-    double void_fraction = 1.0;      ///< "void_fraction"
-    double sphericity = 1.0;         ///< "sphericity"
-    /// \throws std::out_of_range  for any other name
-    double named(std::string_view argument) const;
+    double reynolds = 0.0;
+    double particle_reynolds = 0.0;
+    double shear_reynolds = 0.0;
+    double void_fraction = 1.0;
+    double sphericity = 1.0;
+    /// \throws std::logic_error  for a number that a rock in the flow does not have (one of an impact)
+    double value_of(ClosureArgument argument) const;
 };
 
 /// A closure is a constant, a function of two dimensionless numbers or a drag law.
@@ -41,11 +59,10 @@ struct Closure {
     std::vector<ClosureRange> ranges;
     std::string_view citation;  ///< key in docs/references.bib
 
-    /// Value at a point with one number per range.
+    /// Value at a point with one number per range. \throws std::logic_error  when a range's argument is none that the function takes
     double evaluate(const std::vector<double>& arguments) const;
 
-    /// The first argument that lies outside its range, or null.
-    const ClosureRange* outside(const std::vector<double>& arguments) const;
+    bool depends_on(ClosureArgument argument) const;
 };
 
 /// Every closure there is.

@@ -68,10 +68,6 @@ double drag_coefficient_per_slip(const RockInFluid& rock, double slip_speed, Dra
     return modifier * 0.5 * rock.fluid_density * area * cd_times_slip * hindrance(rock.void_fraction, rock.void_fraction * reynolds);
 }
 
-double sphere_volume(double diameter) {
-    return k_pi / 6.0 * diameter * diameter * diameter;
-}
-
 Vec3 fluid_acceleration_force(double volume, double fluid_density, double added_mass_coefficient, const Vec3& material_acceleration) {
     return (1.0 + added_mass_coefficient) * fluid_density * volume * material_acceleration;
 }

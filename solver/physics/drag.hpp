@@ -69,9 +69,6 @@ using HindranceLaw = double (*)(double void_fraction, double particle_reynolds);
 /// Tends to Stokes' 3 pi mu d (times hindrance) for no slip at all.
 double drag_coefficient_per_slip(const RockInFluid& rock, double slip_speed, DragLaw drag, HindranceLaw hindrance, double modifier = 1.0);
 
-/// Volume of a sphere [m3].
-double sphere_volume(double diameter);
-
 /// Force [N] on a rock in accelerating fluid:  (1 + C_AM) rho_f V Du/Dt: the pressure gradient of the accelerating fluid and the part of
 /// added mass that follows the fluid. The other part, -C_AM rho_f V dv/dt, is part of the rock's inertia. [NieuwboerVanRheeKeetels2023]
 Vec3 fluid_acceleration_force(double volume, double fluid_density, double added_mass_coefficient, const Vec3& material_acceleration);

@@ -10,6 +10,7 @@
 
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/packing/rock_placement.hpp"
 #include "solver/physics/catalogue.hpp"
@@ -22,7 +23,7 @@ namespace {
 constexpr double k_clearance_per_diameter = 0.05;
 
 double mass_of(const RockClass& rock) {
-    return rock.density * physics::sphere_volume(rock.diameter);
+    return sphere_mass(rock.diameter, rock.density);
 }
 
 double largest_diameter(const FeedRequest& request) {

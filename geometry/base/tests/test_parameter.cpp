@@ -39,8 +39,6 @@ ParameterTable sample_table() {
     Parameter radius = make("suction.mouth_radius_m", ParameterKind::number);
     radius.optional = true;
     radius.derived_from = "0.25 ring radius";
-    Parameter axis = make("suction.axis", ParameterKind::vector3);
-    axis.default_value = Vec3(0.0, 0.0, 1.0);
     Parameter file = make("suction.file", ParameterKind::path);
     file.default_value = std::string("a \"b\".stl");
     Parameter open = make("suction.open", ParameterKind::boolean);
@@ -55,7 +53,7 @@ ParameterTable sample_table() {
     diameter.repeated = true;
     diameter.unit = "m";
     diameter.default_value = 0.02;
-    return {speed, direction, blades, discharge, radius, axis, file, open, count, seed, diameter};
+    return {speed, direction, blades, discharge, radius, file, open, count, seed, diameter};
 }
 
 std::vector<Mistake> mistakes_in(const std::string& toml) {
@@ -86,7 +84,6 @@ TEST(Parameter, reads_every_kind_and_fills_in_defaults) {
 speed_rpm = 60
 direction = "left_handed"
 [suction]
-axis = [1, 0.5, 0]
 open = true
 file = "Cutter Head (rev B).STL"
 )",
@@ -96,7 +93,6 @@ file = "Cutter Head (rev B).STL"
     EXPECT_EQ(values.integer("rotor.blades"), 6);
     EXPECT_EQ(values.number("rotor.blades"), 6.0);
     EXPECT_EQ(values.number("suction.discharge_m3_s"), 0.12);
-    EXPECT_EQ(values.vector3("suction.axis"), Vec3(1.0, 0.5, 0.0));
     EXPECT_TRUE(values.boolean("suction.open"));
     EXPECT_EQ(values.text("suction.file"), "Cutter Head (rev B).STL");
     EXPECT_FALSE(values.has("suction.mouth_radius_m"));
@@ -171,8 +167,6 @@ TEST(Parameter, refuses_values_outside_their_type_or_bounds) {
     expect_contains(only_mistake_in("rotor.speed_rpm = true"), "wrong type");
     expect_contains(only_mistake_in(good + "rotor.blades = 6.0"), "a whole number");
     expect_contains(only_mistake_in(good + "rotor.blades = 0"), "at least 1");
-    expect_contains(only_mistake_in(good + "suction.axis = [1, 2]"), "three numbers");
-    expect_contains(only_mistake_in(good + "suction.axis = [1, 2, inf]"), "not finite");
     expect_contains(only_mistake_in(good + "suction.file = 3"), "a path in quotes");
     EXPECT_TRUE(mistakes_in("rotor.speed_rpm = 120").empty());
     EXPECT_TRUE(mistakes_in("rotor.speed_rpm = 0").empty());
@@ -211,7 +205,6 @@ count = 5
     EXPECT_EQ(again.number("rotor.speed_rpm"), 0.1);
     EXPECT_EQ(again.number("suction.mouth_radius_m"), 0.30000000000000004);
     EXPECT_EQ(again.text("suction.file"), "a \"b\".stl");
-    EXPECT_EQ(again.vector3("suction.axis"), Vec3(0.0, 0.0, 1.0));
     ASSERT_EQ(again.tables("feed").size(), 2u);
     ASSERT_EQ(again.tables("feed")[0].tables("feed.class").size(), 1u);
     EXPECT_EQ(again.tables("feed")[0].tables("feed.class")[0].number("feed.class.diameter_m"), 1e-3);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -20,7 +21,7 @@ constexpr double k_travel_share = 0.25;
 
 std::vector<double> volumes_of(const Rocks& rocks) {
     std::vector<double> volumes;
-    for (const double d : rocks.diameter) volumes.push_back(physics::sphere_volume(d));
+    for (const double d : rocks.diameter) volumes.push_back(sphere_volume(d));
     return volumes;
 }
 
@@ -117,7 +118,7 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
             rejected.push_back(candidates.id[p]);
             continue;
         }
-        const double volume = physics::sphere_volume(candidates.diameter[p]);
+        const double volume = sphere_volume(candidates.diameter[p]);
         booked_.volume += volume;
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
@@ -182,7 +183,7 @@ double KernelCoupling::travel_limit() const {
 
 /// The part of the force that does not follow the rock's velocity.
 Vec3 KernelCoupling::steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const {
-    const double volume = physics::sphere_volume(rock.diameter);
+    const double volume = sphere_volume(rock.diameter);
     Vec3 force = physics::fluid_acceleration_force(volume, properties_.density, settings_.closures.added_mass, flow.acceleration);
     if (!settings_.closures.viscous_force) force -= physics::viscous_force(volume, properties_.density, flow.stress_divergence);
     return force;
@@ -325,13 +326,12 @@ void KernelCoupling::check_ranges() {
 
 void KernelCoupling::check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id) {
     for (const physics::ClosureRange& range : closure.ranges) {
-        const double value = numbers.named(range.argument);
-        // Below their range Reynolds numbers lead to Stokes' drag and constant hindrance: only the upper ends mislead.
-        const bool below = value < range.minimum && range.argument.substr(0, 2) != "Re";
-        if (below || value > range.maximum)
-            warn_once(std::string(closure.name) + std::string(range.argument),
+        const double value = numbers.value_of(range.argument);
+        const std::string_view symbol = physics::argument_symbol(range.argument);
+        if (range.excludes(value))
+            warn_once(std::string(closure.name) + std::string(symbol),
                       fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
-                                  range.argument, value, id, range.minimum, range.maximum, closure.citation));
+                                  symbol, value, id, range.minimum, range.maximum, closure.citation));
     }
 }
 
@@ -364,7 +364,7 @@ void KernelCoupling::follow_departures() {
         id.push_back(before_.id[p]);
         position.push_back(before_.position[p]);
         diameter.push_back(before_.diameter[p]);
-        volume.push_back(physics::sphere_volume(before_.diameter[p]));
+        volume.push_back(sphere_volume(before_.diameter[p]));
         impulse.push_back(step_.left_impulse[k]);
         velocity_change.push_back(step_.left.velocity[k] - before_.velocity[p]);
         booked_.volume -= volume.back();

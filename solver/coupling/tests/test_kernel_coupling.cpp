@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
 #include "solver/physics/lift.hpp"
-#include "solver/physics/settling.hpp"
+#include "solver/physics/testing/fall_from_rest.hpp"
 #include "solver/ports/testing/fake_engines.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
 
@@ -91,7 +92,7 @@ TEST(Exchange, hands_what_rock_loses_to_the_fluid) {
             carried += mass * rig.coupling.carry()[c][0];
         }
     }
-    const double lost = 2650.0 * physics::sphere_volume(0.02) * (1.0 - rig.dem.rocks().velocity[0][0]);
+    const double lost = 2650.0 * sphere_volume(0.02) * (1.0 - rig.dem.rocks().velocity[0][0]);
     EXPECT_GT(lost, 1e-3);
     EXPECT_NEAR(gained + carried, lost, 1e-10 * lost);
     EXPECT_LE(std::abs(carried), 0.1 * lost);
@@ -160,7 +161,7 @@ TEST(Exchange, gives_back_to_the_fluid_what_lift_and_viscous_stress_do_to_rock) 
     rig.fluid.curl.assign(rig.fluid.mesh.size(), Vec3(0.0, 0.0, 4000.0));
     rig.fluid.stress.assign(rig.fluid.mesh.size(), Vec3(0.0, 0.0, 0.3));
     rig.coupling.insert({rock(1, Vec3::Zero(), 0.02, Vec3(-0.05, 0.0, 0.0))});
-    const double volume = physics::sphere_volume(0.02), inertia = (2650.0 + 0.5 * k_water.density) * volume;
+    const double volume = sphere_volume(0.02), inertia = (2650.0 + 0.5 * k_water.density) * volume;
     const physics::RockInFluid in_water{0.02, k_water.density, k_water.kinematic_viscosity};
     const Vec3 lift = physics::lift_force(in_water, Vec3(0.05, 0.0, 0.0), Vec3(0.0, 0.0, 4000.0), physics::mei_lift_coefficient);
     ASSERT_GT(lift.norm(), 1e-4);
@@ -190,7 +191,7 @@ TEST(Insertion, makes_no_source) {
         ASSERT_NEAR(rig.fluid.void_fraction_old[c], at_insertion[c], 1e-14);
         ASSERT_NEAR(rig.fluid.void_fraction[c], at_insertion[c], 1e-14);
     }
-    EXPECT_NEAR(rig.coupling.booked().volume, 2.0 * physics::sphere_volume(0.02), 1e-18);
+    EXPECT_NEAR(rig.coupling.booked().volume, 2.0 * sphere_volume(0.02), 1e-18);
 }
 
 TEST(Insertion, gives_rock_the_velocity_of_the_fluid_around_it) {
@@ -200,7 +201,7 @@ TEST(Insertion, gives_rock_the_velocity_of_the_fluid_around_it) {
     ASSERT_EQ(rig.dem.rocks().id, (std::vector<int>{2, 4}));
     EXPECT_LE((rig.dem.rocks().velocity[0] - Vec3(0, 0, 1)).norm(), 1e-15);
     EXPECT_LE((rig.dem.rocks().velocity[1] - Vec3(0.5, -0.2, 0.1)).norm(), 1e-12);
-    const double fluid_momentum = 998.2 * physics::sphere_volume(0.02) * 2.0;
+    const double fluid_momentum = 998.2 * sphere_volume(0.02) * 2.0;
     EXPECT_LE((rig.coupling.booked().momentum - fluid_momentum * Vec3(0.5, -0.2, 0.1)).norm(), 1e-12);
 }
 
@@ -208,7 +209,7 @@ TEST(Insertion, names_rock_that_finds_no_place) {
     Rig rig(box(0.15, 0.01), {}, 1e-3);
     rig.dem.refuses = [](int id) { return id == 3; };
     EXPECT_EQ(rig.coupling.insert({rock(3, Vec3(0.01, 0, 0), 0.02), rock(2, Vec3(0.05, 0, 0), 0.02)}), std::vector<int>{3});
-    EXPECT_NEAR(rig.coupling.booked().volume, physics::sphere_volume(0.02), 1e-18);
+    EXPECT_NEAR(rig.coupling.booked().volume, sphere_volume(0.02), 1e-18);
 }
 
 TEST(Insertion, of_more_rock_than_there_is_room_for_is_refused) {
@@ -235,10 +236,10 @@ TEST(Departure, returns_impulse_and_makes_no_source) {
         double old_volume = 0.0;
         for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
             old_volume += (1.0 - rig.fluid.void_fraction_old[c]) * rig.fluid.mesh.volumes[c];
-        EXPECT_NEAR(old_volume, physics::sphere_volume(0.02), 1e-15);
+        EXPECT_NEAR(old_volume, sphere_volume(0.02), 1e-15);
     }
     EXPECT_TRUE(left);
-    EXPECT_NEAR(rig.coupling.booked().volume, physics::sphere_volume(0.02), 1e-18);
+    EXPECT_NEAR(rig.coupling.booked().volume, sphere_volume(0.02), 1e-18);
 }
 
 TEST(Settling, of_one_rock_in_a_fluid_that_stays_still_follows_the_equation_of_motion) {
@@ -251,7 +252,7 @@ TEST(Settling, of_one_rock_in_a_fluid_that_stays_still_follows_the_equation_of_m
     const double time = rig.fluid.time();
     // The rock's own solid thins the fluid around it a little, which the void fraction at the rock shows.
     reference.rock.void_fraction = rig.coupling.flow()[0].void_fraction;
-    const auto states = physics::fall_from_rest(reference, 0.5, time, time / 1000.0);
+    const auto states = physics::testing::fall_from_rest(reference, 0.5, time, time / 1000.0);
     EXPECT_NEAR(-rig.dem.rocks().velocity[0][2], states[1000].speed, 2e-3 * states[1000].speed);
     EXPECT_GT(reference.rock.void_fraction, 0.99);
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
@@ -27,7 +28,7 @@ struct TestRocks {
     RockShapes shapes() const { return {id, position, diameter}; }
     std::vector<double> volumes() const {
         std::vector<double> v;
-        for (const double d : diameter) v.push_back(physics::sphere_volume(d));
+        for (const double d : diameter) v.push_back(sphere_volume(d));
         return v;
     }
 };
@@ -200,7 +201,7 @@ StepChange change_along(Bench& bench, const Vec3& from, const Vec3& to, double s
         const std::vector<double> now = bench.solid_fraction(one_rock(from + (to - from) * i / n, d));
         double moved = 0.0;
         for (std::size_t c = 0; c < before.size(); ++c) {
-            moved += 0.5 * std::abs(now[c] - before[c]) * bench.mesh.volumes[c] / physics::sphere_volume(d);
+            moved += 0.5 * std::abs(now[c] - before[c]) * bench.mesh.volumes[c] / sphere_volume(d);
             change.largest = std::max(change.largest, std::abs(now[c] - before[c]));
         }
         change.moved = std::max(change.moved, moved);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts {
@@ -25,7 +26,7 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const Rota
       dry_damping_factor(physics::hertz_damping_factor(contact.restitution)) {}
 
 double ContactContext::mass_with_added_mass(double mass, double radius) const {
-    return mass + added_mass * fluid.density * 4.0 / 3.0 * k_pi * radius * radius * radius;
+    return mass + added_mass * fluid.density * sphere_volume(2.0 * radius);
 }
 
 double ContactContext::damping_factor(double impact_speed, double diameter, double density) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/drag.hpp"
 
 namespace cutterflow::coupling {
@@ -31,7 +32,7 @@ Fate TrackedRock::fate() const {
 }
 
 double TrackedRock::mass() const {
-    return density * physics::sphere_volume(diameter);
+    return sphere_mass(diameter, density);
 }
 
 FateTracker::FateTracker(const FateSettings& settings, geometry::Contour contour)

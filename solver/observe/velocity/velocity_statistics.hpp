@@ -46,7 +46,6 @@ public:
     int whole_revolutions() const;
     /// Of the n-th revolution, which may not be whole yet.
     const WeightedVelocity& revolution(std::size_t n, std::size_t point) const { return revolutions_[n][point]; }
-    std::size_t begun_revolutions() const { return revolutions_.size(); }
     const WeightedVelocity& phase(int phase, std::size_t point) const { return by_phase_[static_cast<std::size_t>(phase)][point]; }
 
     /// Over the whole revolutions; over what there is before the first one is whole. Weight 0: never in water.

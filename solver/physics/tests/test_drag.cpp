@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/drag.hpp"
 
 namespace cutterflow::physics {

@@ -1,7 +1,9 @@
 // Terminal speeds and the fall from rest of rock in water at 20 degrees, against values computed independently.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include "solver/physics/settling.hpp"
+#include "solver/physics/testing/fall_from_rest.hpp"
 
 namespace cutterflow::physics {
 namespace {
@@ -35,9 +37,10 @@ struct Milestone {
 TEST(FallFromRest, passes_the_milestones_of_a_20_mm_rock) {
     const SettlingRock rock = rock_in_water(0.02);
     const double terminal = terminal_slip_speed(rock);
-    const auto states = fall_from_rest(rock, 0.5, 0.6, 1e-4);
+    const auto states = testing::fall_from_rest(rock, 0.5, 0.6, 1e-4);
     for (const Milestone& m : {Milestone{0.5, 0.1053, 0.0273}, {0.9, 0.2783, 0.155}, {0.95, 0.3452, 0.217}, {0.99, 0.4966, 0.364}}) {
-        const auto passed = std::find_if(states.begin(), states.end(), [&](const FallState& s) { return s.speed >= m.share * terminal; });
+        const auto passed =
+            std::find_if(states.begin(), states.end(), [&](const testing::FallState& s) { return s.speed >= m.share * terminal; });
         ASSERT_NE(passed, states.end());
         EXPECT_NEAR(passed->time, m.time, 2e-4);
         EXPECT_NEAR(passed->distance, m.distance, 6e-4);

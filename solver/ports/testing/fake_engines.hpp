@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
@@ -137,7 +138,7 @@ public:
         step.substeps = std::max(1, static_cast<int>(std::ceil(duration / largest_time_step())));
         const double dt = duration / step.substeps;
         for (std::size_t p = 0; p < rocks_.size(); ++p) {
-            const double volume = physics::sphere_volume(rocks_.diameter[p]);
+            const double volume = sphere_volume(rocks_.diameter[p]);
             const double inertia = (rocks_.density[p] + added_mass_ * fluid_density_) * volume;
             const Vec3 weight = (rocks_.density[p] - fluid_density_) * volume * gravity;
             Vec3 impulse = Vec3::Zero();

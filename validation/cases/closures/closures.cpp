@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cases/study/study.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/physics/lift.hpp"
@@ -39,21 +38,14 @@ void check_drag(Verification& verification) {
     const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/drag.csv", columns);
     for (const auto& [name, source] : laws) {
         const physics::DragLaw law = physics::find_drag_law(name);
-        Worst coefficient, force;
+        Worst coefficient;
         for (std::size_t i = 0; i < table.rows(); ++i) {
             const double reynolds = table.at("Re")[i], reference = table.at(name)[i];
             coefficient.take(law({reynolds, table.at("void fraction")[i], table.at("sphericity")[i]}), reference);
-            // 3 times the drag of a rock of 2 mm in water: the drag modifier.
-            const double diameter = 0.002, density = 998.2, viscosity = 1.0034e-6, slip = reynolds * viscosity / diameter;
-            const physics::RockInFluid rock{diameter, density, viscosity, table.at("void fraction")[i], table.at("sphericity")[i]};
-            force.take(physics::drag_coefficient_per_slip(rock, slip, law, physics::no_hindrance, 3.0) * slip,
-                       3.0 * 0.5 * density * 0.78539816339744831 * diameter * diameter * slip * slip * reference);
         }
         verification.at_most(
             fmt::format("{}: largest relative error of the drag coefficient", name), "-", coefficient.error(), k_tolerance,
             {source, "11 states, Re 0.01 to 2e5, void fraction 0.45 to 0.99, sphericity 0.6 to 1; in the form of model B", {}});
-        verification.at_most(fmt::format("{}: largest relative error of the force with drag modifier 3", name), "-", force.error(),
-                             k_tolerance, {source, "the same states, 2 mm in water", {}});
     }
 }
 
@@ -105,34 +97,11 @@ void check_fluid_forces(Verification& verification) {
                           k_tolerance, {"NieuwboerVanRheeKeetels2023", "rho V div tau", {}});
 }
 
-/// Words that a key of the study takes.
-std::vector<std::string> words_of(const std::string& key) {
-    for (const Parameter& parameter : cases::study_table())
-        if (parameter.key == key) return parameter.choices;
-    return {};
-}
-
-void check_choices(Verification& verification) {
-    const std::pair<const char*, std::vector<std::string>> wanted[] = {
-        {"closures.drag", {"brown_lawler", "schiller_naumann", "haider_levenspiel", "gidaspow", "koch_hill"}},
-        {"closures.hindrance", {"di_felice"}},
-        {"closures.lift", {"mei"}}};
-    for (const auto& [key, laws] : wanted) {
-        const std::vector<std::string> offered = words_of(key);
-        const auto found = std::count_if(laws.begin(), laws.end(), [&](const std::string& law) {
-            return std::find(offered.begin(), offered.end(), law) != offered.end();
-        });
-        verification.absolute(fmt::format("laws that {} offers", key), "-", static_cast<double>(found), static_cast<double>(laws.size()),
-                              0.0, {"exact", fmt::format("{}", fmt::join(laws, ", ")), {}});
-    }
-}
-
 void run(Verification& verification) {
     check_drag(verification);
     check_hindrance(verification);
     check_lift(verification);
     check_fluid_forces(verification);
-    check_choices(verification);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
@@ -75,7 +76,7 @@ public:
     }
     std::vector<double> solid_fraction() const {
         std::vector<double> fraction(mesh_.size(), 0.0);
-        const double volume = physics::sphere_volume(diameter_[0]);
+        const double volume = sphere_volume(diameter_[0]);
         coupling::deposit(stencils_, gsl::span<const double>(&volume, 1), fraction);
         return fraction;
     }
@@ -164,7 +165,7 @@ StepChange change_along(Placed& rock, const Vec3& from, const Vec3& to, double s
         std::vector<double> now = rock.solid_fraction();
         double moved = 0.0;
         for (std::size_t c = 0; c < before.size(); ++c) {
-            moved += 0.5 * std::abs(now[c] - before[c]) * rock.mesh().volumes[c] / physics::sphere_volume(k_diameter);
+            moved += 0.5 * std::abs(now[c] - before[c]) * rock.mesh().volumes[c] / sphere_volume(k_diameter);
             change.largest = std::max(change.largest, std::abs(now[c] - before[c]));
         }
         change.moved = std::max(change.moved, moved);
