@@ -37,11 +37,12 @@ void run(int argc, char** argv) {
     foam::PstreamCommunicator communicator;
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
 
-    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock);
+    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches);
     std::unique_ptr<liggghts::LiggghtsEngine> dem;
     if (dictionary.dem) {
         dictionary.dem->log = session.case_folder() / "log.liggghts";
-        dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, fluid.rotor(), MPI_COMM_WORLD);
+        const auto moving = fluid.moving_zones();
+        dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, std::vector(moving.begin(), moving.end()), MPI_COMM_WORLD);
     }
     const auto recorder = make_recorder(session, dictionary, fluid, communicator.rank() == 0);
 

@@ -8,9 +8,8 @@ namespace {
 
 void add_flow_models(const foam::FoamFluidEngine& fluid, std::vector<coupling::ModelNote>& notes) {
     notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
-    const double speed = fluid.rotor().speed;
-    if (speed != 0.0)
-        notes.push_back({fmt::format("sliding mesh at {:.6g} rad/s", speed), "constant/dynamicMeshDict turns the zone rotor"});
+    for (const coupling::ZoneMotion& zone : fluid.moving_zones())
+        notes.push_back({fmt::format("sliding mesh: {} at {:.6g} rad/s", zone.name, zone.speed), "constant/dynamicMeshDict turns it"});
 }
 
 void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {

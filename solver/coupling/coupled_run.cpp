@@ -41,12 +41,13 @@ void append(std::vector<Mistake>& all, const std::vector<Mistake>& more) {
 }
 
 /// The head's contour, bins and azimuths are about the z axis.
-std::vector<Mistake> check_axis(const RotationAxis& axis) {
+std::vector<Mistake> check_axis(const ZoneMotion& zone) {
+    const RotationAxis& axis = zone.axis;
     const bool is_z = axis.direction.head<2>().norm() < k_axis_tolerance && axis.origin.head<2>().norm() < k_axis_tolerance;
     if (is_z) return {};
     const auto text = [](const Vec3& v) { return fmt::format("({:.6g} {:.6g} {:.6g})", v[0], v[1], v[2]); };
     return {{"constant/dynamicMeshDict",
-             fmt::format("the mesh turns about an axis along {} through {}", text(axis.direction), text(axis.origin)),
+             fmt::format("cell zone {} turns about an axis along {} through {}", zone.name, text(axis.direction), text(axis.origin)),
              "Sections fates and outflow of constant/couplingProperties take the z axis for the head's",
              "Place the head on the z axis, or remove the two sections"}};
 }
@@ -57,7 +58,8 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
                        Communicator& communicator, RunRecorder& recorder, const fs::path& case_folder)
     : settings_(settings), fluid_(fluid), dem_(dem), communicator_(communicator), recorder_(recorder), case_folder_(case_folder) {
     std::vector<Mistake> mistakes = check_settings(settings, properties, names::coupling_properties);
-    if (settings.fates || settings.outflow) append(mistakes, check_axis(fluid.rotor().axis));
+    if (settings.fates || settings.outflow)
+        for (const ZoneMotion& zone : fluid.moving_zones()) append(mistakes, check_axis(zone));
     if (settings.has_rock && !settings.rock_feed.empty()) {
         try {
             feed_ = read_rock_feed(settings.rock_feed);
@@ -110,7 +112,8 @@ void CoupledRun::step() {
 }
 
 RunInstant CoupledRun::now() const {
-    return {fluid_.time(), fluid_.rotor().angle(fluid_.time())};
+    const auto moving = fluid_.moving_zones();
+    return {fluid_.time(), moving.empty() ? 0.0 : moving[0].angle(fluid_.time())};
 }
 
 void CoupledRun::insert_due_rock() {
@@ -157,13 +160,17 @@ void CoupledRun::move_rock() {
 }
 
 void CoupledRun::require_equal_angles() const {
-    const double mesh = fluid_.rotor().angle(fluid_.time());
-    const double walls = dem_->rotor_angle();
-    // The walls' angle is measured within one turn.
-    if (std::abs(std::remainder(walls - mesh, 2.0 * k_pi)) <= k_angle_tolerance * std::max(1.0, std::abs(mesh))) return;
-    throw CheckFailure(
-        {"", fmt::format("the rotor's walls are at {:.12g} rad, its mesh at {:.12g} rad, at time {:.9g} s", walls, mesh, fluid_.time()),
-         "The rotor's angle must be equal for fluid and rock", "Report this as a defect"});
+    const std::vector<double> walls = dem_->zone_angles();
+    const auto moving = fluid_.moving_zones();
+    for (std::size_t zone = 0; zone < walls.size(); ++zone) {
+        const double mesh = moving[zone].angle(fluid_.time());
+        // The walls' angle is measured within one turn.
+        if (std::abs(std::remainder(walls[zone] - mesh, 2.0 * k_pi)) <= k_angle_tolerance * std::max(1.0, std::abs(mesh))) continue;
+        throw CheckFailure({"",
+                            fmt::format("the walls of zone {} are at {:.12g} rad, its mesh at {:.12g} rad, at time {:.9g} s",
+                                        moving[zone].name, walls[zone], mesh, fluid_.time()),
+                            "The angle of a zone must be equal for fluid and rock", "Report this as a defect"});
+    }
 }
 
 void CoupledRun::map_rock() {
@@ -217,7 +224,8 @@ void CoupledRun::report() {
 
 void CoupledRun::report_loads_and_balance() {
     const FluidLoads loads = fluid_.loads();
-    const double speed = fluid_.rotor().speed;
+    const auto moving = fluid_.moving_zones();
+    const double speed = moving.empty() ? 0.0 : moving[0].speed;
     LoadsRow row{fluid_.time(), now().rotor_angle, loads.torque_pressure, loads.torque_viscous, moved_.cutter_torque, 0.0};
     row.power = -(row.torque_pressure + row.torque_viscous + row.torque_rock) * speed;
     recorder_.loads(row);
@@ -226,8 +234,7 @@ void CoupledRun::report_loads_and_balance() {
     balance.time = fluid_.time();
     balance.solid_volume_error = balance_.solid_volume_error;
     balance.momentum_exchange_error = balance_.momentum_exchange_error;
-    const double through = std::abs(loads.outlet_flow);
-    balance.flow_balance_error = through > 0.0 ? std::abs(loads.boundary_flow) / through : 0.0;
+    balance.flow_balance_error = loads.through_flow > 0.0 ? std::abs(loads.boundary_flow) / loads.through_flow : 0.0;
     balance.interface_imbalance = loads.interface_imbalance;
     balance.continuity_error = loads.continuity_error;
     balance.outlet_flow = loads.outlet_flow;

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "geometry/base/error.hpp"
-#include "geometry/head/head_names.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/foam/single_phase/cutter_fluid.hpp"
 #include "solver/foam/single_phase/flow_loads.hpp"
-#include "solver/foam/single_phase/rotor_motion.hpp"
+#include "solver/foam/single_phase/moving_zones.hpp"
+#include "solver/foam/single_phase/patch_roles.hpp"
 #include "solver/foam/single_phase/steel_faces.hpp"
 #include "solver/foam/single_phase/velocity_sampler.hpp"
 
@@ -26,20 +26,14 @@
 namespace cutterflow::foam {
 namespace {
 
-std::vector<std::uint8_t> mark_rotor_cells(const Foam::fvMesh& mesh) {
-    std::vector<std::uint8_t> in_rotor(static_cast<std::size_t>(mesh.nCells()), 0);
-    const Foam::label zone = mesh.cellZones().findZoneID(names::rotor_zone);
-    if (zone < 0) return in_rotor;
-    for (const Foam::label cell : mesh.cellZones()[zone]) in_rotor[cell] = 1;
-    return in_rotor;
-}
-
-std::vector<Vec3> centres_in_zone_frame(const Foam::fvMesh& mesh, const std::vector<std::uint8_t>& in_rotor, const RotationAxis& axis,
-                                        double rotor_angle) {
-    std::vector<Vec3> centres(in_rotor.size());
+std::vector<Vec3> centres_in_zone_frame(const Foam::fvMesh& mesh, const MovingZones& zones) {
+    const double time = mesh.time().value();
+    std::vector<Vec3> centres(zones.of_cells.size());
     for (std::size_t i = 0; i < centres.size(); ++i) {
-        const Vec3 centre = to_vec3(mesh.C()[static_cast<Foam::label>(i)]);
-        centres[i] = in_rotor[i] ? rotate_about(axis, -rotor_angle, centre) : centre;
+        centres[i] = to_vec3(mesh.C()[static_cast<Foam::label>(i)]);
+        if (zones.of_cells[i] == coupling::k_still_zone) continue;
+        const coupling::ZoneMotion& motion = zones.motion[zones.of_cells[i] - 1u];
+        centres[i] = rotate_about(motion.axis, -motion.angle(time), centres[i]);
     }
     return centres;
 }
@@ -90,23 +84,23 @@ void add_up_wall_motion(const Foam::fvMesh& mesh, std::vector<double>& of_cells)
 }  // namespace
 
 struct FoamFluidEngine::Parts {
-    Parts(FoamSession& session, bool with_rock)
+    Parts(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches)
         : time(session.time()),
-          motion(read_rotor_motion(session.mesh())),
+          zones(read_moving_zones(session.mesh())),
+          roles(find_patch_roles(session.mesh(), patches)),
           fluid(session.mesh(), with_rock ? Rock::present : Rock::absent),
-          in_rotor(mark_rotor_cells(session.mesh())),
-          centres(centres_in_zone_frame(session.mesh(), in_rotor, motion.axis, motion.angle(session.time().value()))),
+          centres(centres_in_zone_frame(session.mesh(), zones)),
           volumes(session.mesh().V().begin(), session.mesh().V().end()),
           sizes(smooth_cell_sizes(session.mesh())),
           ids(numbers_in_whole_mesh(session.mesh())),
           wall_retreat(volumes.size(), 0.0) {}
 
-    coupling::Cells cells() const { return {centres, volumes, sizes, in_rotor, ids}; }
+    coupling::Cells cells() const { return {centres, volumes, sizes, zones.of_cells, ids}; }
 
     const Foam::Time& time;
-    coupling::RotorMotion motion;
+    MovingZones zones;
+    PatchRoles roles;
     CutterFluid fluid;
-    std::vector<std::uint8_t> in_rotor;
     std::vector<Vec3> centres;
     std::vector<double> volumes;
     std::vector<double> sizes;
@@ -114,14 +108,14 @@ struct FoamFluidEngine::Parts {
     std::vector<double> wall_retreat;
     Foam::vectorField vorticity, stress_divergence;
     PstreamCommunicator communicator;
-    SteelFaces steel;
+    SteelFaces steel;  // empty until it is asked for
     std::unique_ptr<VelocitySampler> sampler;
 };
 
-FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock) : parts_(std::make_unique<Parts>(session, with_rock)) {
+FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches)
+    : parts_(std::make_unique<Parts>(session, with_rock, patches)) {
     Parts& p = *parts_;
-    if (with_rock) p.steel = gather_steel_faces(p.fluid.mesh(), p.in_rotor, p.motion.axis, p.motion.angle(time()));
-    p.sampler = std::make_unique<VelocitySampler>(p.fluid.mesh(), p.cells(), p.motion);
+    p.sampler = std::make_unique<VelocitySampler>(p.fluid.mesh(), p.cells(), p.zones.motion);
 }
 
 FoamFluidEngine::~FoamFluidEngine() = default;
@@ -130,10 +124,12 @@ coupling::Cells FoamFluidEngine::cells() const {
     return parts_->cells();
 }
 coupling::Steel FoamFluidEngine::steel() const {
-    return {parts_->steel.rotor, parts_->steel.stator};
+    Parts& p = *parts_;
+    if (p.steel.empty()) p.steel = gather_steel_faces(p.fluid.mesh(), p.roles.steel, p.zones, time());
+    return {{p.steel.begin(), p.steel.end()}};
 }
-coupling::RotorMotion FoamFluidEngine::rotor() const {
-    return parts_->motion;
+gsl::span<const coupling::ZoneMotion> FoamFluidEngine::moving_zones() const {
+    return parts_->zones.motion;
 }
 
 coupling::FluidFields FoamFluidEngine::fields() const {
@@ -188,7 +184,7 @@ void FoamFluidEngine::sample_velocity(gsl::span<const Vec3> points, gsl::span<Ve
 }
 
 coupling::FluidLoads FoamFluidEngine::loads() {
-    return compute_loads(parts_->fluid, parts_->in_rotor, parts_->motion);
+    return compute_loads(parts_->fluid, parts_->zones, parts_->roles.outlet);
 }
 bool FoamFluidEngine::write_if_due() {
     return parts_->fluid.write_if_due();

@@ -14,13 +14,14 @@ class FoamSession;
 class FoamFluidEngine final : public coupling::FluidEngine {
 public:
     /// \param with_rock  false: a pure flow; void fraction and exchange of end_step are then not looked at and may be empty
-    /// \throws UserError  when dynamicMeshDict moves the mesh otherwise than by a rotor, or fvSchemes does not suit rock
-    FoamFluidEngine(FoamSession& session, bool with_rock);
+    /// \throws UserError  when dynamicMeshDict moves the mesh otherwise than by a rotor, a named patch is not there, or fvSchemes does not
+    /// suit rock
+    FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches = {});
     ~FoamFluidEngine() override;
 
     coupling::Cells cells() const override;
     coupling::Steel steel() const override;
-    coupling::RotorMotion rotor() const override;
+    gsl::span<const coupling::ZoneMotion> moving_zones() const override;
     coupling::FluidFields fields() const override;
     gsl::span<const Vec3> vorticity() override;
     gsl::span<const Vec3> stress_divergence() override;

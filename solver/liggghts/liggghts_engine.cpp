@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <gsl/assert>
 #include <nlohmann/json.hpp>
 
 #include "atom.h"
@@ -110,7 +111,7 @@ private:
 
 class LiggghtsEngine::Implementation {
 public:
-    Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator);
+    Implementation(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving, MPI_Comm communicator);
     ~Implementation();
 
     const Rocks& rocks() const { return rocks_; }
@@ -118,11 +119,15 @@ public:
     std::vector<int> insert(const Rocks& candidates);
     void remove(gsl::span<const int> ids);
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force);
-    double rotor_angle() const;
+    std::vector<double> zone_angles() const {
+        if (!has_rotor_) return {};
+        return {rotor_angle()};
+    }
     void write_checkpoint(const std::filesystem::path& folder);
     void read_checkpoint(const std::filesystem::path& folder);
 
 private:
+    double rotor_angle() const;
     void read_walls();
     bool turns() const { return rotor_.speed != 0.0; }
     void start_liggghts();
@@ -150,7 +155,8 @@ private:
     bool is_first_rank() const;
 
     coupling::DemSettings settings_;
-    coupling::RotorMotion rotor_;
+    bool has_rotor_;
+    coupling::ZoneMotion rotor_;  // the only moving zone; at rest when there is none
     MPI_Comm communicator_ = MPI_COMM_NULL;
     ContactContext context_;
     std::optional<WallContacts> wall_contacts_;
@@ -176,9 +182,13 @@ const coupling::DemSettings& checked(const coupling::DemSettings& settings) {
 
 }  // namespace
 
-LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor,
+LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving,
                                                MPI_Comm communicator)
-    : settings_(checked(settings)), rotor_(rotor), context_(settings, rotor.axis) {
+    : settings_(checked(settings)),
+      has_rotor_(!moving.empty()),
+      rotor_(has_rotor_ ? moving.front() : coupling::ZoneMotion{}),
+      context_(settings, rotor_.axis) {
+    Expects(moving.size() <= 1);
     read_walls();
     MPI_Comm_dup(communicator, &communicator_);
     register_contact_models();
@@ -605,8 +615,8 @@ void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path
     set_up_needed_ = true;
 }
 
-LiggghtsEngine::LiggghtsEngine(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator)
-    : implementation_(std::make_unique<Implementation>(settings, rotor, communicator)) {}
+LiggghtsEngine::LiggghtsEngine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving, MPI_Comm communicator)
+    : implementation_(std::make_unique<Implementation>(settings, std::move(moving), communicator)) {}
 LiggghtsEngine::~LiggghtsEngine() = default;
 const Rocks& LiggghtsEngine::rocks() const {
     return implementation_->rocks();
@@ -623,8 +633,8 @@ void LiggghtsEngine::remove(gsl::span<const int> ids) {
 coupling::DemStep LiggghtsEngine::advance(double duration, const coupling::HydrodynamicForce& force) {
     return implementation_->advance(duration, force);
 }
-double LiggghtsEngine::rotor_angle() const {
-    return implementation_->rotor_angle();
+std::vector<double> LiggghtsEngine::zone_angles() const {
+    return implementation_->zone_angles();
 }
 void LiggghtsEngine::write_checkpoint(const std::filesystem::path& folder) {
     implementation_->write_checkpoint(folder);

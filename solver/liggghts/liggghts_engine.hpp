@@ -15,8 +15,9 @@ namespace cutterflow::liggghts {
 /// is therefore checked before.
 class LiggghtsEngine final : public coupling::DemEngine {
 public:
+    /// \param moving  of the fluid's mesh, one at most; rotating walls turn with it
     /// \throws UserError  with every mistake of the settings: bounds, walls that cannot be read
-    LiggghtsEngine(const coupling::DemSettings& settings, const coupling::RotorMotion& rotor, MPI_Comm communicator);
+    LiggghtsEngine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving, MPI_Comm communicator);
     ~LiggghtsEngine() override;
 
     const coupling::Rocks& rocks() const override;
@@ -24,8 +25,8 @@ public:
     std::vector<int> insert(const coupling::Rocks& rocks) override;
     void remove(gsl::span<const int> ids) override;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override;
-    /// Measured on the corner of the rotating steel farthest from the axis; speed times time when no steel turns.
-    double rotor_angle() const override;
+    /// Measured on the corner of the rotating steel farthest from the axis; speed times time when the zone has no steel.
+    std::vector<double> zone_angles() const override;
     void write_checkpoint(const std::filesystem::path& folder) override;
     void read_checkpoint(const std::filesystem::path& folder) override;
 

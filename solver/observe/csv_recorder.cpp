@@ -109,10 +109,10 @@ void CsvRecorder::loads(const LoadsRow& row) {
 }
 
 void CsvRecorder::balance(const BalanceRow& row) {
-    fmt::print(balance_, "{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{},{},{},{:.9g},{:.9g}\n", row.time,
+    fmt::print(balance_, "{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{},{},{:.6g},{:.6g},{:.6g},{},{},{},{:.9g},{:.9g}\n", row.time,
                row.solid_volume_error, row.momentum_exchange_error, row.flow_balance_error, row.interface_imbalance, row.continuity_error,
-               row.outlet_flow, row.outlet_pressure, row.solid_fraction_max, row.courant_max, row.overlap_ratio_max, row.dem_substeps,
-               row.rocks, row.contacts, row.exchanged_volume, row.exchanged_momentum);
+               optional_number(row.outlet_flow), optional_number(row.outlet_pressure), row.solid_fraction_max, row.courant_max,
+               row.overlap_ratio_max, row.dem_substeps, row.rocks, row.contacts, row.exchanged_volume, row.exchanged_momentum);
 }
 
 void CsvRecorder::cost(const CostRow& row) {

@@ -89,10 +89,10 @@ struct BalanceRow {
     double time = 0.0;
     double solid_volume_error = 0.0;       ///< |volume on the mesh - volume of rock| / volume of rock
     double momentum_exchange_error = 0.0;  ///< |rock + fluid + carry| / sum |impulse|
-    double flow_balance_error = 0.0;       ///< |net boundary flow| / |outlet flow|
+    double flow_balance_error = 0.0;       ///< |net boundary flow| / flow through the open patches
     double interface_imbalance = 0.0;
     double continuity_error = 0.0;
-    double outlet_flow = 0.0, outlet_pressure = 0.0;
+    std::optional<double> outlet_flow, outlet_pressure;  ///< of the named outlet [m3/s], [m2/s2]
     double solid_fraction_max = 0.0;
     double courant_max = 0.0;
     double overlap_ratio_max = 0.0;

@@ -23,7 +23,7 @@ struct ContactSettings {
     double max_speed = 0.0;           ///< impact speed for the Hertz time [m/s]
 };
 
-/// A wall given as STL [m, run frame]; a rotating one is given at rotor angle 0.
+/// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0.
 struct WallSettings {
     std::string name;
     std::filesystem::path file;

@@ -2,6 +2,7 @@
 /// \file Port to the fluid solver: flat arrays over this rank's cells, in mesh order. solver/foam implements it; tests use fakes.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,21 +13,26 @@
 
 namespace cutterflow::coupling {
 
-/// Rigid rotation of the rotor: angle(t) = speed * t, the one source for mesh, DEM walls and reports.
-struct RotorMotion {
+/// Rigid rotation of a zone of the mesh: angle(t) = speed * t, the one source for mesh, DEM walls and reports.
+struct ZoneMotion {
     RotationAxis axis;
-    double speed = 0.0;  ///< [rad/s], right-handed about the axis; 0 = no rotor turns
+    double speed = 0.0;  ///< [rad/s], right-handed about the axis
+    std::string name{};  ///< of the zone in the mesh
     double angle(double time) const { return speed * time; }
 };
 
-/// The cells of this rank. They do not move in their zone's frame: rotor cells are given at rotor angle 0, stator cells in the absolute
-/// frame. The arrays (and those of Steel) stay as they are, in place and value, for the engine's life.
+/// Number of a zone: 0 is the part of the mesh that stands still, k the moving zone k - 1 of FluidEngine::moving_zones().
+using Zone = std::size_t;
+inline constexpr Zone k_still_zone = 0;
+
+/// The cells of this rank. They do not move in their zone's frame: cells of a moving zone are given at angle 0, the others in the
+/// absolute frame. The arrays (and those of Steel) stay as they are, in place and value, for the engine's life.
 struct Cells {
-    gsl::span<const Vec3> centres;           ///< [m], zone's frame
-    gsl::span<const double> volumes;         ///< [m3]
-    gsl::span<const double> sizes;           ///< cell size dx [m], smooth in space
-    gsl::span<const std::uint8_t> in_rotor;  ///< 1 for rotor cells
-    gsl::span<const std::int64_t> ids;       ///< number in the whole mesh, whatever the number of ranks
+    gsl::span<const Vec3> centres;       ///< [m], zone's frame
+    gsl::span<const double> volumes;     ///< [m3]
+    gsl::span<const double> sizes;       ///< cell size dx [m], smooth in space
+    gsl::span<const std::uint8_t> zone;  ///< number of each cell's zone
+    gsl::span<const std::int64_t> ids;   ///< number in the whole mesh, whatever the number of ranks
 };
 
 /// A triangle of steel, in its zone's frame (as Cells).
@@ -36,8 +42,7 @@ struct SteelTriangle {
 
 /// All steel faces of the whole mesh (every rank has all of them): what hides a cell from a rock.
 struct Steel {
-    gsl::span<const SteelTriangle> rotor;
-    gsl::span<const SteelTriangle> stator;
+    std::vector<gsl::span<const SteelTriangle>> of_zone;  ///< by zone
 };
 
 /// Fields at the present time, one value per cell of this rank.
@@ -57,17 +62,18 @@ struct MomentumExchange {
     gsl::span<const double> inertia;        ///< (1 + C_AM) solid fraction [-], >= 0
 };
 
-/// Forces of the flow on the rotating steel about the rotor's axis, and flows through the boundary, at the present time (whole mesh).
+/// Forces of the flow on the steel of the moving zone about its axis (0 without one), and flows through the boundary, at the present time
+/// (whole mesh). Flows are of the fluid, alpha u, relative to the mesh, but for outlet_flow, which is of u.
 struct FluidLoads {
-    double torque_pressure = 0.0;  ///< [N m], positive about the axis' direction
-    double torque_viscous = 0.0;   ///< [N m]
-    double outlet_flow = 0.0;      ///< volume flow out of the suction pipe [m3/s]
-    double boundary_flow = 0.0;    ///< net volume flow out through all patches, the interface included: 0 when every cell closes [m3/s]
-    double interface_imbalance =
-        0.0;                        ///< |flow out of the rotor's side - flow into the stator's side| / gross flow through the interface [-]
-    double continuity_error = 0.0;  ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / gross boundary flow [-]
+    double torque_pressure = 0.0;           ///< [N m], positive about the axis' direction
+    double torque_viscous = 0.0;            ///< [N m]
+    std::optional<double> outlet_flow;      ///< volume flow out through the patch that PatchSettings::outlet names [m3/s]
+    std::optional<double> outlet_pressure;  ///< area mean of p* there [m2/s2]
+    double boundary_flow = 0.0;        ///< net volume flow out through all patches, interfaces included: 0 when every cell closes [m3/s]
+    double through_flow = 0.0;         ///< half of the sum of |flow| over the faces of all open patches [m3/s]
+    double interface_imbalance = 0.0;  ///< |flow out of one side - flow into the other side| / gross flow through interfaces [-]
+    double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / gross boundary flow [-]
     double courant_max = 0.0;
-    double outlet_pressure = 0.0;  ///< area mean of p* at the outlet [m2/s2]
 };
 
 class FluidEngine {
@@ -75,8 +81,10 @@ public:
     virtual ~FluidEngine() = default;
 
     virtual Cells cells() const = 0;
+    /// Collective when it is asked for the first time.
     virtual Steel steel() const = 0;
-    virtual RotorMotion rotor() const = 0;
+    /// Empty on a mesh that stands still.
+    virtual gsl::span<const ZoneMotion> moving_zones() const = 0;
     virtual FluidFields fields() const = 0;
 
     /// Curl of the velocity of fields() [1/s], per cell; computed on request. Collective.

@@ -9,7 +9,7 @@ namespace cutterflow::coupling {
 namespace {
 
 constexpr std::size_t k_neighbours = 24;
-// A rotor cell lies at the interface when a stator cell's centre is this many sizes away at most.
+// A moving cell lies at the interface when a still cell's centre is this many sizes away at most.
 constexpr double k_interface_reach = 1.5;
 
 /// The values of all ranks, rank by rank, on every rank.
@@ -30,12 +30,12 @@ std::vector<double> gather(Communicator& communicator, const std::vector<double>
 
 }  // namespace
 
-SizeField::SizeField(const Cells& cells, Communicator& communicator) : trees_{PointTree({}), PointTree({})} {
+SizeField::SizeField(const Cells& cells, std::size_t zones, Communicator& communicator) : centres_(zones), sizes_(zones) {
     smallest_ = std::numeric_limits<double>::infinity();
-    for (const Zone zone : k_zones) {
+    for (Zone zone = 0; zone < zones; ++zone) {
         std::vector<double> mine;
         for (std::size_t c = 0; c < cells.centres.size(); ++c) {
-            if ((cells.in_rotor[c] != 0) != (zone == rotor)) continue;
+            if (cells.zone[c] != zone) continue;
             mine.insert(mine.end(), cells.centres[c].data(), cells.centres[c].data() + 3);
             mine.push_back(cells.sizes[c]);
         }
@@ -45,7 +45,7 @@ SizeField::SizeField(const Cells& cells, Communicator& communicator) : trees_{Po
             sizes_[zone].push_back(all[i + 3]);
             smallest_ = std::min(smallest_, all[i + 3]);
         }
-        trees_[zone] = PointTree(centres_[zone]);
+        trees_.emplace_back(centres_[zone]);
     }
 }
 
@@ -58,15 +58,15 @@ SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& 
     std::array<Cell, 2 * k_neighbours> cells;  // nearest first
     std::size_t count = 0;
     std::vector<Neighbour> found;
-    for (const Zone zone : k_zones) {
+    for (Zone zone = 0; zone < trees_.size(); ++zone) {
         const std::size_t before = count;
         trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found);
         for (const Neighbour& n : found) cells[count++] = {n.squared_distance, zone, static_cast<std::size_t>(n.index)};
         std::inplace_merge(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before),
                            cells.begin() + static_cast<std::ptrdiff_t>(count),
                            [](const Cell& a, const Cell& b) { return a.squared_distance < b.squared_distance; });
+        count = std::min(k_neighbours, count);
     }
-    count = std::min(k_neighbours, count);
     const double reach2 = cells[count - 1].squared_distance;
     double sum = 0.0, weights = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -79,17 +79,20 @@ SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& 
             frames.to_absolute(nearest.zone, centres_[nearest.zone][nearest.index])};
 }
 
-double SizeField::interface_passage_time(const RotorMotion& motion) const {
-    if (motion.speed == 0.0) return std::numeric_limits<double>::infinity();
+double SizeField::interface_passage_time(gsl::span<const ZoneMotion> moving) const {
     double shortest = std::numeric_limits<double>::infinity();
     std::vector<Neighbour> found;
-    for (std::size_t c = 0; c < centres_[rotor].size(); ++c) {
-        const Vec3& centre = centres_[rotor][c];
-        const double size = sizes_[rotor][c];
-        trees_[stator].nearest(centre, 1, found);
-        if (found.empty() || found[0].squared_distance > std::pow(k_interface_reach * size, 2)) continue;
-        const double speed = std::abs(motion.speed) * motion.axis.direction.cross(centre - motion.axis.origin).norm();
-        if (speed > 0.0) shortest = std::min(shortest, size / speed);
+    for (Zone zone = 1; zone < trees_.size(); ++zone) {
+        const ZoneMotion& motion = moving[zone - 1];
+        if (motion.speed == 0.0) continue;
+        for (std::size_t c = 0; c < centres_[zone].size(); ++c) {
+            const Vec3& centre = centres_[zone][c];
+            const double size = sizes_[zone][c];
+            trees_[k_still_zone].nearest(centre, 1, found);
+            if (found.empty() || found[0].squared_distance > std::pow(k_interface_reach * size, 2)) continue;
+            const double speed = std::abs(motion.speed) * motion.axis.direction.cross(centre - motion.axis.origin).norm();
+            if (speed > 0.0) shortest = std::min(shortest, size / speed);
+        }
     }
     return shortest;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Cell size at any point of the moving mesh: smooth in space, across the rotor interface and the same on every rank.
-#include <array>
+#include <vector>
 
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/fluid_engine.hpp"
@@ -12,11 +12,12 @@ namespace cutterflow::coupling {
 /// Every rank has centres and sizes of all cells of the mesh (32 bytes per cell), so that no communication is needed.
 class SizeField {
 public:
-    SizeField(const Cells& cells, Communicator& communicator);
+    /// \param zones  number of zones of the mesh
+    SizeField(const Cells& cells, std::size_t zones, Communicator& communicator);
 
     /// The mesh about a point.
     struct Surroundings {
-        double size;          ///< cell size dx [m]: mean over the k = 24 nearest cells of both zones with weights (1 - (r/r_k)^2)^2, which
+        double size;          ///< cell size dx [m]: mean over the k = 24 nearest cells of all zones with weights (1 - (r/r_k)^2)^2, which
                               ///< vanish where a cell enters or leaves the k nearest
         Zone nearest_zone;    ///< of the cell whose centre is nearest
         Vec3 nearest_centre;  ///< [m], absolute
@@ -26,16 +27,14 @@ public:
 
     double smallest() const { return smallest_; }
 
-    /// Smallest size over speed [s] of rotor cells along the rotor interface: the time in which the interface turns by one cell; infinity
-    /// when nothing turns.
-    double interface_passage_time(const RotorMotion& motion) const;
-
-    double cells() const { return static_cast<double>(sizes_[stator].size() + sizes_[rotor].size()); }
+    /// Smallest size over speed [s] of a moving zone's cells along its interface: the time in which the interface turns by one cell;
+    /// infinity when nothing turns.
+    double interface_passage_time(gsl::span<const ZoneMotion> moving) const;
 
 private:
-    std::array<std::vector<Vec3>, 2> centres_;  // by zone
-    std::array<std::vector<double>, 2> sizes_;
-    std::array<PointTree, 2> trees_;
+    std::vector<std::vector<Vec3>> centres_;  // by zone
+    std::vector<std::vector<double>> sizes_;
+    std::vector<PointTree> trees_;
     double smallest_ = 0.0;
 };
 

@@ -45,20 +45,20 @@ std::uint64_t key_of(int level, const std::array<std::int64_t, 3>& index) {
 
 }  // namespace
 
-CellTrees::CellTrees(const Cells& cells) : cells_(cells), trees_{PointTree({}), PointTree({})} {
-    std::array<std::vector<Vec3>, 2> centres;
-    std::array<std::vector<std::int32_t>, 2> indices;
+CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
+    std::vector<std::vector<Vec3>> centres(zones);
+    std::vector<std::vector<std::int32_t>> indices(zones);
     for (std::size_t c = 0; c < cells.centres.size(); ++c) {
-        const Zone zone = cells.in_rotor[c] != 0 ? rotor : stator;
-        centres[zone].push_back(cells.centres[c]);
-        indices[zone].push_back(static_cast<std::int32_t>(c));
+        centres[cells.zone[c]].push_back(cells.centres[c]);
+        indices[cells.zone[c]].push_back(static_cast<std::int32_t>(c));
     }
-    for (const Zone zone : k_zones) trees_[zone] = PointTree(std::move(centres[zone]), std::move(indices[zone]));
+    for (Zone zone = 0; zone < zones; ++zone) trees_.emplace_back(std::move(centres[zone]), std::move(indices[zone]));
 }
 
-Visibility::Visibility(const Steel& steel, const CellTrees& trees)
-    : trees_(trees), steel_{SteelTree(steel.stator), SteelTree(steel.rotor)} {
-    for (const Zone zone : k_zones) hidden_[zone].assign(trees.cells().centres.size(), 0.0);
+Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames)
+    : trees_(trees), frames_(frames), nodes_(trees.zones()), touched_(trees.zones()) {
+    for (const gsl::span<const SteelTriangle> of_zone : steel.of_zone) steel_.emplace_back(of_zone);
+    hidden_.assign(trees.zones(), std::vector<double>(trees.cells().centres.size(), 0.0));
 }
 
 void Visibility::set_frames(const ZoneFrames& frames) {
@@ -68,7 +68,7 @@ void Visibility::set_frames(const ZoneFrames& frames) {
 }
 
 void Visibility::forget() {
-    for (const Zone zone : k_zones) {
+    for (Zone zone = 0; zone < steel_.size(); ++zone) {
         for (const std::int32_t c : touched_[zone]) hidden_[zone][static_cast<std::size_t>(c)] = 0.0;
         touched_[zone].clear();
     }
@@ -76,7 +76,7 @@ void Visibility::forget() {
 
 void Visibility::look_from(const Vec3& position, double reach, double spacing) {
     forget();
-    for (const Zone zone : k_zones) {
+    for (Zone zone = 0; zone < steel_.size(); ++zone) {
         if (steel_[zone].empty()) continue;
         const Vec3 here = frames_.from_absolute(zone, position);
         const double clearance = steel_[zone].distance(here, reach);
@@ -86,7 +86,7 @@ void Visibility::look_from(const Vec3& position, double reach, double spacing) {
 
 void Visibility::look_from_point(const Vec3& position, double reach) {
     forget();
-    for (const Zone zone : k_zones) {
+    for (Zone zone = 0; zone < steel_.size(); ++zone) {
         SamplePoint point;
         point.position = frames_.from_absolute(zone, position);
         add_hidden(zone, point, 1.0, reach);
@@ -158,7 +158,7 @@ void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, doubl
         point.clearance = steel_[steel].distance(point.position, point.clearance_limit);
     }
     if (point.clearance >= reach) return;
-    for (const Zone cells : k_zones) {
+    for (Zone cells = 0; cells < trees_.zones(); ++cells) {
         for (const std::int32_t c : hidden_cells(steel, point, cells, reach)) {
             double& share = hidden_[steel][static_cast<std::size_t>(c)];
             if (share == 0.0) touched_[steel].push_back(c);
@@ -168,6 +168,7 @@ void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, doubl
 }
 
 const std::vector<std::int32_t>& Visibility::hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach) {
+    point.hidden.resize(trees_.zones());
     HiddenCells& list = point.hidden[cells];
     const bool moves = cells != steel;
     if (list.reach >= reach && (!moves || list.stamp == stamp_)) return list.cells;

@@ -2,6 +2,7 @@
 /// \file Visible fraction of a rock from a cell past the steel, so that nothing is mapped through a thin blade.
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
 
@@ -15,13 +16,14 @@ namespace cutterflow::coupling {
 /// This rank's cells for searches: one tree per zone, in the zone's own frame, built once.
 class CellTrees {
 public:
-    explicit CellTrees(const Cells& cells);
+    CellTrees(const Cells& cells, std::size_t zones);
+    std::size_t zones() const { return trees_.size(); }
     const PointTree& of(Zone zone) const { return trees_[zone]; }
     const Cells& cells() const { return cells_; }
 
 private:
     Cells cells_;
-    std::array<PointTree, 2> trees_;
+    std::vector<PointTree> trees_;
 };
 
 /// Visible fraction of a rock from each cell around it.
@@ -29,12 +31,12 @@ private:
 /// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: the eight nodes around its centre with
 /// trilinear weights, which change smoothly as the rock moves. A cell is hidden from a node when a triangle intersects the line
 /// between them. Nodes, steel and cells of one zone do not move relative to each other, so a node's hidden cells are computed once and
-/// stored; those of the other zone are computed for every mesh position. A node that is hidden from part of the rock's surroundings
+/// stored; those of other zones are computed for every mesh position. A node that is hidden from part of the rock's surroundings
 /// (beyond a blade, inside steel) loses weight in proportion to that part; the other nodes take it over. The visible fraction is the
-/// product over the steel of both zones. Without steel within reach all cells are visible.
+/// product over the steel of all zones. Without steel within reach all cells are visible.
 class Visibility {
 public:
-    Visibility(const Steel& steel, const CellTrees& trees);
+    Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames);
 
     /// Sets the position of the mesh.
     void set_frames(const ZoneFrames& frames);
@@ -49,12 +51,16 @@ public:
     /// Visible fraction [-] of the rock from a cell of this rank within reach.
     double visible_fraction(std::int32_t cell) const {
         const auto c = static_cast<std::size_t>(cell);
-        const double fraction = (1.0 - hidden_[stator][c]) * (1.0 - hidden_[rotor][c]);
+        double fraction = 1.0;
+        for (const std::vector<double>& hidden : hidden_) fraction *= 1.0 - hidden[c];
         return fraction > k_rounding ? fraction : 0.0;
     }
 
     /// Numbers of stored nodes and of line-of-sight tests so far, for measurements.
-    std::size_t kept_nodes() const { return nodes_[stator].size() + nodes_[rotor].size(); }
+    std::size_t kept_nodes() const {
+        return std::accumulate(nodes_.begin(), nodes_.end(), std::size_t{0},
+                               [](std::size_t n, const Lattice& nodes) { return n + nodes.size(); });
+    }
     std::size_t tests() const { return tests_; }
 
 private:
@@ -69,7 +75,7 @@ private:
         Vec3 position;
         double clearance = 0.0;  // distance to the steel, or the requested reach
         double clearance_limit = -1.0;
-        std::array<HiddenCells, 2> hidden;  // by the cells' zone
+        std::vector<HiddenCells> hidden{};  // by the cells' zone
         std::uint64_t last_used = 0;
     };
     struct Source {
@@ -88,14 +94,14 @@ private:
     void drop_old_nodes();
 
     const CellTrees& trees_;
-    std::array<SteelTree, 2> steel_;
+    std::vector<SteelTree> steel_;
     ZoneFrames frames_;
     std::uint64_t stamp_ = 1;
-    std::array<Lattice, 2> nodes_;  // by the steel's zone
+    std::vector<Lattice> nodes_;  // by the steel's zone
     std::size_t kept_cells_ = 0;
     std::size_t tests_ = 0;
-    std::array<std::vector<double>, 2> hidden_;         // hidden share per cell, by the steel's zone
-    std::array<std::vector<std::int32_t>, 2> touched_;  // cells whose share is not 0
+    std::vector<std::vector<double>> hidden_;         // hidden share per cell, by the steel's zone
+    std::vector<std::vector<std::int32_t>> touched_;  // cells whose share is not 0
     std::vector<Neighbour> found_;
 };
 

@@ -1,35 +1,43 @@
 #pragma once
-/// \file The two zones of the mesh and the change between their frames.
-#include <array>
-#include <cstddef>
+/// \file The change between the frames of the mesh's zones.
+#include <vector>
 
 #include "geometry/base/axis_frame.hpp"
+#include "solver/ports/fluid_engine.hpp"
 
 namespace cutterflow::coupling {
 
-/// Zones of the mesh; steel and cells do not move in their zone's frame. The stator's frame is the absolute one.
-enum Zone : std::size_t { stator = 0, rotor = 1 };
-inline constexpr std::array<Zone, 2> k_zones{stator, rotor};
-
-/// Positions of both zones at one rotor angle.
+/// Positions of all zones at one time. Steel and cells do not move in their zone's frame; that of zone 0 is the absolute one.
 class ZoneFrames {
 public:
-    ZoneFrames() = default;
-    ZoneFrames(const RotationAxis& axis, double angle)
-        : origin_(axis.origin), to_absolute_(Eigen::AngleAxisd(angle, axis.direction)), to_rotor_(to_absolute_.transpose()) {}
+    ZoneFrames(gsl::span<const ZoneMotion> moving, double time) {
+        for (const ZoneMotion& motion : moving) {
+            const Eigen::Matrix3d turn(Eigen::AngleAxisd(motion.angle(time), motion.axis.direction));
+            frames_.push_back({motion.axis.origin, turn, turn.transpose()});
+        }
+    }
+
+    std::size_t zones() const { return frames_.size() + 1; }
 
     /// A point [m] given in the frame of `from`, in the frame of `to`.
-    Vec3 change(Zone from, Zone to, const Vec3& point) const {
-        if (from == to) return point;
-        return origin_ + (to == rotor ? to_rotor_ : to_absolute_) * (point - origin_);
+    Vec3 change(Zone from, Zone to, const Vec3& point) const { return from == to ? point : from_absolute(to, to_absolute(from, point)); }
+    Vec3 from_absolute(Zone to, const Vec3& point) const {
+        if (to == k_still_zone) return point;
+        const Frame& frame = frames_[to - 1];
+        return frame.origin + frame.from_absolute * (point - frame.origin);
     }
-    Vec3 from_absolute(Zone to, const Vec3& point) const { return change(stator, to, point); }
-    Vec3 to_absolute(Zone from, const Vec3& point) const { return change(from, stator, point); }
+    Vec3 to_absolute(Zone from, const Vec3& point) const {
+        if (from == k_still_zone) return point;
+        const Frame& frame = frames_[from - 1];
+        return frame.origin + frame.to_absolute * (point - frame.origin);
+    }
 
 private:
-    Vec3 origin_ = Vec3::Zero();
-    Eigen::Matrix3d to_absolute_ = Eigen::Matrix3d::Identity();
-    Eigen::Matrix3d to_rotor_ = Eigen::Matrix3d::Identity();
+    struct Frame {
+        Vec3 origin;
+        Eigen::Matrix3d to_absolute, from_absolute;
+    };
+    std::vector<Frame> frames_;  // of the moving zones
 };
 
 }  // namespace cutterflow::coupling

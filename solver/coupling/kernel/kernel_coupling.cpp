@@ -79,8 +79,8 @@ KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProp
       drag_(physics::find_drag_law(settings.closures.drag)),
       hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
       lift_(physics::find_lift_law(settings.closures.lift)),
-      mapping_(fluid.cells(), fluid.steel(), fluid.rotor().axis, settings.kernel, communicator),
-      interface_passage_time_(mapping_.sizes().interface_passage_time(fluid.rotor())),
+      mapping_(fluid.cells(), fluid.steel(), fluid.moving_zones(), settings.kernel, communicator),
+      interface_passage_time_(mapping_.sizes().interface_passage_time(fluid.moving_zones())),
       carry_(fluid.cells().centres.size(), Vec3::Zero()) {
     map_present_rock();
 }
@@ -90,7 +90,7 @@ RockShapes KernelCoupling::shapes(const std::vector<Vec3>& position) const {
 }
 
 void KernelCoupling::map_present_rock() {
-    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    mapping_.set_time(fluid_.time());
     mapping_.build(shapes(dem_.rocks().position), present_);
 }
 
@@ -102,7 +102,7 @@ void KernelCoupling::restore(std::vector<Vec3> carry, const BookedExchange& book
 
 std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
     Rocks candidates = rocks_of(due);
-    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    mapping_.set_time(fluid_.time());
     mapping_.build({candidates.id, candidates.position, candidates.diameter}, present_);
     std::vector<FlowAtRock> flow;
     sample_with(present_, flow);
@@ -168,12 +168,13 @@ void KernelCoupling::sample() {
 double KernelCoupling::travel_limit() const {
     const Rocks& rocks = dem_.rocks();
     if (rocks.size() == 0) return std::numeric_limits<double>::infinity();
-    const RotorMotion rotor_motion = fluid_.rotor();
     double limit = k_travel_share * interface_passage_time_;
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         Vec3 cell_velocity = Vec3::Zero();
-        if (present_.in_rotor[p] != 0)
-            cell_velocity = rotor_motion.speed * rotor_motion.axis.direction.cross(rocks.position[p] - rotor_motion.axis.origin);
+        if (present_.zone[p] != k_still_zone) {
+            const ZoneMotion& motion = fluid_.moving_zones()[present_.zone[p] - 1];
+            cell_velocity = motion.speed * motion.axis.direction.cross(rocks.position[p] - motion.axis.origin);
+        }
         const double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
         const double length = std::min(present_.width[p], present_.cell_size[p]);
         if (speed > 0.0) limit = std::min(limit, k_travel_share * length / speed);
@@ -215,7 +216,7 @@ void KernelCoupling::map() {
     const Rocks& rocks = dem_.rocks();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
     const double dt = fluid_.time_step();
-    mapping_.set_rotor_angle(fluid_.rotor().angle(fluid_.time()));
+    mapping_.set_time(fluid_.time());
 
     // Both void fractions hold the same set of rock: those that are still here.
     std::vector<Vec3> old_position, velocity_change;

@@ -21,22 +21,30 @@ constexpr double k_lattice_spacing = 0.85;
 void Stencils::clear() {
     cell_size.clear();
     width.clear();
-    in_rotor.clear();
+    zone.clear();
     first.assign(1, 0);
     cell.clear();
     deposit.clear();
     sample.clear();
 }
 
-Mapping::Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator)
-    : trees_(cells), sizes_(cells, communicator), visibility_(steel, trees_), axis_(axis), kernel_(kernel), communicator_(communicator) {
-    visibility_.set_frames(frames_);
-}
+Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
+                 Communicator& communicator)
+    : moving_(moving.begin(), moving.end()),
+      frames_(moving, 0.0),
+      trees_(cells, frames_.zones()),
+      sizes_(cells, frames_.zones(), communicator),
+      visibility_(steel, trees_, frames_),
+      kernel_(kernel),
+      communicator_(communicator),
+      angles_(moving_.size(), 0.0) {}
 
-void Mapping::set_rotor_angle(double angle) {
-    if (angle == angle_) return;
-    angle_ = angle;
-    frames_ = ZoneFrames(axis_, angle);
+void Mapping::set_time(double time) {
+    std::vector<double> angles;
+    for (const ZoneMotion& motion : moving_) angles.push_back(motion.angle(time));
+    if (angles == angles_) return;
+    angles_ = std::move(angles);
+    frames_ = ZoneFrames(moving_, time);
     visibility_.set_frames(frames_);
     has_turned_ = true;
     last_ = {};
@@ -71,7 +79,7 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
         const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
         stencils.cell_size.push_back(mesh.size);
         stencils.width.push_back(width);
-        stencils.in_rotor.push_back(mesh.nearest_zone == rotor ? 1 : 0);
+        stencils.zone.push_back(mesh.nearest_zone);
         visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
         add_entries(rocks, p, stencils, sums);
     }
@@ -97,7 +105,7 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& s
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
     const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
     double deposit_sum = 0.0, sample_sum = 0.0;
-    for (const Zone zone : k_zones) {
+    for (Zone zone = 0; zone < frames_.zones(); ++zone) {
         found_.clear();
         trees_.of(zone).within(frames_.from_absolute(zone, rocks.position[rock]), physics::k_kernel_reach * width, found_);
         for (const Neighbour& n : found_) {
@@ -128,7 +136,7 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
     replaced.first.push_back(0);
     replaced.cell_size = stencils.cell_size;
     replaced.width = stencils.width;
-    replaced.in_rotor = stencils.in_rotor;
+    replaced.zone = stencils.zone;
     std::vector<double> new_sums(sums.size(), 0.0);
     auto next = hidden.begin();
     for (std::size_t p = 0; p < rocks.size(); ++p) {

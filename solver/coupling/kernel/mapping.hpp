@@ -21,26 +21,27 @@ struct RockShapes {
 /// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]).
 /// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights.
 struct Stencils {
-    std::vector<double> cell_size;       ///< dx at each rock [m]
-    std::vector<double> width;           ///< sigma of each rock [m]
-    std::vector<std::uint8_t> in_rotor;  ///< 1 when the nearest cell of a rock is a rotor cell
-    std::vector<std::size_t> first;      ///< one more than rocks
-    std::vector<std::int32_t> cell;      ///< of each entry
-    std::vector<double> deposit;         ///< w: from rock to fluid [1/m3]
-    std::vector<double> sample;          ///< psi: from fluid to rock [1/m3]
+    std::vector<double> cell_size;   ///< dx at each rock [m]
+    std::vector<double> width;       ///< sigma of each rock [m]
+    std::vector<Zone> zone;          ///< of the cell nearest to each rock
+    std::vector<std::size_t> first;  ///< one more than rocks
+    std::vector<std::int32_t> cell;  ///< of each entry
+    std::vector<double> deposit;     ///< w: from rock to fluid [1/m3]
+    std::vector<double> sample;      ///< psi: from fluid to rock [1/m3]
     std::size_t size() const { return width.size(); }
     /// Empties the stencils but keeps their capacity.
     void clear();
 };
 
-/// Builds stencils: kernels on geometric distance over both zones and all ranks, times the visible fraction of the rock.
+/// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock.
 class Mapping {
 public:
-    /// Keeps references to the engine's arrays.
-    Mapping(const Cells& cells, const Steel& steel, const RotationAxis& axis, const KernelSettings& kernel, Communicator& communicator);
+    /// Keeps references to the engine's arrays. The mesh is at its position at time 0.
+    Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
+            Communicator& communicator);
 
-    /// Sets the rotor angle [rad] of the mesh.
-    void set_rotor_angle(double angle);
+    /// Sets the mesh to its position at a time [s].
+    void set_time(double time);
 
     /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are stored and reused: the
     /// new positions of one step are the old ones of the next. Collective.
@@ -69,15 +70,15 @@ private:
     void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
     void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
 
+    std::vector<ZoneMotion> moving_;
+    ZoneFrames frames_;
     CellTrees trees_;
     SizeField sizes_;
     Visibility visibility_;
-    RotationAxis axis_;
     KernelSettings kernel_;
     Communicator& communicator_;
-    ZoneFrames frames_;
-    double angle_ = 0.0;
-    Kept last_;  // unused once the mesh has turned
+    std::vector<double> angles_;  // of the moving zones [rad]
+    Kept last_;                   // unused once the mesh has turned
     bool has_turned_ = false;
     std::size_t hidden_rocks_ = 0;
     std::vector<Neighbour> found_;

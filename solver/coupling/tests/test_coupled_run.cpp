@@ -66,9 +66,9 @@ SyntheticMesh head_mesh() {
     return mesh;
 }
 
-const RotorMotion k_still{};
-RotorMotion turning() {
-    RotorMotion motion;
+const ZoneMotion k_still{};
+ZoneMotion turning() {
+    ZoneMotion motion;
     motion.speed = 6.0;
     return motion;
 }
@@ -90,7 +90,7 @@ CouplingSettings case_settings(const TemporaryFolder& folder, const std::string&
 /// A run on one rank with a uniform flow.
 struct Rig {
     Rig(const CouplingSettings& s, const std::filesystem::path& folder, RunRecorder& recorder, const Vec3& flow,
-        RotorMotion motion = turning())
+        ZoneMotion motion = turning())
         : fluid(head_mesh(), motion, 4e-3), dem(motion, 0.5, k_water.density) {
         fluid.flow = [flow](const Vec3&, double) { return flow; };
         fluid.velocity.assign(fluid.mesh.size(), flow);
@@ -148,12 +148,12 @@ TEST(CoupledRun, refuses_fates_about_another_axis_than_z) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,0.2,0.02,2650\n");
     MemoryRecorder recorder;
-    RotorMotion aside = turning(), tilted = turning();
+    ZoneMotion aside = turning(), tilted = turning();
     aside.axis.origin = Vec3(0.05, 0.0, 0.0);
     tilted.axis.direction = Vec3(0.0, 0.6, 0.8);
-    for (const RotorMotion& motion : {aside, tilted}) EXPECT_THROW(Rig(settings, folder.path(), recorder, Vec3::Zero(), motion), UserError);
+    for (const ZoneMotion& motion : {aside, tilted}) EXPECT_THROW(Rig(settings, folder.path(), recorder, Vec3::Zero(), motion), UserError);
     settings.fates.reset();
-    for (const RotorMotion& motion : {aside, tilted}) EXPECT_NO_THROW(Rig(settings, folder.path(), recorder, Vec3::Zero(), motion));
+    for (const ZoneMotion& motion : {aside, tilted}) EXPECT_NO_THROW(Rig(settings, folder.path(), recorder, Vec3::Zero(), motion));
 }
 
 TEST(CoupledRun, carries_rock_out_and_up_and_accounts_for_all_of_it) {
@@ -220,7 +220,7 @@ TEST(CoupledRun, without_rock_is_the_fluid_alone_with_its_outflow) {
     rig.fluid.flow = [](const Vec3& x, double) -> Vec3 { return 2.0 * Vec3(x[0], x[1], 0.0); };
     rig.fluid.given_loads.torque_pressure = -3.0;
     rig.fluid.given_loads.torque_viscous = -1.0;
-    rig.fluid.given_loads.outlet_flow = 0.1;
+    rig.fluid.given_loads.through_flow = 0.1;  // no patch is named as the outlet
     rig.fluid.given_loads.boundary_flow = 1e-9;
     rig.run->step();
     rig.run->finish();

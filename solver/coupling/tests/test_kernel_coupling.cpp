@@ -36,7 +36,7 @@ FeedRock rock(int id, const Vec3& x, double d, std::optional<Vec3> v = std::null
 
 /// Engines and coupling on one rank.
 struct Rig {
-    Rig(SyntheticMesh mesh, RotorMotion motion, double step, const CouplingSettings& settings = settings_with_rock(),
+    Rig(SyntheticMesh mesh, ZoneMotion motion, double step, const CouplingSettings& settings = settings_with_rock(),
         const FluidProperties& properties = k_water)
         : fluid(std::move(mesh), motion, step), dem(motion, 0.5, properties.density), coupling(settings, properties, fluid, dem, serial) {}
     FakeFluid fluid;
@@ -293,7 +293,7 @@ TEST(TravelLimit, sees_the_turning_interface_and_the_turning_cells) {
     SyntheticMesh mesh;
     mesh.add_annulus(0.05, 0.2, 15, 90, -0.1, 0.1, 20, true);
     mesh.add_annulus(0.2, 0.35, 15, 90, -0.1, 0.1, 20, false);
-    const RotorMotion motion{{}, 6.0};
+    const ZoneMotion motion{{}, 6.0};
     Rig rig(std::move(mesh), motion, 1e-3);
     // Rock at rest in the stator: the interface counts, about 12 mm of cell at 0.195 m.
     rig.coupling.insert({rock(1, Vec3(0.3, 0, 0), 0.02, Vec3::Zero())});

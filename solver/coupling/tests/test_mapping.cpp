@@ -47,7 +47,8 @@ Stencils stencils_of(Mapping& mapping, const TestRocks& rocks) {
 
 /// A mesh with its mapping, on one rank.
 struct Bench {
-    explicit Bench(SyntheticMesh m) : mesh(std::move(m)), mapping(mesh.cells(), mesh.steel(), RotationAxis{}, KernelSettings{}, serial) {}
+    explicit Bench(SyntheticMesh m)
+        : mesh(std::move(m)), mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial) {}
     SyntheticMesh mesh;
     SerialCommunicator serial;
     Mapping mapping;
@@ -171,7 +172,7 @@ TEST(ThinBlade, that_turns_has_nothing_behind_it_at_any_angle) {
     mesh.add_sheet(Vec3(0.0, 0, -0.2), Vec3(0.195, 0, 0), Vec3(0, 0, 0.4), 20, 40, true);
     Bench bench(std::move(mesh));
     for (const double angle : {0.0, 0.013, 0.4, 1.234, 3.0}) {
-        bench.mapping.set_rotor_angle(angle);
+        bench.mapping.set_time(angle);
         const Vec3 x = rotate_about(RotationAxis{}, angle, Vec3(0.15, 0.012, 0.004));
         const Stencils s = bench.build(one_rock(x, 0.02));
         EXPECT_LE(bench.normalisation(s), 1e-12);
@@ -264,7 +265,7 @@ TEST(RotorInterface, leaves_volume_and_centroid_alone_at_any_angle) {
     for (const double radius : {0.185, 0.195, 0.2, 0.2001, 0.21, 0.225})
         for (int i = 0; i < 24; ++i) {
             const double angle = 0.37 * i;
-            bench.mapping.set_rotor_angle(angle);
+            bench.mapping.set_time(angle);
             const TestRocks rocks = one_rock(Vec3(radius * std::cos(0.1), radius * std::sin(0.1), 0.003), d);
             const Stencils s = bench.build(rocks);
             ASSERT_LE(bench.normalisation(s), 1e-12);
@@ -279,7 +280,7 @@ TEST(RotorInterface, lets_the_solid_of_rock_at_rest_turn_past_smoothly) {
     std::vector<double> lowest(bench.mesh.size(), 1.0), highest(bench.mesh.size(), 0.0);
     double largest = 0.0;
     for (int i = 0; i < 40; ++i) {
-        bench.mapping.set_rotor_angle(0.0017 * i);
+        bench.mapping.set_time(0.0017 * i);
         const auto f = bench.solid_fraction(rocks);
         for (std::size_t c = 0; c < f.size(); ++c) {
             if (bench.mesh.in_rotor[c] != 0) continue;
@@ -318,7 +319,7 @@ TEST(MovingRock, changes_the_void_fraction_smoothly_in_time) {
 
 TEST(MovingRock, crosses_the_rotor_interface_without_a_jump) {
     Bench bench(annulus());
-    bench.mapping.set_rotor_angle(0.3);
+    bench.mapping.set_time(0.3);
     const Vec3 from(0.185, 0.0031, 0.0017), direction(1.0, 0.2, 0.1);
     const double coarse = second_difference(bench, from, direction, 1e-3, 30, 0.02);
     const double fine = second_difference(bench, from, direction, 1e-3 / 8.0, 240, 0.02);
@@ -327,7 +328,7 @@ TEST(MovingRock, crosses_the_rotor_interface_without_a_jump) {
 
 TEST(RotorInterface, is_no_step_in_the_size_field) {
     Bench bench(annulus());
-    const ZoneFrames frames(RotationAxis{}, 0.7);
+    const ZoneFrames frames(testing::unit_turn(), 0.7);
     double before = bench.mapping.sizes().around(frames, Vec3(0.15, 0, 0)).size;
     for (double r = 0.15; r < 0.25; r += 1e-4) {
         const double size = bench.mapping.sizes().around(frames, Vec3(r, 0, 0)).size;
@@ -349,8 +350,8 @@ TEST(Ranks, share_the_cells_without_a_trace) {
     for (int i = 0; i < 12; ++i) rocks.add(Vec3(0.12 + 0.011 * i, 0.013 + 0.001 * i, -0.05 + 0.009 * i), i % 3 == 0 ? 0.03 : 0.02);
     const double angle = 0.11;
     SerialCommunicator serial;
-    Mapping one(whole.cells(), whole.steel(), RotationAxis{}, KernelSettings{}, serial);
-    one.set_rotor_angle(angle);
+    Mapping one(whole.cells(), whole.steel(), testing::unit_turn(), KernelSettings{}, serial);
+    one.set_time(angle);
     std::vector<double> expected(whole.size(), 0.0);
     const Stencils stencils = stencils_of(one, rocks);
     deposit(stencils, rocks.volumes(), expected);
@@ -369,8 +370,8 @@ TEST(Ranks, share_the_cells_without_a_trace) {
             if (is_mine) mine.push_back(c);
             return is_mine;
         });
-        Mapping mapping(part.cells(), part.steel(), RotationAxis{}, KernelSettings{}, communicator);
-        mapping.set_rotor_angle(angle);
+        Mapping mapping(part.cells(), part.steel(), testing::unit_turn(), KernelSettings{}, communicator);
+        mapping.set_time(angle);
         std::vector<double> f(part.size(), 0.0);
         const Stencils s = stencils_of(mapping, rocks);
         deposit(s, rocks.volumes(), f);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "geometry/head/head_names.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 
 #include "cyclicAMIFvPatch.H"
@@ -19,10 +18,10 @@ struct Torque {
     double viscous = 0.0;
 };
 
-/// Of the fluid on the rotor's wall faces of one patch, per density [m5/s2]. The wall moves rigidly, so its velocity gradient is known and
-/// only the difference of the fluid's normal gradient from it shears.
-Torque wall_torque(const CutterFluid& fluid, const volScalarField& viscosity, label patch, gsl::span<const std::uint8_t> in_rotor,
-                   const coupling::RotorMotion& motion) {
+/// Of the fluid on the moving zone's wall faces of one patch, per density [m5/s2]. The wall moves rigidly, so its velocity gradient is
+/// known and only the difference of the fluid's normal gradient from it shears.
+Torque wall_torque(const CutterFluid& fluid, const volScalarField& viscosity, label patch, const MovingZones& zones) {
+    const coupling::ZoneMotion& motion = zones.motion.front();
     const fvPatch& faces = fluid.mesh().boundary()[patch];
     const labelUList& cells = faces.faceCells();
     const vector origin = to_foam(motion.axis.origin);
@@ -33,7 +32,7 @@ Torque wall_torque(const CutterFluid& fluid, const volScalarField& viscosity, la
     const scalarField weighted_viscosity(viscosity.boundaryField()[patch] * fluid.void_fraction().boundaryField()[patch]);
     Torque torque;
     forAll(cells, i) {
-        if (!in_rotor[cells[i]]) continue;
+        if (zones.of_cells[static_cast<std::size_t>(cells[i])] == 0) continue;
         const vector arm = axis ^ (faces.Cf()[i] - origin);
         const vector shear = gradient[i] - motion.speed * (axis ^ normal[i]);
         const vector traction = -weighted_viscosity[i] * (shear + (shear & normal[i]) * normal[i]);
@@ -43,12 +42,12 @@ Torque wall_torque(const CutterFluid& fluid, const volScalarField& viscosity, la
     return torque;
 }
 
-void add_torque(const CutterFluid& fluid, gsl::span<const std::uint8_t> in_rotor, const coupling::RotorMotion& motion,
-                coupling::FluidLoads& loads) {
+void add_torque(const CutterFluid& fluid, const MovingZones& zones, coupling::FluidLoads& loads) {
+    if (zones.motion.empty()) return;
     const volScalarField viscosity(fluid.effective_viscosity());
     forAll(fluid.mesh().boundary(), patch) {
         if (!isA<wallFvPatch>(fluid.mesh().boundary()[patch])) continue;
-        const Torque torque = wall_torque(fluid, viscosity, patch, in_rotor, motion);
+        const Torque torque = wall_torque(fluid, viscosity, patch, zones);
         loads.torque_pressure += fluid.density() * torque.pressure;
         loads.torque_viscous += fluid.density() * torque.viscous;
     }
@@ -60,6 +59,7 @@ void add_torque(const CutterFluid& fluid, gsl::span<const std::uint8_t> in_rotor
 struct BoundaryFlows {
     double net = 0.0;
     double gross = 0.0;
+    double open_gross = 0.0;  // of patches that are no walls
     double interface_net = 0.0;
     double interface_gross = 0.0;  // both sides
 };
@@ -76,28 +76,29 @@ BoundaryFlows sum_boundary_flows(const surfaceScalarField& flux) {
         } else if (!of_patch.coupled()) {
             flows.net += net;
             flows.gross += gross;
+            if (!isA<wallFvPatch>(of_patch.patch())) flows.open_gross += gross;
         }
     }
-    for (double* value : {&flows.net, &flows.gross, &flows.interface_net, &flows.interface_gross}) reduce(*value, sumOp<scalar>());
+    for (double* value : {&flows.net, &flows.gross, &flows.open_gross, &flows.interface_net, &flows.interface_gross})
+        reduce(*value, sumOp<scalar>());
     return flows;
 }
 
-void add_outlet(const CutterFluid& fluid, coupling::FluidLoads& loads) {
-    const label patch = fluid.mesh().boundaryMesh().findPatchID(names::outlet_patch);
-    if (patch < 0) return;
-    const scalarField& area = fluid.mesh().magSf().boundaryField()[patch];
-    loads.outlet_flow = gSum(fluid.relative_flux().boundaryField()[patch]);
-    loads.outlet_pressure = gSum(area * fluid.pressure().boundaryField()[patch]) / gSum(area);
+void add_outlet(const CutterFluid& fluid, label outlet, coupling::FluidLoads& loads) {
+    const scalarField& area = fluid.mesh().magSf().boundaryField()[outlet];
+    loads.outlet_flow = gSum(fluid.relative_flux().boundaryField()[outlet]);
+    loads.outlet_pressure = gSum(area * fluid.pressure().boundaryField()[outlet]) / gSum(area);
 }
 
 }  // namespace
 
-coupling::FluidLoads compute_loads(const CutterFluid& fluid, gsl::span<const std::uint8_t> in_rotor, const coupling::RotorMotion& motion) {
+coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& zones, std::optional<label> outlet) {
     coupling::FluidLoads loads;
-    add_torque(fluid, in_rotor, motion, loads);
-    add_outlet(fluid, loads);
+    add_torque(fluid, zones, loads);
+    if (outlet) add_outlet(fluid, *outlet, loads);
     const BoundaryFlows flows = sum_boundary_flows(fluid.relative_fluid_flux());
     loads.boundary_flow = flows.net + flows.interface_net;
+    loads.through_flow = 0.5 * flows.open_gross;
     loads.interface_imbalance = std::abs(flows.interface_net) / (0.5 * flows.interface_gross + VSMALL);
     loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (flows.gross + VSMALL);
     loads.courant_max = fluid.courant_max();

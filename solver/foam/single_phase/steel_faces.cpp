@@ -5,7 +5,6 @@
 #include "ListListOps.H"
 #include "Pstream.H"
 #include "fvMesh.H"
-#include "wallFvPatch.H"
 
 namespace cutterflow::foam {
 namespace {
@@ -35,19 +34,20 @@ std::vector<coupling::SteelTriangle> gather(const Foam::DynamicList<Foam::point>
 
 }  // namespace
 
-SteelFaces gather_steel_faces(const Foam::fvMesh& mesh, gsl::span<const std::uint8_t> in_rotor, const RotationAxis& axis,
-                              double rotor_angle) {
-    Foam::DynamicList<Foam::point> rotor, stator;
-    for (const Foam::fvPatch& patch : mesh.boundary()) {
-        if (!Foam::isA<Foam::wallFvPatch>(patch)) continue;
+SteelFaces gather_steel_faces(const Foam::fvMesh& mesh, const std::vector<Foam::label>& patches, const MovingZones& zones, double time) {
+    std::vector<Foam::DynamicList<Foam::point>> corners(zones.motion.size() + 1);
+    for (const Foam::label number : patches) {
+        const Foam::fvPatch& patch = mesh.boundary()[number];
         const Foam::labelUList& cells = patch.faceCells();
-        for (Foam::label i = 0; i < patch.size(); ++i) {
-            append_triangles(patch.patch()[i], mesh.points(), in_rotor[cells[i]] ? rotor : stator);
-        }
+        for (Foam::label i = 0; i < patch.size(); ++i)
+            append_triangles(patch.patch()[i], mesh.points(), corners[zones.of_cells[static_cast<std::size_t>(cells[i])]]);
     }
-    SteelFaces steel{gather(rotor), gather(stator)};
-    for (coupling::SteelTriangle& triangle : steel.rotor) {
-        for (Vec3* corner : {&triangle.a, &triangle.b, &triangle.c}) *corner = rotate_about(axis, -rotor_angle, *corner);
+    SteelFaces steel;
+    for (const Foam::DynamicList<Foam::point>& of_zone : corners) steel.push_back(gather(of_zone));
+    for (std::size_t k = 0; k < zones.motion.size(); ++k) {
+        const coupling::ZoneMotion& motion = zones.motion[k];
+        for (coupling::SteelTriangle& triangle : steel[k + 1])
+            for (Vec3* corner : {&triangle.a, &triangle.b, &triangle.c}) *corner = rotate_about(motion.axis, -motion.angle(time), *corner);
     }
     return steel;
 }

@@ -2,7 +2,9 @@
 /// \file Wall faces of the mesh as triangles of steel.
 #include <vector>
 
-#include "solver/ports/fluid_engine.hpp"
+#include "solver/foam/single_phase/moving_zones.hpp"
+
+#include "label.H"
 
 namespace Foam {
 class fvMesh;
@@ -10,16 +12,11 @@ class fvMesh;
 
 namespace cutterflow::foam {
 
-/// Triangles of all wall patches of the whole mesh, the same on every rank, in their zone's frame.
-struct SteelFaces {
-    std::vector<coupling::SteelTriangle> rotor;
-    std::vector<coupling::SteelTriangle> stator;
-};
+/// Triangles of the steel of the whole mesh, by zone, the same on every rank, in their zone's frame.
+using SteelFaces = std::vector<std::vector<coupling::SteelTriangle>>;
 
-/// Gathers the faces of every patch of type wall; a face belongs to the rotor when its cell does. Collective.
-/// \param in_rotor  one per cell of this rank, 1 for rotor cells
-/// \param rotor_angle  [rad] of the mesh
-SteelFaces gather_steel_faces(const Foam::fvMesh& mesh, gsl::span<const std::uint8_t> in_rotor, const RotationAxis& axis,
-                              double rotor_angle);
+/// Gathers the faces of some patches; a face belongs to its cell's zone. Collective.
+/// \param time  [s] of the mesh's position
+SteelFaces gather_steel_faces(const Foam::fvMesh& mesh, const std::vector<Foam::label>& patches, const MovingZones& zones, double time);
 
 }  // namespace cutterflow::foam

@@ -39,7 +39,7 @@ struct CentreCloud {
 
 class VelocitySampler::ZoneTree {
 public:
-    ZoneTree(const coupling::Cells& cells, bool rotor) : cloud_(collect(cells, rotor)), tree_(3, cloud_) { tree_.buildIndex(); }
+    ZoneTree(const coupling::Cells& cells, coupling::Zone zone) : cloud_(collect(cells, zone)), tree_(3, cloud_) { tree_.buildIndex(); }
 
     /// Cells with the nearest centres, nearest first; `point` in the zone's frame.
     std::size_t nearest(const Vec3& point, std::array<Foam::label, k_neighbours>& cells, std::array<double, k_neighbours>& distance) const {
@@ -54,10 +54,10 @@ public:
     }
 
 private:
-    static CentreCloud collect(const coupling::Cells& cells, bool rotor) {
+    static CentreCloud collect(const coupling::Cells& cells, coupling::Zone zone) {
         CentreCloud cloud;
         for (std::size_t i = 0; i < cells.centres.size(); ++i) {
-            if ((cells.in_rotor[i] != 0) != rotor) continue;
+            if (cells.zone[i] != zone) continue;
             cloud.centres.push_back(cells.centres[i]);
             cloud.cells.push_back(static_cast<Foam::label>(i));
         }
@@ -69,19 +69,26 @@ private:
     Tree tree_;
 };
 
-VelocitySampler::VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, const coupling::RotorMotion& motion)
-    : mesh_(mesh), motion_(motion), rotor_(std::make_unique<ZoneTree>(cells, true)), stator_(std::make_unique<ZoneTree>(cells, false)) {}
+VelocitySampler::VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving)
+    : mesh_(mesh), moving_(moving.begin(), moving.end()) {
+    for (coupling::Zone zone = 0; zone <= moving_.size(); ++zone) trees_.push_back(std::make_unique<ZoneTree>(cells, zone));
+}
 
 VelocitySampler::~VelocitySampler() = default;
 
 VelocitySampler::Candidate VelocitySampler::find_cell(const Vec3& point, double time) const {
     const Foam::point where = to_foam(point);
     Candidate best;
-    for (const ZoneTree* zone : {rotor_.get(), stator_.get()}) {
-        const bool turns = zone == rotor_.get();
+    // Moving zones first: of two cells that are equally near the first counts.
+    for (coupling::Zone zone = trees_.size(); zone-- > 0;) {
+        Vec3 there = point;
+        if (zone != coupling::k_still_zone) {
+            const coupling::ZoneMotion& motion = moving_[zone - 1];
+            there = rotate_about(motion.axis, -motion.angle(time), point);
+        }
         std::array<Foam::label, k_neighbours> cells;
         std::array<double, k_neighbours> distance;
-        const std::size_t found = zone->nearest(turns ? rotate_about(motion_.axis, -motion_.angle(time), point) : point, cells, distance);
+        const std::size_t found = trees_[zone]->nearest(there, cells, distance);
         for (std::size_t i = 0; i < found; ++i) {
             const bool inside = mesh_.pointInCell(where, cells[i], Foam::polyMesh::FACE_PLANES);
             const double rank = inside ? distance[i] - k_inside : distance[i];

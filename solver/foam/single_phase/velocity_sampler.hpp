@@ -1,6 +1,7 @@
 #pragma once
 /// \file Fluid velocity at points anywhere in the moving mesh.
 #include <memory>
+#include <vector>
 
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/fluid_engine.hpp"
@@ -13,8 +14,8 @@ namespace cutterflow::foam {
 /// points are turned instead. Only for .cpp files of this folder.
 class VelocitySampler {
 public:
-    /// \param mesh  at rotor angle `motion.angle(t)` whenever sample is called with time t
-    VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, const coupling::RotorMotion& motion);
+    /// \param mesh  moved to time t whenever sample is called with time t
+    VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving);
     ~VelocitySampler();
 
     /// Velocity at points of the absolute frame (the same points on every rank; collective): value of the cell that holds the point, or
@@ -28,9 +29,8 @@ private:
 
     class ZoneTree;
     const Foam::fvMesh& mesh_;
-    coupling::RotorMotion motion_;
-    std::unique_ptr<ZoneTree> rotor_;
-    std::unique_ptr<ZoneTree> stator_;
+    std::vector<coupling::ZoneMotion> moving_;
+    std::vector<std::unique_ptr<ZoneTree>> trees_;  // by zone
 };
 
 }  // namespace cutterflow::foam

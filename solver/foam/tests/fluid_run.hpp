@@ -27,8 +27,9 @@ public:
     /// Where a cell's centre stands now.
     Vec3 centre(std::size_t cell) const {
         const coupling::Cells all = engine_.cells();
-        const coupling::RotorMotion motion = engine_.rotor();
-        return all.in_rotor[cell] ? rotate_about(motion.axis, motion.angle(engine_.time()), all.centres[cell]) : all.centres[cell];
+        if (all.zone[cell] == coupling::k_still_zone) return all.centres[cell];
+        const coupling::ZoneMotion& motion = engine_.moving_zones()[all.zone[cell] - 1u];
+        return rotate_about(motion.axis, motion.angle(engine_.time()), all.centres[cell]);
     }
 
     std::vector<double> evaluate(const std::function<double(const Vec3&)>& field) const {

@@ -1,6 +1,8 @@
 // Flow through an open domain whose discharge is set at the outlet and whose pressure is set at the inlet.
 #include <gtest/gtest.h>
 
+#include "geometry/base/error.hpp"
+
 #include <cmath>
 
 #include "solver/foam/tests/fluid_run.hpp"
@@ -35,7 +37,7 @@ testing::TinyCase duct(const std::string& name, double end_time) {
 
 // A cloud that moves with half the flow's speed and leaves through the outlet.
 TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
-    FluidRun run(testing::build_case(duct("duct_cloud", 0.6)), true);
+    FluidRun run(testing::build_case(duct("duct_cloud", 0.6)), true, {"outlet", {}});
     const auto solid = [](double time) {
         return [time](const Vec3& x) { return 1.0 - 0.3 * std::exp(-0.5 * std::pow((x.x() - 0.3 - 0.5 * time) / 0.05, 2)); };
     };
@@ -50,7 +52,7 @@ TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
             displaced += (new_fraction[i] - old_fraction[i]) * run.engine().cells().volumes[i] / run.engine().time_step();
         }
         const coupling::FluidLoads loads = run.engine().loads();
-        EXPECT_NEAR(loads.outlet_flow, k_discharge, 1e-12);
+        EXPECT_NEAR(loads.outlet_flow.value(), k_discharge, 1e-12);
         EXPECT_NEAR(loads.boundary_flow + run.total(displaced), 0.0, 1e-9 * k_discharge);
         EXPECT_LE(loads.continuity_error, 1e-8);
         EXPECT_LE(run.deviation(Vec3(1.0, 0.0, 0.0)), 0.35);
@@ -59,7 +61,7 @@ TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
 
 // Rock held in the flow takes momentum out of it: the pressure falls along the duct by its drag over the section.
 TEST(Duct, DragOfHeldRockIsThePressureDrop) {
-    FluidRun run(testing::build_case(duct("duct_drag", 0.6)), true);
+    FluidRun run(testing::build_case(duct("duct_drag", 0.6)), true, {"outlet", {}});
     const double rate = 4.0;
     const std::vector<double> fraction(run.cells(), 0.9);
     while (run.engine().running()) {
@@ -71,7 +73,35 @@ TEST(Duct, DragOfHeldRockIsThePressureDrop) {
         run.end(fraction, fraction);
     }
     EXPECT_LE(run.deviation(Vec3(1.0, 0.0, 0.0)), 1e-9);
-    EXPECT_NEAR(run.engine().loads().outlet_pressure, -rate * k_length, 1e-8);
+    EXPECT_NEAR(run.engine().loads().outlet_pressure.value(), -rate * k_length, 1e-8);
+}
+
+// The measure of the balance is what passes the open patches, whatever they are called.
+TEST(Duct, ThroughFlowNeedsNoNamedOutlet) {
+    FluidRun run(testing::build_case(duct("duct_unnamed", 0.01)), false);
+    run.begin();
+    run.end({}, {});
+    const coupling::FluidLoads loads = run.engine().loads();
+    EXPECT_NEAR(loads.through_flow, k_discharge, 1e-9);
+    EXPECT_LE(std::abs(loads.boundary_flow), 1e-9 * k_discharge);
+    EXPECT_FALSE(loads.outlet_flow);
+    EXPECT_FALSE(loads.outlet_pressure);
+}
+
+TEST(Duct, PatchRolesAreFoundByNameAndWrongOnesAreRefused) {
+    const std::filesystem::path folder = testing::build_case(duct("duct_roles", 0.01));
+    {
+        FluidRun all(folder, false), one(folder, false, {"", {"z_min"}});
+        EXPECT_EQ(all.engine().steel().of_zone.at(0).size(), 2u * (4u * 25u * 5u));
+        EXPECT_EQ(one.engine().steel().of_zone.at(0).size(), 2u * 25u * 5u);
+    }
+    try {
+        FluidRun run(folder, false, {"outlett", {"inlet", "floor"}});
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        ASSERT_EQ(error.mistakes().size(), 3u);
+        EXPECT_NE(error.mistakes()[0].text().find("inlet, outlet, y_min"), std::string::npos) << error.mistakes()[0].text();
+    }
 }
 
 }  // namespace

@@ -139,23 +139,32 @@ TEST(Steel, OfTheRotorIsGivenInItsOwnFrame) {
     {
         FluidRun run(folder, true);
         const coupling::Steel steel = run.engine().steel();
-        at_start.assign(steel.rotor.begin(), steel.rotor.end());
+        at_start.assign(steel.of_zone.at(1).begin(), steel.of_zone.at(1).end());
         EXPECT_EQ(at_start.size(), 2u * 40u * 4u);
-        EXPECT_EQ(steel.stator.size(), 2u * 40u * 4u);
+        EXPECT_EQ(steel.of_zone.at(0).size(), 2u * 40u * 4u);
         for (int step = 0; step < 5; ++step) step_with_rock(run);
         run.engine().write_now();
     }
     FluidRun resumed(folder, true);
-    EXPECT_GT(std::abs(resumed.engine().rotor().angle(resumed.engine().time())), 0.02);
+    EXPECT_GT(std::abs(resumed.engine().moving_zones()[0].angle(resumed.engine().time())), 0.02);
     const coupling::Steel steel = resumed.engine().steel();
-    ASSERT_EQ(steel.rotor.size(), at_start.size());
+    ASSERT_EQ(steel.of_zone.at(1).size(), at_start.size());
     double worst = 0.0, area = 0.0;
     for (std::size_t i = 0; i < at_start.size(); ++i) {
-        worst = std::max({worst, (steel.rotor[i].a - at_start[i].a).norm(), (steel.rotor[i].b - at_start[i].b).norm()});
+        worst = std::max({worst, (steel.of_zone.at(1)[i].a - at_start[i].a).norm(), (steel.of_zone.at(1)[i].b - at_start[i].b).norm()});
         area += 0.5 * (at_start[i].b - at_start[i].a).cross(at_start[i].c - at_start[i].a).norm();
     }
     EXPECT_LE(worst, 1e-12);
     EXPECT_NEAR(area, 40.0 * 2.0 * 0.05 * std::sin(k_pi / 40.0) * 0.05, 1e-9);
+}
+
+// A pure flow has blades too: points in them are dry.
+TEST(Steel, IsThereWithoutRock) {
+    FluidRun run(testing::build_case(stirred_annulus("steel_of_a_pure_flow")), false);
+    const coupling::Steel steel = run.engine().steel();
+    ASSERT_EQ(steel.of_zone.size(), 2u);
+    EXPECT_EQ(steel.of_zone[0].size(), 2u * 40u * 4u);
+    EXPECT_EQ(steel.of_zone[1].size(), 2u * 40u * 4u);
 }
 
 }  // namespace

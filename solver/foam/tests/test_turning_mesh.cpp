@@ -204,7 +204,7 @@ private:
         }
         const coupling::Cells cells = run_.engine().cells();
         for (std::size_t i = 0; i < old_fraction.size(); ++i) {
-            if (cells.in_rotor[i]) rock_out += (new_fraction[i] - old_fraction[i]) * cells.volumes[i];
+            if (cells.zone[i] != 0) rock_out += (new_fraction[i] - old_fraction[i]) * cells.volumes[i];
         }
         volume_in_ += run_.total(inflow) * run_.engine().time_step();
         volume_out_ += run_.total(rock_out);

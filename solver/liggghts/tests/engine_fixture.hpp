@@ -126,7 +126,7 @@ inline Vec3 no_force(std::size_t, const Vec3&) {
     return Vec3::Zero();
 }
 
-inline coupling::RotorMotion still_rotor() {
+inline std::vector<coupling::ZoneMotion> no_zones() {
     return {};
 }
 

@@ -8,7 +8,7 @@ namespace {
 struct Mill {
     std::filesystem::path folder = scratch_folder();
     coupling::DemSettings settings = still_water();
-    coupling::RotorMotion rotor;
+    coupling::ZoneMotion rotor;
 
     Mill() {
         settings.domain.lower.z() = -0.1;
@@ -51,15 +51,15 @@ TEST(Checkpoint, contact_free_rocks_go_on_as_if_never_stopped) {
         for (int k = 0; k < 8; ++k) add_rock(rocks, k + 1, Vec3(-0.2 + 0.05 * k, 0.02 * k, 0.3), Vec3(0.2, -0.1, 0.05 * k));
         engine.insert(rocks);
     };
-    LiggghtsEngine through(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine through(still_water(), no_zones(), MPI_COMM_WORLD);
     start(through);
     for (int call = 0; call < 20; ++call) through.advance(duration(call), drag);
 
-    LiggghtsEngine first(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine first(still_water(), no_zones(), MPI_COMM_WORLD);
     start(first);
     for (int call = 0; call < 10; ++call) first.advance(duration(call), drag);
     first.write_checkpoint(folder);
-    LiggghtsEngine second(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine second(still_water(), no_zones(), MPI_COMM_WORLD);
     second.read_checkpoint(folder);
     EXPECT_LT(farthest(second.rocks(), first.rocks()), 1e-300);
     for (int call = 10; call < 20; ++call) second.advance(duration(call), drag);
@@ -82,7 +82,7 @@ TEST(Checkpoint, rocks_in_contact_and_the_rotor_go_on_as_if_never_stopped) {
     first.write_checkpoint(mill.folder);
     LiggghtsEngine second(mill.settings, mill.rotor, MPI_COMM_WORLD);
     second.read_checkpoint(mill.folder);
-    EXPECT_NEAR(second.rotor_angle(), first.rotor_angle(), 1e-15);
+    EXPECT_NEAR(second.zone_angles().at(0), first.zone_angles().at(0), 1e-15);
     coupling::DemStep last_first, last_second;
     for (int call = half; call < half + 3; ++call) {
         last_first = first.advance(duration(call), drag);
@@ -91,7 +91,7 @@ TEST(Checkpoint, rocks_in_contact_and_the_rotor_go_on_as_if_never_stopped) {
     }
     EXPECT_LT(farthest(second.rocks(), through.rocks()), 1e-12);
     EXPECT_LT(farthest(first.rocks(), through.rocks()), 1e-12) << "writing a checkpoint must not disturb the run";
-    EXPECT_NEAR(second.rotor_angle(), through.rotor_angle(), 1e-13);
+    EXPECT_NEAR(second.zone_angles().at(0), through.zone_angles().at(0), 1e-13);
     EXPECT_EQ(last_second.contacts, last_through.contacts);
     EXPECT_NEAR(last_second.cutter_torque, last_through.cutter_torque, 1e-9 * std::abs(last_through.cutter_torque));
 }
@@ -110,11 +110,11 @@ TEST(Checkpoint, can_be_read_on_another_number_of_ranks) {
         alone.advance(duration(call), drag);
     }
     EXPECT_LT(farthest(alone.rocks(), all.rocks()), 1e-11);
-    EXPECT_NEAR(alone.rotor_angle(), all.rotor_angle(), 1e-12);
+    EXPECT_NEAR(alone.zone_angles().at(0), all.zone_angles().at(0), 1e-12);
 }
 
 TEST(Checkpoint, a_folder_without_one_is_refused) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     EXPECT_THROW(engine.read_checkpoint(scratch_folder()), std::runtime_error);
 }
 

@@ -27,7 +27,7 @@ coupling::DemSettings above_wall(WallKind kind, const std::filesystem::path& fol
 /// Lets a rock hit the wall at z = 0 with `velocity` and returns its velocity when it has left.
 Vec3 rebound_velocity(const coupling::DemSettings& settings, const Vec3& velocity, const Vec3& spin = Vec3::Zero(),
                       Vec3* spin_after = nullptr) {
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rock = one_rock(Vec3(0, 0, 0.01 + 1e-5), velocity);
     rock.angular_velocity[0] = spin;
     engine.insert(rock);
@@ -96,7 +96,7 @@ TEST(Contacts, two_rocks_return_the_wet_restitution_and_keep_their_momentum) {
     coupling::DemSettings settings = still_water();
     settings.gravity.setZero();
     for (const double speed : {1.0, 0.1, 0.01}) {
-        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         coupling::Rocks rocks;
         add_rock(rocks, 1, Vec3(-0.01001, 0, 0), Vec3(0.75 * speed, 0, 0));
         add_rock(rocks, 2, Vec3(0.01001, 0, 0), Vec3(-0.25 * speed, 0, 0));
@@ -121,7 +121,7 @@ TEST(Contacts, each_impact_of_a_pair_has_its_own_restitution) {
             settings.domain.make_wall(coupling::DomainSide::z_min);
             return settings;
         }(),
-        still_rotor(), MPI_COMM_WORLD);
+        no_zones(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0, 0, 0.01 + 1e-4), Vec3(0, 0, -0.2)));
     const double gravity = 9.81 * (k_rock_density - k_water_density) / (k_rock_density + 0.5 * k_water_density);
     double speed = std::sqrt(0.04 + 2.0 * gravity * 1e-4);
@@ -165,9 +165,9 @@ TEST(Contacts, the_impact_speed_stays_while_facets_pass_under_the_rock) {
     settings.contact.friction = 0.0;
     settings.contact.max_speed = 1.0;
     settings.walls = {{"drum", write_stl(scratch_folder() / "drum.stl", drum), true}};
-    coupling::RotorMotion rotor;
+    coupling::ZoneMotion rotor;
     rotor.speed = 5.0 / drum_radius;  // 5 m/s at the surface, 3 mm while a rock at 1 m/s is in contact
-    LiggghtsEngine engine(settings, rotor, MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, {rotor}, MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(drum_radius + 0.01 + 1e-4, 0, 0), Vec3(-1.0, 0, 0)));
     for (int call = 0; call < 100; ++call) engine.advance(1e-4, no_force);
     const double stokes = physics::impact_stokes(k_rock_density / k_water_density, 0.5, 1.0, 0.02, k_water_viscosity);

@@ -34,7 +34,7 @@ Vec3 submerged_weight(double diameter, const Vec3& gravity) {
 }  // namespace
 
 TEST(RockMotion, a_rock_at_rest_starts_with_the_added_mass_acceleration) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     ASSERT_EQ(engine.insert(one_rock(Vec3(0.1, 0.05, 0))), std::vector<int>{1});
     const double duration = 1e-4;
     engine.advance(duration, no_force);
@@ -43,7 +43,7 @@ TEST(RockMotion, a_rock_at_rest_starts_with_the_added_mass_acceleration) {
 }
 
 TEST(RockMotion, fall_with_linear_drag_follows_the_exact_solution) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0.1, 0.05, 0.2), Vec3(0.3, 0, 0)));
     const double coefficient = 0.5;
     const double mass = mass_with_added_mass(0.02);
@@ -68,7 +68,7 @@ TEST(RockMotion, velocity_dependent_forces_are_of_second_order) {
         settings.gravity.setZero();
         settings.contact.youngs_modulus = 1.1e7;
         settings.contact.time_step_fraction = fraction;
-        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         engine.insert(one_rock(Vec3(0.1, 0.05, 0.2), Vec3(0.3, 0, 0)));
         engine.advance(time, linear_drag(coefficient));
         error.push_back(std::abs(engine.rocks().velocity[0].x() - exact));
@@ -81,7 +81,7 @@ TEST(RockMotion, a_ten_millimetre_rock_settles_at_the_speed_of_the_seeds) {
     coupling::DemSettings settings = still_water();
     settings.domain.lower.z() = -2.0;
     settings.contact.youngs_modulus = 1e6;  // no contact here: long steps
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0, 0.1, 0.4), Vec3::Zero(), 0.01));
     for (int call = 0; call < 150; ++call) engine.advance(0.01, sphere_drag(0.01));
     EXPECT_NEAR(-engine.rocks().velocity[0].z(), 0.7358, 0.0002);
@@ -91,7 +91,7 @@ TEST(RockMotion, a_ten_millimetre_rock_settles_at_the_speed_of_the_seeds) {
 TEST(RockMotion, impulse_and_weight_make_up_the_change_of_momentum) {
     coupling::DemSettings settings = still_water();
     settings.gravity = Vec3(4.0, -3.0, -8.0);
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 3, Vec3(0.0, 0.1, 0.3), Vec3(1.0, 0.2, -0.1), 0.02);
     add_rock(rocks, 7, Vec3(0.1, -0.1, 0.3), Vec3(-0.3, 0.7, 0.4), 0.013, 2100.0);
@@ -118,7 +118,7 @@ TEST(RockMotion, impulse_and_weight_make_up_the_change_of_momentum) {
 // The same with a collision: what is missing is the impulse of the contact, equal and opposite on both rocks.
 TEST(RockMotion, contact_impulse_is_the_rest_of_the_change_of_momentum) {
     coupling::DemSettings settings = still_water();
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0.0, 0.1, 0.3), Vec3(0.5, 0.0, 0.0), 0.02);
     add_rock(rocks, 2, Vec3(0.0205, 0.104, 0.3), Vec3(-0.5, 0.0, 0.0), 0.02);
@@ -143,7 +143,7 @@ TEST(RockMotion, contact_impulse_is_the_rest_of_the_change_of_momentum) {
 TEST(RockMotion, no_half_kick_uses_the_law_of_the_call_before) {
     coupling::DemSettings settings = still_water();
     settings.gravity.setZero();
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0, 0, 0)));
     const auto push = [](std::size_t, const Vec3&) { return Vec3(0, 0, 1.0); };
     for (int call = 0; call < 4; ++call) {
@@ -157,7 +157,7 @@ TEST(RockMotion, no_half_kick_uses_the_law_of_the_call_before) {
 
 TEST(RockMotion, contact_free_rocks_move_the_same_on_one_rank_and_on_all) {
     const auto run = [](MPI_Comm communicator) {
-        LiggghtsEngine engine(still_water(), still_rotor(), communicator);
+        LiggghtsEngine engine(still_water(), no_zones(), communicator);
         coupling::Rocks rocks;
         for (int k = 0; k < 27; ++k)
             add_rock(rocks, k + 1, Vec3(-0.1 + 0.1 * (k % 3), -0.1 + 0.1 * (k / 3 % 3), -0.1 + 0.1 * (k / 9)),
@@ -173,7 +173,7 @@ TEST(RockMotion, contact_free_rocks_move_the_same_on_one_rank_and_on_all) {
 }
 
 TEST(RockMotion, a_rock_that_leaves_the_domain_is_reported_once) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 4, Vec3(0.45, 0, 0), Vec3(2.0, 0, 0));
     add_rock(rocks, 5, Vec3(0, 0, 0), Vec3::Zero());
@@ -200,13 +200,13 @@ TEST(RockMotion, a_rock_that_leaves_the_domain_is_reported_once) {
 
 // LIGGGHTS drops a rock beyond its box. That takes a call in which a rock crosses a quarter of the domain: too long to be right.
 TEST(RockMotion, a_rock_that_vanishes_is_a_defect) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0.45, 0, 0), Vec3(100.0, 0, 0)));
     EXPECT_THROW(engine.advance(0.01, no_force), std::logic_error);
 }
 
 TEST(RockMotion, a_force_that_is_no_number_is_a_defect_and_not_a_rock_that_left) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0, 0, 0)));
     const auto broken = [](std::size_t, const Vec3&) { return Vec3(std::nan(""), 0, 0); };
     EXPECT_THROW(engine.advance(1e-3, broken), std::logic_error);
@@ -220,11 +220,11 @@ TEST(RockMotion, no_floating_point_exception_is_raised) {
     const auto folder = scratch_folder();
     settings.walls = {{"paddle", write_stl(folder / "paddle.stl", block(Vec3(0.05, -0.01, -0.08), Vec3(0.3, 0.01, 0.05), 3)), true},
                       {"plate", write_stl(folder / "plate.stl", block(Vec3(-0.4, -0.1, -0.08), Vec3(-0.38, 0.1, 0.05), 2)), false}};
-    coupling::RotorMotion rotor;
+    coupling::ZoneMotion rotor;
     rotor.speed = 6.0;
     feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
     {
-        LiggghtsEngine engine(settings, rotor, MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, {rotor}, MPI_COMM_WORLD);
         engine.advance(1e-2, no_force);  // without rock
         coupling::Rocks rocks;
         for (int k = 0; k < 64; ++k) add_rock(rocks, k + 1, Vec3(-0.2 + 0.05 * (k % 8), -0.2 + 0.05 * (k / 8), -0.08));

@@ -73,7 +73,7 @@ struct Ride {
 
 /// \param beyond  ends the ride where the rock passes this x
 Ride ride(const coupling::DemSettings& settings, const coupling::Rocks& start, double duration, double beyond = 1.0) {
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     EXPECT_EQ(engine.insert(start).size(), 1u);
     const double at_start = energy(settings, engine.rocks(), 0.0);
     const double kinetic = at_start - energy(settings, one_rock(start.position[0], Vec3::Zero(), 2.0 * k_radius), 0.0);

@@ -10,7 +10,7 @@ namespace {
 /// A paddle from the axis outwards, turning about z at `speed` in still water without gravity.
 struct Paddle {
     coupling::DemSettings settings = still_water();
-    coupling::RotorMotion rotor;
+    coupling::ZoneMotion rotor;
 
     explicit Paddle(double speed) {
         settings.gravity.setZero();
@@ -32,13 +32,13 @@ class RotorAngle : public ::testing::TestWithParam<double> {};
 TEST_P(RotorAngle, is_speed_times_time_when_the_steps_differ) {
     Paddle paddle(GetParam());
     LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
-    EXPECT_NEAR(engine.rotor_angle(), 0.0, 1e-15);
+    EXPECT_NEAR(engine.zone_angles().at(0), 0.0, 1e-15);
     engine.insert(one_rock(Vec3(-0.4, 0, 0.3)));  // gives the DEM its own step: 25 to 60 per call
     double time = 0.0;
     for (int call = 0; call < 150; ++call) {
         engine.advance(uneven_duration(call), no_force);
         time += uneven_duration(call);
-        ASSERT_NEAR(engine.rotor_angle(), paddle.rotor.angle(time), 1e-9) << "call " << call;
+        ASSERT_NEAR(engine.zone_angles().at(0), paddle.rotor.angle(time), 1e-9) << "call " << call;
     }
 }
 
@@ -50,7 +50,7 @@ TEST(Walls, a_rotating_wall_stands_when_the_rotor_does) {
     LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0.2, 0.03, 0)));
     engine.advance(0.01, no_force);
-    EXPECT_EQ(engine.rotor_angle(), 0.0);
+    EXPECT_EQ(engine.zone_angles().at(0), 0.0);
     EXPECT_EQ(engine.rocks().velocity[0], Vec3(0, 0, 0));
 }
 
@@ -84,7 +84,7 @@ TEST(Walls, contacts_and_overlap_are_reported) {
     coupling::DemSettings settings = still_water();
     settings.domain.lower.z() = 0.0;
     settings.domain.make_wall(coupling::DomainSide::z_min);
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0, 0, 0.0101));
     add_rock(rocks, 2, Vec3(0.001, 0, 0.0303));
@@ -98,7 +98,7 @@ TEST(Walls, contacts_and_overlap_are_reported) {
 }
 
 TEST(Insertion, keeps_what_it_is_given_to_the_bit) {
-    LiggghtsEngine engine(still_water(), still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 12, Vec3(0.1 / 3.0, -0.2 / 7.0, 0.3 / 11.0), Vec3(1.0 / 3.0, 2.0 / 7.0, -0.1), 0.017, 2345.6);
     add_rock(rocks, 40, Vec3(-0.1, 0.2, 0.3), Vec3::Zero(), 0.023, 2700.1);
@@ -116,7 +116,7 @@ TEST(Insertion, keeps_what_it_is_given_to_the_bit) {
 TEST(Insertion, refuses_overlaps_with_rocks_planes_and_the_outside) {
     coupling::DemSettings settings = still_water();
     settings.domain.make_wall(coupling::DomainSide::z_min);
-    LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0, 0, 0));
     add_rock(rocks, 2, Vec3(0.0199, 0, 0));     // overlaps 1
@@ -139,7 +139,7 @@ TEST(Insertion, refuses_steel_where_it_stands_now_and_inside_it) {
         write_stl(paddle.settings.walls[1].file.parent_path() / "paddle.stl", block(Vec3(0.05, -0.01, -0.05), Vec3(0.3, 0.01, 0.05), 3));
     LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
     engine.advance(0.01, no_force);
-    EXPECT_NEAR(engine.rotor_angle(), k_pi / 2.0, 1e-12);
+    EXPECT_NEAR(engine.zone_angles().at(0), k_pi / 2.0, 1e-12);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0.2, 0, 0));         // where the paddle stood
     add_rock(rocks, 2, Vec3(0.0199, 0.2, 0));    // touches it where it stands now
@@ -156,7 +156,7 @@ TEST(Insertion, leaves_the_contacts_of_others_alone) {
     settings.domain.lower.z() = 0.0;
     settings.domain.make_wall(coupling::DomainSide::z_min);
     const auto run = [&](bool with_insertions) {
-        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         coupling::Rocks rocks;
         for (int k = 0; k < 8; ++k) add_rock(rocks, k + 1, Vec3(0.003 * (k % 2), 0.002 * (k % 3), 0.0105 + 0.0205 * k));
         EXPECT_EQ(engine.insert(rocks).size(), 8u);
@@ -183,7 +183,7 @@ TEST(Removal, takes_rocks_out_and_keeps_the_contacts_of_the_rest) {
     settings.domain.lower.z() = 0.0;
     settings.domain.make_wall(coupling::DomainSide::z_min);
     const auto run = [&](bool with_removal) {
-        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         coupling::Rocks rocks;
         for (int k = 0; k < 6; ++k) add_rock(rocks, k + 10, Vec3(0.003 * (k % 2), 0.002 * (k % 3), 0.0105 + 0.0205 * k));
         add_rock(rocks, 1, Vec3(0.3, 0.2, 0.3));
@@ -229,7 +229,7 @@ TEST(Walls, any_side_of_a_box_can_be_a_wall) {
         const double position = settings.domain.position_of(side);
         Vec3 start = middle;
         start[axis] = position - outward * 0.015;
-        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         ASSERT_EQ(engine.insert(one_rock(start, outward * Vec3::Unit(axis))).size(), 1u);
         std::size_t left = 0;
         for (int step = 0; step < 30; ++step) left += engine.advance(1e-3, no_force).left.size();
@@ -255,7 +255,7 @@ TEST(Settings, every_mistake_is_named) {
     settings.domain.radius = -1.0;
     settings.domain.make_wall(coupling::DomainSide::x_max);
     try {
-        LiggghtsEngine engine(settings, still_rotor(), MPI_COMM_WORLD);
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         FAIL() << "wrong settings were taken";
     } catch (const UserError& error) {
         EXPECT_EQ(error.mistakes().size(), 4u);
@@ -268,14 +268,14 @@ TEST(Settings, a_restitution_that_no_damping_gives_is_refused) {
     for (const double restitution : {-1.0, 0.0, 0.13}) {
         coupling::DemSettings settings = still_water();
         settings.contact.restitution = restitution;
-        EXPECT_THROW(LiggghtsEngine(settings, still_rotor(), MPI_COMM_WORLD), UserError) << restitution;
+        EXPECT_THROW(LiggghtsEngine(settings, no_zones(), MPI_COMM_WORLD), UserError) << restitution;
     }
 }
 
 TEST(Settings, a_wall_without_its_file_is_refused) {
     coupling::DemSettings settings = still_water();
     settings.walls = {{"cutter", "no/such/file.stl", true}};
-    EXPECT_THROW(LiggghtsEngine(settings, still_rotor(), MPI_COMM_WORLD), UserError);
+    EXPECT_THROW(LiggghtsEngine(settings, no_zones(), MPI_COMM_WORLD), UserError);
 }
 
 }  // namespace cutterflow::liggghts::tests

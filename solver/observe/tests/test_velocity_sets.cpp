@@ -33,8 +33,8 @@ double step_after(int n) {
     return (0.65 + 0.35 * std::sin(0.7 * n)) * k_pi / 180.0;
 }
 
-RotorMotion turning(double speed) {
-    RotorMotion motion;
+ZoneMotion turning(double speed) {
+    ZoneMotion motion;
     motion.speed = speed;
     return motion;
 }
@@ -74,10 +74,10 @@ protected:
     }
     /// Lets the rotor turn up to `angle` and samples as a run does.
     void turn_to(double angle, VelocitySets& sets, FakeFluid& fluid) {
-        double now = std::abs(fluid.motion.angle(fluid.time()));
+        double now = std::abs(fluid.moving[0].angle(fluid.time()));
         while (now < angle - 1e-9) {
             now = std::min(now + step_after(step_++), angle);
-            fluid.restart_at(now / std::abs(fluid.motion.speed));
+            fluid.restart_at(now / std::abs(fluid.moving[0].speed));
             sets.sample_if_due(fluid);
         }
     }

@@ -53,9 +53,9 @@ std::vector<SamplePoint> read_sample_points(const std::filesystem::path& file) {
 VelocitySets::VelocitySets(const VelocitySettings& settings, const FluidEngine& fluid)
     : start_time_(settings.start_time),
       interval_(settings.interval * k_degree),
-      motion_(fluid.rotor()),
-      rotor_steel_(fluid.steel().rotor),
-      stator_steel_(fluid.steel().stator) {
+      motion_(fluid.moving_zones().empty() ? ZoneMotion{} : fluid.moving_zones()[0]),
+      rotor_steel_(motion_.speed == 0.0 ? gsl::span<const SteelTriangle>() : fluid.steel().of_zone[1]),
+      stator_steel_(fluid.steel().of_zone[k_still_zone]) {
     std::vector<Mistake> mistakes;
     if (motion_.speed == 0.0)
         mistakes.push_back({names::coupling_properties, "section velocity with a rotor at rest", "Velocities are averaged over revolutions",

@@ -51,7 +51,7 @@ private:
     std::vector<std::uint8_t> wet_points(double rotor_angle) const;
 
     double start_time_, interval_;
-    RotorMotion motion_;
+    ZoneMotion motion_;
     SteelTree rotor_steel_, stator_steel_;
     std::vector<VelocitySet> sets_;
     double next_ = 0.0;  // angle since start_time_ at which the next sample is due

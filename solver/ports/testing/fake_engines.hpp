@@ -15,7 +15,7 @@ namespace cutterflow::coupling::testing {
 /// over stays behind (drag implicit). A prescribed flow replaces that when `flow` is set.
 class FakeFluid final : public FluidEngine {
 public:
-    FakeFluid(SyntheticMesh m, RotorMotion rotor_motion, double step) : mesh(std::move(m)), motion(rotor_motion), time_step_(step) {
+    FakeFluid(SyntheticMesh m, const ZoneMotion& motion, double step) : mesh(std::move(m)), moving{motion}, time_step_(step) {
         velocity.assign(mesh.size(), Vec3::Zero());
         acceleration.assign(mesh.size(), Vec3::Zero());
         void_fraction.assign(mesh.size(), 1.0);
@@ -27,7 +27,7 @@ public:
 
     Cells cells() const override { return mesh.cells(); }
     Steel steel() const override { return mesh.steel(); }
-    RotorMotion rotor() const override { return motion; }
+    gsl::span<const ZoneMotion> moving_zones() const override { return moving; }
     FluidFields fields() const override { return {velocity, acceleration, void_fraction}; }
     gsl::span<const Vec3> vorticity() override { return curl; }
     gsl::span<const Vec3> stress_divergence() override { return stress; }
@@ -85,7 +85,7 @@ public:
     void restart_at(double time) { time_ = time; }
 
     SyntheticMesh mesh;
-    RotorMotion motion;
+    std::vector<ZoneMotion> moving;
     double end_time = std::numeric_limits<double>::infinity();
     std::function<Vec3(const Vec3& position, double time)> flow;
     std::vector<Vec3> velocity, acceleration;
@@ -107,8 +107,8 @@ private:
 /// Rocks without contacts: half kick, drift, half kick with added mass in the inertia.
 class FakeDem final : public DemEngine {
 public:
-    FakeDem(RotorMotion rotor_motion, double added_mass, double fluid_density)
-        : motion_(rotor_motion), added_mass_(added_mass), fluid_density_(fluid_density) {}
+    FakeDem(ZoneMotion rotor_motion, double added_mass, double fluid_density)
+        : motion_(std::move(rotor_motion)), added_mass_(added_mass), fluid_density_(fluid_density) {}
 
     const Rocks& rocks() const override { return rocks_; }
     double largest_time_step() const override { return 1e-4; }
@@ -166,7 +166,7 @@ public:
         return step;
     }
 
-    double rotor_angle() const override { return std::remainder(motion_.angle(time_) + angle_error, 2.0 * k_pi); }
+    std::vector<double> zone_angles() const override { return {std::remainder(motion_.angle(time_) + angle_error, 2.0 * k_pi)}; }
 
     void write_checkpoint(const std::filesystem::path& folder) override {
         std::ofstream file(folder / "dem.restart", std::ios::binary);
@@ -215,7 +215,7 @@ private:
         visit(rocks_.density.data(), n * sizeof(double));
     }
 
-    RotorMotion motion_;
+    ZoneMotion motion_;
     double added_mass_, fluid_density_;
     Rocks rocks_;
     double time_ = 0.0;

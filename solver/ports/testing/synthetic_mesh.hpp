@@ -9,6 +9,12 @@
 
 namespace cutterflow::coupling::testing {
 
+/// One zone that turns about z by as many radians as seconds pass, so that a time is an angle.
+inline const std::vector<ZoneMotion>& unit_turn() {
+    static const std::vector<ZoneMotion> moving{{RotationAxis{}, 1.0, "rotor"}};
+    return moving;
+}
+
 /// Owns what Cells and Steel view.
 struct SyntheticMesh {
     std::vector<Vec3> centres;
@@ -18,7 +24,7 @@ struct SyntheticMesh {
     std::vector<SteelTriangle> rotor_steel, stator_steel;
 
     Cells cells() const { return {centres, volumes, sizes, in_rotor, ids}; }
-    Steel steel() const { return {rotor_steel, stator_steel}; }
+    Steel steel() const { return {{stator_steel, rotor_steel}}; }
     std::size_t size() const { return centres.size(); }
 
     void add_cell(const Vec3& centre, double volume, double cell_size, bool rotor) {

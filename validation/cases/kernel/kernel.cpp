@@ -44,13 +44,13 @@ SyntheticMesh rotor_and_stator() {
 class Placed {
 public:
     explicit Placed(const SyntheticMesh& mesh)
-        : mesh_(mesh), mapping_(mesh_.cells(), mesh_.steel(), RotationAxis{}, coupling::KernelSettings{}, serial_) {}
+        : mesh_(mesh), mapping_(mesh_.cells(), mesh_.steel(), coupling::testing::unit_turn(), coupling::KernelSettings{}, serial_) {}
 
     void put(const Vec3& position, double diameter = k_diameter, double angle = 0.0) {
         position_ = {position};
         diameter_ = {diameter};
         angle_ = angle;
-        mapping_.set_rotor_angle(angle);
+        mapping_.set_time(angle);
         mapping_.build({id_, position_, diameter_}, stencils_);
     }
     double volume_error() { return coupling::normalisation_error(stencils_, mesh_.volumes, serial_); }
@@ -142,7 +142,7 @@ void ranks(Verification& verification) {
             return (x.x() > 0.0 ? 1 : 0) + (x.y() > 0.0 ? 2 : 0) == communicator.rank();
         };
         const SyntheticMesh mine = whole.part(quarter);
-        coupling::Mapping mapping(mine.cells(), mine.steel(), RotationAxis{}, coupling::KernelSettings{}, communicator);
+        coupling::Mapping mapping(mine.cells(), mine.steel(), coupling::testing::unit_turn(), coupling::KernelSettings{}, communicator);
         coupling::Stencils stencils;
         mapping.build({id, position, diameter}, stencils);
         const double found = coupling::normalisation_error(stencils, mine.volumes, communicator);

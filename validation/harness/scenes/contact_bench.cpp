@@ -42,10 +42,10 @@ public:
     liggghts::LiggghtsEngine engine;
 
 private:
-    static coupling::RotorMotion turning(double speed) {
-        coupling::RotorMotion rotor;
+    static std::vector<coupling::ZoneMotion> turning(double speed) {
+        coupling::ZoneMotion rotor;
         rotor.speed = speed;
-        return rotor;
+        return {rotor};
     }
 };
 

@@ -39,7 +39,7 @@ void map_one_step(benchmark::State& state) {
     const testing::SyntheticMesh mesh = testing::draft_cutter(dx);
     SerialCommunicator serial;
     const RotationAxis axis;
-    Mapping mapping(mesh.cells(), mesh.steel(), axis, KernelSettings{}, serial);
+    Mapping mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial);
     Batch batch(368);
     const double dt = 5e-4, speed = rpm_to_rad_s(60.0);
     double angle = 0.0;
@@ -50,7 +50,7 @@ void map_one_step(benchmark::State& state) {
         for (std::size_t p = 0; p < old.size(); ++p)
             batch.position[p] = rotate_about(axis, share * speed * dt, old[p]) + dt * batch.velocity[p];
         angle += speed * dt;
-        mapping.set_rotor_angle(angle);
+        mapping.set_time(angle);
         mapping.build(batch.shapes(old), before);
         mapping.build(batch.shapes(), after);
         entries += before.cell.size() + after.cell.size();
