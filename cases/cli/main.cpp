@@ -10,6 +10,7 @@
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
+#include "geometry/base/versions.hpp"
 
 namespace {
 
@@ -31,7 +32,7 @@ int run(int argc, char** argv) {
     CLI::App app("Predicts flow-induced spillage in the rotating cutter head of a cutter suction dredger: cutter STL in, report out.",
                  "cutterflow");
     app.require_subcommand(1);
-    app.set_version_flag("--version", CUTTERFLOW_VERSION);
+    app.set_version_flag("--version", build_versions_text());
     app.footer(
         "Start with: cutterflow new --cutter head.stl my_study.toml\n"
         "Exit codes: 0 done, 1 defect of the program, 2 wrong input, 3 an external program failed, 4 a check failed.");

@@ -10,6 +10,7 @@
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "validation/harness/suite/case_runs.hpp"
 
 namespace cutterflow::cli {
@@ -20,7 +21,6 @@ using validation::CaseVerdict;
 using validation::Effort;
 using validation::VerifiedCase;
 
-constexpr const char* k_docs = CUTTERFLOW_SOURCE_DIR "/docs";
 constexpr const char* k_kept = "results/validation";
 constexpr const char* k_charts = "charts";  // what they are drawn from, in the folder of results
 
@@ -31,8 +31,8 @@ struct VerifyOptions {
 };
 
 validation::VerificationPlaces places() {
-    const fs::path tools = fs::read_symlink("/proc/self/exe").parent_path();
-    return {CUTTERFLOW_SOURCE_DIR "/validation/cases", tools.parent_path() / "verification", tools, fs::path(k_docs) / k_kept};
+    const Installation own = installation();
+    return {own.data / "validation/cases", own.verification, own.programs, own.data / "docs" / k_kept};
 }
 
 void say(const std::string& text) {
@@ -64,12 +64,22 @@ std::vector<validation::VerificationCase> selected(const std::vector<validation:
 
 /// A folder's path from another, for links.
 std::string link_to_cases(const fs::path& from) {
-    return fs::path(CUTTERFLOW_SOURCE_DIR "/validation/cases").lexically_relative(fs::absolute(from).lexically_normal()).string() + "/";
+    return fs::canonical(places().cases).lexically_relative(fs::absolute(from).lexically_normal()).string() + "/";
+}
+
+/// docs/ of the source tree, which an installation copies.
+/// \throws UserError  when the program is installed
+fs::path published_docs() {
+    const fs::path docs = fs::canonical(installation().data / "docs");
+    if (!fs::exists(docs.parent_path() / "CMakeLists.txt"))
+        throw UserError(fmt::format("--publish writes to {}, which is installed", docs.string()),
+                        "Results are published in the source tree", "Give the command to build/bin/cutterflow of a clone");
+    return docs;
 }
 
 /// Results of the folder join those kept in the repository, and its pages are made from all.
 void publish(const std::vector<VerifiedCase>& results) {
-    const fs::path docs = k_docs, kept = docs / k_kept;
+    const fs::path docs = published_docs(), kept = docs / k_kept;
     const std::vector<VerifiedCase> all = validation::merged_verification(validation::read_verification(kept), results);
     for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), validation::case_json(result).dump(2) + "\n");
     write_file(docs / "validation.md", validation::verification_markdown(all, link_to_cases(docs)));
