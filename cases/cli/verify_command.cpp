@@ -52,6 +52,26 @@ Effort effort_of(const VerifyOptions& options) {
     return options.fast ? Effort::fast : options.longest ? Effort::longest : Effort::standard;
 }
 
+/// Options of which one would be ignored.
+void require_consistent(const VerifyOptions& options) {
+    struct Option {
+        const char* name;
+        bool given;
+    };
+    const Option names{"cases by name", !options.names.empty()}, pareto{"--pareto", !options.pareto.empty()}, all{"--all", options.all},
+        fast{"--fast", options.fast}, longest{"--long", options.longest}, list{"--list", options.list}, resume{"--resume", options.resume},
+        publish{"--publish", options.publish};
+    std::vector<Mistake> mistakes;
+    const auto exclude = [&](const Option& one, const std::vector<Option>& others, const char* rule, const char* remedy) {
+        for (const Option& other : others)
+            if (one.given && other.given) mistakes.push_back({"", fmt::format("{} with {}", one.name, other.name), rule, remedy});
+    };
+    exclude(all, {names, pareto}, "--all runs every case", "Name the cases, or give --all");
+    exclude(fast, {all, longest, pareto}, "--fast runs the quick part of the cases, the others all of it", "Give one of them");
+    exclude(list, {names, pareto, all, fast, longest, resume, publish}, "--list runs nothing", "Give --list alone, or with --json");
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 std::vector<validation::VerificationCase> selected(const std::vector<validation::VerificationCase>& all, const VerifyOptions& options) {
     if (!options.all && !options.fast && options.names.empty() && !options.publish)
         throw UserError("no case is named", "verify takes names, --fast or --all", "See cutterflow verify --list");
@@ -133,17 +153,18 @@ void add_verify(CLI::App& app) {
     auto* command = app.add_subcommand("verify", "Run cases with a known answer and report the errors of the program.");
     const auto options = std::make_shared<VerifyOptions>();
     command->add_option("cases", options->names, "Cases by name");
-    auto* const fast = command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
+    command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
     command->add_option("--pareto", options->pareto,
                         "Error against cost, one chart per option, defaults marked: the cases pareto_<name> (about an hour)");
     command->add_flag("--all", options->all, "All cases, in full");
-    command->add_flag("--long", options->longest, "Also the parts that take hours")->excludes(fast);
+    command->add_flag("--long", options->longest, "Also the parts that take hours");
     command->add_flag("--list", options->list, "List the cases");
     command->add_option("-o,--output", options->output, "Folder of the results")->capture_default_str();
     command->add_flag("--resume", options->resume, "Keep the cases of the folder that were finished with the same programs");
     command->add_flag("--publish", options->publish, "Copy the folder's results to docs/results/validation and rewrite docs/validation.md");
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->callback([options] {
+        require_consistent(*options);
         for (const std::string& name : options->pareto) options->names.push_back("pareto_" + name);
         options->longest = options->longest || !options->pareto.empty();
         verify(*options);
