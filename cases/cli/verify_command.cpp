@@ -122,6 +122,7 @@ void verify(const VerifyOptions& options) {
     const std::vector<validation::VerificationCase> all = validation::find_verification_cases(where.cases);
     if (options.list) return list(all, options.json);
     const std::vector<validation::VerificationCase> chosen = selected(all, options);
+    if (options.publish) published_docs();  // refuses before hours of work
     if (options.publish && chosen.empty() && validation::read_verification(options.output).empty())
         throw UserError(fmt::format("{} contains no results", options.output), "Only results of earlier runs can be published",
                         "Name the folder of the results with -o, or cases to run");
