@@ -10,6 +10,7 @@
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
+#include "geometry/base/versions.hpp"
 
 namespace {
 
@@ -27,11 +28,56 @@ void require_known_command(const CLI::App& app, const std::string& word) {
                     nearest.empty() ? "See cutterflow --help" : fmt::format("Did you mean {}?", nearest));
 }
 
+/// The command whose words were being read, or the program itself.
+const CLI::App& command_of(const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    return commands.empty() ? app : *commands.front();
+}
+
+std::string name_of(const CLI::App& command) {
+    return command.get_parent() == nullptr ? command.get_name() : command.get_parent()->get_name() + " " + command.get_name();
+}
+
+/// Words that start with "--" and belong to no option.
+std::vector<Mistake> unknown_options(const CLI::App& command) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options({}))
+        if (!option->get_positional()) known.push_back(option->get_name());
+    std::vector<Mistake> mistakes;
+    for (const std::string& word : command.remaining()) {
+        if (word.front() != '-') {
+            mistakes.push_back({"", fmt::format("\"{}\" is one word too many", word), fmt::format("{} takes no more", name_of(command)),
+                                fmt::format("Remove it, or see {} --help", name_of(command))});
+            continue;
+        }
+        const std::string nearest = nearest_word(word.substr(0, word.find('=')), known);
+        mistakes.push_back({"", fmt::format("{} has no option {}", name_of(command), word),
+                            fmt::format("Its options are {}", fmt::join(known, ", ")),
+                            nearest.empty() ? fmt::format("See {} --help", name_of(command)) : fmt::format("Did you mean {}?", nearest)});
+    }
+    return mistakes;
+}
+
+/// What the option parser did not take, with the rule and what to do.
+UserError refusal(const CLI::ParseError& error, const CLI::App& app) {
+    const CLI::App& command = command_of(app);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        const std::vector<Mistake> mistakes = unknown_options(command);
+        if (!mistakes.empty()) return UserError(mistakes);
+    }
+    std::string usage = name_of(command);
+    if (command.get_parent() == nullptr) usage += " COMMAND";
+    for (const CLI::Option* option : command.get_options({}))
+        if (option->get_positional()) usage += fmt::format(option->get_required() ? " {}" : " [{}]", option->get_name());
+    return {error.what(), fmt::format("The command is written as: {} [options]", usage),
+            fmt::format("{} --help names each option and what it takes", name_of(command))};
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Predicts flow-induced spillage in the rotating cutter head of a cutter suction dredger: cutter STL in, report out.",
                  "cutterflow");
     app.require_subcommand(1);
-    app.set_version_flag("--version", CUTTERFLOW_VERSION);
+    app.set_version_flag("--version", build_versions_text());
     app.footer(
         "Start with: cutterflow new --cutter head.stl my_study.toml\n"
         "Exit codes: 0 done, 1 defect of the program, 2 wrong input, 3 an external program failed, 4 a check failed.");
@@ -52,7 +98,8 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? static_cast<int>(ExitCode::done) : static_cast<int>(ExitCode::user_input);
+        if (error.get_exit_code() != 0) throw refusal(error, app);
+        app.exit(error);  // prints the help or the versions
     }
     return static_cast<int>(ExitCode::done);
 }

@@ -12,9 +12,11 @@
 #include "cases/runner/pipeline.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/shell_word.hpp"
+#include "geometry/base/versions.hpp"
 #include "postproc/pages/adv_page.hpp"
 #include "postproc/pages/report.hpp"
 
@@ -36,9 +38,8 @@ fs::path run_folder(const RunOptions& options) {
     return options.output ? fs::path(*options.output) : fs::path("runs") / fs::path(options.study).stem();
 }
 
-/// cutterFoam is in the folder of this program.
 fs::path solver_path() {
-    return fs::read_symlink("/proc/self/exe").parent_path() / "cutterFoam";
+    return installation().programs / "cutterFoam";
 }
 
 std::vector<std::string> programs_for(const RunOptions& options, const std::string& until) {
@@ -75,7 +76,8 @@ cases::StageObserver stage_lines(std::size_t count) {
 
 void go_through_stages(const RunOptions& options, const cases::RunDirectory& directory, const std::string& until, std::size_t count) {
     cases::Manifest manifest(directory.file(names::manifest));
-    manifest.set_versions({{"cutterflow", CUTTERFLOW_VERSION}, {"openfoam", "1912"}});
+    const auto versions = build_versions();
+    manifest.set_versions({versions.begin(), versions.end()});
     cases::Pipeline pipeline(directory, {fs::absolute(options.study), options.ranks, solver_path(), options.start_from}, say);
     try {
         cases::run_stages(directory, manifest, pipeline.stages(), until, options.resume, stage_lines(count));

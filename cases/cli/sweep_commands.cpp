@@ -15,6 +15,7 @@
 #include "cases/sweep/sweep.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/installation.hpp"
 #include "geometry/base/parameter.hpp"
 #include "geometry/base/shell_word.hpp"
 #include "postproc/pages/comparison_page.hpp"
@@ -65,7 +66,7 @@ void sweep(const SweepOptions& options) {
     cases::require_openfoam_path(fs::absolute(folder));
     const std::vector<cases::SweepPoint> points = cases::sweep_points(options.study, options.axes, folder);
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
-    const cases::SweepSettings settings{folder,         fs::read_symlink("/proc/self/exe"),
+    const cases::SweepSettings settings{folder,         installation().programs / "cutterflow",
                                         options.ranks,  jobs,
                                         options.resume, local ? cases::Launcher::local : cases::Launcher::slurm};
     if (options.emit) {

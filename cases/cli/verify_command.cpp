@@ -10,6 +10,7 @@
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "validation/harness/suite/case_runs.hpp"
 
 namespace cutterflow::cli {
@@ -20,7 +21,6 @@ using validation::CaseVerdict;
 using validation::Effort;
 using validation::VerifiedCase;
 
-constexpr const char* k_docs = CUTTERFLOW_SOURCE_DIR "/docs";
 constexpr const char* k_kept = "results/validation";
 constexpr const char* k_charts = "charts";  // what they are drawn from, in the folder of results
 
@@ -31,8 +31,8 @@ struct VerifyOptions {
 };
 
 validation::VerificationPlaces places() {
-    const fs::path tools = fs::read_symlink("/proc/self/exe").parent_path();
-    return {CUTTERFLOW_SOURCE_DIR "/validation/cases", tools.parent_path() / "verification", tools, fs::path(k_docs) / k_kept};
+    const Installation own = installation();
+    return {own.data / "validation/cases", own.verification, own.programs, own.data / "docs" / k_kept};
 }
 
 void say(const std::string& text) {
@@ -52,6 +52,26 @@ Effort effort_of(const VerifyOptions& options) {
     return options.fast ? Effort::fast : options.longest ? Effort::longest : Effort::standard;
 }
 
+/// Options of which one would be ignored.
+void require_consistent(const VerifyOptions& options) {
+    struct Option {
+        const char* name;
+        bool given;
+    };
+    const Option names{"cases by name", !options.names.empty()}, pareto{"--pareto", !options.pareto.empty()}, all{"--all", options.all},
+        fast{"--fast", options.fast}, longest{"--long", options.longest}, list{"--list", options.list}, resume{"--resume", options.resume},
+        publish{"--publish", options.publish};
+    std::vector<Mistake> mistakes;
+    const auto exclude = [&](const Option& one, const std::vector<Option>& others, const char* rule, const char* remedy) {
+        for (const Option& other : others)
+            if (one.given && other.given) mistakes.push_back({"", fmt::format("{} with {}", one.name, other.name), rule, remedy});
+    };
+    exclude(all, {names, pareto}, "--all runs every case", "Name the cases, or give --all");
+    exclude(fast, {all, longest, pareto}, "--fast runs the quick part of the cases, the others all of it", "Give one of them");
+    exclude(list, {names, pareto, all, fast, longest, resume, publish}, "--list runs nothing", "Give --list alone, or with --json");
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 std::vector<validation::VerificationCase> selected(const std::vector<validation::VerificationCase>& all, const VerifyOptions& options) {
     if (!options.all && !options.fast && options.names.empty() && !options.publish)
         throw UserError("no case is named", "verify takes names, --fast or --all", "See cutterflow verify --list");
@@ -64,12 +84,22 @@ std::vector<validation::VerificationCase> selected(const std::vector<validation:
 
 /// A folder's path from another, for links.
 std::string link_to_cases(const fs::path& from) {
-    return fs::path(CUTTERFLOW_SOURCE_DIR "/validation/cases").lexically_relative(fs::absolute(from).lexically_normal()).string() + "/";
+    return fs::canonical(places().cases).lexically_relative(fs::absolute(from).lexically_normal()).string() + "/";
+}
+
+/// docs/ of the source tree, which an installation copies.
+/// \throws UserError  when the program is installed
+fs::path published_docs() {
+    const fs::path docs = fs::canonical(installation().data / "docs");
+    if (!fs::exists(docs.parent_path() / "CMakeLists.txt"))
+        throw UserError(fmt::format("--publish writes to {}, which is installed", docs.string()),
+                        "Results are published in the source tree", "Give the command to build/bin/cutterflow of a clone");
+    return docs;
 }
 
 /// Results of the folder join those kept in the repository, and its pages are made from all.
 void publish(const std::vector<VerifiedCase>& results) {
-    const fs::path docs = k_docs, kept = docs / k_kept;
+    const fs::path docs = published_docs(), kept = docs / k_kept;
     const std::vector<VerifiedCase> all = validation::merged_verification(validation::read_verification(kept), results);
     for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), validation::case_json(result).dump(2) + "\n");
     write_file(docs / "validation.md", validation::verification_markdown(all, link_to_cases(docs)));
@@ -92,6 +122,7 @@ void verify(const VerifyOptions& options) {
     const std::vector<validation::VerificationCase> all = validation::find_verification_cases(where.cases);
     if (options.list) return list(all, options.json);
     const std::vector<validation::VerificationCase> chosen = selected(all, options);
+    if (options.publish) published_docs();  // refuses before hours of work
     if (options.publish && chosen.empty() && validation::read_verification(options.output).empty())
         throw UserError(fmt::format("{} contains no results", options.output), "Only results of earlier runs can be published",
                         "Name the folder of the results with -o, or cases to run");
@@ -123,17 +154,18 @@ void add_verify(CLI::App& app) {
     auto* command = app.add_subcommand("verify", "Run cases with a known answer and report the errors of the program.");
     const auto options = std::make_shared<VerifyOptions>();
     command->add_option("cases", options->names, "Cases by name");
-    auto* const fast = command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
+    command->add_flag("--fast", options->fast, "The quick part of all cases (or of those named): what CI runs");
     command->add_option("--pareto", options->pareto,
                         "Error against cost, one chart per option, defaults marked: the cases pareto_<name> (about an hour)");
     command->add_flag("--all", options->all, "All cases, in full");
-    command->add_flag("--long", options->longest, "Also the parts that take hours")->excludes(fast);
+    command->add_flag("--long", options->longest, "Also the parts that take hours");
     command->add_flag("--list", options->list, "List the cases");
     command->add_option("-o,--output", options->output, "Folder of the results")->capture_default_str();
     command->add_flag("--resume", options->resume, "Keep the cases of the folder that were finished with the same programs");
     command->add_flag("--publish", options->publish, "Copy the folder's results to docs/results/validation and rewrite docs/validation.md");
     command->add_flag("--json", options->json, "Print the results as JSON");
     command->callback([options] {
+        require_consistent(*options);
         for (const std::string& name : options->pareto) options->names.push_back("pareto_" + name);
         options->longest = options->longest || !options->pareto.empty();
         verify(*options);

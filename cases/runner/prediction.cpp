@@ -1,5 +1,6 @@
 #include "cases/runner/prediction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -102,6 +103,15 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
         for (const RockClass& rock : feed.classes) prediction.settling_speeds.push_back(settling_speed(study, rock));
     }
     return prediction;
+}
+
+std::vector<Mistake> prediction_warnings(const Study& study, const Prediction& prediction) {
+    const std::vector<double>& settling = prediction.settling_speeds;
+    const auto fastest = std::max_element(settling.begin(), settling.end());
+    if (fastest == settling.end() || *fastest <= prediction.mouth_speed) return {};
+    return {{"",
+             fmt::format("suction.discharge_m3_s = {:.6g} passes the mouth at {:.3g} m/s", study.suction.discharge, prediction.mouth_speed),
+             fmt::format("Rock that settles at {:.3g} m/s is not lifted", *fastest), "Check the discharge and suction.mouth_radius_m"}};
 }
 
 std::string to_text(const Prediction& p) {

@@ -44,6 +44,9 @@ struct Prediction {
 /// \throws UserError  when the mesh cannot be planned (clearances, gap, mouth, tank)
 Prediction predict(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter, const RunMachine& machine);
 
+/// What is likely a mistake in the operating point: rock that settles faster than the water passes the suction mouth.
+std::vector<Mistake> prediction_warnings(const Study& study, const Prediction& prediction);
+
 std::string to_text(const Prediction& prediction);
 nlohmann::json to_json(const Prediction& prediction);
 

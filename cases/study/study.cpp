@@ -8,11 +8,15 @@
 #include "geometry/base/axis_frame.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
+#include "solver/physics/drag.hpp"
 
 namespace cutterflow::cases {
 namespace {
 
 constexpr double k_degree = k_pi / 180.0;
+// Bernoulli: where water at rest 35 m below the surface, as deep as cutters dredge, has reached 30 m/s, its pressure is the vapour's.
+constexpr double k_largest_mouth_speed = 30.0;  // [m/s]
+constexpr double k_most_rocks = 1e6;            // of a study; each is followed on its own
 
 double period_of(const ParameterValues& values) {
     return 60.0 / values.number("rotor.speed_rpm");
@@ -140,6 +144,38 @@ void check_suction(const ParameterValues& study, const HeadSize& head, Rules& ru
         fmt::format("The backplate must carry the pipe: mouth_offset_m + mouth_radius_m + pipe_wall_m = {:.4g} may be at most its radius",
                     offset + radius + wall),
         "Enlarge the backplate or make the pipe smaller");
+}
+
+/// Rocks of a feed, not rounded.
+double number_of_rocks(const ParameterValues& feed) {
+    if (feed.has("feed.count")) return static_cast<double>(feed.integer("feed.count"));
+    double number = 0.0, shares = 0.0;
+    for (const ParameterValues& rock : feed.tables("feed.class")) {
+        const double mass = rock.number("feed.class.density_kg_m3") * physics::sphere_volume(rock.number("feed.class.diameter_m"));
+        number += rock.number("feed.class.mass_share") / mass;
+        shares += rock.number("feed.class.mass_share");
+    }
+    return feed.number("feed.mass_kg") * number / shares;
+}
+
+void check_number_of_rocks(const ParameterValues& study, Rules& rules) {
+    for (const ParameterValues& feed : study.tables("feed")) {
+        const double number = number_of_rocks(feed);
+        rules.require(number <= k_most_rocks, feed, feed.has("feed.count") ? "feed.count" : "feed.mass_kg",
+                      fmt::format("It makes {:.3g} rocks; a feed has at most {:.3g}, as each is followed on its own", number, k_most_rocks),
+                      "Release less, or larger rock");
+    }
+}
+
+void check_discharge(const ParameterValues& study, Rules& rules) {
+    const double radius = study.number("suction.mouth_radius_m");
+    const double speed = study.number("suction.discharge_m3_s") / (k_pi * radius * radius);
+    rules.require(
+        speed <= k_largest_mouth_speed, "suction.discharge_m3_s",
+        fmt::format("Through a mouth of radius {:.4g} m it flows at {:.4g} m/s; above {:g} m/s water turns to vapour, which is not "
+                    "modelled",
+                    radius, speed, k_largest_mouth_speed),
+        "Correct the discharge, or widen suction.mouth_radius_m");
 }
 
 void check_tank(const ParameterValues& study, const HeadSize& head, Rules& rules) {
@@ -272,8 +308,10 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
 std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
     check_suction(resolved, head, rules);
+    check_discharge(resolved, rules);
     check_tank(resolved, head, rules);
     check_feed_region(resolved, head, rules);
+    check_number_of_rocks(resolved, rules);
     rules.require(!physics::drag_law_holds_void_fraction(resolved.text("closures.drag")) ||
                       resolved.text("closures.hindrance") == physics::k_no_closure,
                   "closures.hindrance",

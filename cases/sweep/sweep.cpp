@@ -132,6 +132,9 @@ void check_names(const std::vector<SweepPoint>& points) {
 void write_studies(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
     const fs::path studies = settings.folder / k_studies;
     if (!fs::exists(studies)) {
+        if (settings.resume)
+            throw UserError(fmt::format("{} holds no sweep", settings.folder.string()), "--resume goes on with a sweep that was begun",
+                            "Correct the folder given with -o, or leave --resume out");
         if (fs::exists(settings.folder) && !fs::is_empty(settings.folder))
             throw UserError(fmt::format("{} already contains something else", settings.folder.string()), "Nothing is overwritten",
                             "Name another folder with -o");
@@ -316,7 +319,14 @@ std::vector<SweepPoint> without_report(const std::vector<SweepPoint>& points, co
     return missing;
 }
 
-/// Writes the job array that takes `points` through `what`. \return the script
+/// "mesh.slurm", or with a number when that is taken: its user may have changed the script of an earlier start.
+fs::path free_script(const fs::path& folder, const std::string& what) {
+    fs::path script = folder / (what + ".slurm");
+    for (int i = 2; fs::exists(script); ++i) script = folder / fmt::format("{}_{}.slurm", what, i);
+    return script;
+}
+
+/// Writes the job array that takes `points` through `what`. \return the script, a new one
 fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::string& what) {
     SweepSettings absolute = settings;  // the working directory of a job is not defined
     absolute.folder = fs::absolute(settings.folder).lexically_normal();
@@ -326,7 +336,7 @@ fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSe
         tasks.push_back({command.arguments, command.log});
     }
     fs::create_directories(absolute.folder / k_logs);
-    const fs::path script = settings.folder / (what == "run" ? "sweep.slurm" : "mesh.slurm");
+    const fs::path script = free_script(settings.folder, what == "run" ? "sweep" : "mesh");
     write_file(script, slurm_script(fmt::format("cutterflow_{}", safe(absolute.folder.filename().string())), tasks, settings.ranks));
     return script;
 }

@@ -47,13 +47,14 @@ struct SweepOutcome {
 };
 
 /// Runs every point to its report. A failed point is reported; the others continue. Lines for the user go to `say`.
-/// \throws UserError    when the folder holds another sweep, or this one and `resume` is false
+/// \throws UserError    when the folder holds another sweep, this one and `resume` is false, or none and `resume` is true
 /// \throws Interrupted  when the user stops it; finished work is kept, submitted Slurm jobs continue
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say);
 
-/// Writes the studies and `<folder>/sweep.slurm`, the job array of all points that have no report yet, and starts nothing. Each point makes
-/// its own mesh. \return the script; empty when nothing is missing
+/// Writes the studies and `<folder>/sweep.slurm`, the job array of all points that have no report yet, and starts nothing; an earlier
+/// script is kept, and the new one is sweep_2.slurm and so on. Each point makes its own mesh. \return the script; empty when nothing is
+/// missing
 std::filesystem::path emit_slurm(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
 }  // namespace cutterflow::cases

@@ -90,6 +90,7 @@ protected:
     ChildCommand mesh_with_stand_ins() {
         fs::create_directories(folder_ / "bin");
         fs::copy_file(k_cutterflow, folder_ / "bin/cutterflow");
+        write_file(folder_ / "share/cutterflow/docs/references.bib", "");  // marks an installation
         for (const char* name : {"blockMesh", "surfaceFeatureExtract", "snappyHexMesh", "topoSet", "createPatch", "checkMesh",
                                  "cutterInterfaceRestore", "cutterMeshProbe"})
             stand_in(name, "exit 0");
@@ -124,7 +125,36 @@ TEST_F(Cli, explains_itself) {
     }
     EXPECT_EQ(call({}).code, 2);
     expect_refused(call({"runn"}), 2, "there is no command runn");
-    EXPECT_EQ(call({"--version"}).text.substr(0, 2), "0.");
+}
+
+TEST_F(Cli, names_the_versions_of_what_it_was_built_with) {
+    const Outcome versions = call({"--version"});
+    EXPECT_EQ(versions.code, 0);
+    EXPECT_EQ(versions.text.rfind("cutterflow  0.2.0\n", 0), 0u) << versions.text;
+    for (const char* name : {"OpenFOAM", "LIGGGHTS", "CGAL", "assimp", "Open MPI", "compiler"}) expect_contains(versions.text, name);
+}
+
+TEST_F(Cli, says_rule_and_remedy_of_words_it_does_not_understand) {
+    study();
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+        {{}, "A subcommand is required"},
+        {{"check"}, "study is required"},
+        {{"check", "study.toml", "--ranks", "two"}, "two"},
+        {{"check", "study.toml", "--ranks"}, "--ranks"},
+        {{"check", "study.toml", "second.toml"}, "\"second.toml\" is one word too many"},
+        {{"check", "study.toml", "--jsn"}, "cutterflow check has no option --jsn. Its options are --help, --ranks, --json"},
+        {{"sweep", "study.toml", "--repeats", "0"}, "--repeats"},
+        {{"sweep", "study.toml", "--launcher", "pbs"}, "pbs"},
+    };
+    for (const auto& [words, part] : wrong) {
+        const Outcome outcome = call(words);
+        expect_refused(outcome, 2, part);
+        expect_contains(outcome.text, " --");
+        EXPECT_TRUE(outcome.text.find("The command is written as: cutterflow") != std::string::npos ||
+                    outcome.text.find("Its options are") != std::string::npos || outcome.text.find("takes no more") != std::string::npos)
+            << outcome.text;
+    }
+    expect_contains(call({"check", "study.toml", "--jsn"}).text, "Did you mean --json?");
 }
 
 TEST_F(Cli, verify_lists_its_cases_and_refuses_others) {
@@ -137,6 +167,46 @@ TEST_F(Cli, verify_lists_its_cases_and_refuses_others) {
     write_file(folder_ / "thesis/chapter.tex", "mine");
     expect_refused(call({"verify", "suspension", "-o", "thesis"}), 2, "Nothing is overwritten");
     expect_refused(call({"verify", "suspension", "-o", "my results"}), 2, "OpenFOAM");
+}
+
+TEST_F(Cli, verify_refuses_options_that_contradict_each_other) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+        {{"closures", "--all"}, "--all with cases by name"},
+        {{"--all", "--pareto", "terminal_speed"}, "--all with --pareto"},
+        {{"--fast", "--all"}, "--fast with --all"},
+        {{"closures", "--fast", "--long"}, "--fast with --long"},
+        {{"--fast", "--pareto", "terminal_speed"}, "--fast with --pareto"},
+        {{"--list", "closures"}, "--list with cases by name"},
+        {{"--list", "--publish"}, "--list with --publish"},
+        {{"--list", "--resume"}, "--list with --resume"},
+    };
+    for (auto [words, part] : wrong) {
+        words.insert(words.begin(), "verify");
+        expect_refused(call(words), 2, part);
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "runs"));
+}
+
+TEST_F(Cli, check_refuses_rock_too_fine_or_too_many_and_discharges_that_boil) {
+    const auto feed = [](const std::string& amount, const std::string& diameter) {
+        return "[[feed]]\n" + amount + "\n[[feed.class]]\ndiameter_m = " + diameter + "\n";
+    };
+    // 1 kg of 2650 kg/m3 in spheres of 1e-6 m: 6 / (pi 1e-18 2650) = 7.21e14.
+    expect_refused(call({"check", study(feed("mass_kg = 1", "1e-6"))}), 2, "feed.mass_kg = 1. It makes 7.21e+14 rocks");
+    expect_refused(call({"check", study(feed("count = 20", "1e-6"))}), 2, "places 1.5e-06 m apart");
+    expect_refused(call({"check", study(feed("count = 2000000", "0.02"))}), 2, "feed.count = 2e+06. It makes 2e+06 rocks");
+    // A mouth of 0.1 m radius: 30 m/s are 0.942 m3/s.
+    const auto with_discharge = [&](const std::string& value) {
+        study(k_feed);
+        std::string text = read_file(folder_ / "study.toml");
+        text.replace(text.find("0.12"), 4, value);
+        write_file(folder_ / "study.toml", text);
+        return call({"check", "study.toml"});
+    };
+    expect_refused(with_discharge("1.0"), 2, "suction.discharge_m3_s = 1. Through a mouth of radius 0.1 m it flows at 31.83 m/s");
+    const Outcome slow = with_discharge("1e-6");
+    EXPECT_EQ(slow.code, 0);
+    expect_contains(slow.text, "warning: suction.discharge_m3_s = 1e-06 passes the mouth at 3.18e-05 m/s");
 }
 
 TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {

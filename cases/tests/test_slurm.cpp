@@ -142,7 +142,11 @@ TEST_F(Slurm, emit_writes_the_missing_points_and_starts_nothing) {
     write_file(folder_ / "go", "");
     for (const char* index : {"0", "1"}) require_child({{"sh", script.string()}, {}, {}, {{"SLURM_ARRAY_TASK_ID", index}}});
     EXPECT_THAT(read_file(folder_ / "sweep/logs/30rpm.run.log"), HasSubstr("run: 50 %"));
-    const std::string rest = read_file(emit_slurm(points_, settings(k_run, true)));
+    write_file(script, read_file(script) + "# the user's own line\n");
+    const fs::path second = emit_slurm(points_, settings(k_run, true));
+    EXPECT_THAT(read_file(script), HasSubstr("# the user's own line")) << "an earlier script is overwritten";
+    EXPECT_EQ(second, folder_ / "sweep/sweep_2.slurm");
+    const std::string rest = read_file(second);
     EXPECT_THAT(rest, HasSubstr("#SBATCH --array=0-0"));
     EXPECT_THAT(rest, HasSubstr("90rpm"));
 }

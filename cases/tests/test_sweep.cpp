@@ -112,6 +112,11 @@ TEST_F(Sweep, is_gone_on_with_when_asked_and_only_as_the_same_sweep) {
     EXPECT_THROW(run(points({{20, 30}, {}, {}, 1}), settings(k_runs, true)), UserError);
 }
 
+TEST_F(Sweep, is_not_begun_by_asking_to_go_on_with_it) {
+    EXPECT_THROW(run(points({{20, 30}, {}, {}, 1}), settings(k_runs, true)), UserError);
+    EXPECT_FALSE(fs::exists(folder_ / "sweep"));
+}
+
 TEST_F(Sweep, runs_as_many_at_a_time_as_it_is_told) {
     // Each point waits for the other: they end only when both run at once.
     const std::string meet =

@@ -13,9 +13,16 @@ namespace cutterflow::geometry {
 namespace {
 
 const RotationAxis k_rotor_axis{};
+constexpr double k_most_places = 2e7;  // of a lattice that is searched: some ten seconds, a gigabyte
 
 Cylindrical cylindrical_of(const Vec3& point) {
     return to_cylindrical(k_rotor_axis, Vec3::UnitX(), point);
+}
+
+/// Places of the lattice in the box around the region, all of which are looked at.
+double lattice_count(const RockBatch& batch) {
+    const double width = 2.0 * batch.region.radius_max / batch.lattice_spacing;
+    return width * width * (batch.region.z_max - batch.region.z_min) / batch.lattice_spacing;
 }
 
 void require_consistent(const RockBatch& batch) {
@@ -35,6 +42,12 @@ void require_consistent(const RockBatch& batch) {
     require(region.azimuth_span > 0.0 && region.azimuth_span <= 2.0 * k_pi,
             fmt::format("the feed region spans {} rad", region.azimuth_span), "It must be positive and one turn at most",
             "Give a span of up to 360 degrees");
+    const double places = lattice_count(batch);
+    if (mistakes.empty())
+        require(places <= k_most_places,
+                fmt::format("the feed region would take {:.2g} places {:.3g} m apart", places, batch.lattice_spacing),
+                fmt::format("At most {:.2g} places are searched for rock", k_most_places),
+                "Correct the diameter, make the region less deep, or space the rocks wider");
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 

@@ -61,8 +61,8 @@ struct RockPlacement {
 /// Sets a batch on a simple cubic lattice in a wedge of the head. The batch is the `count` places of the region nearest to its middle; a
 /// place that lies outside the water, outside the head's contour (the rock as a whole must be inside), or inside or too near to steel is
 /// replaced by the next nearest free one. Rocks left over when all free places are taken are rejected. \param steel  solids as they stand
-/// at the release, the cutter turned to its angle then \throws UserError  when the batch contradicts itself, or when its region has no free
-/// place at all
+/// at the release, the cutter turned to its angle then \throws UserError  when the batch contradicts itself, when its lattice is too fine
+/// to be searched (nothing was searched then), or when its region has no free place at all
 RockPlacement place_rocks(const RockBatch& batch, const Contour& head, const WaterBody& water,
                           const std::vector<const SolidSearch*>& steel);
 

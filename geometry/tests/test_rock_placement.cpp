@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
+#include <string>
 
 #include "geometry/base/error.hpp"
 #include "geometry/head/head.hpp"
@@ -43,6 +45,21 @@ TEST(RockPlacement, the_batch_of_the_paper_fits_into_the_model_head) {
     EXPECT_EQ(placement.rejected(), 0u);
     EXPECT_GT(placement.moved, 0u);
     EXPECT_EQ(placement.rejection_reason(), "");
+}
+
+TEST(RockPlacement, refuses_a_lattice_too_fine_to_be_searched_at_once) {
+    RockBatch batch = batch_of_the_paper();
+    batch.diameter = 1e-6;
+    batch.lattice_spacing = 1.5e-6;
+    batch.clearance = 0.0;
+    const std::clock_t begin = std::clock();
+    try {
+        place_rocks(batch, model().contour, model().water, {&model().cutter});
+        FAIL() << "searched";
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("places 1.5e-06 m apart"), std::string::npos) << error.what();
+    }
+    EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC);
 }
 
 class Repeats : public ::testing::TestWithParam<std::uint64_t> {};

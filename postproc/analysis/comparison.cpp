@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -240,6 +241,20 @@ std::string label_of(const RunData& run) {
     return run.operating_point.study_name.empty() ? run.directory.filename().string() : run.operating_point.study_name;
 }
 
+/// Settings whose studies have one name are told apart by their first run's directory: by its name, or by its path when names are equal
+/// too.
+void make_labels_differ(std::vector<Setting>& settings, const std::vector<ComparedRun>& runs) {
+    const auto directory = [&](const Setting& setting) { return runs[setting.runs.front()].run.directory.lexically_normal(); };
+    const auto add = [&](const std::function<std::string(const Setting&)>& distinction) {
+        std::map<std::string, int> count;
+        for (const Setting& setting : settings) ++count[setting.label];
+        for (Setting& setting : settings)
+            if (count[setting.label] > 1) setting.label += fmt::format(" ({})", distinction(setting));
+    };
+    add([&](const Setting& setting) { return directory(setting).filename().string(); });
+    add([&](const Setting& setting) { return directory(setting).string(); });
+}
+
 std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
     std::vector<Setting> settings;
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -250,6 +265,7 @@ std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
         else
             same->runs.push_back(i);
     }
+    make_labels_differ(settings, runs);
     for (Setting& setting : settings) {
         std::sort(setting.runs.begin(), setting.runs.end(),
                   [&](std::size_t a, std::size_t b) { return runs[a].run.seed < runs[b].run.seed; });

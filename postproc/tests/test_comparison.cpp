@@ -69,6 +69,23 @@ TEST(Comparison, of_single_runs_has_bounds_and_no_interval) {
     EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "cells"), 1).verdict, ComparisonVerdict::no_interval);
 }
 
+TEST(Comparison, gives_settings_of_equal_names_labels_of_their_own) {
+    std::vector<fs::path> directories;
+    for (const char* name : {"labels/a", "labels/b", "labels/other/a", "labels/c"}) {
+        SmallRun run(name);
+        run.length_ratio = 1.0 + static_cast<double>(directories.size());
+        if (directories.size() == 3) run.study_name = "another";
+        run.write();
+        directories.push_back(run.directory);
+    }
+    const std::vector<Setting> settings = compare_runs(directories).settings;
+    ASSERT_EQ(settings.size(), 4u);
+    EXPECT_EQ(settings[0].label, "small run (a) (" + directories[0].string() + ")");
+    EXPECT_EQ(settings[1].label, "small run (b)");
+    EXPECT_EQ(settings[2].label, "small run (a) (" + directories[2].string() + ")");
+    EXPECT_EQ(settings[3].label, "another");
+}
+
 TEST(Comparison, says_when_bounds_or_scatter_hide_a_difference) {
     // One rock more spilled, two undecided: the bounds hold zero.
     const Comparison bounded = compare_runs({variant("bounds_a", {}), variant("bounds_b", {4}, 2.0)});

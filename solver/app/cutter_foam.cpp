@@ -3,10 +3,12 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include <mpi.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
@@ -28,7 +30,8 @@ std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& se
     std::cout << "Models that are on:\n";
     for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
     std::cout << std::endl;
-    recorder->describe(models, program_versions());
+    const auto versions = build_versions();
+    recorder->describe(models, {versions.begin(), versions.end()});
     return recorder;
 }
 
@@ -72,6 +75,10 @@ int explain(const std::exception& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 2 && std::string(argv[1]) == "-version") {
+        std::cout << build_versions_text();
+        return static_cast<int>(ExitCode::done);
+    }
     int code = static_cast<int>(ExitCode::done);
     try {
         run(argc, argv);

@@ -1,7 +1,6 @@
 #include "solver/app/models_in_use.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 namespace cutterflow {
 namespace {
@@ -46,17 +45,6 @@ std::vector<coupling::ModelNote> models_in_use(const foam::CouplingDictionary& d
     add_coupling_models(dictionary.coupling, notes);
     add_contact_models(*dictionary.dem, notes);
     return notes;
-}
-
-std::map<std::string, std::string> program_versions() {
-    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
-    int length = 0;
-    MPI_Get_library_version(mpi, &length);
-    const std::string library(mpi, static_cast<std::size_t>(length));
-    return {{"cutterFoam", CUTTERFLOW_VERSION},
-            {"OpenFOAM", CUTTERFLOW_OPENFOAM_VERSION},
-            {"LIGGGHTS", "3.8.0"},
-            {"MPI", library.substr(0, library.find(','))}};
 }
 
 }  // namespace cutterflow

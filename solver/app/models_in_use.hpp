@@ -1,7 +1,5 @@
 #pragma once
 /// \file The sub-models of a run, and why each is on: the run's first lines, and the report's table.
-#include <map>
-#include <string>
 #include <vector>
 
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
@@ -12,8 +10,5 @@ namespace cutterflow {
 
 /// One note for every model that is on, in the order of the equations.
 std::vector<coupling::ModelNote> models_in_use(const foam::CouplingDictionary& dictionary, const foam::FoamFluidEngine& fluid);
-
-/// Versions of the programs and libraries that make up this solver.
-std::map<std::string, std::string> program_versions();
 
 }  // namespace cutterflow

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/installation.hpp"
 #include "geometry/cgal/exact_solid.hpp"
 #include "geometry/head/crown_cutter.hpp"
 #include "geometry/surface/revolve.hpp"
@@ -89,7 +90,7 @@ std::string binary_ply(const geometry::TriangleSurface& surface) {
 
 const geometry::CrownParameters& crown_parameters() {
     static const geometry::CrownParameters parameters =
-        geometry::read_crown_parameters(std::string(CUTTERFLOW_SOURCE_DIR) + "/cases/examples/model_cutter/crown.toml");
+        geometry::read_crown_parameters(installation().data / "cases/examples/model_cutter/crown.toml");
     return parameters;
 }
 

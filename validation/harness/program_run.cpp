@@ -1,6 +1,7 @@
 #include "validation/harness/program_run.hpp"
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "geometry/base/run_files.hpp"
 
 namespace cutterflow::validation {
@@ -10,7 +11,7 @@ namespace fs = std::filesystem;
 ChildResult run_cutterflow(const fs::path& folder, const std::vector<std::string>& arguments) {
     fs::create_directories(folder);
     ChildCommand command;
-    command.arguments = {std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterflow"};
+    command.arguments = {(installation().programs / "cutterflow").string()};
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
     command.working_directory = folder;
     command.log = folder / ("log." + arguments.front());

@@ -10,7 +10,7 @@
 
 namespace cutterflow::validation {
 
-/// Runs the built cutterflow in a folder (created if missing), its output in log.<command> there.
+/// Runs the cutterflow of this installation in a folder (created if missing), its output in log.<command> there.
 /// \throws ToolError  with the end of the log when it fails
 ChildResult run_cutterflow(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 

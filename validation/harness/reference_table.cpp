@@ -9,13 +9,13 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 
 namespace cutterflow::validation {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_references = CUTTERFLOW_SOURCE_DIR "/docs/references.bib";
 constexpr const char* k_source = "# source: ";
 
 std::vector<std::string> fields_of(const std::string& line) {
@@ -33,7 +33,7 @@ ReferenceColumn column_of(const std::string& text) {
 }
 
 bool is_known(const std::string& key) {
-    return !key.empty() && read_file(k_references).find("{" + key + ",") != std::string::npos;
+    return !key.empty() && read_file(installation().data / "docs/references.bib").find("{" + key + ",") != std::string::npos;
 }
 
 void check_columns(const std::string& where, const std::vector<ReferenceColumn>& there, const std::vector<ReferenceColumn>& wanted,
@@ -54,6 +54,10 @@ void check_columns(const std::string& where, const std::vector<ReferenceColumn>&
 }
 
 }  // namespace
+
+fs::path case_file(const std::string& name) {
+    return installation().data / "validation/cases" / name;
+}
 
 ReferenceTable read_reference(const fs::path& file, const std::vector<ReferenceColumn>& wanted) {
     ReferenceTable table;

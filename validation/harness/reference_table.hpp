@@ -19,6 +19,9 @@ struct ReferenceTable {
     const std::vector<double>& at(const std::string& column) const { return columns.at(column); }
 };
 
+/// A file of validation/cases: "impacts/kharaz.csv".
+std::filesystem::path case_file(const std::string& name);
+
 /// Reads `# source: <key>`, further lines of comment, one line of columns as `speed [m/s],restitution [-]` and rows of numbers.
 /// \throws UserError  with every mistake: no known source, a column without a unit, a wanted column that is missing or in another unit,
 ///                    a field that is no number

@@ -35,7 +35,7 @@ void check_drag(Verification& verification) {
                                                         {"koch_hill", "KochHill2001"}};
     std::vector<ReferenceColumn> columns{{"Re", "-"}, {"void fraction", "-"}, {"sphericity", "-"}};
     for (const auto& law : laws) columns.push_back({law.first, "-"});
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/drag.csv", columns);
+    const ReferenceTable table = read_reference(case_file("closures/drag.csv"), columns);
     for (const auto& [name, source] : laws) {
         const physics::DragLaw law = physics::find_drag_law(name);
         Worst coefficient;
@@ -51,7 +51,7 @@ void check_drag(Verification& verification) {
 
 void check_hindrance(Verification& verification) {
     const ReferenceTable table =
-        read_reference(CUTTERFLOW_CASE_DIR "/hindrance.csv", {{"Re_p", "-"}, {"void fraction", "-"}, {"factor", "-"}});
+        read_reference(case_file("closures/hindrance.csv"), {{"Re_p", "-"}, {"void fraction", "-"}, {"factor", "-"}});
     Worst worst;
     for (std::size_t i = 0; i < table.rows(); ++i)
         worst.take(physics::find_hindrance_law("di_felice")(table.at("void fraction")[i], table.at("Re_p")[i]), table.at("factor")[i]);
@@ -61,7 +61,7 @@ void check_hindrance(Verification& verification) {
 
 void check_lift(Verification& verification) {
     const ReferenceTable table =
-        read_reference(CUTTERFLOW_CASE_DIR "/lift.csv", {{"Re_p", "-"}, {"Re_G", "-"}, {"J", "-"}, {"lift coefficient", "-"}});
+        read_reference(case_file("closures/lift.csv"), {{"Re_p", "-"}, {"Re_G", "-"}, {"J", "-"}, {"lift coefficient", "-"}});
     Worst ratio, coefficient;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double re_p = table.at("Re_p")[i], re_g = table.at("Re_G")[i];

@@ -9,6 +9,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 #include "postproc/analysis/time_average.hpp"
 #include "validation/harness/scenes/box_case.hpp"
@@ -20,7 +21,9 @@ using namespace cutterflow;
 using namespace cutterflow::validation;
 namespace fs = std::filesystem;
 
-const fs::path k_tutorial = CUTTERFLOW_TUTORIALS "/lagrangian/DPMFoam/Goldschmidt";
+fs::path tutorial() {
+    return installation().data / "tutorials/lagrangian/DPMFoam/Goldschmidt";
+}
 
 // The bed, as the tutorial has it, halved in width and height.
 constexpr double k_diameter = 0.0025, k_density = 2526.0, k_air_density = 1.2, k_gravity = 9.81;
@@ -101,7 +104,7 @@ Result result_of(const fs::path& folder, const Bed& bed, double core_s, double o
 
 Result run_dpm_foam(const fs::path& folder, const Bed& bed) {
     fs::create_directories(folder.parent_path());
-    fs::copy(k_tutorial, folder, fs::copy_options::recursive);
+    fs::copy(tutorial(), folder, fs::copy_options::recursive);
     make_mesh(folder);
     std::string positions = "(\n";
     for (const Vec3& p : bed.particles) positions += fmt::format("({} {} {})\n", p.x(), p.y(), p.z());
@@ -194,8 +197,8 @@ Result run_cutter_foam_bed(const fs::path& folder, const Bed& bed) {
 
 void run(Verification& verification) {
     if (!verification.wants(Effort::longest)) return;
-    if (!fs::exists(k_tutorial))
-        throw UserError(fmt::format("{} is not there", k_tutorial.string()), "The bed is the one of OpenFOAM's tutorial",
+    if (!fs::exists(tutorial()))
+        throw UserError(fmt::format("{} is not there", tutorial().string()), "The bed is the one of OpenFOAM's tutorial",
                         "Run ./bootstrap, which fetches OpenFOAM's source");
     Bed bed{lattice(), k_stock_modulus, k_short};
     {

@@ -129,7 +129,7 @@ void check_curve(Verification& verification) {
         {"spin over 617 rad/s", "angle for spin", "spin", "rad/s", 617.0, [](double angle_deg) { return -hit(angle_deg).spin; }},
         {"rebound angle over 90 degrees", "angle for rebound", "rebound angle", "deg", 90.0, patch_angle}};
     for (const Curve& curve : curves) {
-        const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test4.csv", {{curve.angle, "deg"}, {curve.value, curve.unit}});
+        const ReferenceTable table = read_reference(case_file("impacts/test4.csv"), {{curve.angle, "deg"}, {curve.value, curve.unit}});
         double slides = 0.0, sticks = 0.0;
         for (std::size_t i = 0; i < table.rows(); ++i) {
             const double angle_deg = table.at(curve.angle)[i];
@@ -149,7 +149,7 @@ void check_curve(Verification& verification) {
 
 /// Class fast leaves out the angles at which the sphere sticks in part.
 void check_measured(Verification& verification) {
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/kharaz.csv", {{"angle", "deg"}, {"tangential restitution", "-"}});
+    const ReferenceTable table = read_reference(case_file("impacts/kharaz.csv"), {{"angle", "deg"}, {"tangential restitution", "-"}});
     const About about{
         table.source,
         "against the measured points, alumina on glass. Below 32.5 degrees it sticks in part; there many springs and the glass's own "
@@ -181,7 +181,7 @@ void check_constant_normal_speed(Verification& verification) {
                               radius * after.spin / (friction * normal), 5.0, 0.02, sliding);
     }
     if (!verification.wants(Effort::standard)) return;
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test5.csv", {{"x", "-"}, {"y1", "-"}});
+    const ReferenceTable table = read_reference(case_file("impacts/test5.csv"), {{"x", "-"}, {"y1", "-"}});
     double error = 0.0;
     for (std::size_t i = 0; i < table.rows(); ++i) error = std::max(error, std::abs(patch(table.at("x")[i], after) - table.at("y1")[i]));
     verification.at_most(
@@ -221,7 +221,7 @@ void check_spin(Verification& verification) {
         verification.absolute(fmt::format("test 8, x = {}: beta", x), "-", found.spheres, x - 1.0, 0.03, sliding);
     }
     if (!verification.wants(Effort::standard)) return;
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/test6.csv", {{"x", "-"}, {"beta wall", "-"}, {"beta spheres", "-"}});
+    const ReferenceTable table = read_reference(case_file("impacts/test6.csv"), {{"x", "-"}, {"beta wall", "-"}, {"beta spheres", "-"}});
     Spin slides, sticks;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double x = table.at("x")[i];

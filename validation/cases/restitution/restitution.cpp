@@ -52,7 +52,7 @@ void check_dry(Verification& verification) {
 }
 
 void check_wet(Verification& verification) {
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/wet.csv", {{"impact speed", "m/s"}, {"restitution", "-"}});
+    const ReferenceTable table = read_reference(case_file("restitution/wet.csv"), {{"impact speed", "m/s"}, {"restitution", "-"}});
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double speed = table.at("impact speed")[i];
         const auto settings = in_fluid(dry_room(0.3, true, k_rock, 0.97, 0.0, 1.0), k_water, k_viscosity);
@@ -93,7 +93,7 @@ std::vector<Facet> cylinder(double radius, double length, int facets, double fro
 void check_drum(Verification& verification) {
     const double drum = 0.143;
     const auto file = write_stl(verification.folder("drum.stl"), cylinder(drum, 0.03, 900, 0.0, 2.0 * k_pi));
-    const ReferenceTable table = read_reference(CUTTERFLOW_CASE_DIR "/wet.csv", {{"impact speed", "m/s"}, {"restitution", "-"}});
+    const ReferenceTable table = read_reference(case_file("restitution/wet.csv"), {{"impact speed", "m/s"}, {"restitution", "-"}});
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double speed = table.at("impact speed")[i];
         for (const double surface_speed : {0.0, speed, 5.0 * speed}) {
@@ -128,7 +128,7 @@ void check_trough(Verification& verification) {
 
 void check_gondret(Verification& verification) {
     const ReferenceTable table = read_reference(
-        CUTTERFLOW_CASE_DIR "/gondret.csv",
+        case_file("restitution/gondret.csv"),
         {{"Stokes number", "-"}, {"diameter", "mm"}, {"impact speed", "m/s"}, {"oil density", "kg/m3"}, {"oil viscosity", "Pa s"}});
     const Elastic steel{1e9, 0.27, 7800.0};
     for (std::size_t i = 0; i < table.rows(); ++i) {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/installation.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 
 namespace cutterflow::validation {
@@ -115,11 +116,11 @@ void write_foam_dictionary(const fs::path& case_folder, const std::string& name,
 }
 
 std::string cutter_foam() {
-    return std::string(CUTTERFLOW_BUILD_DIR) + "/bin/cutterFoam";
+    return (installation().programs / "cutterFoam").string();
 }
 
 fs::path scratch_folder(const std::string& name) {
-    const fs::path folder = fs::path(CUTTERFLOW_BUILD_DIR) / "scratch" / name;
+    const fs::path folder = installation().prefix / "scratch" / name;
     fs::remove_all(folder);
     fs::create_directories(folder.parent_path());
     return folder;

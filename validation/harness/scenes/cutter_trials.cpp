@@ -7,6 +7,7 @@
 
 #include "cases/runner/stages.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "validation/harness/pareto.hpp"
 #include "validation/harness/program_run.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_crown = CUTTERFLOW_SOURCE_DIR "/cases/examples/model_cutter/crown.toml";
 constexpr const char* k_top_bin = "60-90mm";  // the first below the ring, whose steel reaches down to 50 mm
 constexpr const char* k_default = "default";
 
@@ -45,7 +45,8 @@ double top_outflow(const nlohmann::json& results) {
 Trial run_trial(const fs::path& folder, const CutterOptions& options) {
     write_file(folder / "study.toml", study(options));
     const fs::path common = folder.parent_path(), donor = common / k_default / "run";
-    if (!fs::exists(common / "cutter.stl")) run_cutterflow(common, {"generate-cutter", k_crown, "-o", "cutter.stl"});
+    const fs::path crown = installation().data / "cases/examples/model_cutter/crown.toml";
+    if (!fs::exists(common / "cutter.stl")) run_cutterflow(common, {"generate-cutter", crown.string(), "-o", "cutter.stl"});
     const bool first = folder.filename() == k_default;
     if (!first) cases::share_stages(donor, folder / "run", {"geometry", "mesh"});
     const double outflow = top_outflow(run_study(folder, first ? fs::path() : donor));

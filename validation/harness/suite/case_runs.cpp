@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_mark = "verification";  // marks a folder of results as ours
 constexpr const char* k_programs = "programs";  // in a case's folder: with which it was begun
+constexpr const char* k_written = "written";    // in a case's folder: the files that its program left there
 constexpr double k_unknown_cost = 20.0;         // core seconds of a case that was never run, for the ETA
 constexpr const char* k_words[] = {"fast", "standard", "long"};
 
@@ -134,24 +135,108 @@ void require_no_dearer_results(const std::vector<VerificationCase>& cases, const
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-/// Creates the folder of a case's program. Files of an earlier start are kept if the case can resume from them.
-void prepare_work(const VerificationCase& one, const VerificationSettings& settings, const std::string& programs) {
-    const fs::path work = settings.folder / one.name, mark = work / k_programs;
-    const bool goes_on = settings.resume && one.resumes && fs::exists(mark) && read_file(mark) == programs;
-    if (!goes_on) fs::remove_all(work);
-    write_file(mark, programs);
+/// Files of other origin stand where results are to be written.
+void require_own_files(const std::vector<VerificationCase>& cases, const fs::path& folder) {
+    std::vector<Mistake> mistakes;
+    const auto refuse = [&](const fs::path& file) {
+        mistakes.push_back({"", fmt::format("{} was not written by cutterflow verify", file.string()), "Nothing is overwritten",
+                            "Move it elsewhere, or name another folder with -o"});
+    };
+    const std::vector<VerifiedCase> results = read_verification(folder);
+    for (const VerificationCase& one : cases) {
+        const fs::path work = folder / one.name, result = folder / (one.name + ".json");
+        if (fs::exists(work) && !(fs::is_directory(work) && (fs::is_empty(work) || fs::exists(work / k_programs)))) refuse(work);
+        const bool is_result =
+            std::any_of(results.begin(), results.end(), [&](const VerifiedCase& other) { return other.name == one.name; });
+        if (fs::exists(result) && !is_result) refuse(result);
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
+/// The files of a case's folder, each with its size and the time of its last change.
+std::map<std::string, std::string> files_in(const fs::path& work) {
+    std::map<std::string, std::string> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work)) {
+        const std::string name = entry.path().lexically_relative(work).string();
+        if ((entry.is_directory() && !entry.is_symlink()) || name == k_programs || name == k_written) continue;
+        files[name] = entry.is_regular_file() && !entry.is_symlink()
+                          ? fmt::format("{} {}", entry.file_size(), entry.last_write_time().time_since_epoch().count())
+                          : "special";
+    }
+    return files;
+}
+
+/// What files_in said when the case's program had ended; empty when the suite was killed before.
+std::map<std::string, std::string> files_written(const fs::path& work) {
+    if (!fs::exists(work / k_written)) return {};
+    return nlohmann::json::parse(read_file(work / k_written)).get<std::map<std::string, std::string>>();
+}
+
+/// A folder is emptied only when every file in it is as the case's program left it. Otherwise it is renamed: a file may be the user's.
+void clear_work(const fs::path& work, const std::function<void(const std::string&)>& say) {
+    const std::map<std::string, std::string> written = files_written(work);
+    for (const auto& [name, state] : files_in(work)) {
+        const auto known = written.find(name);
+        if (known != written.end() && known->second == state) continue;
+        fs::path kept = work;
+        for (int i = 1; fs::exists(kept); ++i) kept = fs::path(fmt::format("{}_kept_{}", work.string(), i));
+        fs::rename(work, kept);
+        say(fmt::format("{} is not as the case left it, for example {}: kept as {}", work.string(), name, kept.string()));
+        return;
+    }
+    fs::remove_all(work);
+}
+
+/// The folder in which a case's program works. Keeps account of the files that the program leaves there.
+class WorkFolder {
+public:
+    /// Makes the folder. What an earlier start left there stays when the case can go on with it.
+    WorkFolder(const VerificationCase& one, const VerificationSettings& settings, const std::string& programs,
+               const std::function<void(const std::string&)>& say)
+        : path_(settings.folder / one.name) {
+        const fs::path mark = path_ / k_programs;
+        const bool goes_on = settings.resume && one.resumes && fs::exists(mark) && read_file(mark) == programs;
+        if (fs::exists(path_) && !goes_on) clear_work(path_, say);
+        write_file(mark, programs);
+        written_ = files_written(path_);
+        found_ = files_in(path_);
+        fs::remove(path_ / k_written);
+        fs::remove(quantities());
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+    ~WorkFolder() {
+        try {
+            note_files();
+        } catch (const std::exception&) {  // the files count as the user's then
+        }
+    }
+
+    const fs::path& path() const { return path_; }
+    fs::path quantities() const { return path_ / "quantities.json"; }
+
+private:
+    void note_files() const {
+        std::map<std::string, std::string> files = files_in(path_);
+        for (const auto& [name, state] : found_)
+            if (written_.count(name) == 0) files.erase(name);
+        write_file(path_ / k_written, nlohmann::json(files).dump(1) + "\n");
+    }
+
+    fs::path path_;
+    std::map<std::string, std::string> written_, found_;  // by the earlier start's program; in the folder when this one began
+};
+
 /// Runs one case's program. What it wrote is read back; how it ended is a reason when there is nothing to read.
-VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& places, const VerificationSettings& settings) {
+VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& places, const VerificationSettings& settings,
+                      const std::function<void(const std::string&)>& say) {
     VerifiedCase result = begun(one, settings.effort);
     result.reason = obstacle(one, places);
     if (!result.reason.empty()) return result;
-    const fs::path work = settings.folder / one.name, written = work / "quantities.json";
     result.programs = programs_hash(one, places);
-    prepare_work(one, settings, result.programs);
-    fs::remove(written);
-    const ChildCommand command{{fs::absolute(places.programs / one.name).string(), result.effort, fs::absolute(work).string()},
+    const WorkFolder work(one, settings, result.programs, say);
+    const fs::path written = work.quantities();
+    const ChildCommand command{{fs::absolute(places.programs / one.name).string(), result.effort, fs::absolute(work.path()).string()},
                                {},
                                settings.folder / (one.name + ".log"),
                                {}};
@@ -167,7 +252,7 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     }
     for (const nlohmann::json& quantity : nlohmann::json::parse(read_file(written)))
         result.quantities.push_back(quantity_from_json(quantity, written.string()));
-    const fs::path shown = work / "exhibits.json";
+    const fs::path shown = work.path() / "exhibits.json";
     if (fs::exists(shown)) result.exhibits = exhibits_from_json(nlohmann::json::parse(read_file(shown)));
     return result;
 }
@@ -231,6 +316,7 @@ std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& 
 std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& cases, const VerificationPlaces& places,
                                            const VerificationSettings& settings, const std::function<void(const std::string&)>& say) {
     require_usable_folder(settings.folder);
+    require_own_files(cases, settings.folder);
     if (!settings.resume) require_no_dearer_results(cases, settings);
     const std::vector<double> costs = expected_costs(cases, places, settings);
     double total = 0.0, done = 0.0;
@@ -246,7 +332,7 @@ std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& 
             say(fmt::format("{}: done before", cases[i].name));
             results.push_back(*kept);
         } else {
-            results.push_back(run_case(cases[i], places, settings));
+            results.push_back(run_case(cases[i], places, settings, say));
             write_file(settings.folder / (cases[i].name + ".json"), case_json(results.back()).dump(2) + "\n");
             say(fmt::format("{}: {} in {}", cases[i].name, verdict_text(results.back().verdict()), duration_text(results.back().wall_s)));
         }

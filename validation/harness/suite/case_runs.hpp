@@ -42,6 +42,8 @@ struct VerificationSettings {
 
 /// Runs cases one after the other; each finished one is kept in the folder at once. A failed case is reported; the others continue.
 /// \return results of these cases, in their order
+/// A case's folder that holds files of other origin, or changed ones, is renamed before the case is run again; nothing of the user's is
+/// deleted.
 /// \throws UserError    when the folder holds something else
 /// \throws Interrupted  when the user stops it; what is finished is kept
 std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& cases, const VerificationPlaces& places,

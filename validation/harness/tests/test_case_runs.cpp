@@ -121,6 +121,48 @@ TEST_F(VerificationRun, replaces_no_result_with_one_of_less_effort) {
     EXPECT_EQ(times_run("one"), 1u);
 }
 
+TEST_F(VerificationRun, deletes_what_the_case_left_and_nothing_else) {
+    add_case("one", fmt::format("echo grown > $2/field\necho '[{}]' > $2/quantities.json", quantity("pass")));
+    run();
+    run();
+    const fs::path work = settings_.folder / "one", kept = settings_.folder / "one_kept_1";
+    EXPECT_FALSE(fs::exists(kept)) << "all files were the case's own";
+    write_file(work / "notes/mine.txt", "a week of work");
+    run();
+    EXPECT_EQ(read_file(kept / "notes/mine.txt"), "a week of work");
+    EXPECT_EQ(read_file(kept / "field"), "grown\n");
+    EXPECT_FALSE(fs::exists(work / "notes"));
+    write_file(work / "field", "changed by hand");
+    run();
+    EXPECT_EQ(read_file(settings_.folder / "one_kept_2/field"), "changed by hand");
+}
+
+TEST_F(VerificationRun, keeps_what_the_user_added_to_a_case_that_goes_on) {
+    add_case("one", fmt::format("touch $2/field\necho '[{}]' > $2/quantities.json", quantity("fail")), "- class: fast\n- resumes: yes\n");
+    run();
+    write_file(settings_.folder / "one/mine.txt", "mine");
+    settings_.resume = true;
+    fs::remove(settings_.folder / "one.json");  // as if the suite itself had been killed
+    run();
+    EXPECT_TRUE(fs::exists(settings_.folder / "one/mine.txt"));
+    settings_.resume = false;
+    run();
+    EXPECT_EQ(read_file(settings_.folder / "one_kept_1/mine.txt"), "mine");
+}
+
+TEST_F(VerificationRun, refuses_a_case_folder_and_a_result_of_other_origin) {
+    add_case_with("one", "pass");
+    write_file(settings_.folder / "verification", "Results of cutterflow verify.\n");
+    write_file(settings_.folder / "one/system/controlDict", "the user's own case");
+    EXPECT_THROW(run(), UserError);
+    EXPECT_EQ(read_file(settings_.folder / "one/system/controlDict"), "the user's own case");
+    fs::rename(settings_.folder / "one", settings_.folder / "elsewhere");
+    write_file(settings_.folder / "one.json", "[1, 2]");
+    EXPECT_THROW(run(), UserError);
+    EXPECT_EQ(read_file(settings_.folder / "one.json"), "[1, 2]");
+    EXPECT_EQ(times_run("one"), 0u);
+}
+
 TEST_F(VerificationRun, refuses_what_a_case_refuses_and_passes_over_files_of_others) {
     add_case("bad_reference", "echo 'reference.csv:3: \"nan\"'; exit 2");
     try {

@@ -11,6 +11,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "meshing/cutter/build_mesh.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 
@@ -29,7 +30,7 @@ json probe(const fs::path& run, const std::vector<double>& angles) {
     fs::create_directories(scratch / "constant");
     fs::create_directory_symlink(run / "constant" / "polyMesh", scratch / "constant" / "polyMesh");
     fs::copy(run / meshing::k_mesh_case / "system", scratch / "system", fs::copy_options::recursive);
-    require_child(meshing::foam_command(scratch, CUTTERFLOW_BUILD_DIR "/bin/cutterMeshProbe",
+    require_child(meshing::foam_command(scratch, (installation().programs / "cutterMeshProbe").string(),
                                         {"-angles", fmt::format("({})", fmt::join(angles, " ")), "-output", "probe.json"}));
     json result = json::parse(read_file(scratch / "probe.json"));
     fs::remove_all(scratch);

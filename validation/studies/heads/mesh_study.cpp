@@ -12,6 +12,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "validation/studies/heads/head_family.hpp"
@@ -39,7 +40,10 @@ int mesh_head(const geometry::CrownParameters& head, const fs::path& folder) {
     fs::create_directories(folder);
     if (!fs::exists(folder / "cutter.stl")) geometry::write_stl(geometry::generate_crown_cutter(head), folder / "cutter.stl");
     write_file(folder / "study.toml", study_text(head));
-    return run_child({{CUTTERFLOW_BUILD_DIR "/bin/cutterflow", "mesh", "study.toml", "-o", "run"}, folder, folder / "log.cutterflow", {}})
+    return run_child({{(installation().programs / "cutterflow").string(), "mesh", "study.toml", "-o", "run"},
+                      folder,
+                      folder / "log.cutterflow",
+                      {}})
         .exit_code;
 }
 
