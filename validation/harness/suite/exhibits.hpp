@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "postproc/draw/gnuplot.hpp"
+#include "postproc/draw/plot.hpp"
 
 namespace cutterflow::validation {
 
@@ -40,7 +40,7 @@ Exhibits exhibits_from_json(const nlohmann::json& json);
 
 /// `name` as postproc::PlotScript has it. An error of 0 has no place on a logarithmic axis: it stands at a hundredth of the smallest other
 /// one.
-postproc::PlotScript chart_plot(const Chart& chart, const std::string& name);
+postproc::Plot chart_plot(const Chart& chart, const std::string& name);
 
 /// The chart's numbers, for pages without pictures.
 ExhibitTable chart_table(const Chart& chart);
