@@ -45,12 +45,12 @@ bool gnuplot_is_installed() {
     return !find_program("gnuplot").empty();
 }
 
-std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) {
+std::string draw_svg(const Plot& plot, const fs::path& scratch_directory) {
     fs::create_directories(scratch_directory);
     const fs::path script = scratch_directory / (plot.name + ".gp");
     std::ofstream(script) << fmt::format("set terminal svg noenhanced size {},{} dynamic font \"sans-serif,12.5\"\nset output \"{}.svg\"\n",
                                          plot.width, plot.height, plot.name)
-                          << k_style << plot.commands << "unset output\n";
+                          << k_style << gnuplot_commands(plot) << "unset output\n";
     // gnuplot runs in the scratch directory: the script contains no path of the user.
     require_child({{"gnuplot", script.filename().string()}, scratch_directory, scratch_directory / (plot.name + ".log"), {}});
     const std::string svg = read_text(scratch_directory / (plot.name + ".svg"));
@@ -59,21 +59,6 @@ std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) 
             {"", fmt::format("gnuplot drew nothing for {}", script.string()), "It writes an SVG file", "Read its log in the same folder"});
     }
     return as_element(svg, plot.name);
-}
-
-std::string data_block(const std::string& name, const std::vector<std::vector<std::string>>& rows) {
-    std::string block = fmt::format("${} << END_OF_DATA\n", name);
-    for (const auto& row : rows) block += fmt::format("{}\n", fmt::join(row, " "));
-    return block + "END_OF_DATA\n";
-}
-
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c == '\n' ? ' ' : c;
-    }
-    return result + '"';
 }
 
 }  // namespace cutterflow::postproc
