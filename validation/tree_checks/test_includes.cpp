@@ -59,6 +59,7 @@ const std::vector<Layer> k_layers = {
     {"solver/foam/", {k_base, k_head_names, "solver/ports/", "solver/foam/"}},
     {"solver/liggghts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/"}},
     {"solver/liggghts/contacts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/contacts/"}},
+    {"solver/free_surface/", {k_base, "solver/physics/", "solver/ports/", "solver/free_surface/"}},
     {"solver/app/", {k_base, "solver/"}},
 
     {"postproc/run/", {k_base, k_head_shape, k_axial_bins, k_head_names, "postproc/run/"}},

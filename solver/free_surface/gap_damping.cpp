@@ -1,0 +1,65 @@
+#include "solver/free_surface/gap_damping.hpp"
+
+#include <cmath>
+
+namespace cutterflow::free_surface {
+
+namespace {
+
+constexpr double k_band_cells = 2.0;
+
+struct GapContact {
+    Vec3 point, normal, velocity;
+};
+
+std::vector<GapContact> contacts_of(const StaggeredGrid& grid, gsl::span<const Body> bodies, double gap) {
+    std::vector<GapContact> contacts;
+    for (std::size_t a = 0; a < bodies.size(); ++a) {
+        for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+            const Vec3 way = bodies[b].position - bodies[a].position;
+            const double between = way.norm() - bodies[a].radius - bodies[b].radius;
+            if (between >= gap) continue;
+            const Vec3 normal = way.normalized();
+            const Vec3 point = bodies[a].position + (bodies[a].radius + 0.5 * between) * normal;
+            contacts.push_back({point, normal, 0.5 * (velocity_at(bodies[a], point) + velocity_at(bodies[b], point))});
+        }
+        for (const int d : grid.directions()) {
+            for (const double wall : {0.0, grid.extent(d)}) {
+                const double between = std::abs(bodies[a].position[d] - wall) - bodies[a].radius;
+                if (between >= gap) continue;
+                Vec3 point = bodies[a].position;
+                point[d] = wall;
+                contacts.push_back({point, Vec3::Unit(d), 0.5 * velocity_at(bodies[a], point)});
+            }
+        }
+    }
+    return contacts;
+}
+
+}  // namespace
+
+double damp_gaps(const GapDampingSettings& settings, const StaggeredGrid& grid, gsl::span<const Body> bodies, double step, double density,
+                 WaterParticles& particles) {
+    const double band = k_band_cells * grid.spacing(), half_gap = 0.5 * (settings.gap + grid.spacing());
+    const double mass = density * particles.volume, exponent = step / settings.time;
+    const std::vector<GapContact> contacts = contacts_of(grid, bodies, settings.gap);
+    double taken = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        for (const GapContact& contact : contacts) {
+            Vec3 arm = particles.place(p) - contact.point;
+            if (grid.is_plane()) arm.y() = 0.0;
+            const double across = arm.dot(contact.normal);
+            if (std::abs(across) > half_gap) continue;
+            const double along = (arm - across * contact.normal).norm();
+            if (along >= band) continue;
+            const double share = settings.remaining + (1.0 - settings.remaining) * along / band;
+            const double kept = share > 0.0 ? std::pow(share, exponent) : 0.0;
+            const Vec3 relative = particles.speed(p) - contact.velocity;
+            for (const int d : grid.directions()) particles.velocity[d][p] -= (1.0 - kept) * relative[d];
+            taken += mass * (1.0 - kept) * relative.norm();
+        }
+    }
+    return taken;
+}
+
+}  // namespace cutterflow::free_surface
