@@ -49,7 +49,8 @@ struct SceneSettings {
     Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
     WaterSettings water;
     std::vector<StillSolid> solids;
-    bool spheres = false;  ///< bodies are spheres; else cylinders across the tank
+    bool spheres = false;      ///< bodies are spheres; else cylinders across the tank
+    bool bodies_held = false;  ///< the pressure does not move them: they are on given paths
     GapDampingSettings damping;
     RunSettings run;
 };

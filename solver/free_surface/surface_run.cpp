@@ -32,7 +32,10 @@ std::vector<Body> bodies_of(const coupling::DemEngine* engine, const SceneSettin
     std::vector<Body> bodies;
     if (!engine) return bodies;
     const coupling::Rocks& rocks = engine->rocks();
-    for (std::size_t n = 0; n < rocks.size(); ++n) bodies.push_back(body_of(rocks, n, settings.spheres, settings.tank.depth));
+    for (std::size_t n = 0; n < rocks.size(); ++n) {
+        bodies.push_back(body_of(rocks, n, settings.spheres, settings.tank.depth));
+        bodies.back().held = settings.bodies_held;
+    }
     return bodies;
 }
 
