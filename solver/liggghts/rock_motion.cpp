@@ -56,8 +56,7 @@ Vec3 RockMotion::acceleration(int rock) const {
 }
 
 Vec3 RockMotion::spin_acceleration(int rock) const {
-    const double radius = atom->radius[rock];
-    return Vec3(atom->torque[rock]) / (0.4 * atom->rmass[rock] * radius * radius);
+    return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
 }
 
 /// Comes after the walls', which were declared before.
