@@ -163,8 +163,8 @@ const StepReport& SurfaceRun::step(double longest) {
     move_bodies(step);
     if (settings_.damping.remaining < 1.0)
         report_.gap_impulse = damp_gaps(settings_.damping, grid_, bodies_, step, settings_.water.density, particles_);
-    push_out();
     if (!bodies_.empty()) cutter_.cut(bodies_, cells_);
+    push_out();
     find_surface();
     if (settings_.run.even_out) {
         report_.even_out = even_out_.apply(cells_, water_, particles_);
@@ -397,6 +397,7 @@ void SurfaceRun::push_out() {
     if (cells_.cut.empty() && bodies_.empty()) return;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
         Vec3 place = particles_.place(p);
+        if (cells_.open_volume[cell_of(grid_, place)] >= 1.0) continue;
         bool inside = false;
         for (const StillSolid& solid : settings_.solids) {
             if (const auto way = way_out(solid, place)) {

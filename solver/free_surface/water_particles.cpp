@@ -19,15 +19,13 @@ double particle_volume(const StaggeredGrid& grid) {
     return grid.cell_volume() / count;
 }
 
-namespace {
-
-int cell_of(const StaggeredGrid& grid, const WaterParticles& particles, std::size_t p) {
-    std::array<int, 3> place{0, 0, 0};
-    for (const int d : grid.directions()) {
-        place[d] = std::clamp(static_cast<int>(particles.position[d][p] / grid.spacing()), 0, grid.cells(d) - 1);
-    }
-    return grid.at(place[0], place[1], place[2]);
+int cell_of(const StaggeredGrid& grid, const Vec3& place) {
+    std::array<int, 3> cell{0, 0, 0};
+    for (const int d : grid.directions()) cell[d] = std::clamp(static_cast<int>(place[d] / grid.spacing()), 0, grid.cells(d) - 1);
+    return grid.at(cell[0], cell[1], cell[2]);
 }
+
+namespace {
 
 template <typename T>
 void reorder(const std::vector<int>& to, std::vector<T>& values) {
@@ -41,7 +39,7 @@ void reorder(const std::vector<int>& to, std::vector<T>& values) {
 void sort_by_cell(const StaggeredGrid& grid, WaterParticles& particles) {
     std::vector<int> cell(particles.size()), first(grid.size() + 1, 0);
     for (std::size_t p = 0; p < cell.size(); ++p) {
-        cell[p] = cell_of(grid, particles, p);
+        cell[p] = cell_of(grid, particles.place(p));
         ++first[cell[p] + 1];
     }
     for (std::size_t c = 0; c < grid.size(); ++c) first[c + 1] += first[c];

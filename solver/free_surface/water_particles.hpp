@@ -49,6 +49,9 @@ void fill_box(const StaggeredGrid& grid, const Vec3& from, const Vec3& to, std::
 /// Orders particles by cell; equal cells keep their order, so that repeated runs give the same bits.
 void sort_by_cell(const StaggeredGrid& grid, WaterParticles& particles);
 
+/// The cell that holds a place; the nearest one of the tank for places outside.
+int cell_of(const StaggeredGrid& grid, const Vec3& place);
+
 double largest_speed(const WaterParticles& particles);  ///< [m/s]
 
 }  // namespace cutterflow::free_surface

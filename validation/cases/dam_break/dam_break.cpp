@@ -215,12 +215,12 @@ void compare_with_peer(Verification& verification, const Front& ours, int cells)
 void compare_with_experiment(Verification& verification, const Front& ours) {
     const validation::ReferenceTable table = validation::read_reference(CUTTERFLOW_CASE_DIR "/front.csv", {{"time", "-"}, {"front", "-"}});
     const double unit = std::sqrt(k_width / (2.0 * k_gravity));  // T = t sqrt(2 g / a)
+    const auto error_at = [&](std::size_t n, double shift) {
+        return std::abs(ours.at(std::max(0.0, (table.at("time")[n] - shift)) * unit) / k_width / table.at("front")[n] - 1.0);
+    };
     const auto largest = [&](double shift) {
         double error = 0.0;
-        for (std::size_t n = 0; n < table.rows(); ++n) {
-            const double front = table.at("front")[n];
-            error = std::max(error, std::abs(ours.at(std::max(0.0, (table.at("time")[n] - shift)) * unit) / k_width / front - 1.0));
-        }
+        for (std::size_t n = 1; n < table.rows(); ++n) error = std::max(error, error_at(n, shift));
         return error;
     };
     double best = 0.0;
@@ -228,7 +228,9 @@ void compare_with_experiment(Verification& verification, const Front& ours) {
         if (largest(shift) < largest(best)) best = shift;
     }
     verification.at_most("error of the front after one shift in time", "-", largest(best), 0.04,
-                         {table.source, "largest of 15 places", {}});
+                         {table.source, "largest of 14 places", {}});
+    verification.report("error of the front at the first place", "-", error_at(0, best), {},
+                        {table.source, "22 ms after the release the diaphragm still leaves: one shift in time cannot hold there", {}});
     verification.at_most("shift in time of the measured front", "-", best, 0.35, {table.source, "in T = t sqrt(2 g/a): the diaphragm", {}});
 }
 
