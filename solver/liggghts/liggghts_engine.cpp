@@ -376,7 +376,7 @@ void LiggghtsEngine::Implementation::gather() {
         mine.insert(mine.end(), atom.x[i], atom.x[i] + 3);
         mine.insert(mine.end(), atom.v[i], atom.v[i] + 3);
         mine.insert(mine.end(), atom.omega[i], atom.omega[i] + 3);
-        mine.push_back(2.0 * atom.radius[i]);
+        mine.push_back(2.0 * context_.radius_of(atom.radius[i]));
         mine.push_back(atom.density[i]);
     }
     int ranks = 1;
@@ -404,10 +404,14 @@ void LiggghtsEngine::Implementation::gather() {
 
 double LiggghtsEngine::Implementation::largest_time_step() const {
     const coupling::ContactSettings& contact = settings_.contact;
+    if (context_.linear) {
+        const coupling::LinearContactSettings& law = settings_.linear;
+        return physics::linear_contact_step(law.theta, law.reference_length, law.gravity, law.steps_per_period);
+    }
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         const double radius = 0.5 * rocks_.diameter[k];
-        const double mass = sphere_mass(rocks_.diameter[k], rocks_.density[k]);
+        const double mass = context_.mass_of(0.5 * rocks_.diameter[k], rocks_.density[k]);
         const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.youngs, contact.max_speed};
         const physics::Impact on_steel{mass, radius, context_.rock_steel.youngs, contact.max_speed};
         shortest = std::min({shortest, physics::hertz_time(on_rock), physics::hertz_time(on_steel),
@@ -464,7 +468,7 @@ std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates)
     store_contact_forces();
     for (std::size_t k = 0; k < accepted.size(); ++k) {
         create_rock(accepted, k);
-        largest_radius_ = std::max(largest_radius_, 0.5 * accepted.diameter[k]);
+        largest_radius_ = std::max(largest_radius_, 0.5 * accepted.diameter[k] + context_.half_gap);
     }
     after_change_of_rocks();
     return accepted.id;
@@ -482,9 +486,9 @@ void LiggghtsEngine::Implementation::create_rock(const Rocks& rocks, std::size_t
     atom.tag[i] = rocks.id[k];
     std::copy_n(rocks.velocity[k].data(), 3, atom.v[i]);
     std::copy_n(rocks.angular_velocity[k].data(), 3, atom.omega[i]);
-    atom.radius[i] = 0.5 * rocks.diameter[k];
+    atom.radius[i] = 0.5 * rocks.diameter[k] + context_.half_gap;
     atom.density[i] = rocks.density[k];
-    atom.rmass[i] = sphere_mass(rocks.diameter[k], rocks.density[k]);
+    atom.rmass[i] = context_.mass_of(0.5 * rocks.diameter[k], rocks.density[k]);
     for (int f = 0; f < lammps_->modify->nfix; ++f)
         if (lammps_->modify->fix[f]->create_attribute) lammps_->modify->fix[f]->set_arrays(i);
 }
@@ -610,7 +614,7 @@ void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path
     command("clear");
     declare(folder / k_restart_file);
     gather();
-    for (const double diameter : rocks_.diameter) largest_radius_ = std::max(largest_radius_, 0.5 * diameter);
+    for (const double diameter : rocks_.diameter) largest_radius_ = std::max(largest_radius_, 0.5 * diameter + context_.half_gap);
     set_neighbours();
     set_up_needed_ = true;
 }

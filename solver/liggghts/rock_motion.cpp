@@ -49,7 +49,7 @@ Vec3 RockMotion::acceleration(int rock) const {
 }
 
 Vec3 RockMotion::spin_acceleration(int rock) const {
-    return Vec3(atom->torque[rock]) / sphere_inertia(2.0 * atom->radius[rock], atom->rmass[rock]);
+    return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
 }
 
 /// Runs after the walls' post_force, because the walls were declared before.

@@ -44,6 +44,25 @@ void check_contact(const coupling::ContactSettings& contact, Checker& check) {
     check.positive("rock.contact.maxSpeed", contact.max_speed);
 }
 
+void check_linear(const coupling::DemSettings& settings, Checker& check) {
+    const coupling::LinearContactSettings& law = settings.linear;
+    check.positive("contact.theta", law.theta);
+    check.positive("contact.reference_length_m", law.reference_length);
+    check.positive("contact gravity", law.gravity);
+    check.number("contact.damping", law.damping, law.damping >= 0.0 && law.damping < std::sqrt(0.5), ">= 0 and < sqrt(1/2): a pair swings");
+    check.number("contact.poisson", law.poisson, law.poisson >= 0.0 && law.poisson <= 0.5, "within 0 and 0.5");
+    check.number("contact steps per period", law.steps_per_period, law.steps_per_period >= 20.0, ">= 20");
+    check.number("contact.friction", settings.contact.friction, settings.contact.friction >= 0.0, ">= 0");
+}
+
+void check_shape(const coupling::DemSettings& settings, Checker& check) {
+    check.number("contact.gap_m", settings.contact_gap, settings.contact_gap >= 0.0, ">= 0");
+    if (settings.shape != coupling::RockShape::cylinder) return;
+    check.positive("cylinder length", settings.cylinder_length);
+    check.number("fluid density", settings.fluid.density, settings.fluid.density == 0.0,
+                 "0 for cylinders: added mass and buoyancy are a sphere's");
+}
+
 void check_domain(const coupling::DomainSettings& domain, Checker& check) {
     if (domain.shape == coupling::DomainShape::cylinder) {
         check.positive("rock.domain.radius", domain.radius);
@@ -75,7 +94,12 @@ void check_fluid(const coupling::DemSettings& settings, Checker& check) {
 
 std::vector<Mistake> check_settings(const coupling::DemSettings& settings) {
     Checker check;
-    check_contact(settings.contact, check);
+    if (settings.law == coupling::ContactLaw::linear) {
+        check_linear(settings, check);
+    } else {
+        check_contact(settings.contact, check);
+    }
+    check_shape(settings, check);
     check_domain(settings.domain, check);
     check_fluid(settings, check);
     for (const coupling::WallSettings& wall : settings.walls) {

@@ -23,6 +23,21 @@ struct ContactSettings {
     double max_speed = 0.0;           ///< impact speed for the Hertz time [m/s]
 };
 
+/// Linear spring and dashpot with a stiffness that follows from weight [Chen2019] [Zhang2009]; see liggghts/contacts/contact_law.hpp.
+struct LinearContactSettings {
+    double theta = 0.01;              ///< overlap under the own weight over the reference length [-]
+    double reference_length = 5e-4;   ///< l [m]; a length of its own, so that a finer fluid mesh does not stiffen the contacts
+    double gravity = 9.81;            ///< in the stiffness [m/s2]
+    double damping = 0.4;             ///< a [-], below sqrt(1/2)
+    double poisson = 0.3;             ///< psi [-]
+    double steps_per_period = 150.0;  ///< gamma: steps in 2 pi sqrt(m/k_n)
+    bool accumulated_shear = true;    ///< false: the slip of one step alone stretches the tangential spring
+    bool may_pull = false;            ///< the normal force may become negative while the bodies part
+};
+
+enum class ContactLaw { hertz, linear };
+enum class RockShape { sphere, cylinder };
+
 /// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0.
 struct WallSettings {
     std::string name;
@@ -66,9 +81,14 @@ struct DemSettings {
     std::vector<WallSettings> walls;
     DomainSettings domain;
     FluidProperties fluid;
-    double added_mass = 0.5;      ///< C_AM [-]
-    Vec3 gravity = Vec3::Zero();  ///< [m/s2]
-    std::filesystem::path log;    ///< LIGGGHTS' own log; empty: none
+    double added_mass = 0.5;  ///< C_AM [-]
+    ContactLaw law = ContactLaw::hertz;
+    LinearContactSettings linear;         ///< of the linear law; friction is that of `contact`
+    RockShape shape = RockShape::sphere;  ///< cylinders lie along y and stay in their plane
+    double cylinder_length = 0.0;         ///< [m]
+    double contact_gap = 0.0;             ///< surfaces touch at this distance, at half of it on walls [m]
+    Vec3 gravity = Vec3::Zero();          ///< [m/s2]
+    std::filesystem::path log;            ///< LIGGGHTS' own log; empty: none
 };
 
 }  // namespace cutterflow::coupling

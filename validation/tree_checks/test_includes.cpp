@@ -59,6 +59,7 @@ const std::vector<Layer> k_layers = {
     {"solver/foam/", {k_base, "solver/ports/", "solver/foam/"}},
     {"solver/liggghts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/"}},
     {"solver/liggghts/contacts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/contacts/"}},
+    {"solver/free_surface/", {k_base, "solver/physics/", "solver/ports/", "solver/free_surface/"}},
     {"solver/app/", {k_base, "solver/"}},
 
     {"postproc/run/", {k_base, k_head_shape, k_axial_bins, k_head_names, "postproc/run/"}},
@@ -81,8 +82,8 @@ const std::vector<Layer> k_layers = {
      {k_base, k_head_names, "meshing/dictionary/", "solver/ports/", "solver/liggghts/", "cases/scenes/cutter/", "cases/runner/",
       "cases/testing/", "validation/harness/"}},
     {"validation/cases/",
-     {k_base, "meshing/dictionary/", "solver/physics/", "solver/ports/", "solver/coupling/", "postproc/analysis/", "cases/study/",
-      "cases/runner/", "cases/testing/", "validation/harness/"}},
+     {k_base, "meshing/dictionary/", "solver/physics/", "solver/ports/", "solver/coupling/", "solver/free_surface/", "postproc/analysis/",
+      "cases/study/", "cases/runner/", "cases/testing/", "validation/harness/"}},
     {"validation/corpus/", {"geometry/", "validation/corpus/"}},
     {"validation/rotor/",
      {k_base, k_head_names, "meshing/dictionary/", "postproc/draw/", "cases/runner/", "cases/testing/", "validation/harness/"}},

@@ -23,7 +23,23 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const Rota
       axis(rotor_axis),
       rock_rock(elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_rock)),
       rock_steel(elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_steel)),
-      dry_damping_factor(physics::hertz_damping_factor(contact.restitution)) {}
+      dry_damping_factor(physics::hertz_damping_factor(contact.restitution)),
+      shape(settings.shape),
+      cylinder_length(settings.cylinder_length),
+      half_gap(0.5 * settings.contact_gap) {
+    if (settings.law != coupling::ContactLaw::linear) return;
+    const coupling::LinearContactSettings& law = settings.linear;
+    linear = LinearLaw{law.gravity / (law.theta * law.reference_length), law.damping, 0.5 / (1.0 + law.poisson), law.accumulated_shear,
+                       law.may_pull};
+}
+
+double ContactContext::mass_of(double radius, double density) const {
+    return shape == coupling::RockShape::cylinder ? density * k_pi * radius * radius * cylinder_length : sphere_mass(2.0 * radius, density);
+}
+
+double ContactContext::inertia_of(double mass, double radius) const {
+    return shape == coupling::RockShape::cylinder ? 0.5 * mass * radius * radius : sphere_inertia(2.0 * radius, mass);
+}
 
 double ContactContext::mass_with_added_mass(double mass, double radius) const {
     return mass + added_mass * fluid.density * sphere_volume(2.0 * radius);

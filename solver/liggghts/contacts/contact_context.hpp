@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "geometry/base/axis_frame.hpp"
@@ -49,11 +50,29 @@ struct ContactContext {
     ElasticPair rock_rock;
     ElasticPair rock_steel;
     double dry_damping_factor = 0.0;
+    std::optional<LinearLaw> linear;  ///< in place of Hertz'
+    coupling::RockShape shape = coupling::RockShape::sphere;
+    double cylinder_length = 0.0;
+    double half_gap = 0.0;                                ///< by which LIGGGHTS' radii are larger than the rocks' [m]
     std::map<std::string, WallBody, std::less<>> bodies;  ///< by the id of the STL's or plane's fix
     WallContacts* wall_contacts = nullptr;
     ContactTally tally;
 
     ContactContext(const coupling::DemSettings& settings, const RotationAxis& rotor_axis);
+
+    /// Radius [m] of a rock whose radius in LIGGGHTS is `contact_radius`.
+    double radius_of(double contact_radius) const { return contact_radius - half_gap; }
+    /// Mass [kg] of a rock of this radius [m].
+    double mass_of(double radius, double density) const;
+    /// Of inertia about its centre, along a cylinder about its axis [kg m2].
+    double inertia_of(double mass, double radius) const;
+    /// Force of the law in use. `mass` of a pair: see pair_mass.
+    Vec3 force(const Contact& touch, double time_step, SlipMemory& memory) const {
+        return linear ? linear_contact_force(*linear, touch, time_step, memory) : contact_force(touch, time_step, memory);
+    }
+
+    /// Mass [kg] of a contact of two rocks: Hertz' effective one, or the linear law's mean.
+    double pair_mass(double a, double b) const { return linear ? 0.5 * (a + b) : a * b / (a + b); }
 
     /// Mass [kg] with added mass of a rock of the given mass [kg] and radius [m].
     double mass_with_added_mass(double mass, double radius) const;

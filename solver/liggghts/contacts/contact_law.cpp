@@ -72,4 +72,17 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
     return force;
 }
 
+Vec3 linear_contact_force(const LinearLaw& law, const Contact& contact, double time_step, SlipMemory& memory) {
+    const double stiffness = law.stiffness * contact.mass, damping = 2.0 * law.damping * contact.mass * std::sqrt(law.stiffness);
+    const double pull = stiffness * contact.overlap - damping * contact.normal_speed;
+    const double normal_force = law.may_pull ? pull : std::max(0.0, pull);
+    const Vec3 before = law.accumulated_shear ? Vec3(memory.stretch[0]) : Vec3::Zero();
+    Vec3 stretch = before + contact.slip_velocity * time_step;
+    stretch -= contact.normal * contact.normal.dot(stretch);
+    const Vec3 shear = spring_force(law.shear * stiffness, std::sqrt(law.shear) * damping, contact.slip_velocity,
+                                    contact.friction * std::abs(normal_force), stretch);
+    if (time_step > 0.0) std::copy_n(stretch.data(), 3, memory.stretch[0]);
+    return normal_force * contact.normal + shear;
+}
+
 }  // namespace cutterflow::liggghts

@@ -47,4 +47,21 @@ struct SlipMemory {
 /// energy. \param time_step  [s]; 0 evaluates the force and leaves the memory unchanged. [AntypovElliott2011, NieuwboerVanRheeKeetels2023]
 Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory);
 
+/// Constants of the linear law, per mass of a contact.
+struct LinearLaw {
+    double stiffness = 0.0;         ///< k_n/m = g/(theta l) [1/s2]
+    double damping = 0.0;           ///< a [-]
+    double shear = 0.0;             ///< k_t/k_n = 1/(2 (1 + psi)) [-]
+    bool accumulated_shear = true;  ///< else the spring is stretched by the slip of one step
+    bool may_pull = false;
+};
+
+/// Force [N] on the rock by the linear law, m = contact.mass the mean mass of a pair or the mass at a wall:
+///
+///   F_n = k_n delta - c_n u_n,   F_t = -(k_t s + c_t u_t), |F_t| <= mu |F_n|,   c_n = 2 a sqrt(m k_n),   c_t = c_n/sqrt(2 (1 + psi))
+///
+/// F_n is at least 0 unless it may pull. Of memory the first spring is used, s. What slips carries the limit in the spring. [Chen2019]
+/// \param time_step  [s]; 0 evaluates the force and leaves the memory
+Vec3 linear_contact_force(const LinearLaw& law, const Contact& contact, double time_step, SlipMemory& memory);
+
 }  // namespace cutterflow::liggghts

@@ -114,7 +114,8 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
     const WallTouch& touch = weighted.touch;
     const int rock = touch.rock;
     const double radius = atom.radius[rock];
-    const Vec3 arm = -(radius - 0.5 * touch.overlap) * touch.normal;
+    const double lever = context_.half_gap > 0.0 ? context_.radius_of(radius) : radius - 0.5 * touch.overlap;
+    const Vec3 arm = -lever * touch.normal;
     const Vec3 centre_velocity = Vec3(atom.v[rock]) - touch.wall_velocity;
     const Vec3 surface_velocity = centre_velocity + Vec3(atom.omega[rock]).cross(arm);
 
@@ -131,7 +132,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
     contact.friction = context_.contact.friction;
 
     const bool setting_up = lammps_->update->setupflag != 0;
-    const Vec3 force = weighted.weight * contact_force(contact, setting_up ? 0.0 : lammps_->update->dt, record.slip);
+    const Vec3 force = weighted.weight * context_.force(contact, setting_up ? 0.0 : lammps_->update->dt, record.slip);
     const Vec3 torque = arm.cross(force);
     std::copy_n(touch.normal.data(), 3, record.normal);
     if (!setting_up) record.last_touch = static_cast<double>(lammps_->update->ntimestep);

@@ -167,5 +167,48 @@ TEST(ContactLaw, no_step_leaves_the_memory) {
     EXPECT_EQ(memory.contact_radius, 0.0);
 }
 
+Contact linear_touch() {
+    Contact contact;
+    contact.normal = Vec3(0, 0, 1);
+    contact.overlap = 1e-4;
+    contact.mass = 2.0;
+    contact.friction = 0.3;
+    return contact;
+}
+
+const LinearLaw k_linear{1e6, 0.4, 0.5 / 1.3, true, false};
+
+TEST(LinearContactLaw, is_spring_and_dashpot_that_does_not_pull) {
+    Contact contact = linear_touch();
+    SlipMemory memory;
+    EXPECT_NEAR(linear_contact_force(k_linear, contact, 1e-5, memory).z(), 2e6 * 1e-4, 1e-9);
+    contact.normal_speed = -0.1;
+    EXPECT_NEAR(linear_contact_force(k_linear, contact, 1e-5, memory).z(), 200.0 + 0.8 * 2.0 * 1e3 * 0.1, 1e-9);
+    contact.normal_speed = 10.0;
+    EXPECT_EQ(linear_contact_force(k_linear, contact, 1e-5, memory).z(), 0.0);
+    LinearLaw pulling = k_linear;
+    pulling.may_pull = true;
+    EXPECT_LT(linear_contact_force(pulling, contact, 1e-5, memory).z(), 0.0);
+}
+
+TEST(LinearContactLaw, accumulates_slip_up_to_coulombs_limit) {
+    Contact contact = linear_touch();
+    contact.slip_velocity = Vec3(1e-4, 0, 0);
+    SlipMemory memory;
+    double last = 0.0;
+    for (int n = 0; n < 20; ++n) {
+        const double force = -linear_contact_force(k_linear, contact, 1e-3, memory).x();
+        EXPECT_GE(force, last);
+        last = force;
+    }
+    for (int n = 0; n < 5000; ++n) last = -linear_contact_force(k_linear, contact, 1e-3, memory).x();
+    EXPECT_NEAR(last, 0.3 * 200.0, 1e-9);
+    LinearLaw one_step = k_linear;
+    one_step.accumulated_shear = false;
+    SlipMemory none;
+    const double first = linear_contact_force(one_step, contact, 1e-5, none).x();
+    EXPECT_EQ(linear_contact_force(one_step, contact, 1e-5, none).x(), first);
+}
+
 }  // namespace
 }  // namespace cutterflow::liggghts

@@ -86,5 +86,26 @@ TEST(YoungsModulus, inverts_the_largest_overlap_for_any_size) {
     }
 }
 
+TEST(LinearContact, has_the_restitution_of_an_integrated_spring) {
+    for (const double ratio : {0.2, 0.4, 0.566}) {
+        for (const bool may_pull : {true, false}) {
+            double place = 0.0, speed = 1.0;  // unit mass and stiffness, into the wall
+            const double step = 1e-5;
+            for (double force = 0.0;;) {
+                force = -place - 2.0 * ratio * speed;
+                if (place > 0.0 && (may_pull ? place + step * speed < 0.0 : force > 0.0)) break;
+                speed += step * force;
+                place += step * speed;
+            }
+            EXPECT_NEAR(-speed, linear_restitution(ratio, may_pull), 2e-4) << ratio << may_pull;
+        }
+    }
+    EXPECT_NEAR(linear_damping_ratio(0.4, true), 0.4 * std::sqrt(2.0), 1e-15);
+}
+
+TEST(LinearContact, step_depends_on_the_reference_length_alone) {
+    EXPECT_NEAR(linear_contact_step(0.01, 5e-4, 9.81, 150.0), 2.9905e-5, 3e-9);
+}
+
 }  // namespace
 }  // namespace cutterflow::physics

@@ -66,18 +66,21 @@ public:
         contact.impact_speed = record.impact_speed;
         contact.slip_velocity = Vec3(pair.vtr1, pair.vtr2, pair.vtr3);
         contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
-        contact.mass = mass_i * mass_j / (mass_i + mass_j);
+        contact.mass = context_.pair_mass(mass_i, mass_j);
         contact.elastic = context_.rock_rock;
         contact.damping_factor = record.damping_factor;
         contact.friction = context_.contact.friction;
-        const Vec3 force = contact_force(contact, keep ? update->dt : 0.0, record.slip);
+        const Vec3 force = context_.force(contact, keep ? update->dt : 0.0, record.slip);
 
+        // Across a gap the lever ends on the rock's own surface.
+        const double arm_i = context_.half_gap > 0.0 ? context_.radius_of(pair.radi) : pair.cri;
+        const double arm_j = context_.half_gap > 0.0 ? context_.radius_of(pair.radj) : pair.crj;
         const Vec3 moment = -contact.normal.cross(force);  // per unit of lever arm, the same on both
         for (int k = 0; k < 3; ++k) {
             on_i.delta_F[k] += force[k];
             on_j.delta_F[k] -= force[k];
-            on_i.delta_torque[k] += pair.cri * moment[k];
-            on_j.delta_torque[k] += pair.crj * moment[k];
+            on_i.delta_torque[k] += arm_i * moment[k];
+            on_j.delta_torque[k] += arm_j * moment[k];
         }
         const bool shared = pair.j >= atom->nlocal;
         context_.tally.add(shared ? 0.5 : 1.0, pair.deltan / std::min(pair.radi, pair.radj));

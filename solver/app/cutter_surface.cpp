@@ -1,0 +1,168 @@
+/// \file cutterSurface: water with a free surface and the solids that it carries, from a scene.toml.
+///
+///     cutterSurface CASE             runs CASE/scene.toml; refuses a folder with a run in it
+///     cutterSurface CASE --resume    goes on from the newest checkpoint
+///     cutterSurface CASE --check     checks the scene and says what a run will take
+///     cutterSurface --template       prints every key with its help
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/progress.hpp"
+#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/surface_checkpoint.hpp"
+#include "solver/free_surface/surface_recorder.hpp"
+#include "solver/liggghts/liggghts_engine.hpp"
+
+namespace {
+
+using namespace cutterflow;
+using namespace cutterflow::free_surface;
+namespace fs = std::filesystem;
+
+constexpr const char* k_scene = "scene.toml";
+constexpr const char* k_started = "scene.started.toml";  // the scene as it was when the run began
+
+struct Arguments {
+    fs::path folder;
+    bool resume = false, check = false, print_template = false;
+};
+
+Arguments read_arguments(int argc, char** argv) {
+    Arguments arguments;
+    for (int n = 1; n < argc; ++n) {
+        const std::string word = argv[n];
+        if (word == "--resume") {
+            arguments.resume = true;
+        } else if (word == "--check") {
+            arguments.check = true;
+        } else if (word == "--template") {
+            arguments.print_template = true;
+        } else if (arguments.folder.empty() && word.rfind("--", 0) != 0) {
+            arguments.folder = word;
+        } else {
+            throw UserError("argument " + word, "cutterSurface CASE [--check | --resume], or --template", "Correct it");
+        }
+    }
+    if (arguments.folder.empty() && !arguments.print_template)
+        throw UserError("no case folder is given", "cutterSurface CASE [--check | --resume]", "Name the folder that holds scene.toml");
+    return arguments;
+}
+
+void tell(const Scene& scene) {
+    const ScenePrediction found = predict(scene);
+    std::cout << fmt::format("{}: {:.0f} cells, {:.0f} of water, {:.0f} particles, {} bodies\n", scene.name, found.cells, found.water_cells,
+                             found.particles, scene.bodies.size())
+              << fmt::format("about {:.0f} steps of {:.2g} s, {:.1f} core minutes\n", found.steps, found.step, found.core_seconds / 60.0);
+    if (found.dem_step > 0.0) std::cout << fmt::format("contact step {:.4g} s\n", found.dem_step);
+    for (const std::string& note : scene.notes) std::cout << "note: " << note << '\n';
+    std::cout << std::flush;
+}
+
+std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::path& folder, bool fresh) {
+    if (scene.bodies.size() == 0) return nullptr;
+    if (!scene.settings.solids.empty()) {
+        write_file(folder / "walls.stl", wall_surface_stl(scene));
+        scene.dem.walls = {{"walls", folder / "walls.stl", false}};
+    }
+    scene.dem.log = folder / "log.liggghts";
+    auto engine = std::make_unique<liggghts::LiggghtsEngine>(scene.dem, coupling::RotorMotion{}, MPI_COMM_WORLD);
+    if (!fresh) return engine;
+    const std::vector<int> taken = engine->insert(scene.bodies);
+    std::vector<Mistake> mistakes;
+    for (const int id : scene.bodies.id) {
+        if (!std::binary_search(taken.begin(), taken.end(), id))
+            mistakes.push_back({k_scene, fmt::format("Body {} stands in a wall or a solid", id), "Bodies start free", "Move the stack"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    return engine;
+}
+
+/// What the folder must hold or not hold for a run to begin.
+void claim(const fs::path& folder, const std::string& scene, bool resume) {
+    const fs::path started = folder / k_started;
+    if (!fs::exists(started)) {
+        if (resume) throw UserError(folder.string() + " has no run to go on with", "--resume needs one", "Start without --resume");
+        write_file(started, scene);
+        return;
+    }
+    if (read_file(started) != scene)
+        throw UserError(folder.string() + " holds a run of another scene", "A folder holds one run",
+                        "Take a new folder for the changed scene");
+    if (!resume) throw UserError(folder.string() + " holds a run already", "Nothing is overwritten", "Add --resume, or take a new folder");
+}
+
+double core_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// The next whole multiple of an interval after a time.
+double next_multiple(double time, double interval) {
+    return (std::floor(time / interval * (1.0 + 1e-12) + 1e-9) + 1.0) * interval;
+}
+
+void run_scene(const Arguments& arguments) {
+    Scene scene = read_scene(arguments.folder / k_scene);
+    tell(scene);
+    if (arguments.check) return;
+    claim(arguments.folder, read_file(arguments.folder / k_scene), arguments.resume);
+    const fs::path checkpoint = arguments.resume ? newest_checkpoint(arguments.folder) : fs::path{};
+    const auto engine = make_bodies(scene, fs::absolute(arguments.folder), checkpoint.empty());
+    const StaggeredGrid grid = scene.settings.tank.grid();
+    std::optional<SurfaceState> state;
+    if (!checkpoint.empty()) state = read_checkpoint(checkpoint, grid, engine.get());
+    SurfaceRun run(scene.settings, engine.get());
+    if (state) run.restore(std::move(*state));
+
+    SurfaceRecorder recorder(arguments.folder, run.time());
+    if (run.time() == 0.0) recorder.output(run, engine.get());
+    Progress progress(scene.name);
+    double checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval),
+           output_due = next_multiple(run.time(), scene.write_interval);
+    while (run.time() < scene.end * (1.0 - 1e-12)) {
+        run.step(std::min({output_due, checkpoint_due, scene.end}) - run.time());
+        recorder.step(run, core_seconds());
+        if (run.time() >= output_due * (1.0 - 1e-12)) {
+            recorder.output(run, engine.get());
+            output_due = next_multiple(run.time(), scene.write_interval);
+        }
+        if (run.time() >= checkpoint_due * (1.0 - 1e-12)) {
+            write_checkpoint(arguments.folder, run.state(), engine.get());
+            checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval);
+        }
+        progress.update(run.time() / scene.end, fmt::format("{:.4f} of {:g} s", run.time(), scene.end));
+    }
+    write_checkpoint(arguments.folder, run.state(), engine.get());
+    progress.finish(fmt::format("{:.1f} core s", core_seconds()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    int code = static_cast<int>(ExitCode::done);
+    MPI_Init(&argc, &argv);
+    try {
+        const Arguments arguments = read_arguments(argc, argv);
+        if (arguments.print_template) {
+            std::cout << commented_toml(scene_table());
+        } else {
+            run_scene(arguments);
+        }
+    } catch (const Failure& failure) {
+        std::cerr << "cutterSurface: " << failure.what() << std::endl;
+        code = static_cast<int>(failure.code());
+    } catch (const std::exception& error) {
+        std::cerr << "cutterSurface: " << error.what() << std::endl;
+        code = static_cast<int>(ExitCode::defect);
+    }
+    MPI_Finalize();
+    return code;
+}

@@ -1,0 +1,242 @@
+#include "solver/free_surface/cut_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/base/axis_frame.hpp"
+
+namespace cutterflow::free_surface {
+
+namespace {
+
+constexpr int k_lines = 16;  // through a cell for its open volume, and through a face in space: what stands still is covered once
+
+/// Covered share of a segment of a line.
+double covered_share(const std::vector<StillSolid>& solids, const Line& line, const Interval& segment) {
+    std::vector<Interval> parts;
+    for (const StillSolid& solid : solids) {
+        for (const Interval& part : covered_parts(solid, line)) {
+            const Interval within = common(part, segment);
+            if (within.length() > 0.0) parts.push_back(within);
+        }
+    }
+    return parts.empty() ? 0.0 : union_length(std::move(parts)) / segment.length();
+}
+
+/// Mean covered share of parallel lines in a rectangle or box.
+double covered_share(const std::vector<StillSolid>& solids, int along, const Vec3& from, const Vec3& to, const std::array<int, 3>& lines) {
+    double sum = 0.0;
+    int count = 0;
+    Line line{along, from};
+    const int a = (along + 1) % 3, b = (along + 2) % 3;
+    for (int m = 0; m < lines[a]; ++m) {
+        line.through[a] = from[a] + (m + 0.5) / lines[a] * (to[a] - from[a]);
+        for (int n = 0; n < lines[b]; ++n) {
+            line.through[b] = from[b] + (n + 0.5) / lines[b] * (to[b] - from[b]);
+            sum += covered_share(solids, line, {from[along], to[along]});
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+struct Corners {
+    Vec3 from, to;
+};
+
+Corners corners(const StaggeredGrid& grid, int i, int j, int k) {
+    const Vec3 from(i * grid.width(0), j * grid.width(1), k * grid.width(2));
+    return {from, from + Vec3(grid.width(0), grid.width(1), grid.width(2))};
+}
+
+/// Cells that a body may touch, clipped to the tank.
+struct CellRange {
+    std::array<int, 3> from{}, to{};  ///< to: one beyond
+};
+
+CellRange range_of(const StaggeredGrid& grid, const Body& body) {
+    CellRange range;
+    for (int d = 0; d < 3; ++d) {
+        const bool across = d == 1 && !body.sphere;
+        const double low = across ? 0.0 : body.position[d] - body.radius, high = across ? grid.extent(1) : body.position[d] + body.radius;
+        range.from[d] = std::clamp(static_cast<int>(std::floor(low / grid.width(d))), 0, grid.cells(d));
+        range.to[d] = std::clamp(static_cast<int>(std::ceil(high / grid.width(d))), 0, grid.cells(d));
+    }
+    return range;
+}
+
+template <typename Visit>
+void for_each_in(const CellRange& range, const Visit& visit) {
+    for (int k = range.from[2]; k < range.to[2]; ++k) {
+        for (int j = range.from[1]; j < range.to[1]; ++j) {
+            for (int i = range.from[0]; i < range.to[0]; ++i) visit(i, j, k);
+        }
+    }
+}
+
+/// Ghosts repeat the cell next to them.
+void repeat_in_ghosts(const StaggeredGrid& grid, CellField& field) {
+    const auto nearest = [&](int n, int d) { return std::clamp(n, 0, grid.cells(d) - 1); };
+    const int j_from = grid.is_plane() ? 0 : -1, j_to = grid.is_plane() ? 1 : grid.cells(1) + 1;
+    for (int k = -1; k <= grid.cells(2); ++k) {
+        for (int j = j_from; j < j_to; ++j) {
+            const bool edge_row = k < 0 || k == grid.cells(2) || j < 0 || j == grid.cells(1);
+            for (int i = -1; i <= grid.cells(0); i += (edge_row ? 1 : grid.cells(0) + 1)) {
+                field[grid.at(i, j, k)] = field[grid.at(nearest(i, 0), nearest(j, 1), nearest(k, 2))];
+            }
+        }
+    }
+}
+
+}  // namespace
+
+double covered_volume(const Body& body, const Vec3& from, const Vec3& to) {
+    Vec3 low = from - body.position, high = to - body.position;
+    if (!body.sphere) low.y() = high.y() = 0.0;
+    const Vec3 farthest = low.cwiseAbs().cwiseMax(high.cwiseAbs()), nearest = low.cwiseMax(0.0) + high.cwiseMin(0.0);
+    const double volume = (to - from).prod(), square = body.radius * body.radius;
+    if (farthest.squaredNorm() <= square) return volume;
+    if (nearest.squaredNorm() >= square) return 0.0;
+    const Interval x{low.x(), high.x()}, y{low.y(), high.y()}, z{low.z(), high.z()};
+    return body.sphere ? sphere_in_box(body.radius, x, y, z) : disc_in_rectangle(body.radius, x, z) * (to - from).y();
+}
+
+CellCutter::CellCutter(const StaggeredGrid& grid, const std::vector<StillSolid>& solids) : grid_(grid), entry_(grid.size(), -1) {
+    set_solids(solids);
+}
+
+void CellCutter::set_solids(const std::vector<StillSolid>& solids) {
+    still_.open = grid_.face_field();
+    still_.open_volume = grid_.cell_field();
+    still_.closed.assign(grid_.size(), 1);
+    for (auto& owner : still_.owner) owner.assign(grid_.size(), k_no_body);
+    cover_still_faces(solids);
+    cover_still_volumes(solids);
+    close_around_closed_cells();
+    repeat_in_ghosts(grid_, still_.open_volume);
+}
+
+void CellCutter::cover_still_faces(const std::vector<StillSolid>& solids) {
+    for (const int d : grid_.directions()) {
+        grid_.for_each_face(d, [&](int face, int i, int j, int k) {
+            const std::array<int, 3> place{i, j, k};
+            if (place[d] == 0 || place[d] == grid_.cells(d)) return;
+            auto [from, to] = corners(grid_, i, j, k);
+            to[d] = from[d];
+            std::array<int, 3> lines{1, 1, 1};
+            const int along = d == 2 ? 0 : 2, other = 3 - d - along;
+            if (!grid_.is_plane()) lines[other] = k_lines;
+            const double open = 1.0 - covered_share(solids, along, from, to, lines);
+            still_.open[d][face] = open < k_smallest_open_share ? 0.0 : open;
+        });
+    }
+}
+
+void CellCutter::cover_still_volumes(const std::vector<StillSolid>& solids) {
+    grid_.for_each_cell([&](int cell, int i, int j, int k) {
+        const auto [from, to] = corners(grid_, i, j, k);
+        const std::array<int, 3> lines{k_lines, grid_.is_plane() ? 1 : k_lines, 1};
+        const double open = solids.empty() ? 1.0 : 1.0 - covered_share(solids, 2, from, to, lines);
+        still_.open_volume[cell] = open < k_smallest_open_share ? 0.0 : open;
+    });
+}
+
+/// Water must not end in a cell that has no room, whatever the sixteen lines and the edges of solids make of its faces.
+void CellCutter::close_around_closed_cells() {
+    still_.cut.clear();
+    grid_.for_each_cell([&](int cell, int, int, int) {
+        const double open = still_.open_volume[cell];
+        still_.closed[cell] = open <= 0.0;
+        if (open < 1.0) still_.cut.push_back(cell);
+        if (open > 0.0) return;
+        for (const int d : grid_.directions()) {
+            still_.open[d][cell] = 0.0;
+            still_.open[d][cell + grid_.stride(d)] = 0.0;
+        }
+    });
+}
+
+void CellCutter::add_to_cell(std::vector<BodyCell>& list, int cell, int direction, double flux) {
+    if (entry_[cell] < 0) {
+        entry_[cell] = static_cast<int>(list.size());
+        list.push_back({cell, Vec3::Zero()});
+    }
+    list[entry_[cell]].k[direction] += flux;
+}
+
+void CellCutter::cover_faces(int index, const Body& body, int d, CutCells& cells) {
+    CellRange range = range_of(grid_, body);
+    range.to[d] = std::min(range.to[d] + 1, grid_.cells(d));
+    range.from[d] = std::max(range.from[d], 1);  // the tank's walls stay walls
+    for_each_in(range, [&](int i, int j, int k) {
+        const int face = grid_.at(i, j, k);
+        double& open = cells.open[d][face];
+        if (open <= 0.0) return;
+        const std::array<int, 3> place{i, j, k};
+        auto [low, high] = corners(grid_, i, j, k);
+        const double middle = low[d];
+        low[d] = place[d] == 1 ? 0.0 : middle - 0.5 * grid_.width(d);
+        high[d] = place[d] == grid_.cells(d) - 1 ? grid_.extent(d) : middle + 0.5 * grid_.width(d);
+        double share = std::min(open, covered_volume(body, low, high) / grid_.cell_volume());
+        if (share <= 0.0) return;
+        if (open - share < k_smallest_open_share) share = open;
+        open -= share;
+        if (share > 0.5 || cells.owner[d][face] == k_no_body) cells.owner[d][face] = static_cast<std::int16_t>(index);
+        add_to_cell(cells.bodies[index], face - grid_.stride(d), d, share);
+        add_to_cell(cells.bodies[index], face, d, -share);
+    });
+}
+
+void CellCutter::cover_volumes(const Body& body, CutCells& cells) const {
+    for_each_in(range_of(grid_, body), [&](int i, int j, int k) {
+        const int cell = grid_.at(i, j, k);
+        double& open = cells.open_volume[cell];
+        if (open <= 0.0) return;
+        const auto [low, high] = corners(grid_, i, j, k);
+        const double covered = covered_volume(body, low, high) / grid_.cell_volume();
+        if (covered <= 0.0) return;
+        if (open >= 1.0) cells.cut.push_back(cell);
+        open = std::max(0.0, open - covered);
+    });
+}
+
+void CellCutter::add_body(int index, const Body& body, CutCells& cells) {
+    for (const int d : grid_.directions()) cover_faces(index, body, d, cells);
+    for (const BodyCell& entry : cells.bodies[index]) entry_[entry.cell] = -1;
+    cover_volumes(body, cells);
+}
+
+bool CellCutter::has_open_face(const CutCells& cells, int cell) const {
+    const auto open = [&](int d) { return cells.open[d][cell] > 0.0 || cells.open[d][cell + grid_.stride(d)] > 0.0; };
+    return open(0) || open(2) || (!grid_.is_plane() && open(1));
+}
+
+/// Slivers without an open face are no water. What a body drives out of them, their neighbours get: the sum of k stays 0.
+void CellCutter::hand_on_flux_of_closed_cells(const CutCells& cells, std::vector<BodyCell>& list) const {
+    for (BodyCell& from : list) {
+        if (!cells.closed[from.cell] || from.k.isZero(0.0)) continue;
+        for (BodyCell& to : list) {
+            if (cells.closed[to.cell]) continue;
+            const int way = std::abs(to.cell - from.cell);
+            if (way != grid_.stride(0) && way != grid_.stride(2) && (grid_.is_plane() || way != grid_.stride(1))) continue;
+            to.k += from.k;
+            from.k.setZero();
+            break;
+        }
+    }
+}
+
+void CellCutter::cut(gsl::span<const Body> bodies, CutCells& cells) {
+    std::vector<std::vector<BodyCell>> lists = std::move(cells.bodies);
+    cells = still_;
+    lists.resize(bodies.size());
+    for (auto& list : lists) list.clear();
+    cells.bodies = std::move(lists);
+    for (std::size_t b = 0; b < bodies.size(); ++b) add_body(static_cast<int>(b), bodies[b], cells);
+    if (bodies.empty()) return;
+    repeat_in_ghosts(grid_, cells.open_volume);
+    for (const int cell : cells.cut) cells.closed[cell] = !has_open_face(cells, cell);
+    for (auto& list : cells.bodies) hand_on_flux_of_closed_cells(cells, list);
+}
+
+}  // namespace cutterflow::free_surface

@@ -1,0 +1,105 @@
+#include "solver/free_surface/gap_damping.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cutterflow::free_surface {
+
+namespace {
+
+constexpr double k_band_cells = 2.0;
+
+struct GapContact {
+    Vec3 point, normal, velocity;
+};
+
+std::vector<GapContact> contacts_of(const StaggeredGrid& grid, gsl::span<const Body> bodies, double gap) {
+    std::vector<GapContact> contacts;
+    for (std::size_t a = 0; a < bodies.size(); ++a) {
+        for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+            const Vec3 way = bodies[b].position - bodies[a].position;
+            const double between = way.norm() - bodies[a].radius - bodies[b].radius;
+            if (between >= gap) continue;
+            const Vec3 normal = way.normalized();
+            const Vec3 point = bodies[a].position + (bodies[a].radius + 0.5 * between) * normal;
+            contacts.push_back({point, normal, 0.5 * (velocity_at(bodies[a], point) + velocity_at(bodies[b], point))});
+        }
+        for (const int d : grid.directions()) {
+            for (const double wall : {0.0, grid.extent(d)}) {
+                const double between = std::abs(bodies[a].position[d] - wall) - bodies[a].radius;
+                if (between >= gap) continue;
+                Vec3 point = bodies[a].position;
+                point[d] = wall;
+                contacts.push_back({point, Vec3::Unit(d), 0.5 * velocity_at(bodies[a], point)});
+            }
+        }
+    }
+    return contacts;
+}
+
+/// For each cell the contacts whose band may reach into it.
+class ContactsByCell {
+public:
+    ContactsByCell(const StaggeredGrid& grid, const std::vector<GapContact>& contacts, double reach) : first_(grid.size(), k_none) {
+        for (std::size_t n = 0; n < contacts.size(); ++n) {
+            std::array<int, 3> from{0, 0, 0}, to{0, 0, 0};
+            for (const int d : grid.directions()) {
+                const double place = contacts[n].point[d] / grid.spacing(), cells = reach / grid.spacing();
+                from[d] = std::clamp(static_cast<int>(std::floor(place - cells)), 0, grid.cells(d) - 1);
+                to[d] = std::clamp(static_cast<int>(std::floor(place + cells)), 0, grid.cells(d) - 1);
+            }
+            for (int k = from[2]; k <= to[2]; ++k) {
+                for (int j = from[1]; j <= to[1]; ++j) {
+                    for (int i = from[0]; i <= to[0]; ++i) {
+                        int& first = first_[grid.at(i, j, k)];
+                        entries_.push_back({static_cast<int>(n), first});
+                        first = static_cast<int>(entries_.size()) - 1;
+                    }
+                }
+            }
+        }
+    }
+
+    template <typename Visit>
+    void for_each(int cell, const Visit& visit) const {
+        for (int entry = first_[cell]; entry != k_none; entry = entries_[entry].next) visit(entries_[entry].contact);
+    }
+
+private:
+    static constexpr int k_none = -1;
+    struct Entry {
+        int contact, next;
+    };
+    std::vector<int> first_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+double damp_gaps(const GapDampingSettings& settings, const StaggeredGrid& grid, gsl::span<const Body> bodies, double step, double density,
+                 WaterParticles& particles) {
+    const double band = k_band_cells * grid.spacing(), half_gap = 0.5 * (settings.gap + grid.spacing());
+    const double mass = density * particles.volume, exponent = step / settings.time;
+    const std::vector<GapContact> contacts = contacts_of(grid, bodies, settings.gap);
+    const ContactsByCell nearby(grid, contacts, std::hypot(band, half_gap));
+    double taken = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const Vec3 place = particles.place(p);
+        nearby.for_each(cell_of(grid, place), [&](int n) {
+            const GapContact& contact = contacts[n];
+            Vec3 arm = place - contact.point;
+            if (grid.is_plane()) arm.y() = 0.0;
+            const double across = arm.dot(contact.normal);
+            const double along = (arm - across * contact.normal).norm();
+            if (std::abs(across) > half_gap || along >= band) return;
+            const double share = settings.remaining + (1.0 - settings.remaining) * along / band;
+            const double kept = share > 0.0 ? std::pow(share, exponent) : 0.0;
+            const Vec3 relative = particles.speed(p) - contact.velocity;
+            for (const int d : grid.directions()) particles.velocity[d][p] -= (1.0 - kept) * relative[d];
+            taken += mass * (1.0 - kept) * relative.norm();
+        });
+    }
+    return taken;
+}
+
+}  // namespace cutterflow::free_surface

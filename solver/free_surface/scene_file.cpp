@@ -1,0 +1,434 @@
+#include "solver/free_surface/scene_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "solver/physics/contact.hpp"
+
+namespace cutterflow::free_surface {
+
+namespace {
+
+constexpr double k_far = 1e3;            // [m]: solids reach across the tank
+constexpr double k_fewest_cells = 5.0;   // a diameter
+constexpr double k_enough_cells = 8.0;   // a diameter
+constexpr double k_thinnest_wall = 2.0;  // cells
+constexpr double k_smallest_gap = 0.25;  // cells
+constexpr double k_tolerance = 1e-9;
+constexpr double k_gravity = 9.81;
+constexpr double k_seconds_per_particle = 1.2e-6;  // and step, all parts of it
+constexpr const char* k_reference = "Chen2019";
+
+Parameter number(const std::string& key, const std::string& unit, std::optional<double> value, double minimum, const std::string& help) {
+    Parameter parameter;
+    parameter.key = key;
+    parameter.unit = unit;
+    if (value) parameter.default_value = *value;
+    parameter.minimum = minimum;
+    parameter.help = help;
+    parameter.repeated = key.rfind("fill.", 0) == 0 || key.rfind("solid.", 0) == 0 || key.rfind("bodies.", 0) == 0;
+    return parameter;
+}
+
+Parameter positive(const std::string& key, const std::string& unit, std::optional<double> value, const std::string& help) {
+    Parameter parameter = number(key, unit, value, 0.0, help);
+    parameter.minimum_excluded = true;
+    return parameter;
+}
+
+Parameter derived(Parameter parameter, const std::string& from) {
+    parameter.default_value.reset();
+    parameter.optional = true;
+    parameter.derived_from = from;
+    return parameter;
+}
+
+Parameter whole(const std::string& key, std::int64_t value, double minimum, const std::string& help) {
+    Parameter parameter = number(key, "-", {}, minimum, help);
+    parameter.kind = ParameterKind::integer;
+    parameter.default_value = value;
+    return parameter;
+}
+
+Parameter choice(const std::string& key, std::optional<std::string> value, std::vector<std::string> choices, const std::string& help) {
+    Parameter parameter = number(key, "-", {}, 0.0, help);
+    parameter.minimum.reset();
+    parameter.kind = ParameterKind::choice;
+    if (value) parameter.default_value = *value;
+    parameter.choices = std::move(choices);
+    return parameter;
+}
+
+Parameter bounded(Parameter parameter, double maximum) {
+    parameter.maximum = maximum;
+    return parameter;
+}
+
+/// Reads one scene; collects what is wrong.
+class Reader {
+public:
+    explicit Reader(const ParameterValues& values) : values_(values) {}
+
+    Scene read() {
+        read_domain();
+        read_water();
+        for (const ParameterValues& solid : values_.tables("solid")) read_solid(solid);
+        for (const ParameterValues& bodies : values_.tables("bodies")) read_bodies(bodies);
+        read_contact();
+        read_run();
+        if (scene_.settings.water.filled.empty() && scene_.bodies.size() == 0)
+            refuse("fill", "The scene has neither water nor bodies", "One of them must be there", "Add [[fill]] or [[bodies]]");
+        if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
+        return std::move(scene_);
+    }
+
+private:
+    void refuse(const std::string& where, const std::string& what, const std::string& rule, const std::string& remedy) {
+        mistakes_.push_back({where, what, rule, remedy});
+    }
+    double cell() const { return scene_.settings.tank.cell; }
+    double width() const { return scene_.settings.tank.cells[0] * cell(); }
+    double height() const { return scene_.settings.tank.cells[2] * cell(); }
+
+    int whole_cells(const std::string& key) {
+        const double length = values_.number(key);
+        const int cells = std::max(4, static_cast<int>(std::lround(length / cell())));
+        if (std::abs(cells * cell() - length) > 1e-6 * length)
+            scene_.notes.push_back(fmt::format("{} = {:g} m is no whole number of cells: {:g} m is used", key, length, cells * cell()));
+        return cells;
+    }
+
+    void read_domain() {
+        scene_.name = values_.text("name");
+        TankSettings& tank = scene_.settings.tank;
+        tank.cell = values_.number("domain.cell_m");
+        tank.depth = values_.number("domain.length_m");
+        tank.cells = {whole_cells("domain.width_m"), 1, whole_cells("domain.height_m")};
+    }
+
+    void read_water() {
+        WaterSettings& water = scene_.settings.water;
+        water.density = values_.number("water.density_kg_m3");
+        water.kinematic_viscosity = values_.number("water.kinematic_viscosity_m2_s");
+        for (const ParameterValues& fill : values_.tables("fill")) {
+            const Vec3 from(fill.number("fill.from_x_m"), -k_far, fill.number("fill.from_z_m"));
+            const Vec3 to(fill.number("fill.to_x_m"), k_far, fill.number("fill.to_z_m"));
+            const std::string where = fill.where("fill.from_x_m");
+            const std::string box = fmt::format("Water from ({:g}, {:g}) to ({:g}, {:g}) m", from.x(), from.z(), to.x(), to.z());
+            if (from.x() >= to.x() || from.z() >= to.z()) refuse(where, box, "Its lower corner must come first", "Exchange the corners");
+            if (to.x() > width() + cell() || to.z() > height() + cell())
+                refuse(where, box, fmt::format("It must lie in the domain of {:g} m x {:g} m", width(), height()), "Make it smaller");
+            for (const WaterBox& other : water.filled) {
+                if ((from.array() < other.to.array() - k_tolerance).all() && (to.array() > other.from.array() + k_tolerance).all())
+                    refuse(where, box + " overlaps another box", "Water is filled in once", "Make one of them smaller");
+            }
+            water.filled.push_back({from, to});
+        }
+    }
+
+    double required(const ParameterValues& solid, const std::string& key) {
+        if (solid.has(key)) return solid.number(key);
+        refuse(solid.where("solid.kind"), fmt::format("{} is missing for a {}", key, solid.text("solid.kind")), "This kind needs it",
+               "Add it");
+        return 1.0;
+    }
+
+    double wall_of(const ParameterValues& solid) {
+        const double wall = required(solid, "solid.wall_m");
+        if (wall < (k_thinnest_wall - 1e-6) * cell())
+            refuse(solid.where("solid.wall_m"), fmt::format("solid.wall_m = {:g} m", wall),
+                   fmt::format("Walls are at least two cells thick ({:g} m), else water on both sides shares cells", 2.0 * cell()),
+                   "Use smaller cells or a thicker wall");
+        return wall;
+    }
+
+    void add_box(double from_x, double from_z, double to_x, double to_z) {
+        scene_.settings.solids.emplace_back(SolidBox{Vec3(from_x, -k_far, from_z), Vec3(to_x, k_far, to_z)});
+    }
+
+    void read_solid(const ParameterValues& solid) {
+        const std::string& kind = solid.text("solid.kind");
+        if (kind == "box") {
+            add_box(required(solid, "solid.from_x_m"), required(solid, "solid.from_z_m"), required(solid, "solid.to_x_m"),
+                    required(solid, "solid.to_z_m"));
+        } else if (kind == "plate") {
+            const Eigen::Vector2d from(required(solid, "solid.from_x_m"), required(solid, "solid.from_z_m"));
+            const Eigen::Vector2d to(required(solid, "solid.to_x_m"), required(solid, "solid.to_z_m"));
+            scene_.settings.solids.emplace_back(plate(from, to, wall_of(solid)));
+        } else if (kind == "pipe") {
+            read_pipe(solid);
+        } else {
+            read_funnel(solid);
+        }
+    }
+
+    /// Two walls, cut by holes at equal distances from the bottom up.
+    void read_pipe(const ParameterValues& solid) {
+        const double axis = required(solid, "solid.axis_x_m"), half = 0.5 * required(solid, "solid.inner_width_m"), wall = wall_of(solid);
+        const double bottom = required(solid, "solid.bottom_m"), top = required(solid, "solid.top_m");
+        const double hole = solid.number("solid.hole_m");
+        if (hole > 0.0 && hole < (1.0 - 1e-6) * cell())
+            refuse(solid.where("solid.hole_m"), fmt::format("solid.hole_m = {:g} m", hole),
+                   fmt::format("A hole narrower than a cell ({:g} m) would close", cell()), fmt::format("Use cells of {:g} m", hole));
+        if (top <= bottom) refuse(solid.where("solid.top_m"), "solid.top_m lies below solid.bottom_m", "The top is above", "Exchange them");
+        if (!mistakes_.empty()) return;
+        const double spacing = hole > 0.0 ? required(solid, "solid.hole_spacing_m") : k_far;
+        for (const double side : {-1.0, 1.0}) {
+            const double near = axis + side * half, far = axis + side * (half + wall);
+            double from = bottom;
+            for (double centre = bottom + spacing; centre + 0.5 * hole < top; centre += spacing) {
+                add_box(std::min(near, far), from, std::max(near, far), centre - 0.5 * hole);
+                from = centre + 0.5 * hole;
+            }
+            add_box(std::min(near, far), from, std::max(near, far), top);
+        }
+    }
+
+    /// Two oblique plates from the given width upwards, their thickness outside.
+    void read_funnel(const ParameterValues& solid) {
+        const double axis = required(solid, "solid.axis_x_m"), half = 0.5 * required(solid, "solid.inner_width_m"), wall = wall_of(solid);
+        const double bottom = required(solid, "solid.bottom_m"), length = required(solid, "solid.wall_length_m");
+        const double angle = solid.number("solid.angle_deg") * k_pi / 180.0;
+        const Eigen::Vector2d way(length * std::cos(angle), length * std::sin(angle));
+        const Eigen::Vector2d right(axis + half, bottom), left(axis - half, bottom);
+        scene_.settings.solids.emplace_back(plate(right + way, right, wall));
+        scene_.settings.solids.emplace_back(plate(left, left + Eigen::Vector2d(-way.x(), way.y()), wall));
+    }
+
+    void read_bodies(const ParameterValues& bodies) {
+        const double diameter = bodies.number("bodies.diameter_m"), density = bodies.number("bodies.density_kg_m3");
+        const double across = diameter / cell();
+        const std::string where = bodies.where("bodies.diameter_m");
+        if (across < k_fewest_cells)
+            refuse(where, fmt::format("bodies.diameter_m = {:g} m is {:.3g} cells", diameter, across),
+                   fmt::format("A body needs at least {:g} cells across", k_fewest_cells),
+                   fmt::format("Use cells of {:g} m", diameter / 10.0));
+        else if (across < k_enough_cells)
+            scene_.notes.push_back(
+                fmt::format("bodies have {:.3g} cells across: below 8 their acceleration is off by 2 % and more", across));
+        if (density < 1e-3 * scene_.settings.water.density)
+            refuse(bodies.where("bodies.density_kg_m3"), fmt::format("bodies.density_kg_m3 = {:g}", density),
+                   "The pressure of water and bodies is verified down to a thousandth of the water's density", "Use a heavier body");
+        const double spacing = diameter + bodies.number("bodies.clearance_m"), jitter = bodies.number("bodies.jitter_m");
+        std::mt19937 random(static_cast<unsigned>(bodies.integer("bodies.seed")));
+        std::uniform_real_distribution<double> shift(-jitter, jitter);
+        const auto widest = bodies.integer("bodies.widest");
+        for (std::int64_t layer = 0; layer < bodies.integer("bodies.layers"); ++layer) {
+            const auto count = std::max<std::int64_t>(1, layer % 2 == 0 ? widest : widest - 1);
+            for (std::int64_t n = 0; n < count; ++n) {
+                const double x =
+                    bodies.number("bodies.centre_x_m") + (static_cast<double>(n) - 0.5 * static_cast<double>(count - 1)) * spacing;
+                const double z = bodies.number("bodies.lowest_m") + 0.5 * diameter + static_cast<double>(layer) * std::sqrt(0.75) * spacing;
+                add_body(Vec3(x + shift(random), 0.5 * scene_.settings.tank.depth, z + shift(random)), diameter, density, where);
+            }
+        }
+    }
+
+    void add_body(const Vec3& place, double diameter, double density, const std::string& where) {
+        coupling::Rocks& rocks = scene_.bodies;
+        const int id = static_cast<int>(rocks.size()) + 1;
+        const double radius = 0.5 * diameter;
+        if (place.x() < radius || place.x() > width() - radius || place.z() < radius || place.z() > height() - radius)
+            refuse(where, fmt::format("Body {} at ({:g}, {:g}) m leaves the domain", id, place.x(), place.z()),
+                   fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move the stack");
+        for (std::size_t n = 0; n < rocks.size(); ++n) {
+            const double between = (rocks.position[n] - place).norm() - 0.5 * rocks.diameter[n] - radius;
+            if (between < 0.0)
+                refuse(where, fmt::format("Bodies {} and {} overlap by {:.3g} m", rocks.id[n], id, -between), "Bodies must not overlap",
+                       "Give more clearance or less jitter");
+        }
+        rocks.id.push_back(id);
+        rocks.position.push_back(place);
+        rocks.velocity.emplace_back(Vec3::Zero());
+        rocks.angular_velocity.emplace_back(Vec3::Zero());
+        rocks.diameter.push_back(diameter);
+        rocks.density.push_back(density);
+    }
+
+    void read_contact() {
+        coupling::DemSettings& dem = scene_.dem;
+        dem.law = coupling::ContactLaw::linear;
+        dem.linear.theta = values_.number("contact.theta");
+        dem.linear.reference_length = values_.number("contact.reference_length_m");
+        dem.linear.damping = values_.number("contact.damping");
+        dem.linear.poisson = values_.number("contact.poisson");
+        dem.linear.accumulated_shear = values_.text("contact.shear") == "accumulated";
+        dem.contact.friction = values_.number("contact.friction");
+        dem.contact.wet_restitution = false;
+        if (dem.linear.damping >= std::sqrt(0.5))
+            refuse(values_.where("contact.damping"), fmt::format("contact.damping = {:g}", dem.linear.damping),
+                   "A pair must swing: below sqrt(1/2) = 0.707", "Use 0.4");
+        dem.contact_gap = values_.has("contact.gap_m") ? values_.number("contact.gap_m") : k_smallest_gap * cell();
+        if (scene_.bodies.size() > 1 && dem.contact_gap < (k_smallest_gap - 1e-6) * cell())
+            refuse(values_.where("contact.gap_m"), fmt::format("contact.gap_m = {:g} m", dem.contact_gap),
+                   fmt::format("At least a quarter of a cell ({:g} m): water locked between bodies collapses", k_smallest_gap * cell()),
+                   "Use a larger gap or smaller cells");
+        dem.shape = coupling::RockShape::cylinder;
+        dem.cylinder_length = scene_.settings.tank.depth;
+        dem.domain.lower = Vec3::Zero();
+        dem.domain.upper = Vec3(width(), scene_.settings.tank.depth, height());
+        for (const auto side :
+             {coupling::DomainSide::x_min, coupling::DomainSide::x_max, coupling::DomainSide::z_min, coupling::DomainSide::z_max})
+            dem.domain.make_wall(side);
+        dem.fluid = {0.0, 0.0};
+        dem.added_mass = 0.0;
+        dem.gravity = scene_.settings.gravity;
+
+        GapDampingSettings& damping = scene_.settings.damping;
+        damping.remaining = values_.number("contact.gap_damping");
+        damping.gap = dem.contact_gap;
+        if (values_.has("contact.gap_damping_time_s")) damping.time = values_.number("contact.gap_damping_time_s");
+        if (damping.remaining < 1.0 && damping.time <= 0.0)
+            refuse(values_.where("contact.gap_damping"), fmt::format("contact.gap_damping = {:g} without a time", damping.remaining),
+                   "The damping is a rate", "Give contact.gap_damping_time_s, cell/(2 sqrt(g H))");
+    }
+
+    void read_run() {
+        scene_.end = values_.number("run.end_s");
+        scene_.write_interval = values_.number("run.write_interval_s");
+        scene_.checkpoint_interval = values_.number("run.checkpoint_interval_s");
+        scene_.settings.run.max_courant = values_.number("run.max_courant");
+        if (scene_.write_interval > scene_.end)
+            refuse(values_.where("run.write_interval_s"), fmt::format("run.write_interval_s = {:g} s", scene_.write_interval),
+                   fmt::format("It must not exceed run.end_s = {:g} s", scene_.end), "Write more often");
+    }
+
+    const ParameterValues& values_;
+    Scene scene_;
+    std::vector<Mistake> mistakes_;
+};
+
+/// Corners of a solid in x and z, counter-clockwise seen against y.
+std::vector<Eigen::Vector2d> outline(const StillSolid& solid) {
+    if (const auto* prism = std::get_if<SolidPrism>(&solid)) return prism->corners;
+    const auto& box = std::get<SolidBox>(solid);
+    return {{box.from.x(), box.from.z()}, {box.to.x(), box.from.z()}, {box.to.x(), box.to.z()}, {box.from.x(), box.to.z()}};
+}
+
+std::string facet(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto vertex = [](const Vec3& v) { return fmt::format("vertex {:.17g} {:.17g} {:.17g}\n", v.x(), v.y(), v.z()); };
+    return "facet normal 0 0 0\nouter loop\n" + vertex(a) + vertex(b) + vertex(c) + "endloop\nendfacet\n";
+}
+
+}  // namespace
+
+const ParameterTable& scene_table() {
+    static const ParameterTable table = [] {
+        ParameterTable keys;
+        keys.push_back(choice("kind", "free_surface", {"free_surface"}, "Kind of the scene."));
+        Parameter name = choice("name", "free surface", {}, "Name of the scene.");
+        name.kind = ParameterKind::text;
+        keys.push_back(name);
+        keys.push_back(positive("domain.width_m", "m", {}, "Width of the tank, along x."));
+        keys.push_back(positive("domain.height_m", "m", {}, "Height of the tank, along z."));
+        keys.push_back(positive("domain.length_m", "m", 0.1, "Length of the plane scene across, and of its cylinders."));
+        keys.push_back(positive("domain.cell_m", "m", {}, "Edge of a cell; a body needs at least 5, better 10 across."));
+        keys.push_back(positive("water.density_kg_m3", "kg/m3", 1000.0, "Density of the water."));
+        keys.push_back(number("water.kinematic_viscosity_m2_s", "m2/s", 1e-6, 0.0, "Kinematic viscosity of the water."));
+        for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
+            keys.push_back(
+                number(std::string("fill.") + key, "m", {}, 0.0, "Corner of a box of water at rest; solids in it are left out."));
+        keys.push_back(choice("solid.kind", {}, {"box", "plate", "pipe", "funnel"}, "What stands in the tank."));
+        for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
+            keys.push_back(derived(number(std::string("solid.") + key, "m", {}, 0.0, "Corners of a box, or ends of a plate's side."),
+                                   "box and plate need it"));
+        keys.push_back(derived(positive("solid.wall_m", "m", {}, "Thickness of a plate's, pipe's or funnel's walls, at least two cells."),
+                               "all but boxes need it"));
+        keys.push_back(derived(number("solid.axis_x_m", "m", {}, 0.0, "Place of a pipe's or funnel's middle."), "pipe and funnel need it"));
+        keys.push_back(derived(positive("solid.inner_width_m", "m", {}, "Inner width of a pipe, or of a funnel at its bottom."),
+                               "pipe and funnel need it"));
+        keys.push_back(derived(number("solid.bottom_m", "m", {}, 0.0, "Height of the lower end."), "pipe and funnel need it"));
+        keys.push_back(derived(positive("solid.top_m", "m", {}, "Height of a pipe's upper end."), "a pipe needs it"));
+        keys.push_back(number("solid.hole_m", "m", 0.0, 0.0, "Height of the holes in a pipe's walls; 0: none, else at least a cell."));
+        keys.push_back(
+            derived(positive("solid.hole_spacing_m", "m", {}, "Distance of the holes, from the bottom up."), "a pipe with holes needs it"));
+        keys.push_back(bounded(positive("solid.angle_deg", "deg", 45.0, "Angle of a funnel's walls from the horizontal."), 89.0));
+        keys.push_back(derived(positive("solid.wall_length_m", "m", {}, "Length of a funnel's walls."), "a funnel needs it"));
+        keys.push_back(positive("bodies.diameter_m", "m", {}, "Diameter of the cylinders."));
+        keys.push_back(positive("bodies.density_kg_m3", "kg/m3", 2700.0, "Density of the cylinders."));
+        keys.push_back(whole("bodies.layers", 1, 1, "Layers of the stack."));
+        keys.push_back(whole("bodies.widest", 1, 1, "Cylinders in the first and every second layer; the others have one less."));
+        keys.push_back(positive("bodies.centre_x_m", "m", {}, "Middle of the stack."));
+        keys.push_back(number("bodies.lowest_m", "m", {}, 0.0, "Lowest point of the stack."));
+        keys.push_back(number("bodies.clearance_m", "m", 0.0, 0.0, "Between neighbours."));
+        keys.push_back(number("bodies.jitter_m", "m", 0.0, 0.0, "Largest random shift of a place; repeats differ in it."));
+        keys.push_back(whole("bodies.seed", 1, 0, "Seed of the shifts."));
+        keys.push_back(positive("contact.theta", "-", 0.01, "Overlap under the own weight over the reference length."));
+        keys.push_back(positive("contact.reference_length_m", "m", 5e-4, "Length of the contact law; not tied to the cells."));
+        keys.push_back(number("contact.damping", "-", 0.4, 0.0, "Damping of the contact law, below 0.707."));
+        keys.push_back(bounded(number("contact.poisson", "-", 0.3, 0.0, "Poisson's ratio in the tangential stiffness."), 0.5));
+        keys.push_back(number("contact.friction", "-", 0.3, 0.0, "Coulomb friction."));
+        keys.push_back(choice("contact.shear", "accumulated", {"accumulated", "one_step"}, "What stretches the tangential spring."));
+        keys.push_back(derived(number("contact.gap_m", "m", {}, 0.0, "Distance at which surfaces touch; half of it at walls."),
+                               "a quarter of a cell"));
+        keys.push_back(bounded(
+            number("contact.gap_damping", "-", 1.0, 0.0,
+                   "beta: share of the relative velocity of the water in a contact's gap that is left after the damping time; 1: off."),
+            1.0));
+        keys.push_back(derived(positive("contact.gap_damping_time_s", "s", {}, "Time of the gap damping."), "needed with gap damping"));
+        keys.push_back(positive("run.end_s", "s", {}, "End of the run."));
+        keys.push_back(bounded(positive("run.max_courant", "-", 0.5, "Courant number of the fastest water."), 1.0));
+        keys.push_back(positive("run.write_interval_s", "s", 0.02, "Between pictures and rows of the bodies."));
+        keys.push_back(positive("run.checkpoint_interval_s", "s", 0.2, "Between checkpoints."));
+        for (Parameter& key : keys)
+            if (key.key.rfind("contact.", 0) == 0) key.reference = k_reference;
+        return keys;
+    }();
+    return table;
+}
+
+Scene parse_scene(const std::string& toml, const std::string& name) {
+    return Reader(parse_parameters(scene_table(), toml, name)).read();
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+    return Reader(read_parameters(scene_table(), file)).read();
+}
+
+std::string wall_surface_stl(const Scene& scene) {
+    std::string text = "solid walls\n";
+    const double depth = scene.settings.tank.depth;
+    for (const StillSolid& solid : scene.settings.solids) {
+        const std::vector<Eigen::Vector2d> corners = outline(solid);
+        const auto at = [&](std::size_t n, double y) {
+            const Eigen::Vector2d& corner = corners[n % corners.size()];
+            return Vec3(corner.x(), y, corner.y());
+        };
+        for (std::size_t n = 0; n < corners.size(); ++n) {
+            text += facet(at(n, 0), at(n, depth), at(n + 1, depth)) + facet(at(n, 0), at(n + 1, depth), at(n + 1, 0));
+        }
+        for (std::size_t n = 1; n + 1 < corners.size(); ++n) {
+            text += facet(at(0, 0), at(n, 0), at(n + 1, 0)) + facet(at(0, depth), at(n + 1, depth), at(n, depth));
+        }
+    }
+    return text + "endsolid walls\n";
+}
+
+ScenePrediction predict(const Scene& scene) {
+    const TankSettings& tank = scene.settings.tank;
+    ScenePrediction result;
+    result.cells = static_cast<double>(tank.cells[0]) * tank.cells[2];
+    double height = 0.0;
+    for (const WaterBox& box : scene.settings.water.filled) {
+        const double to_x = std::min(box.to.x(), tank.cells[0] * tank.cell), to_z = std::min(box.to.z(), tank.cells[2] * tank.cell);
+        result.water_cells += (to_x - box.from.x()) * (to_z - box.from.z()) / (tank.cell * tank.cell);
+        height = std::max(height, to_z);
+    }
+    result.particles = 4.0 * result.water_cells;
+    const double speed = std::sqrt(2.0 * k_gravity * std::max(height, tank.cell));
+    result.step = std::min(scene.settings.run.max_courant * tank.cell / speed, 0.7 * std::sqrt(tank.cell / k_gravity));
+    result.steps = scene.end / result.step;
+    result.core_seconds = result.steps * result.particles * k_seconds_per_particle;
+    if (scene.bodies.size() > 0)
+        result.dem_step = physics::linear_contact_step(scene.dem.linear.theta, scene.dem.linear.reference_length, k_gravity,
+                                                       scene.dem.linear.steps_per_period);
+    return result;
+}
+
+}  // namespace cutterflow::free_surface

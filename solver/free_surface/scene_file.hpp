@@ -1,0 +1,45 @@
+#pragma once
+/// \file The file of a plane free-surface scene (scene.toml): its keys, and the scene that they describe.
+#include <filesystem>
+
+#include "geometry/base/parameter.hpp"
+#include "solver/free_surface/scene.hpp"
+#include "solver/ports/dem_engine.hpp"
+#include "solver/ports/dem_settings.hpp"
+
+namespace cutterflow::free_surface {
+
+/// Everything that a run of a scene needs.
+struct Scene {
+    std::string name;
+    SceneSettings settings;
+    coupling::DemSettings dem;         ///< its wall files are written by write_wall_surface
+    coupling::Rocks bodies;            ///< at the start
+    double end = 0.0;                  ///< [s]
+    double write_interval = 0.0;       ///< [s]
+    double checkpoint_interval = 0.0;  ///< [s]
+    std::vector<std::string> notes;    ///< what the user should know: rounded sizes, coarse bodies
+};
+
+/// All keys with unit, bounds, default and help.
+const ParameterTable& scene_table();
+
+/// \throws UserError  with every mistake of the file
+Scene read_scene(const std::filesystem::path& file);
+/// As read_scene, from text; `name` stands for the file in messages.
+Scene parse_scene(const std::string& toml, const std::string& name);
+
+/// The still solids as one closed surface each, extruded across the tank, as text of an STL file [m].
+std::string wall_surface_stl(const Scene& scene);
+
+/// What a run will take, from counts measured on scenes of these kinds.
+struct ScenePrediction {
+    double cells = 0.0, water_cells = 0.0, particles = 0.0;
+    double step = 0.0;  ///< [s], at the speed of a fall from the water's height
+    double steps = 0.0;
+    double core_seconds = 0.0;
+    double dem_step = 0.0;  ///< [s]; 0 without bodies
+};
+ScenePrediction predict(const Scene& scene);
+
+}  // namespace cutterflow::free_surface

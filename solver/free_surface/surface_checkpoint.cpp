@@ -1,0 +1,106 @@
+#include "solver/free_surface/surface_checkpoint.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+
+namespace cutterflow::free_surface {
+
+namespace {
+
+constexpr const char* k_folder = "checkpoints";
+constexpr const char* k_state = "water.bin";
+constexpr std::uint64_t k_mark = 0x6375747465723031;  // format 1
+
+/// Visits every part of a state in a fixed order: one list for writing and reading.
+template <typename State, typename Scalar, typename Array>
+void for_each_part(State& state, const Scalar& scalar, const Array& array) {
+    scalar(state.time);
+    scalar(state.steps);
+    scalar(state.initial_volume);
+    scalar(state.mixing_time);
+    scalar(state.fastest_allowed);
+    scalar(state.particles.volume);
+    for (int d = 0; d < 3; ++d) {
+        array(state.particles.position[d]);
+        array(state.particles.velocity[d]);
+    }
+    array(state.particles.dye);
+    array(state.pressure);
+    array(state.spreading);
+    array(state.contact_force);
+}
+
+template <typename T>
+void put(std::ostream& stream, const T& value) {
+    stream.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <typename T>
+void get(std::istream& stream, T& value) {
+    stream.read(reinterpret_cast<char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& folder, const SurfaceState& state, coupling::DemEngine* bodies) {
+    const std::filesystem::path target = folder / k_folder / fmt::format("{:.9f}", state.time), part = target.string() + ".part";
+    std::filesystem::remove_all(part);
+    std::filesystem::create_directories(part);
+    std::ofstream stream(part / k_state, std::ios::binary);
+    put(stream, k_mark);
+    for_each_part(
+        state, [&](const auto& value) { put(stream, value); },
+        [&](const auto& values) {
+            put(stream, static_cast<std::uint64_t>(values.size()));
+            stream.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(values[0])));
+        });
+    if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (part / k_state).string()));
+    stream.close();
+    if (bodies) bodies->write_checkpoint(part);
+    std::filesystem::remove_all(target);
+    std::filesystem::rename(part, target);
+}
+
+std::filesystem::path newest_checkpoint(const std::filesystem::path& folder) {
+    std::filesystem::path newest;
+    double latest = -1.0;
+    if (!std::filesystem::is_directory(folder / k_folder)) return newest;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / k_folder)) {
+        if (entry.path().extension() == ".part") continue;
+        const double time = std::strtod(entry.path().filename().c_str(), nullptr);
+        if (time <= latest) continue;
+        latest = time;
+        newest = entry.path();
+    }
+    return newest;
+}
+
+SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const StaggeredGrid& grid, coupling::DemEngine* bodies) {
+    std::ifstream stream(checkpoint / k_state, std::ios::binary);
+    const auto refuse = [&](const std::string& why) {
+        throw UserError(fmt::format("{}: {}", (checkpoint / k_state).string(), why), "A checkpoint is whole and of the same scene",
+                        "Remove the folder; an older checkpoint is taken then");
+    };
+    std::uint64_t mark = 0;
+    get(stream, mark);
+    if (!stream || mark != k_mark) refuse("no checkpoint of this program");
+    SurfaceState state;
+    for_each_part(
+        state, [&](auto& value) { get(stream, value); },
+        [&](auto& values) {
+            std::uint64_t size = 0;
+            get(stream, size);
+            if (!stream || size > 1000000000) refuse("cut off");
+            values.resize(size);
+            stream.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(size * sizeof(values[0])));
+        });
+    if (!stream) refuse("cut off");
+    if (state.pressure.size() != grid.size()) refuse("of another grid");
+    if (bodies) bodies->read_checkpoint(checkpoint);
+    return state;
+}
+
+}  // namespace cutterflow::free_surface

@@ -1,0 +1,28 @@
+#pragma once
+/// \file What a free-surface run writes: rows (CSV) and fields for ParaView.
+#include <filesystem>
+#include <fstream>
+
+#include "solver/free_surface/surface_run.hpp"
+
+namespace cutterflow::free_surface {
+
+/// Writes below <folder>/postProcessing: balance/<t0>/balance.csv (every step), bodies/<t0>/bodies.csv, water/vtk/*.vti and
+/// bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run opens rows of its own start time t0.
+class SurfaceRecorder {
+public:
+    SurfaceRecorder(const std::filesystem::path& folder, double start_time);
+
+    void step(const SurfaceRun& run, double core_seconds);
+    void output(const SurfaceRun& run, const coupling::DemEngine* bodies);
+
+private:
+    void write_water(const SurfaceRun& run, const std::string& name) const;
+    void write_bodies(const SurfaceRun& run, const std::string& name) const;
+    void write_series(const std::string& what, const std::string& extension) const;
+
+    std::filesystem::path folder_;
+    std::ofstream balance_, rows_;
+};
+
+}  // namespace cutterflow::free_surface

@@ -1,0 +1,454 @@
+#include "solver/free_surface/surface_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "solver/free_surface/gap_damping.hpp"
+
+namespace cutterflow::free_surface {
+
+namespace {
+
+constexpr int k_steps_between_sorts = 20;
+constexpr double k_mixing_cells = 50.0;    // tau_mix = 50 h / sqrt(g H)
+constexpr double k_gravity_courant = 0.7;  // dt <= 0.7 sqrt(h/g)
+constexpr double k_body_travel = 0.25;     // cells a step
+constexpr double k_fastest_water = 50.0;   // sqrt(g H)
+constexpr int k_extended_layers = 2;
+constexpr double k_first_tolerance = 1e-4;  // of the tolerance: water that rests from the start stays at rest
+
+/// Height of the water over its lowest particle [m], at least a cell.
+double water_height(const StaggeredGrid& grid, const WaterParticles& particles) {
+    if (particles.size() == 0) return grid.extent(2);
+    const auto [low, high] = std::minmax_element(particles.position[2].begin(), particles.position[2].end());
+    return std::max(grid.spacing(), *high - *low);
+}
+
+std::vector<Body> bodies_of(const coupling::DemEngine* engine, const SceneSettings& settings) {
+    std::vector<Body> bodies;
+    if (!engine) return bodies;
+    const coupling::Rocks& rocks = engine->rocks();
+    for (std::size_t n = 0; n < rocks.size(); ++n) {
+        bodies.push_back(body_of(rocks, n, settings.spheres, settings.tank.depth));
+        bodies.back().held = settings.bodies_held;
+    }
+    return bodies;
+}
+
+}  // namespace
+
+Body body_of(const coupling::Rocks& rocks, std::size_t index, bool sphere, double depth) {
+    Body body;
+    body.position = rocks.position[index];
+    body.velocity = rocks.velocity[index];
+    body.spin = rocks.angular_velocity[index];
+    body.radius = 0.5 * rocks.diameter[index];
+    body.sphere = sphere;
+    const double section = k_pi * body.radius * body.radius;
+    body.mass = rocks.density[index] * section * (sphere ? 4.0 / 3.0 * body.radius : depth);
+    body.inertia = (sphere ? 0.4 : 0.5) * body.mass * body.radius * body.radius;
+    return body;
+}
+
+WaterParticles fill_water(const SceneSettings& settings, gsl::span<const Body> bodies) {
+    const StaggeredGrid grid = settings.tank.grid();
+    WaterParticles particles;
+    particles.volume = particle_volume(grid);
+    const auto is_open = [&](const Vec3& place) {
+        for (const StillSolid& solid : settings.solids) {
+            if (is_inside(solid, place)) return false;
+        }
+        for (const Body& body : bodies) {
+            Vec3 arm = place - body.position;
+            if (!body.sphere) arm.y() = 0.0;
+            if (arm.norm() < body.radius) return false;
+        }
+        return true;
+    };
+    std::uint8_t dye = 0;
+    for (const WaterBox& box : settings.water.filled) fill_box(grid, box.from, box.to, dye++, is_open, particles);
+    return particles;
+}
+
+SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodies)
+    : SurfaceRun(settings, bodies, fill_water(settings, bodies_of(bodies, settings))) {}
+
+SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodies, WaterParticles water)
+    : settings_(settings),
+      grid_(settings.tank.grid()),
+      engine_(bodies),
+      cutter_(grid_, settings.solids),
+      even_out_(grid_),
+      system_(grid_),
+      particles_(std::move(water)),
+      mapped_(grid_),
+      velocity_(grid_.face_field()),
+      increment_(grid_.face_field()),
+      pressure_(grid_.cell_field()),
+      potential_(grid_.cell_field()),
+      values_(grid_.size()) {
+    const double speed = std::sqrt(settings.gravity.norm() * water_height(grid_, particles_));
+    mixing_time_ = settings.run.mixing_time < 0.0 ? k_mixing_cells * grid_.spacing() / speed : settings.run.mixing_time;
+    fastest_allowed_ = k_fastest_water * speed;
+    take_over_bodies();
+    contact_force_.assign(bodies_.size(), Vec3::Zero());
+    cutter_.cut(bodies_, cells_);
+    find_surface();
+    initial_volume_ = occupied_volume(grid_, cells_, water_);
+    report_.occupied_volume = initial_volume_;
+}
+
+SurfaceState SurfaceRun::state() const {
+    return {time_, steps_, initial_volume_, mixing_time_, fastest_allowed_, particles_, pressure_, even_out_.potential(), contact_force_};
+}
+
+void SurfaceRun::restore(SurfaceState state) {
+    time_ = state.time;
+    steps_ = state.steps;
+    initial_volume_ = state.initial_volume;
+    mixing_time_ = state.mixing_time;
+    fastest_allowed_ = state.fastest_allowed;
+    particles_ = std::move(state.particles);
+    pressure_ = std::move(state.pressure);
+    even_out_.begin_with(std::move(state.spreading));
+    contact_force_ = std::move(state.contact_force);
+    take_over_bodies();
+    cutter_.cut(bodies_, cells_);
+    find_surface();
+}
+
+void SurfaceRun::take_over_bodies() {
+    bodies_ = bodies_of(engine_, settings_);
+}
+
+void SurfaceRun::find_surface() {
+    map_fraction(grid_, particles_, fraction_);
+    find_water(grid_, fraction_, cells_, water_);
+}
+
+double SurfaceRun::choose_step(double longest) const {
+    const double h = grid_.spacing();
+    double step =
+        std::min({longest, settings_.run.longest_step, k_gravity_courant * std::sqrt(h / std::max(1e-12, settings_.gravity.norm()))});
+    const double speed = largest_speed(particles_);
+    if (speed > 0.0) step = std::min(step, settings_.run.max_courant * h / speed);
+    for (const Body& body : bodies_) {
+        if (body.velocity.norm() > 0.0) step = std::min(step, k_body_travel * h / body.velocity.norm());
+    }
+    const double viscosity = settings_.water.kinematic_viscosity;
+    if (viscosity > 0.0) step = std::min(step, h * h / (4.0 * viscosity * static_cast<double>(grid_.directions().size())));
+    return step;
+}
+
+const StepReport& SurfaceRun::step(double longest) {
+    report_ = StepReport{};
+    const double step = choose_step(longest);
+    if (steps_++ % k_steps_between_sorts == 0) sort_by_cell(grid_, particles_);
+    map_to_grid(grid_, particles_, mapped_);
+    find_water(grid_, mapped_.fraction, cells_, water_);
+    fill_unmapped_faces();
+    add_body_forces(step);
+    predict_bodies(step);
+    solve_pressure(step);
+    push_bodies(step);
+    push_water();
+    book_walls(step);
+    extend_velocity(step);
+    const double kept = 1.0 - (mixing_time_ > 0.0 ? std::min(1.0, step / mixing_time_) : 1.0);
+    move_particles(grid_, {velocity_, increment_, step, kept}, particles_);
+    move_bodies(step);
+    if (settings_.damping.remaining < 1.0)
+        report_.gap_impulse = damp_gaps(settings_.damping, grid_, bodies_, step, settings_.water.density, particles_);
+    if (!bodies_.empty()) cutter_.cut(bodies_, cells_);
+    push_out();
+    find_surface();
+    if (settings_.run.even_out) {
+        report_.even_out = even_out_.apply(cells_, water_, particles_);
+        push_out();
+    }
+    report_.occupied_volume = occupied_volume(grid_, cells_, water_);
+    time_ += step;
+    report_.time = time_;
+    report_.step = step;
+    check();
+    return report_;
+}
+
+/// Faces of water that no particle reaches take the mean of their neighbours.
+void SurfaceRun::fill_unmapped_faces() {
+    for (const int d : grid_.directions()) {
+        const int stride = grid_.stride(d);
+        for (const int cell : water_.water) {
+            for (const int face : {cell, cell + stride}) {
+                if (mapped_.share[d][face] > 0.0 || cells_.open[d][face] <= 0.0) continue;
+                double sum = 0.0;
+                int count = 0;
+                for (const int e : grid_.directions()) {
+                    for (const int neighbour : {face - grid_.stride(e), face + grid_.stride(e)}) {
+                        if (mapped_.share[d][neighbour] <= 0.0) continue;
+                        sum += mapped_.velocity[d][neighbour];
+                        ++count;
+                    }
+                }
+                mapped_.velocity[d][face] = count > 0 ? sum / count : 0.0;
+            }
+        }
+    }
+}
+
+void SurfaceRun::add_body_forces(double step) {
+    for (const int d : grid_.directions()) {
+        velocity_[d] = mapped_.velocity[d];
+        const double change = step * settings_.gravity[d];
+        if (change == 0.0) continue;
+        grid_.for_each_face(d, [&](int face, int, int, int) {
+            if (cells_.open[d][face] > 0.0) velocity_[d][face] += change;
+        });
+    }
+    if (settings_.water.kinematic_viscosity > 0.0) add_viscosity(step, velocity_);
+}
+
+/// nu div(grad u + grad u^T) of the mapped velocity, stresses in water alone: the surface and the tank's walls bear none, solids hold the
+/// water in their covered faces.
+void SurfaceRun::add_viscosity(double step, FaceField& change) const {
+    const double scale = step * settings_.water.kinematic_viscosity / (grid_.spacing() * grid_.spacing());
+    const auto velocity = [&](int d, int face) {
+        const int owner = cells_.open[d][face] > 0.0 ? k_no_body : cells_.owner[d][face];
+        return cells_.open[d][face] > 0.0 ? mapped_.velocity[d][face] : owner == k_no_body ? 0.0 : bodies_[owner].velocity[d];
+    };
+    const auto is_wet = [&](int cell) { return water_.kind[cell] != CellKind::air; };
+    const auto add = [&](int d, int face, double value) {
+        if (cells_.open[d][face] > 0.0) change[d][face] += value;
+    };
+    for (const int d : grid_.directions()) {
+        const int along = grid_.stride(d);
+        for (const int cell : water_.water) {
+            const double normal = 2.0 * scale * (velocity(d, cell + along) - velocity(d, cell));
+            add(d, cell, normal);
+            add(d, cell + along, -normal);
+        }
+        for (const int e : grid_.directions()) {
+            if (e <= d) continue;
+            const int across = grid_.stride(e);
+            grid_.for_each_cell([&](int cell, int i, int j, int k) {
+                const std::array<int, 3> place{i, j, k};
+                if (place[d] == 0 || place[e] == 0) return;  // the tank's walls are free of shear
+                const int left = cell - along, low = cell - across, both = left - across;
+                if (!is_wet(cell) || !is_wet(left) || !is_wet(low) || !is_wet(both)) return;
+                const double shear = scale * (velocity(d, cell) - velocity(d, low) + velocity(e, cell) - velocity(e, left));
+                add(d, cell, -shear);
+                add(d, low, shear);
+                add(e, cell, -shear);
+                add(e, left, shear);
+            });
+        }
+    }
+}
+
+void SurfaceRun::predict_bodies(double step) {
+    predicted_ = bodies_;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (!bodies_[b].held) predicted_[b].velocity += step * (settings_.gravity + contact_force_[b] / bodies_[b].mass);
+    }
+}
+
+void SurfaceRun::solve_pressure(double step) {
+    const double h = grid_.spacing(), density = settings_.water.density;
+    const double cell_mass = density * grid_.face_area() * h;
+    system_.assemble(water_, cells_, bodies_, cell_mass);
+    right_side_.assign(system_.unknowns(), 0.0);
+    q_.resize(system_.unknowns());
+    for (std::size_t r = 0; r < right_side_.size(); ++r) {
+        const int cell = system_.cell(r);
+        double outflow = 0.0;
+        for (const int d : grid_.directions()) {
+            const int above = cell + grid_.stride(d);
+            outflow += cells_.open[d][above] * velocity_[d][above] - cells_.open[d][cell] * velocity_[d][cell];
+        }
+        right_side_[r] = -h * outflow;
+        q_[r] = pressure_[cell] * step / density;
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const Body& body = predicted_[b];
+        for (const BodyCell& entry : cells_.bodies[b]) {
+            const int row = system_.row(entry.cell);
+            if (row < 0) continue;
+            right_side_[row] -= h * entry.k.dot(body.velocity);
+        }
+    }
+    const double tolerance = settings_.run.pressure_tolerance * (steps_ == 1 ? k_first_tolerance : 1.0);
+    report_.pressure = system_.solve(right_side_, tolerance, q_);
+    failed_solves_ = report_.pressure.converged ? 0 : failed_solves_ + 1;
+    report_.enclosed_waters = system_.enclosed_waters();
+    std::fill(potential_.begin(), potential_.end(), 0.0);
+    for (std::size_t r = 0; r < q_.size(); ++r) potential_[system_.cell(r)] = q_[r];
+}
+
+void SurfaceRun::push_bodies(double step) {
+    const double density = settings_.water.density;
+    for (std::size_t c = 0; c < grid_.size(); ++c) pressure_[c] = potential_[c] * density / step;
+    report_.body_force.assign(bodies_.size(), Vec3::Zero());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        for (const BodyCell& entry : cells_.bodies[b]) report_.body_force[b] += pressure_[entry.cell] * grid_.face_area() * entry.k;
+        if (!bodies_[b].held) predicted_[b].velocity += step / bodies_[b].mass * report_.body_force[b];
+    }
+}
+
+/// The impulse is summed over what the faces' velocities gain, not over the pressure.
+void SurfaceRun::push_water() {
+    const double cell_mass = settings_.water.density * grid_.cell_volume();
+    for (const int d : grid_.directions()) {
+        const int stride = grid_.stride(d);
+        for_each_gradient(grid_, cells_, water_, potential_, d, [&](int face, double change) {
+            velocity_[d][face] -= change;
+            const bool wet_below = water_.kind[face - stride] == CellKind::water, wet = water_.kind[face] == CellKind::water;
+            const double distance = wet && wet_below ? 1.0
+                                    : wet            ? surface_distance(water_.fraction[face], water_.fraction[face - stride])
+                                                     : surface_distance(water_.fraction[face - stride], water_.fraction[face]);
+            report_.impulses.water[d] -= cell_mass * distance * cells_.open[d][face] * change;
+        });
+    }
+}
+
+void SurfaceRun::book_walls(double step) {
+    for (const int d : grid_.directions()) {
+        const int stride = grid_.stride(d);
+        for (const int cell : water_.water) {
+            const double covered = cells_.open[d][cell] - cells_.open[d][cell + stride];
+            report_.impulses.walls[d] += step * pressure_[cell] * grid_.face_area() * covered;
+        }
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        report_.impulses.bodies += step * report_.body_force[b];
+        for (const BodyCell& entry : cells_.bodies[b]) {
+            report_.impulses.walls -= step * pressure_[entry.cell] * grid_.face_area() * entry.k;
+        }
+    }
+}
+
+/// Beyond the faces on which pressure acted: two layers are extrapolated, what flies farther out is under gravity alone, and one layer more
+/// has the values that particles meet within a step. Faces that a solid covers wholly hold its velocity: no slip.
+void SurfaceRun::extend_velocity(double step) {
+    std::vector<int> front;
+    for (const int d : grid_.directions()) {
+        mark_held_faces(grid_, cells_, d, values_);
+        front.clear();
+        const auto pressed = [&](int face) {
+            if (values_[face] != FaceValue::none) return;
+            values_[face] = FaceValue::present;
+            increment_[d][face] = velocity_[d][face] - mapped_.velocity[d][face];
+            front.push_back(face);
+        };
+        for (const int cell : water_.water) {
+            pressed(cell);
+            pressed(cell + grid_.stride(d));
+        }
+        extrapolate(grid_, k_extended_layers, values_, front, {&velocity_[d], &increment_[d]});
+        front.clear();
+        grid_.for_each_face(d, [&](int face, int, int, int) {
+            if (values_[face] == FaceValue::none && mapped_.share[d][face] > 0.0) {
+                values_[face] = FaceValue::present;
+                increment_[d][face] = step * settings_.gravity[d];
+            }
+            if (values_[face] == FaceValue::present) front.push_back(face);
+        });
+        extrapolate(grid_, 1, values_, front, {&velocity_[d], &increment_[d]});
+        hold_solid_faces(d);
+    }
+    mirror_faces(grid_, velocity_);
+    mirror_faces(grid_, increment_);
+}
+
+void SurfaceRun::hold_solid_faces(int d) {
+    grid_.for_each_face(d, [&](int face, int i, int j, int k) {
+        if (cells_.open[d][face] > 0.0) return;
+        double held = 0.0;
+        if (const int owner = cells_.owner[d][face]; owner != k_no_body) {
+            Vec3 place = grid_.centre(i, j, k);
+            place[d] -= 0.5 * grid_.width(d);
+            if (!predicted_[owner].sphere) place.y() = predicted_[owner].position.y();
+            held = velocity_at(predicted_[owner], place)[d];
+        }
+        velocity_[d][face] = held;
+        increment_[d][face] = held - mapped_.velocity[d][face];
+    });
+}
+
+void SurfaceRun::move_bodies(double step) {
+    report_.contact_force.assign(bodies_.size(), Vec3::Zero());
+    if (!engine_ || bodies_.empty()) return;
+    const std::vector<Vec3>& force = report_.body_force;
+    const coupling::DemStep moved = engine_->advance(step, [&](std::size_t index, const Vec3&) { return force[index]; });
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        contact_force_[b] = moved.contact_impulse[b] / step;
+        const double size = step * force[b].norm();
+        if (size > 0.0)
+            report_.body_impulse_error = std::max(report_.body_impulse_error, (moved.impulse[b] - step * force[b]).norm() / size);
+    }
+    report_.contact_force = contact_force_;
+    take_over_bodies();
+}
+
+void SurfaceRun::push_out() {
+    if (cells_.cut.empty() && bodies_.empty()) return;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+        Vec3 place = particles_.place(p);
+        if (cells_.open_volume[cell_of(grid_, place)] >= 1.0) continue;
+        bool inside = false;
+        for (const StillSolid& solid : settings_.solids) {
+            if (const auto way = way_out(solid, place)) {
+                inside = true;
+                report_.deepest = std::max(report_.deepest, (*way - place).norm());
+                place = *way;
+            }
+        }
+        for (const Body& body : bodies_) {
+            Vec3 arm = place - body.position;
+            if (!body.sphere) arm.y() = 0.0;
+            const double distance = arm.norm();
+            if (distance >= body.radius || distance == 0.0) continue;
+            inside = true;
+            report_.deepest = std::max(report_.deepest, body.radius - distance);
+            place += arm * (body.radius / distance - 1.0);
+        }
+        if (!inside) continue;
+        ++report_.pushed_out;
+        keep_in_tank(grid_, place);
+        for (const int d : grid_.directions()) particles_.position[d][p] = place[d];
+    }
+}
+
+double SurfaceRun::energy() const {
+    const double mass = settings_.water.density * particles_.volume;
+    double sum = 0.0;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+        sum += mass * (0.5 * particles_.speed(p).squaredNorm() - settings_.gravity.dot(particles_.place(p)));
+    }
+    return sum;
+}
+
+void SurfaceRun::check() const {
+    const double speed = largest_speed(particles_);
+    const std::string where = fmt::format("at {:.6g} s, in a step of {:.3g} s", time_, report_.step);
+    if (!(speed <= fastest_allowed_)) {
+        throw CheckFailure({"", fmt::format("Water flies at {:.4g} m/s {}", speed, where),
+                            fmt::format("It must stay below {:.4g} m/s, 50 sqrt(g H)", fastest_allowed_),
+                            "Halve the Courant number, or look for a solid that squeezes water"});
+    }
+    const double lost = initial_volume_ > 0.0 ? report_.occupied_volume / initial_volume_ - 1.0 : 0.0;
+    if (!(std::abs(lost) <= settings_.run.volume_limit)) {
+        throw CheckFailure({"", fmt::format("The water occupies {:+.2f} % of its volume more than at the start {}", 100.0 * lost, where),
+                            fmt::format("At most {:g} % may be lost or won", 100.0 * settings_.run.volume_limit),
+                            "Use smaller cells, or a larger contact gap"});
+    }
+    if (failed_solves_ > 1) {
+        throw CheckFailure({"", fmt::format("The pressure did not converge twice {}: residual {:.2g}", where, report_.pressure.residual),
+                            fmt::format("It must fall to {:g}", settings_.run.pressure_tolerance), "Halve the Courant number"});
+    }
+}
+
+}  // namespace cutterflow::free_surface

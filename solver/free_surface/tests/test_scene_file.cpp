@@ -1,0 +1,132 @@
+/// Reading scenes: geometry that comes out, and every mistake at once.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/surface_checkpoint.hpp"
+
+namespace cutterflow::free_surface {
+namespace {
+
+const std::string k_tank = R"(
+[domain]
+width_m = 0.2
+height_m = 0.2
+cell_m = 0.001
+[run]
+end_s = 1.0
+)";
+const std::string k_fill = "[[fill]]\nfrom_x_m = 0.0\nfrom_z_m = 0.0\nto_x_m = 0.2\nto_z_m = 0.1\n";
+
+std::string mistakes_of(const std::string& toml) {
+    try {
+        parse_scene(toml, "scene.toml");
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST(SceneFile, reads_a_perforated_pipe_as_walls_with_holes) {
+    const Scene scene = parse_scene(k_tank + k_fill + R"(
+[[solid]]
+kind = "pipe"
+axis_x_m = 0.1
+inner_width_m = 0.06
+wall_m = 0.002
+bottom_m = 0.04
+top_m = 0.15
+hole_m = 0.001
+hole_spacing_m = 0.02
+)",
+                                    "scene.toml");
+    EXPECT_EQ(scene.settings.solids.size(), 2u * 6u);  // five holes a side
+    const StaggeredGrid grid = scene.settings.tank.grid();
+    const CellCutter cutter(grid, scene.settings.solids);
+    double open = 0.0;
+    for (int k = 40; k < 150; ++k) open += cutter.still().open[0][grid.at(131, 0, k)];
+    EXPECT_NEAR(open, 5.0, 1e-6);
+    EXPECT_NEAR(scene.settings.tank.depth, 0.1, 1e-12);
+}
+
+TEST(SceneFile, stacks_bodies_and_derives_the_gap) {
+    const Scene scene = parse_scene(
+        k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\nlayers = 6\nwidest = 6\ncentre_x_m = 0.1\nlowest_m = 0.11\nclearance_m = 0.001\n",
+        "scene.toml");
+    EXPECT_EQ(scene.bodies.size(), 33u);
+    EXPECT_NEAR(scene.dem.contact_gap, 0.25e-3, 1e-12);
+    EXPECT_NEAR((scene.bodies.position[6] - scene.bodies.position[0]).norm(), 0.011, 1e-9);
+}
+
+TEST(SceneFile, names_every_mistake_at_once) {
+    const std::string text = mistakes_of(k_tank + R"(
+[[fill]]
+from_x_m = 0.0
+from_z_m = 0.0
+to_x_m = 0.5
+to_z_m = 0.1
+[[solid]]
+kind = "plate"
+from_x_m = 0.0
+from_z_m = 0.1
+to_x_m = 0.1
+to_z_m = 0.1
+wall_m = 0.001
+[[bodies]]
+diameter_m = 0.004
+centre_x_m = 0.1
+lowest_m = 0.15
+layers = 2
+widest = 2
+[contact]
+gap_m = 0.0001
+gap_damping = 0.5
+damping = 0.8
+)");
+    for (const char* part : {"to (0.5", "two cells", "4 cells", "quarter of a cell", "without a time", "sqrt(1/2)"})
+        EXPECT_THAT(text, ::testing::HasSubstr(part));
+}
+
+TEST(SceneFile, refuses_holes_that_close_bodies_that_overlap_and_empty_scenes) {
+    EXPECT_THAT(
+        mistakes_of(k_tank + k_fill +
+                    "[[solid]]\nkind=\"pipe\"\naxis_x_m=0.1\ninner_width_m=0.06\nwall_m=0.002\nbottom_m=0.04\ntop_m=0.15\nhole_m=0.0005\n"),
+        ::testing::HasSubstr("would close"));
+    EXPECT_THAT(
+        mistakes_of(
+            k_tank +
+            "[[bodies]]\ndiameter_m=0.01\ncentre_x_m=0.1\nlowest_m=0.1\n[[bodies]]\ndiameter_m=0.01\ncentre_x_m=0.105\nlowest_m=0.1\n"),
+        ::testing::HasSubstr("overlap"));
+    EXPECT_THAT(mistakes_of(k_tank), ::testing::HasSubstr("neither water nor bodies"));
+}
+
+TEST(Checkpoint, gives_the_same_state_back) {
+    const Scene scene = parse_scene(k_tank + "[[fill]]\nfrom_x_m = 0.0\nfrom_z_m = 0.0\nto_x_m = 0.05\nto_z_m = 0.1\n", "scene.toml");
+    SurfaceRun first(scene.settings, nullptr);
+    for (int n = 0; n < 5; ++n) first.step();
+    const std::filesystem::path folder = std::filesystem::path(CUTTERFLOW_BUILD_DIR) / "tests" / "surface_checkpoint";
+    std::filesystem::remove_all(folder);
+    write_checkpoint(folder, first.state(), nullptr);
+    SurfaceRun later(scene.settings, nullptr);
+    later.restore(read_checkpoint(newest_checkpoint(folder), later.grid(), nullptr));
+    first.step();
+    later.step();
+    EXPECT_EQ(first.time(), later.time());
+    EXPECT_EQ(first.particles().position, later.particles().position);
+    EXPECT_EQ(first.particles().velocity, later.particles().velocity);
+}
+
+TEST(Checkpoint, that_is_cut_off_is_refused) {
+    const Scene scene = parse_scene(k_tank + k_fill, "scene.toml");
+    SurfaceRun run(scene.settings, nullptr);
+    const std::filesystem::path folder = std::filesystem::path(CUTTERFLOW_BUILD_DIR) / "tests" / "surface_checkpoint_cut";
+    std::filesystem::remove_all(folder);
+    write_checkpoint(folder, run.state(), nullptr);
+    const std::filesystem::path file = newest_checkpoint(folder) / "water.bin";
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    EXPECT_THROW(read_checkpoint(newest_checkpoint(folder), run.grid(), nullptr), UserError);
+}
+
+}  // namespace
+}  // namespace cutterflow::free_surface

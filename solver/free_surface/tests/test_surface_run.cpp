@@ -1,0 +1,198 @@
+/// Whole steps: rest, restart, repetition, momentum, light bodies, and what a run must refuse to go on with.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "solver/free_surface/testing/free_bodies.hpp"
+
+namespace cutterflow::free_surface {
+namespace {
+
+SceneSettings dam(int cells) {
+    SceneSettings scene;
+    const double width = 0.1;
+    scene.tank.cells = {4 * cells, 1, 3 * cells};
+    scene.tank.cell = width / cells;
+    scene.tank.depth = 0.05;
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(width, 1, 2 * width)}};
+    return scene;
+}
+
+SceneSettings pool() {
+    SceneSettings scene = dam(10);
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(1, 1, 0.15)}};
+    return scene;
+}
+
+void expect_equal(const WaterParticles& a, const WaterParticles& b, double tolerance) {
+    ASSERT_EQ(a.size(), b.size());
+    double largest = 0.0;
+    for (std::size_t p = 0; p < a.size(); ++p)
+        largest = std::max({largest, (a.place(p) - b.place(p)).norm(), (a.speed(p) - b.speed(p)).norm()});
+    EXPECT_LE(largest, tolerance);
+}
+
+TEST(SurfaceRun, water_at_rest_stays_at_rest) {
+    SurfaceRun run(pool(), nullptr);
+    const double energy = run.energy();
+    while (run.time() < 1.0) run.step();
+    EXPECT_LE(largest_speed(run.particles()), 1e-10);
+    EXPECT_NEAR(run.energy(), energy, 1e-10 * energy);
+    EXPECT_NEAR(run.last().occupied_volume, 0.4 * 0.15 * 0.05, 1e-12);
+}
+
+TEST(SurfaceRun, pressure_at_rest_is_hydrostatic) {
+    SurfaceRun run(pool(), nullptr);
+    run.step();
+    for (int k = 0; k < 15; ++k) {
+        const double depth = 0.15 - (k + 0.5) * 0.01;
+        EXPECT_NEAR(run.pressure()[run.grid().at(7, 0, k)], 1000.0 * 9.81 * depth, 1e-4);
+    }
+}
+
+TEST(SurfaceRun, repeats_bit_by_bit) {
+    SurfaceRun a(dam(8), nullptr), b(dam(8), nullptr);
+    for (int n = 0; n < 60; ++n) {
+        a.step();
+        b.step();
+    }
+    expect_equal(a.particles(), b.particles(), 0.0);
+}
+
+TEST(SurfaceRun, goes_on_from_a_state_as_if_it_had_not_stopped) {
+    SceneSettings scene = dam(8);
+    scene.water.filled[0].to = Vec3(0.2, 1, 0.12);
+    FreeBodies whole_bodies(one_rock(Vec3(0.28, 0.025, 0.06), 0.1, 300.0), scene), first_bodies(whole_bodies.rocks(), scene);
+    SurfaceRun whole(scene, &whole_bodies), first(scene, &first_bodies);
+    for (int n = 0; n < 30; ++n) {
+        whole.step();
+        first.step();
+    }
+    FreeBodies later_bodies(first_bodies.rocks(), scene);
+    SurfaceRun later(scene, &later_bodies);
+    later.restore(first.state());
+    for (int n = 0; n < 30; ++n) {
+        whole.step();
+        later.step();
+    }
+    EXPECT_EQ(whole.time(), later.time());
+    expect_equal(whole.particles(), later.particles(), 1e-12);
+    EXPECT_LE((whole_bodies.rocks().position[0] - later_bodies.rocks().position[0]).norm(), 1e-12);
+}
+
+TEST(SurfaceRun, energy_of_a_falling_column_only_falls_and_its_volume_stays) {
+    SurfaceRun run(dam(10), nullptr);
+    double energy = run.energy();
+    const double start = energy;
+    while (run.time() < 0.5) {
+        run.step();
+        EXPECT_LE(run.energy(), energy + 0.005 * start);
+        energy = std::min(energy, run.energy());
+        EXPECT_NEAR(run.last().occupied_volume / run.initial_volume(), 1.0, 0.02);
+    }
+    EXPECT_LT(energy, 0.9 * start);
+}
+
+/// The same run without the even-out must show a loss, else the measure is blind.
+TEST(SurfaceRun, occupied_volume_shows_water_that_clumps) {
+    SceneSettings scene = dam(10);
+    scene.run.even_out = false;
+    scene.run.volume_limit = 1.0;
+    SurfaceRun run(scene, nullptr);
+    while (run.time() < 0.8) run.step();
+    EXPECT_LT(run.last().occupied_volume / run.initial_volume(), 0.96);
+}
+
+TEST(SurfaceRun, ends_when_water_is_lost) {
+    SceneSettings scene = dam(10);
+    scene.run.even_out = false;
+    SurfaceRun run(scene, nullptr);
+    try {
+        while (run.time() < 0.8) run.step();
+        FAIL() << "the loss was not seen";
+    } catch (const CheckFailure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::check_failed);
+    }
+}
+
+TEST(SurfaceRun, pressure_takes_from_the_water_what_it_gives_to_bodies_and_walls) {
+    SceneSettings scene = dam(10);
+    scene.solids = {SolidBox{Vec3(0.3, -1, 0), Vec3(0.34, 1, 0.05)}};
+    scene.water.filled[0].to = Vec3(0.25, 1, 0.15);
+    FreeBodies bodies(one_rock(Vec3(0.2, 0.025, 0.06), 0.1, 500.0), scene);
+    SurfaceRun run(scene, &bodies);
+    for (int n = 0; n < 40; ++n) {
+        const StepReport& report = run.step();
+        EXPECT_LE(report.impulses.sum().norm(), 1e-6 * report.impulses.walls.norm());
+        EXPECT_GT(report.impulses.bodies.norm(), 1e-6 * report.impulses.walls.norm());
+    }
+}
+
+/// Takes nine tenths of the water's force.
+class LyingBodies final : public coupling::DemEngine {
+public:
+    LyingBodies(coupling::Rocks rocks, const SceneSettings& scene) : honest_(std::move(rocks), scene) {}
+    const coupling::Rocks& rocks() const override { return honest_.rocks(); }
+    double largest_time_step() const override { return 1.0; }
+    std::vector<int> insert(const coupling::Rocks&) override { return {}; }
+    void remove(gsl::span<const int>) override {}
+    coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override {
+        return honest_.advance(duration, [&](std::size_t n, const Vec3& v) { return Vec3(0.9 * force(n, v)); });
+    }
+    double rotor_angle() const override { return 0.0; }
+    void write_checkpoint(const std::filesystem::path&) override {}
+    void read_checkpoint(const std::filesystem::path&) override {}
+
+private:
+    FreeBodies honest_;
+};
+
+TEST(SurfaceRun, a_dem_that_takes_another_force_than_the_waters_is_caught) {
+    const SceneSettings scene = pool();
+    const coupling::Rocks rock = one_rock(Vec3(0.2, 0.025, 0.07), 0.08, 400.0);
+    FreeBodies honest(rock, scene);
+    LyingBodies liar(rock, scene);
+    SurfaceRun with_honest(scene, &honest), with_liar(scene, &liar);
+    EXPECT_LE(with_honest.step().body_impulse_error, 1e-12);
+    EXPECT_GE(with_liar.step().body_impulse_error, 0.05);
+}
+
+TEST(SurfaceRun, a_light_disc_starts_with_its_exact_acceleration_at_any_step) {
+    const double radius = 0.01, cavity = 0.04, ratio = 0.1;
+    const double exact = 9.81 * (1.0 - ratio) / (ratio + (cavity * cavity + radius * radius) / (cavity * cavity - radius * radius));
+    SceneSettings scene;
+    scene.tank.cell = 0.001;
+    scene.tank.cells = {84, 1, 84};
+    const Vec3 centre(0.04213, 0.5, 0.04187);
+    scene.solids = {SolidCavity{centre, cavity, false}};
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(1, 1, 1)}};
+    scene.water.kinematic_viscosity = 0.0;
+    for (const double step : {1e-5, 1e-3}) {
+        scene.run.longest_step = step;
+        FreeBodies body(one_rock(centre, 2 * radius, 1000.0 * ratio), scene);
+        SurfaceRun run(scene, &body);
+        run.step();
+        EXPECT_NEAR(body.rocks().velocity[0].z() / step, exact, 0.015 * exact) << step;
+        EXPECT_LE(std::abs(body.rocks().velocity[0].x() / step), 1e-3 * 9.81);
+        EXPECT_EQ(run.last().enclosed_waters, 1);
+    }
+}
+
+TEST(SurfaceRun, plane_and_space_give_the_same) {
+    SceneSettings plane = dam(6), space = dam(6);
+    space.tank.plane = false;
+    space.tank.cells[1] = 4;
+    SurfaceRun a(plane, nullptr), b(space, nullptr);
+    for (int n = 0; n < 30; ++n) {
+        a.step();
+        b.step();
+    }
+    EXPECT_NEAR(a.time(), b.time(), 1e-9);
+    EXPECT_NEAR(largest_speed(a.particles()), largest_speed(b.particles()), 1e-6);
+    const double depth_ratio = plane.tank.depth / (4 * space.tank.cell);
+    EXPECT_NEAR(a.energy(), depth_ratio * b.energy(), 1e-6 * a.energy());
+}
+
+}  // namespace
+}  // namespace cutterflow::free_surface

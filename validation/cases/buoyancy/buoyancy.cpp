@@ -1,0 +1,97 @@
+/// Buoyancy of held, floating and half-immersed discs.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "solver/free_surface/covered_area.hpp"
+#include "solver/free_surface/testing/free_bodies.hpp"
+#include "validation/harness/verification.hpp"
+
+namespace {
+
+using namespace cutterflow;
+using namespace cutterflow::free_surface;
+using validation::Effort;
+using validation::Verification;
+
+constexpr double k_diameter = 0.1, k_depth = 0.02, k_gravity = 9.81, k_density = 1000.0;
+
+SceneSettings pool(int cells_per_diameter, double width, double level) {
+    SceneSettings scene;
+    scene.tank.cell = k_diameter / cells_per_diameter;
+    scene.tank.cells = {static_cast<int>(std::lround(width / scene.tank.cell)), 1, static_cast<int>(std::lround(0.4 / scene.tank.cell))};
+    scene.tank.depth = k_depth;
+    scene.water.filled = {{Vec3::Constant(-1), Vec3(width, 1, level)}};
+    return scene;
+}
+
+double disc_volume() {
+    return 0.25 * k_pi * k_diameter * k_diameter * k_depth;
+}
+
+void check_held(Verification& verification, int cells) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> within(0.0, 1.0);
+    double worst = 0.0, momentum = 0.0;
+    for (int n = 0; n < 20; ++n) {
+        const SceneSettings scene = pool(cells, 0.6, 0.3);
+        HeldBodies body(one_rock(Vec3(0.3 + within(random) * scene.tank.cell, 0.5 * k_depth, 0.15 + within(random) * scene.tank.cell),
+                                 k_diameter, 500.0));
+        SceneSettings held = scene;
+        held.run.longest_step = 1e-3;
+        held.bodies_held = true;
+        SurfaceRun run(held, &body);
+        const StepReport& report = run.step();
+        worst = std::max(worst, std::abs(report.body_force[0].z() / (k_density * k_gravity * disc_volume()) - 1.0));
+        momentum = std::max(momentum, report.impulses.sum().norm() / report.impulses.bodies.norm());
+    }
+    verification.at_most(fmt::format("error of the force on a held disc, {} cells a diameter", cells), "-", worst, 0.02,
+                         {"exact", "rho g V; largest of 20 places within a cell", 0.002});
+    verification.at_most(fmt::format("momentum that the pressure makes, over the disc's, {} cells", cells), "-", momentum, 1e-6,
+                         {"exact", "water, body and walls together", {}});
+}
+
+/// Share of a disc under a level.
+double immersed(double centre, double level) {
+    const double radius = 0.5 * k_diameter;
+    return disc_in_rectangle(radius, {-radius, radius}, {-radius, std::clamp(level - centre, -radius, radius)}) / (k_pi * radius * radius);
+}
+
+void check_floating(Verification& verification, double ratio) {
+    SceneSettings scene = pool(20, 0.4, 0.2);
+    const double radius = 0.5 * k_diameter;
+    double low = -radius, high = radius;  // of the centre over the level at balance
+    for (int n = 0; n < 60; ++n) (immersed(0.5 * (low + high), 0.0) > ratio ? low : high) = 0.5 * (low + high);
+    const double centre = 0.2 + 0.5 * (low + high);
+    scene.water.kinematic_viscosity = 1e-4;
+    FreeBodies body(one_rock(Vec3(0.2013, 0.5 * k_depth, centre), k_diameter, k_density * ratio), scene);
+    SurfaceRun run(scene, &body);
+    // The water of the boxes gave way to the disc, so the still level is that of the water's volume and the disc's part under it.
+    const double level = (run.initial_volume() / k_depth + ratio * k_pi * radius * radius) / 0.4;
+    double mean = 0.0, weight = 0.0, momentum = 0.0;
+    while (run.time() < 2.0) {
+        const StepReport& report = run.step();
+        momentum = std::max(momentum, report.impulses.sum().norm() / report.impulses.bodies.norm());
+        if (run.time() < 1.0) continue;
+        mean += report.step * immersed(body.rocks().position[0].z(), level);
+        weight += report.step;
+    }
+    verification.absolute(fmt::format("share of a floating disc under the still level, density ratio {:g}", ratio), "-", mean / weight,
+                          ratio, 0.02, {"exact", "Archimedes; mean of the second second, 20 cells a diameter", {}});
+    verification.at_most(fmt::format("momentum that the pressure makes, over the floating disc's, density ratio {:g}", ratio), "-",
+                         momentum, 1e-6, {"exact", "every step of 2 s", {}});
+}
+
+void run(Verification& verification) {
+    for (const int cells : {10, 20}) check_held(verification, cells);
+    for (const double ratio : {0.1, 0.5}) check_floating(verification, ratio);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return validation::verify(argc, argv, run);
+}

@@ -1,0 +1,117 @@
+/// Restitution, step and rolling of the linear contact law, through the engine.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "solver/physics/contact.hpp"
+#include "validation/harness/scenes/contact_bench.hpp"
+#include "validation/harness/scenes/cylinder_column.hpp"
+#include "validation/harness/verification.hpp"
+
+namespace {
+
+using namespace cutterflow;
+using namespace cutterflow::validation;
+using coupling::RockShape;
+
+struct Trial {
+    RockShape shape = RockShape::cylinder;
+    bool pair = true, may_pull = false;
+    double speed = 0.5, steps = 150.0;
+};
+
+coupling::DemSettings room(const Trial& trial) {
+    coupling::DemSettings settings = column_dem({});
+    settings.gravity = Vec3::Zero();
+    settings.shape = trial.shape;
+    settings.contact_gap = 0.0;
+    settings.contact.friction = 0.0;
+    settings.linear.may_pull = trial.may_pull;
+    settings.linear.steps_per_period = trial.steps;
+    return settings;
+}
+
+double restitution_of(const Trial& trial) {
+    const double radius = 0.5 * k_cylinder_diameter, apart = radius * (1.0 + 1e-4);
+    const Vec3 middle(0.1, 0.5 * k_cylinder_length, 0.1);
+    std::vector<Ball> balls;
+    if (trial.pair) {
+        balls = {{radius, k_cylinder_density, middle - Vec3(apart, 0, 0), Vec3(0.5 * trial.speed, 0, 0)},
+                 {radius, k_cylinder_density, middle + Vec3(apart, 0, 0), Vec3(-0.5 * trial.speed, 0, 0)}};
+    } else {
+        balls = {{radius, k_cylinder_density, Vec3(0.1, 0.5 * k_cylinder_length, apart), Vec3(0, 0, -trial.speed)}};
+    }
+    // Asked seldom enough for the engine to take its own steps.
+    const double step = physics::linear_contact_step(0.01, 5e-4, 9.81, trial.steps);
+    const Impact impact = collide(room(trial), balls, 4.0 * step);
+    return (trial.pair ? impact.velocity[1].x() - impact.velocity[0].x() : impact.velocity[0].z()) / trial.speed;
+}
+
+void check_restitution(Verification& verification) {
+    const auto check = [&](const Trial& trial) {
+        const double expected = physics::linear_restitution(physics::linear_damping_ratio(0.4, trial.pair), trial.may_pull);
+        verification.absolute(fmt::format("restitution of a {} {}, {}, {:g} m/s, {:g} steps a period",
+                                          trial.shape == RockShape::cylinder ? "cylinder" : "sphere", trial.pair ? "pair" : "at a wall",
+                                          trial.may_pull ? "that may pull" : "without pull", trial.speed, trial.steps),
+                              "-", restitution_of(trial), expected, 0.003, {"SchwagerPoeschel2007", "through the engine", {}});
+    };
+    for (const bool pair : {true, false}) {
+        for (const bool may_pull : {true, false}) {
+            for (const double speed : {0.05, 0.5, 2.0}) check({RockShape::cylinder, pair, may_pull, speed});
+        }
+        for (const double steps : {75.0, 300.0}) check({RockShape::cylinder, pair, false, 0.5, steps});
+        check({RockShape::sphere, pair, false});
+    }
+}
+
+void check_closed_forms(Verification& verification) {
+    const About about{"Chen2019", "closed form against the number worked out by hand", {}};
+    const auto form = [](bool pair, bool pull) { return physics::linear_restitution(physics::linear_damping_ratio(0.4, pair), pull); };
+    verification.absolute("closed form, pair with pull", "-", form(true, true), 0.1159, 1e-4, about);
+    verification.absolute("closed form, wall with pull", "-", form(false, true), 0.2538, 1e-4, about);
+    verification.absolute("closed form, pair without pull", "-", form(true, false), 0.2645, 5e-4, about);
+    verification.absolute("closed form, wall without pull", "-", form(false, false), 0.3635, 5e-4, about);
+    verification.relative("time step of the engine", "s", column_engine({})->largest_time_step(), 2.9905e-5, 1e-4,
+                          {"Chen2019", "sqrt(theta l/g) 2 pi/150 with l = 0.5 mm", {}});
+}
+
+/// Mean acceleration down a slope, measured between 0.1 and 0.3 s; gravity is turned instead of the floor.
+double rolling_acceleration(RockShape shape) {
+    CylinderColumn column;
+    coupling::DemSettings settings = column_dem(column);
+    settings.shape = shape;
+    const double angle = std::atan(0.2);
+    settings.gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
+    settings.contact_gap = 0.0;
+    liggghts::LiggghtsEngine engine(settings, coupling::RotorMotion{}, MPI_COMM_WORLD);
+    coupling::Rocks rock;
+    rock.append(column_rocks(column), 0);
+    rock.position[0] = Vec3(0.02, 0.5 * k_cylinder_length, 0.5 * k_cylinder_diameter + 1e-6);
+    engine.insert(rock);
+    const auto still = [](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); };
+    engine.advance(0.1, still);
+    const double early = engine.rocks().velocity[0].x();
+    engine.advance(0.2, still);
+    return (engine.rocks().velocity[0].x() - early) / 0.2;
+}
+
+void check_rolling(Verification& verification) {
+    const double along = 9.81 * std::sin(std::atan(0.2));
+    verification.relative("acceleration of a rolling cylinder", "m/s2", rolling_acceleration(RockShape::cylinder), 2.0 / 3.0 * along, 0.01,
+                          {"exact", "slope 0.2, friction 0.3", {}});
+    verification.relative("acceleration of a rolling sphere", "m/s2", rolling_acceleration(RockShape::sphere), 5.0 / 7.0 * along, 0.01,
+                          {"exact", "slope 0.2, friction 0.3", {}});
+}
+
+void run(Verification& verification) {
+    const SingleProcess mpi;
+    check_closed_forms(verification);
+    check_restitution(verification);
+    check_rolling(verification);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return verify(argc, argv, run);
+}

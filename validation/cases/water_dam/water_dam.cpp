@@ -1,0 +1,147 @@
+/// Water and cylinders released together: order of arrivals with and without gap damping, volume, step.
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "solver/free_surface/surface_run.hpp"
+#include "validation/harness/scenes/contact_bench.hpp"
+#include "validation/harness/scenes/cylinder_column.hpp"
+#include "validation/harness/verification.hpp"
+
+namespace {
+
+using namespace cutterflow;
+using namespace cutterflow::free_surface;
+using namespace cutterflow::validation;
+
+constexpr double k_cell = 1e-3, k_end = 0.5, k_water_height = 0.12;
+
+struct Trial {
+    int layers = 6;
+    double remaining = 1.0;  // beta
+    double gap = 1e-3;
+    unsigned seed = 1;
+    double courant = 0.5;
+};
+
+struct Outcome {
+    double arrival = 0.0, mean_at_03 = 0.0, worst_volume = 0.0, core_s = 0.0, force_error = 0.0;
+    int inside = 0;
+};
+
+SceneSettings scene_of(const Trial& trial, const CylinderColumn& column) {
+    SceneSettings scene;
+    scene.tank.cells = {static_cast<int>(std::lround(column.tank_width / k_cell)), 1,
+                        static_cast<int>(std::lround(k_column_tank_height / k_cell))};
+    scene.tank.cell = k_cell;
+    scene.tank.depth = k_cylinder_length;
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(0.066, 1, k_water_height)}};
+    const double time = k_cell / (2.0 * std::sqrt(9.81 * k_water_height));
+    scene.damping = {trial.remaining, time, trial.gap};
+    scene.run.max_courant = trial.courant;
+    return scene;
+}
+
+int particles_in_bodies(const SurfaceRun& run) {
+    int inside = 0;
+    for (std::size_t p = 0; p < run.particles().size(); ++p) {
+        for (const Body& body : run.bodies()) {
+            Vec3 arm = run.particles().place(p) - body.position;
+            arm.y() = 0.0;
+            inside += arm.norm() < body.radius * (1.0 - 1e-3);
+        }
+    }
+    return inside;
+}
+
+Outcome follow(const Trial& trial) {
+    CylinderColumn column;
+    column.layers = trial.layers;
+    column.gap = trial.gap;
+    column.jitter = 1e-5;
+    column.seed = trial.seed;
+    const auto engine = column_engine(column);
+    SurfaceRun run(scene_of(trial, column), engine.get());
+    Outcome outcome;
+    const std::clock_t began = std::clock();
+    while (run.time() < k_end) {
+        const double next = run.time() < 0.3 ? 0.3 : k_end;
+        const StepReport& report = run.step(next - run.time());
+        outcome.worst_volume = std::max(outcome.worst_volume, std::abs(report.occupied_volume / run.initial_volume() - 1.0));
+        outcome.force_error = std::max(outcome.force_error, report.body_impulse_error);
+        if (outcome.arrival == 0.0 && has_arrived(engine->rocks(), column)) outcome.arrival = run.time();
+        if (std::abs(run.time() - 0.3) < 1e-12) {
+            outcome.mean_at_03 = mean_place(engine->rocks()).x() / column.tank_width;
+            outcome.inside = particles_in_bodies(run);
+        }
+    }
+    outcome.inside += particles_in_bodies(run);
+    outcome.core_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+    return outcome;
+}
+
+std::string name_of(const Trial& trial) {
+    return fmt::format("{} layers, gap {:g} mm, beta {:g}, jitter {}", trial.layers, 1e3 * trial.gap, trial.remaining, trial.seed);
+}
+
+Outcome check(Verification& verification, const Trial& trial) {
+    const Outcome outcome = follow(trial);
+    const std::string name = name_of(trial);
+    verification.absolute("arrival: " + name, "s", outcome.arrival, 0.35, 0.15,
+                          {"Chen2019", "within half a second; the curves are lost", {}});
+    verification.report("mean x at 0.3 s over the width: " + name, "-", outcome.mean_at_03, {}, {"Chen2019", "", {}});
+    verification.at_most("occupied volume lost or won: " + name, "-", outcome.worst_volume, 0.01, {"exact", "largest of all steps", {}});
+    verification.at_most("particles in bodies: " + name, "-", outcome.inside, 0.0, {"exact", "deeper than a thousandth of the radius", {}});
+    verification.at_most("impulse of the pressure that the DEM did not take: " + name, "-", outcome.force_error, 1e-6, {"exact", "", {}});
+    verification.at_most("core seconds: " + name, "s", outcome.core_s, 60.0, {"exact", "0.5 s on one core", {}});
+    return outcome;
+}
+
+/// Half the width of the 95 % interval of a mean of five: Student's t of four degrees of freedom.
+struct Interval95 {
+    double mean = 0.0, half = 0.0;
+};
+
+Interval95 interval(const std::vector<double>& values) {
+    Interval95 result;
+    for (const double value : values) result.mean += value / static_cast<double>(values.size());
+    double square = 0.0;
+    for (const double value : values) square += (value - result.mean) * (value - result.mean);
+    const double count = static_cast<double>(values.size());
+    result.half = 2.776 * std::sqrt(square / (count - 1.0) / count);
+    return result;
+}
+
+void check_pairs(Verification& verification, int layers) {
+    std::vector<double> arrivals, means;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const Outcome free = check(verification, {layers, 1.0, 1e-3, seed}), damped = check(verification, {layers, 0.5, 1e-3, seed});
+        arrivals.push_back(damped.arrival - free.arrival);
+        means.push_back(damped.mean_at_03 - free.mean_at_03);
+    }
+    const Interval95 later = interval(arrivals), behind = interval(means);
+    const std::string name = fmt::format("beta 0.5 less beta 1, {} layers", layers);
+    verification.report("difference of arrivals: " + name, "s", later.mean, {}, {"Chen2019", fmt::format("+- {:.3g} s", later.half), {}});
+    verification.at_least("lower end of the interval of the arrivals' difference: " + name, "s", later.mean - later.half, 0.0,
+                          {"Chen2019", "five pairs, 95 %", {}});
+    verification.at_most("upper end of the interval of the difference in mean x at 0.3 s: " + name, "-", behind.mean + behind.half, 0.0,
+                         {"Chen2019", "five pairs, 95 %", {}});
+}
+
+void run(Verification& verification) {
+    const SingleProcess mpi;
+    const Outcome damped = check(verification, {6, 0.5});
+    if (!verification.wants(Effort::standard)) return;
+    const Outcome halved = follow({6, 0.5, 1e-3, 1, 0.25});
+    verification.relative("mean x at 0.3 s at half the step, beta 0.5", "-", halved.mean_at_03, damped.mean_at_03, 0.1, {"exact", "", {}});
+    check_pairs(verification, 6);
+    check_pairs(verification, 12);
+    check(verification, {6, 1.0, 0.25e-3});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return verify(argc, argv, run);
+}
