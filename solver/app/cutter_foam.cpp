@@ -6,12 +6,14 @@
 
 #include <mpi.h>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
 #include "solver/foam/session/foam_session.hpp"
+#include "solver/foam/session/openfoam_installation.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 #include "solver/observe/csv_recorder.hpp"
@@ -24,15 +26,18 @@ std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& se
                                                      const foam::FoamFluidEngine& fluid, bool writes) {
     if (!writes) return std::make_unique<coupling::SilentRecorder>();
     auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, fluid.time());
-    const auto models = models_in_use(dictionary, fluid);
-    std::cout << "Models that are on:\n";
-    for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
-    std::cout << std::endl;
-    recorder->describe(models, program_versions());
+    recorder->describe(models_in_use(dictionary, fluid), program_versions());
     return recorder;
 }
 
+void print_models(const std::vector<coupling::ModelNote>& models) {
+    std::cout << "Models that are on:\n";
+    for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
+    std::cout << std::endl;
+}
+
 void run(int argc, char** argv) {
+    foam::require_openfoam_of_build();
     foam::FoamSession session(argc, argv);
     foam::PstreamCommunicator communicator;
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
@@ -43,11 +48,13 @@ void run(int argc, char** argv) {
         dictionary.dem->log = session.case_folder() / "log.liggghts";
         dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, fluid.rotor(), MPI_COMM_WORLD);
     }
-    const auto recorder = make_recorder(session, dictionary, fluid, communicator.rank() == 0);
+    const bool speaks = communicator.rank() == 0;
+    if (speaks) print_models(models_in_use(dictionary, fluid));
+    const auto recorder = make_recorder(session, dictionary, fluid, speaks);
 
     coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder,
                                  session.case_folder());
-    const auto checkpoint = coupling::newest_checkpoint(session.case_folder());
+    const auto checkpoint = newest_checkpoint(session.case_folder());
     if (!checkpoint.empty()) coupled.resume(checkpoint);
 
     while (fluid.running() && !coupled.finished()) coupled.step();
