@@ -20,6 +20,7 @@
 #include "cases/scenes/cutter/start_flow.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
@@ -91,13 +92,6 @@ std::vector<std::string> case_overrides(const RunDirectory& directory) {
     std::vector<std::string> files = directory.overrides();
     files.erase(std::remove_if(files.begin(), files.end(), is_of_the_mesh), files.end());
     return files;
-}
-
-bool has_checkpoint(const fs::path& directory) {
-    const fs::path checkpoints = directory / names::checkpoints;
-    return fs::is_directory(checkpoints) &&
-           std::any_of(fs::directory_iterator(checkpoints), fs::directory_iterator(),
-                       [](const fs::directory_entry& entry) { return entry.path().extension() != ".part"; });
 }
 
 bool start_is_done(const fs::path& run) {
@@ -349,9 +343,10 @@ void Pipeline::say_cost(double core_s) const {
 StageOutcome Pipeline::run_solver(bool resume) {
     const RunHead head = read_run_head(directory_);
     const Study study = resolved_study(head.size);
-    const bool goes_on = resume && has_checkpoint(directory_.path());
+    const bool goes_on = resume && !newest_checkpoint(directory_.path()).empty();
     double core_s = 0.0;
     if (goes_on) {
+        drop_times_after_checkpoint(directory_.path());  // what a killed run wrote after it
         const RankChange change = move_checkpoint_to_ranks(directory_.path(), settings_.ranks);
         core_s += change.core_s;
         if (change.from != settings_.ranks)

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/run_files.hpp"
 #include "meshing/dictionary/foam_command.hpp"
@@ -42,16 +43,6 @@ int ranks_that_hold(const fs::path& directory, const std::string& time) {
     return holds_fields(directory, time) ? 1 : 0;
 }
 
-std::string newest_checkpoint_time(const fs::path& directory) {
-    std::string newest;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory / names::checkpoints)) {
-        const std::string name = entry.path().filename().string();
-        if (entry.path().extension() == ".part") continue;
-        if (newest.empty() || std::stod(name) > std::stod(newest)) newest = name;
-    }
-    return newest;
-}
-
 double split(const fs::path& directory, int ranks, const std::vector<std::string>& options) {
     const FoamFile dictionary = decompose_file(ranks);
     meshing::write_foam_file(directory / dictionary.path, dictionary.foam_class, dictionary.contents);
@@ -66,7 +57,7 @@ double decompose(const fs::path& run_directory, int ranks) {
 }
 
 RankChange move_checkpoint_to_ranks(const fs::path& run_directory, int ranks) {
-    const std::string time = newest_checkpoint_time(run_directory);
+    const std::string time = newest_checkpoint(run_directory).filename().string();
     RankChange change{ranks_that_hold(run_directory, time), 0.0};
     if (change.from == ranks) return change;
     if (change.from == 0)

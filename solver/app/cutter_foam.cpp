@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
@@ -14,6 +15,7 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
 #include "solver/foam/session/foam_session.hpp"
+#include "solver/foam/session/openfoam_installation.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 #include "solver/observe/csv_recorder.hpp"
@@ -26,16 +28,19 @@ std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& se
                                                      const foam::FoamFluidEngine& fluid, bool writes) {
     if (!writes) return std::make_unique<coupling::SilentRecorder>();
     auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, fluid.time());
-    const auto models = models_in_use(dictionary, fluid);
-    std::cout << "Models that are on:\n";
-    for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
-    std::cout << std::endl;
     const auto versions = build_versions();
-    recorder->describe(models, {versions.begin(), versions.end()});
+    recorder->describe(models_in_use(dictionary, fluid), {versions.begin(), versions.end()});
     return recorder;
 }
 
+void print_models(const std::vector<coupling::ModelNote>& models) {
+    std::cout << "Models that are on:\n";
+    for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
+    std::cout << std::endl;
+}
+
 void run(int argc, char** argv) {
+    foam::require_openfoam_of_build();
     foam::FoamSession session(argc, argv);
     foam::PstreamCommunicator communicator;
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
@@ -47,11 +52,13 @@ void run(int argc, char** argv) {
         const auto moving = fluid.moving_zones();
         dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, std::vector(moving.begin(), moving.end()), MPI_COMM_WORLD);
     }
-    const auto recorder = make_recorder(session, dictionary, fluid, communicator.rank() == 0);
+    const bool speaks = communicator.rank() == 0;
+    if (speaks) print_models(models_in_use(dictionary, fluid));
+    const auto recorder = make_recorder(session, dictionary, fluid, speaks);
 
     coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder,
                                  session.case_folder());
-    const auto checkpoint = coupling::newest_checkpoint(session.case_folder());
+    const auto checkpoint = newest_checkpoint(session.case_folder());
     if (!checkpoint.empty()) coupled.resume(checkpoint);
 
     while (fluid.running() && !coupled.finished()) coupled.step();

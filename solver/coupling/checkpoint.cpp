@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -74,23 +75,6 @@ TrackedRock rock_of(const json& j) {
 
 std::string carry_file(int rank) {
     return fmt::format("carry.{}", rank);
-}
-
-/// Folders that are called by a time.
-std::map<double, fs::path> time_folders(const fs::path& root) {
-    std::map<double, fs::path> found;
-    if (!fs::is_directory(root)) return found;
-    for (const auto& entry : fs::directory_iterator(root)) {
-        const std::string name = entry.path().filename().string();
-        char* end = nullptr;
-        const double time = std::strtod(name.c_str(), &end);
-        if (entry.is_directory() && end != name.c_str() && *end == '\0') found[time] = entry.path();
-    }
-    return found;
-}
-
-std::map<double, fs::path> checkpoints_of(const fs::path& case_folder) {
-    return time_folders(case_folder / names::checkpoints);
 }
 
 }  // namespace
@@ -182,35 +166,9 @@ void read_velocity(const fs::path& folder, VelocitySets& sets) {
         refuse(file, "it does not hold the sums of this run's velocity sets", "A run resumes with the points that it began with");
 }
 
-fs::path newest_checkpoint(const fs::path& case_folder) {
-    const auto found = checkpoints_of(case_folder);
-    return found.empty() ? fs::path() : found.rbegin()->second;
-}
-
-std::vector<fs::path> drop_times_after_checkpoint(const fs::path& case_folder) {
-    std::vector<fs::path> dropped;
-    const auto checkpoints = checkpoints_of(case_folder);
-    if (checkpoints.empty()) return dropped;
-    // The checkpoint and the fluid's folder of its time carry the same name, so that their times compare exactly.
-    const double last = checkpoints.rbegin()->first;
-    std::vector<fs::path> roots{case_folder};
-    for (const auto& entry : fs::directory_iterator(case_folder))
-        if (entry.is_directory() && entry.path().filename().string().rfind("processor", 0) == 0) roots.push_back(entry.path());
-    for (const fs::path& root : roots)
-        for (const auto& [time, folder] : time_folders(root)) {
-            if (time <= last) continue;
-            fs::remove_all(folder);
-            dropped.push_back(folder);
-        }
-    return dropped;
-}
-
 void prune_checkpoints(const fs::path& case_folder, int keep) {
-    auto found = checkpoints_of(case_folder);
-    while (static_cast<int>(found.size()) > keep) {
-        fs::remove_all(found.begin()->second);
-        found.erase(found.begin());
-    }
+    const std::vector<fs::path> found = checkpoint_folders(case_folder);
+    for (int i = 0; i + keep < static_cast<int>(found.size()); ++i) fs::remove_all(found[static_cast<std::size_t>(i)]);
 }
 
 }  // namespace cutterflow::coupling

@@ -38,14 +38,6 @@ void write_velocity(const std::filesystem::path& folder, const VelocitySets& set
 /// \throws UserError  when the file is missing or has sums of other points
 void read_velocity(const std::filesystem::path& folder, VelocitySets& sets);
 
-/// Newest complete checkpoint of a case (`checkpoints/<time>`), or an empty path.
-std::filesystem::path newest_checkpoint(const std::filesystem::path& case_folder);
-
-/// Removes the fluid's time folders (of the case and of its processor folders) that are later than the newest checkpoint: what a killed run
-/// wrote after it. Does nothing without a checkpoint. To be called by one rank before the fluid picks its latest time.
-/// \return the folders that were removed
-std::vector<std::filesystem::path> drop_times_after_checkpoint(const std::filesystem::path& case_folder);
-
 /// Removes all but the `keep` newest checkpoints and what an interrupted one left.
 void prune_checkpoints(const std::filesystem::path& case_folder, int keep);
 

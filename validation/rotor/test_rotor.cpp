@@ -16,6 +16,7 @@
 
 #include "cases/runner/rank_change.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
 #include "meshing/dictionary/foam_command.hpp"
@@ -179,6 +180,7 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
     run_cutter_foam(whole);
     const fs::path killed = rotor_case("rotor_killed");
     run_and_kill(killed);
+    drop_times_after_checkpoint(killed);
     run_cutter_foam(killed);
 
     const std::vector<std::string> events = rows_of(killed / "postProcessing/rock", "events.csv");
@@ -205,6 +207,7 @@ RockPicture gone_on_with(const fs::path& whole, int ranks) {
     const fs::path folder = scratch_folder(fmt::format("rotor_on_{}_ranks", ranks));
     fs::copy(whole, folder, fs::copy_options::recursive);
     fs::remove_all(folder / names::checkpoints / "0.14");
+    drop_times_after_checkpoint(folder);
     EXPECT_EQ(cases::move_checkpoint_to_ranks(folder, ranks).from, 2);
     run_cutter_foam(folder, ranks);
     EXPECT_TRUE(fs::exists(folder / "postProcessing/rock/0.1/fates.csv"));

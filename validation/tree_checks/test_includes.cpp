@@ -53,7 +53,7 @@ const std::vector<Layer> k_layers = {
     {"solver/coupling/feed/", {k_base, "solver/coupling/feed/"}},
     {"solver/coupling/kernel/",
      {k_base, "solver/physics/", "solver/ports/", "solver/space/", "solver/coupling/feed/", "solver/coupling/kernel/"}},
-    {"solver/foam/session/", {k_base, "solver/ports/", "solver/coupling/checkpoint.hpp", "solver/foam/session/"}},
+    {"solver/foam/session/", {k_base, "solver/ports/", "solver/foam/session/"}},
     {"solver/foam/dictionary/", {k_base, "solver/ports/", "solver/foam/session/", "solver/foam/dictionary/"}},
     {"solver/foam/single_phase/", {k_base, "solver/ports/", "solver/foam/session/", "solver/foam/single_phase/"}},
     {"solver/foam/", {k_base, "solver/ports/", "solver/foam/"}},

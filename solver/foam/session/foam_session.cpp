@@ -7,7 +7,10 @@
 #include <exception>
 #include <string>
 
-#include "solver/coupling/checkpoint.hpp"
+#include <fmt/format.h>
+
+#include "geometry/base/checkpoint_folders.hpp"
+#include "geometry/base/error.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 
 #include "IFstream.H"
@@ -68,21 +71,27 @@ void restore_exact_time(Foam::Time& time) {
     time.setTime(Foam::instant(value, time.timeName()), time.timeIndex());
 }
 
-}  // namespace
+std::string latest_times_to_refuse(const std::filesystem::path& case_folder) {
+    Foam::IFstream stream(Foam::fileName((case_folder / "system" / "controlDict").string()));
+    const Foam::dictionary control(stream);
+    if (control.getOrDefault<Foam::word>("startFrom", "latestTime") != "latestTime") return {};
+    std::vector<std::string> names;
+    for (const std::filesystem::path& folder : times_after_checkpoint(case_folder)) names.push_back(folder.string());
+    return fmt::format("{}", fmt::join(names, ", "));
+}
 
-namespace {
-
-/// A run that starts from its latest time resumes from its newest checkpoint: what was written after it is dropped, before the time is
-/// picked. Collective.
-void go_back_to_checkpoint(const std::filesystem::path& case_folder) {
-    if (Foam::UPstream::master()) {
-        Foam::IFstream stream(Foam::fileName((case_folder / "system" / "controlDict").string()));
-        const Foam::dictionary control(stream);
-        if (control.getOrDefault<Foam::word>("startFrom", "latestTime") == "latestTime")
-            for (const std::filesystem::path& folder : coupling::drop_times_after_checkpoint(case_folder))
-                Foam::Info << "Dropped " << folder.string() << ", which is later than the newest checkpoint" << Foam::endl;
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
+/// A run resumes from its newest checkpoint. Its latest time must be that of the checkpoint: what lies behind it is the user's. Collective.
+void require_checkpoint_is_latest(const std::filesystem::path& case_folder) {
+    Foam::string later;
+    if (Foam::UPstream::master()) later = latest_times_to_refuse(case_folder);
+    Foam::Pstream::scatter(later);
+    if (later.empty()) return;
+    const std::filesystem::path newest = newest_checkpoint(case_folder);
+    throw UserError(fmt::format("startFrom latestTime, and {} is later than the newest checkpoint {}", std::string(later), newest.string()),
+                    "A run resumes from its newest checkpoint, and cutterFoam deletes no time folder",
+                    fmt::format("Move the later folders away, or set in system/controlDict: startFrom startTime; startTime {}; (later "
+                                "folders are then overwritten as the run reaches their times), or remove the folder {} to start without it",
+                                newest.filename().string(), newest.parent_path().string()));
 }
 
 }  // namespace
@@ -102,7 +111,7 @@ struct FoamSession::Parts {
 FoamSession::FoamSession(int argc, char** argv) : parts_(std::make_unique<Parts>()) {
     const Foam::argList& arguments = parse_arguments(argc, argv);
     parts_->case_folder = to_path(arguments.rootPath() / arguments.globalCaseName());
-    go_back_to_checkpoint(parts_->case_folder);
+    require_checkpoint_is_latest(parts_->case_folder);
     Foam::Info << "Create time\n" << Foam::endl;
     parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, arguments);
     parts_->open_mesh();

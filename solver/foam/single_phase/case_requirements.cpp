@@ -10,8 +10,38 @@ namespace cutterflow::foam {
 
 using namespace Foam;
 
+namespace {
+
+/// Names of the rotating reference frames that are on.
+std::vector<std::string> active_frames(const fvMesh& mesh) {
+    IOobject file("MRFProperties", mesh.time().constant(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE, false);
+    std::vector<std::string> names;
+    if (!file.typeHeaderOk<IOdictionary>(true)) return names;
+    for (const entry& zone : IOdictionary(file))
+        if (zone.isDict() && zone.dict().lookupOrDefault("active", true)) names.push_back(zone.keyword());
+    return names;
+}
+
+}  // namespace
+
+void CutterFluid::require_supported_case() const {
+    std::vector<Mistake> mistakes;
+    for (const std::string& zone : active_frames(mesh_))
+        mistakes.push_back({"constant/MRFProperties", zone, "cutterFoam knows no rotating reference frame: a rotor turns with its mesh",
+                            "Turn the zone by constant/dynamicMeshDict, or set: active no;"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 void CutterFluid::require_case_for_rock() const {
     std::vector<Mistake> mistakes;
+    for (const fv::option& source : sources_) {
+        if (source.applyToField(U_.name()) < 0) continue;
+        mistakes.push_back(
+            {"fvOptions",
+             fmt::format("{} of type {} acts on {}", std::string(source.name()), std::string(source.type()), std::string(U_.name())),
+             "Rock feels the fluid's acceleration as a stress, and a source in the fluid's momentum is none",
+             "Leave it out with rock; sources in turbulence fields are taken"});
+    }
     const word ddt(mesh_.ddtScheme("ddt(" + U_.name() + ')'));
     if (ddt != "Euler") {
         mistakes.push_back({"system/fvSchemes", fmt::format("ddtSchemes default = {}", std::string(ddt)),

@@ -68,6 +68,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
       alphaPhi_(unregistered("phi", mesh), alphaf_ * phi_),
       DuDt_(of_rock("DuDt", mesh, rock), mesh, dimensionedVector(dimAcceleration, Zero), zeroGradientFvPatchVectorField::typeName),
       transport_(U_, phi_),
+      sources_(fv::options::New(mesh)),
       phase_turbulence_(PhaseTurbulence::New(alpha_, U_, alphaPhi_, phi_, transport_)),
       turbulence_(phase_turbulence_(), alphaPhi_),
       density_(read_density(transport_, rock)),
@@ -78,6 +79,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
       inertia_(unregistered("inertia", mesh), mesh, dimensionedScalar(dimless, Zero), zeroGradientFvPatchScalarField::typeName),
       received_(rock == Rock::present ? mesh.nCells() : 0, Zero),
       state_(IOobject("fluidState", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)) {
+    require_supported_case();
     if (rock_ == Rock::present) require_case_for_rock();
     setRefCell(p_, pimple_.dict(), p_ref_cell_, p_ref_value_);
     mesh_.setFluxRequired(p_.name());

@@ -11,6 +11,7 @@
 
 #include "dynamicFvMesh.H"
 #include "fvMatrices.H"
+#include "fvOptions.H"
 #include "pimpleControl.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -80,6 +81,7 @@ private:
     void create_face_velocity();
     void start_old_times();
     void evaluate_flux_conditions();
+    void require_supported_case() const;
     void require_case_for_rock() const;
     void update_courant_number();
     void choose_time_step(double travel_limit, double stop_time);
@@ -121,6 +123,7 @@ private:
     Foam::volVectorField DuDt_;
 
     Foam::singlePhaseTransportModel transport_;
+    Foam::fv::optionList& sources_;  // system/ or constant/fvOptions
     Foam::autoPtr<PhaseTurbulence> phase_turbulence_;
     RegisteredTurbulence turbulence_;
     double density_;

@@ -12,7 +12,9 @@ tmp<fvVectorMatrix> CutterFluid::momentum_matrix() {
     tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) +
                                viscous_matrix());
     if (rock_ == Rock::present) add_exchange(matrix.ref());
+    if (!sources_.empty()) matrix.ref() -= sources_(U_);
     matrix.ref().relax();
+    sources_.constrain(matrix.ref());
     return matrix;
 }
 
@@ -29,7 +31,9 @@ void CutterFluid::add_exchange(fvVectorMatrix& momentum) {
 }
 
 void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {
-    if (pimple_.momentumPredictor()) solve(momentum == -fvc::grad(p_));
+    if (!pimple_.momentumPredictor()) return;
+    solve(momentum == -fvc::grad(p_));
+    sources_.correct(U_);
 }
 
 }  // namespace cutterflow::foam

@@ -42,6 +42,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     p_.relax();
     U_ = HbyA - rAtU * fvc::grad(p_);
     U_.correctBoundaryConditions();
+    sources_.correct(U_);
     fvc::correctUf(Uf_, U_, phi_);
     fvc::makeRelative(phi_, U_);
     alphaPhi_ = alphaf_ * phi_;

@@ -10,6 +10,7 @@
 #include "cases/runner/rank_change.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "solver/coupling/checkpoint.hpp"
@@ -57,7 +58,7 @@ fs::path rotor_run(const fs::path& folder, int ranks) {
 
 /// Largest distance of any rock over the tank's diameter, at the end of both runs, where their last checkpoints keep all digits.
 double apart(const fs::path& a, const fs::path& b) {
-    const auto one = coupling::read_state(coupling::newest_checkpoint(a)), other = coupling::read_state(coupling::newest_checkpoint(b));
+    const auto one = coupling::read_state(newest_checkpoint(a)), other = coupling::read_state(newest_checkpoint(b));
     double most = std::abs(one.time - other.time) < 1e-9 ? 0.0 : 1.0;
     for (const auto& [id, rock] : one.rocks) most = std::max(most, (rock.position - other.rocks.at(id).position).norm());
     return most / (2.0 * cases::test::k_tiny_tank_radius);
@@ -70,6 +71,7 @@ fs::path resumed(const Verification& verification, const std::string& name, cons
     for (const auto& checkpoint : fs::directory_iterator(folder / names::checkpoints))
         if (std::stod(checkpoint.path().filename()) > from + 1e-6) fs::remove_all(checkpoint.path());
     fs::remove_all(folder / "postProcessing");  // what is read afterwards is the resumed run's own
+    drop_times_after_checkpoint(folder);
     cases::move_checkpoint_to_ranks(folder, ranks);
     run_cutter_foam(folder, ranks);
     return folder;
@@ -133,7 +135,7 @@ std::string pack(double shift) {
 
 /// Rocks that have come down to the floor at the end, within a quarter of a rock.
 double on_floor(const fs::path& folder) {
-    const auto state = coupling::read_state(coupling::newest_checkpoint(folder));
+    const auto state = coupling::read_state(newest_checkpoint(folder));
     return static_cast<double>(std::count_if(state.rocks.begin(), state.rocks.end(), [](const auto& rock) {
         return rock.second.position.z() < cases::test::k_tiny_z_min + 0.75 * k_rock;
     }));
