@@ -7,11 +7,11 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
 #include "geometry/base/parameter_words.hpp"
+#include "geometry/base/toml.hpp"
 
 namespace cutterflow {
 namespace {
@@ -228,12 +228,17 @@ private:
     std::vector<Mistake> mistakes_;
 };
 
+constexpr const char* k_toml_rule = "The file must be TOML: [section], key = value, text in quotes";
+
 toml::table parse_toml(const std::string& toml, const std::string& name) {
     try {
         return toml::parse(toml, name);
     } catch (const toml::parse_error& error) {
-        throw UserError({{fmt::format("{}:{}", name, error.source().begin.line), std::string(error.description()),
-                          "The file must be TOML: [section], key = value, text in quotes", "Correct that line"}});
+        throw UserError(
+            {{fmt::format("{}:{}", name, error.source().begin.line), std::string(error.description()), k_toml_rule, "Correct that line"}});
+    } catch (const TomlAssertion&) {
+        throw UserError({{name, "a key or a value begins with a character that cannot stand there", k_toml_rule,
+                          "Look for stray brackets and commas, as in [[[section]]]"}});
     }
 }
 

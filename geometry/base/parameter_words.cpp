@@ -1,11 +1,11 @@
 #include "geometry/base/parameter_words.hpp"
+#include "geometry/base/toml.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 namespace cutterflow::parameter_words {
 

@@ -1,7 +1,9 @@
 #include "geometry/io/ply_layout.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -10,6 +12,8 @@
 
 namespace cutterflow::geometry {
 namespace {
+
+constexpr std::size_t k_shown = 40;  // characters of a wrong word in a message
 
 struct Property {
     std::size_t size = 0;        // of a value, or of an entry of the list
@@ -28,7 +32,12 @@ struct Header {
     Format format = Format::none;
     std::vector<Element> elements;
     std::size_t end = 0;  // where the data start; 0: the header has no end
-    std::string defect;
+    std::size_t lines = 0;
+    std::optional<PlyDefect> defect;  // the first
+
+    void refuse(const std::string& what) {
+        if (!defect) defect = PlyDefect{what, lines};
+    }
 };
 
 /// 0 for an unknown type.
@@ -49,15 +58,44 @@ void read_property(std::istringstream& words, Header& header) {
         words >> count_type >> type;
         property.count_size = size_of(count_type);
         if (property.count_size == 0 || property.count_size > 4)
-            header.defect = fmt::format("a list has the length type \"{}\"", count_type);
+            header.refuse(fmt::format("a list has the length type \"{}\"", count_type));
     }
     property.size = size_of(type);
-    if (property.size == 0) header.defect = fmt::format("a property has the unknown type \"{}\"", type);
+    if (property.size == 0) header.refuse(fmt::format("a property has the unknown type \"{}\"", type));
     if (header.elements.empty()) {
-        header.defect = "a property stands before any element";
+        header.refuse("a property stands before any element");
         return;
     }
     header.elements.back().properties.push_back(property);
+}
+
+void read_element(std::istringstream& words, Header& header) {
+    Element element;
+    std::string count;
+    words >> element.name >> count;
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (error != std::errc() || end != count.data() + count.size() || element.count > std::numeric_limits<std::uint32_t>::max())
+        header.refuse(fmt::format("the number of elements \"{}\" is \"{}\"", element.name, count));
+    header.elements.push_back(element);
+}
+
+void read_header_line(const std::string& line, Header& header) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "format") {
+        std::string name;
+        words >> name;
+        if (name == "ascii") header.format = Format::ascii;
+        if (name == "binary_little_endian") header.format = Format::little_endian;
+        if (name == "binary_big_endian") header.format = Format::big_endian;
+    } else if (word == "element") {
+        read_element(words, header);
+    } else if (word == "property") {
+        read_property(words, header);
+    } else if (header.lines > 1 && word != "comment" && word != "obj_info" && word != "end_header" && !word.empty()) {
+        header.refuse(fmt::format("the header has a line that begins with \"{}\"", word.substr(0, k_shown)));
+    }
 }
 
 Header read_header(const std::string& content) {
@@ -65,38 +103,60 @@ Header read_header(const std::string& content) {
     std::size_t at = 0;
     while (header.end == 0 && at < content.size()) {
         const std::size_t line_end = std::min(content.find('\n', at), content.size());
-        std::istringstream words(content.substr(at, line_end - at));
+        const std::string line = content.substr(at, line_end - at);
         at = line_end + 1;
-        std::string word;
-        words >> word;
-        if (word == "format") {
-            std::string name;
-            words >> name;
-            if (name == "ascii") header.format = Format::ascii;
-            if (name == "binary_little_endian") header.format = Format::little_endian;
-            if (name == "binary_big_endian") header.format = Format::big_endian;
-        } else if (word == "element") {
-            header.elements.emplace_back();
-            words >> header.elements.back().name >> header.elements.back().count;
-        } else if (word == "property") {
-            read_property(words, header);
-        } else if (word == "end_header") {
-            header.end = std::min(at, content.size());
-        }
+        ++header.lines;
+        read_header_line(line, header);
+        if (line.rfind("end_header", 0) == 0) header.end = std::min(at, content.size());
     }
     return header;
 }
 
-std::string ascii_defect(const Header& header, const std::string& content) {
-    std::size_t announced = 0;
-    for (const Element& element : header.elements) announced += element.count;
+/// A face bounds a surface with three points; assimp aborts on one without any.
+std::string face_defect(const Element& element, std::size_t index, std::size_t points) {
+    if (element.name != "face" || points > 0) return "";
+    return fmt::format("face {} of {} has no points", index + 1, element.count);
+}
+
+/// The values of one element in ASCII.
+std::string line_defect(const Element& element, std::size_t index, const std::string& line) {
+    std::istringstream words(line);
+    std::string word;
+    for (const Property& property : element.properties) {
+        std::size_t values = 1;
+        if (property.count_size > 0) {
+            words >> word;
+            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), values);
+            if (!words || error != std::errc() || end != word.data() + word.size())
+                return fmt::format("the length of a list of {} {} of {} is \"{}\"", element.name, index + 1, element.count,
+                                   word.substr(0, k_shown));
+            const std::string defect = face_defect(element, index, values);
+            if (!defect.empty()) return defect;
+        }
+        for (std::size_t i = 0; i < values; ++i)
+            if (!(words >> word))
+                return fmt::format("the file is truncated or damaged: {} {} of {} has too few values", element.name, index + 1,
+                                   element.count);
+    }
+    return "";
+}
+
+std::optional<PlyDefect> ascii_defect(const Header& header, const std::string& content) {
     std::istringstream in(content.substr(header.end));
-    std::size_t lines = 0;
+    std::size_t number = header.lines;
     std::string line;
-    while (std::getline(in, line))
-        if (line.find_first_not_of(" \t\r") != std::string::npos) ++lines;
-    if (lines >= announced) return "";
-    return fmt::format("the file is truncated: {} lines follow its header, which announces {} elements", lines, announced);
+    for (const Element& element : header.elements)
+        for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+            do {
+                ++number;
+                if (!std::getline(in, line))
+                    return PlyDefect{fmt::format("the file is truncated: it ends before {} {} of {}", element.name, i + 1, element.count),
+                                     number};
+            } while (line.find_first_not_of(" \t\r") == std::string::npos);
+            const std::string defect = line_defect(element, i, line);
+            if (!defect.empty()) return PlyDefect{defect, number};
+        }
+    return std::nullopt;
 }
 
 std::size_t list_length(const std::string& content, std::size_t at, std::size_t size, Format format) {
@@ -109,29 +169,34 @@ std::size_t list_length(const std::string& content, std::size_t at, std::size_t 
 }
 
 /// Walks over the data as the header describes them.
-std::string binary_defect(const Header& header, const std::string& content) {
+std::optional<PlyDefect> binary_defect(const Header& header, const std::string& content) {
     std::size_t at = header.end;
     for (const Element& element : header.elements)
-        for (std::size_t i = 0; i < element.count; ++i)
+        for (std::size_t i = 0; i < element.count && !element.properties.empty(); ++i)
             for (const Property& property : element.properties) {
                 std::size_t need = property.size;
-                if (property.count_size > 0 && at + property.count_size <= content.size())
-                    need = property.count_size + property.size * list_length(content, at, property.count_size, header.format);
+                if (property.count_size > 0 && at + property.count_size <= content.size()) {
+                    const std::size_t length = list_length(content, at, property.count_size, header.format);
+                    const std::string defect = face_defect(element, i, length);
+                    if (!defect.empty()) return PlyDefect{defect, 0};
+                    need = property.count_size + property.size * length;
+                }
                 at += need;
                 if (at > content.size())
-                    return fmt::format("the file is truncated: its data end within {} {} of {}", element.name, i + 1, element.count);
+                    return PlyDefect{
+                        fmt::format("the file is truncated: its data end within {} {} of {}", element.name, i + 1, element.count), 0};
             }
-    return "";
+    return std::nullopt;
 }
 
 }  // namespace
 
-std::string ply_defect(const std::string& content) {
-    if (content.compare(0, 3, "ply") != 0) return "the file does not start with \"ply\"";
+std::optional<PlyDefect> ply_defect(const std::string& content) {
+    if (content.compare(0, 3, "ply") != 0) return PlyDefect{"the file does not start with \"ply\"", 1};
     const Header header = read_header(content);
-    if (!header.defect.empty()) return header.defect;
-    if (header.end == 0) return "the header has no end";
-    if (header.format == Format::none) return "the header names no known format";
+    if (header.defect) return header.defect;
+    if (header.end == 0) return PlyDefect{"the header has no end", header.lines};
+    if (header.format == Format::none) return PlyDefect{"the header names no known format", 2};
     return header.format == Format::ascii ? ascii_defect(header, content) : binary_defect(header, content);
 }
 

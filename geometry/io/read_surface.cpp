@@ -1,12 +1,15 @@
 #include "geometry/io/read_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -14,6 +17,7 @@
 #include <assimp/Importer.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/isolated_call.hpp"
 #include "geometry/io/ply_layout.hpp"
 
 namespace cutterflow::geometry {
@@ -23,6 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_formats = "Cutterflow reads STL (ASCII or binary), OBJ and PLY";
 constexpr std::uintmax_t k_largest_file = 500'000'000;  // bytes: ten million triangles of a binary STL
+constexpr double k_import_s = 20.0;                     // core time of an import [s], several times what the slowest valid file takes
+constexpr double k_import_s_per_byte = 2e-6;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule, const std::string& remedy) {
     throw UserError(std::vector<Mistake>{{file.string(), what, rule, remedy}});
@@ -85,25 +91,108 @@ void check_stl(const fs::path& file, std::string& bytes) {
     bytes.resize(announced);
 }
 
-void append(TriangleSurface& surface, const aiMesh& mesh, const fs::path& file) {
+void check_ply(const fs::path& file, const std::string& bytes) {
+    const std::optional<PlyDefect> defect = ply_defect(bytes);
+    if (!defect) return;
+    const std::string where = defect->line > 0 ? fmt::format("{}:{}", file.string(), defect->line) : file.string();
+    refuse(where, defect->what, "A whole PLY holds what its header announces, and its faces name points", "Export or copy the file again");
+}
+
+/// A part of the file as assimp gives it.
+struct ImportedMesh {
+    std::vector<aiVector3D> points;
+    std::vector<std::array<unsigned, 3>> triangles;
+};
+
+struct Import {
+    std::string error;  ///< assimp's own; empty when it understood the file
+    std::vector<ImportedMesh> meshes;
+};
+
+template <typename T>
+void put(std::string& bytes, const T* values, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::uint64_t size = count;
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    if (count > 0) bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+/// Reads what put wrote.
+class Bytes {
+public:
+    explicit Bytes(const std::string& bytes) : bytes_(bytes) {}
+    bool at_end() const { return at_ == bytes_.size(); }
+    template <typename Values>
+    void take(Values& values) {
+        std::uint64_t size = 0;
+        bytes_.copy(reinterpret_cast<char*>(&size), sizeof size, at_);
+        at_ += sizeof size;
+        values.resize(size);
+        const std::size_t length = size * sizeof(typename Values::value_type);
+        if (length > 0) bytes_.copy(reinterpret_cast<char*>(values.data()), length, at_);
+        at_ += length;
+    }
+
+private:
+    const std::string& bytes_;
+    std::size_t at_ = 0;
+};
+
+void put_mesh(std::string& bytes, const aiMesh& mesh) {
+    put(bytes, mesh.mVertices, mesh.mNumVertices);
+    std::vector<std::array<unsigned, 3>> triangles;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        if (face.mNumIndices == 3) triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});  // others: points and lines
+    }
+    put(bytes, triangles.data(), triangles.size());
+}
+
+/// What assimp makes of a file, as bytes: its error, then its meshes.
+std::string import_bytes(const std::string& content, const char* format) {
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFileFromMemory(content.data(), content.size(), aiProcess_Triangulate, format);
+    const std::string error = scene == nullptr ? importer.GetErrorString() : "";
+    std::string bytes;
+    put(bytes, error.data(), error.size());
+    for (unsigned m = 0; scene != nullptr && m < scene->mNumMeshes; ++m) put_mesh(bytes, *scene->mMeshes[m]);
+    return bytes;
+}
+
+/// assimp aborts on some malformed files and reads outside its arrays on others: it works in a process of its own.
+Import import_isolated(const fs::path& file, const std::string& content, const char* format) {
+    const double cpu_limit_s = k_import_s + k_import_s_per_byte * static_cast<double>(content.size());
+    const IsolatedResult result = call_isolated([&] { return import_bytes(content, format); }, cpu_limit_s);
+    if (!result.death.empty())
+        refuse(file, fmt::format("the file cannot be read: the importer (assimp) {}", result.death), k_formats,
+               "It is damaged or of another format: export it again");
+    Import import;
+    Bytes bytes(result.bytes);
+    bytes.take(import.error);
+    while (!bytes.at_end()) {
+        ImportedMesh& mesh = import.meshes.emplace_back();
+        bytes.take(mesh.points);
+        bytes.take(mesh.triangles);
+    }
+    return import;
+}
+
+void append(TriangleSurface& surface, const ImportedMesh& mesh, const fs::path& file) {
     const std::size_t offset = surface.points.size();
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-        const aiVector3D& v = mesh.mVertices[i];
+    for (const aiVector3D& v : mesh.points) {
         const Vec3 point(v.x, v.y, v.z);
         if (!point.allFinite())
-            refuse(file, fmt::format("point {} has the coordinates ({}, {}, {})", offset + i, v.x, v.y, v.z),
+            refuse(file, fmt::format("point {} has the coordinates ({}, {}, {})", surface.points.size(), v.x, v.y, v.z),
                    "Coordinates must be finite numbers", "Export the surface again");
         surface.points.push_back(point);
     }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-        const aiFace& face = mesh.mFaces[f];
-        if (face.mNumIndices != 3) continue;  // points and lines
+    for (const std::array<unsigned, 3>& corners : mesh.triangles) {
         Triangle triangle{};
-        for (unsigned corner = 0; corner < 3; ++corner) {
-            if (face.mIndices[corner] >= mesh.mNumVertices)
-                refuse(file, fmt::format("face {} names point {}", f, face.mIndices[corner]),
-                       fmt::format("The file has {} points", mesh.mNumVertices), "The file is damaged or truncated: export it again");
-            triangle.at(corner) = static_cast<std::uint32_t>(offset + face.mIndices[corner]);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            if (corners[corner] >= mesh.points.size())
+                refuse(file, fmt::format("triangle {} names point {}", surface.triangles.size(), corners[corner]),
+                       fmt::format("The file has {} points", mesh.points.size()), "The file is damaged or truncated: export it again");
+            triangle[corner] = static_cast<std::uint32_t>(offset + corners[corner]);
         }
         surface.triangles.push_back(triangle);
     }
@@ -117,18 +206,14 @@ TriangleSurface read_surface(const fs::path& file) {
         refuse(file, fmt::format("the file name ends in \"{}\"", extension), k_formats, "Export the surface in one of these formats");
     std::string bytes = bytes_of(file);
     if (extension == ".stl") check_stl(file, bytes);
-    if (extension == ".ply") {
-        const std::string defect = ply_defect(bytes);
-        if (!defect.empty()) refuse(file, defect, "A whole PLY holds what its header announces", "Export or copy the file again");
-    }
+    if (extension == ".ply") check_ply(file, bytes);
 
-    Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, extension.c_str() + 1);
-    if (scene == nullptr)
-        refuse(file, fmt::format("the file cannot be understood ({})", importer.GetErrorString()), k_formats,
+    const Import import = import_isolated(file, bytes, extension.c_str() + 1);
+    if (!import.error.empty())
+        refuse(file, fmt::format("the file cannot be understood ({})", import.error), k_formats,
                "It is damaged, truncated or of another format: export it again");
     TriangleSurface surface;
-    for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(surface, *scene->mMeshes[m], file);
+    for (const ImportedMesh& mesh : import.meshes) append(surface, mesh, file);
     if (surface.triangles.empty())
         refuse(file, "the file holds no triangles", "A surface is needed, not points or lines", "Export the solid's surface");
     return welded(surface);

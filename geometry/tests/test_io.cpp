@@ -142,7 +142,8 @@ TEST_F(Files, what_is_no_surface_is_refused_by_name_and_reason) {
     expect_refusal(write("short.stl", "hello"), "this is no STL: 5 bytes");
     expect_refusal(write("text.obj", "Dear colleague,\nplease find the head attached.\n"), "");
     EXPECT_NE(refusal(folder_ / "text.obj"), "not refused");
-    expect_refusal(write("nothing.ply", "ply\nnot at all"), "the header has no end");
+    expect_refusal(write("nothing.ply", "ply\nnot at all"), "nothing.ply:2: the header has a line that begins with \"not\"");
+    expect_refusal(write("endless.ply", "ply\nformat ascii 1.0\n"), "the header has no end");
     expect_refusal(write("picture.ply", "\x89PNG"), "does not start with \"ply\"");
 }
 
@@ -160,6 +161,32 @@ TEST_F(Files, truncated_files_are_refused) {
     EXPECT_EQ(read_surface(write("whole.ply", binary_ply)).triangles.size(), 4u);
     for (const std::size_t cut : {1u, 14u, 60u})
         expect_refusal(write("cut.ply", binary_ply.substr(0, binary_ply.size() - cut)), "the file is truncated");
+}
+
+/// assimp aborts on the first three, reads outside its arrays on the fourth and fifth, and does not end on the sixth.
+TEST_F(Files, a_ply_that_assimp_does_not_survive_is_refused_with_its_line) {
+    const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const std::string ascii = k_ply_tetrahedron;
+    const std::string binary = binary_ply_tetrahedron();
+    expect_refusal(write("no_points.ply", changed(ascii, "3 0 1 3", "0 0 1 3")), "no_points.ply:15: face 2 of 4 has no points");
+    expect_refusal(write("empty_face.ply", changed(ascii, "3 1 2 3", "0")), "empty_face.ply:17: face 4 of 4 has no points");
+    std::string empty = binary;
+    empty[binary.size() - 13] = 0;  // the length of the last face
+    expect_refusal(write("empty_binary.ply", empty), "face 4 of 4 has no points");
+    expect_refusal(write("word.ply", changed(binary, "property float y", "vertex element y")),
+                   "word.ply:5: the header has a line that begins with \"vertex\"");
+    expect_refusal(write("prop.ply", changed(binary, "property float y", "propusemtlerty float y")), "prop.ply:5");
+    expect_refusal(write("long.ply", changed(ascii, "3 1 2 3", "2147483648 1 2 3")),
+                   "long.ply:17: the file is truncated or damaged: face 4 of 4");
+    expect_refusal(write("count.ply", changed(ascii, "face 4", "face -4")), "the number of elements \"face\" is \"-4\"");
+}
+
+/// assimp reads outside its arrays.
+TEST_F(Files, an_obj_whose_faces_name_points_before_the_first_is_refused) {
+    for (const int first : {-9, -1000000, -2147483647})
+        EXPECT_NE(refusal(write("before.obj", fmt::format("v 0 0 0\nv 1 0 0\nv 0 1 0\nf {} -2 -1 -2 -3\n", first))), "not refused");
 }
 
 TEST_F(Files, coordinates_that_are_no_numbers_are_refused) {

@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/toml.hpp"
 #include "geometry/head/head_names.hpp"
 
 namespace cutterflow::postproc {
@@ -38,8 +38,8 @@ public:
                             "Check the path, or run the study first");
         try {
             root_ = toml::parse_file(file_.string());
-        } catch (const toml::parse_error& error) {
-            throw UserError(fmt::format("{} cannot be read as TOML: {}", file_.string(), error.description()), "",
+        } catch (const std::runtime_error& error) {  // toml::parse_error or TomlAssertion
+            throw UserError(fmt::format("{} cannot be read as TOML: {}", file_.string(), error.what()), "",
                             "Give a run directory written by `cutterflow run`");
         }
     }

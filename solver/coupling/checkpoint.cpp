@@ -133,7 +133,9 @@ std::vector<Vec3> read_carry(const fs::path& folder, int written_by, gsl::span<c
         std::uint64_t count = 0;
         stream.read(reinterpret_cast<char*>(&count), sizeof count);
         std::error_code missing;
-        if (!stream || fs::file_size(file, missing) != sizeof count + count * (sizeof(std::int64_t) + sizeof(Vec3)))
+        constexpr std::uint64_t entry = sizeof(std::int64_t) + sizeof(Vec3);
+        const std::uintmax_t size = fs::file_size(file, missing);
+        if (!stream || (size - sizeof count) % entry != 0 || (size - sizeof count) / entry != count)
             refuse(file, "the file is missing or cut short", "The file is one that cutterFoam wrote");
         std::vector<std::int64_t> ids(count);
         std::vector<Vec3> values(count);

@@ -78,6 +78,19 @@ void expect_contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+/// toml++ asserts on these.
+TEST(ParameterFile, with_stray_brackets_is_refused_as_no_toml) {
+    for (const char* text : {"[[[a]]]\n", "[,]\n", "[[=\n"}) {
+        try {
+            parse_parameters(sample_table(), text, "study.toml");
+            ADD_FAILURE() << text;
+        } catch (const UserError& error) {
+            EXPECT_NE(std::string(error.what()).find("study.toml"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("must be TOML"), std::string::npos) << error.what();
+        }
+    }
+}
+
 TEST(Parameter, reads_every_kind_and_fills_in_defaults) {
     const ParameterValues values = parse_parameters(sample_table(), R"(
 [rotor]

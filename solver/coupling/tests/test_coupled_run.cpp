@@ -455,6 +455,15 @@ TEST(Checkpoint, of_another_time_or_mesh_is_refused) {
     EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
 }
 
+TEST(Checkpoint, whose_carry_counts_more_cells_than_it_holds_is_refused) {
+    const TemporaryFolder folder;
+    const std::vector<std::int64_t> cells{1};
+    for (const std::uint64_t count : {std::uint64_t{1}, std::uint64_t{1} << 59, ~std::uint64_t{0}}) {
+        std::ofstream(folder.path() / "carry.0", std::ios::binary).write(reinterpret_cast<const char*>(&count), sizeof count);
+        EXPECT_THROW(read_carry(folder.path(), 1, cells), UserError) << count;
+    }
+}
+
 TEST(Checkpoint, is_written_and_read_by_every_rank) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");

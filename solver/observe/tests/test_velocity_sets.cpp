@@ -189,6 +189,23 @@ TEST_F(VelocitySetsTest, go_on_after_a_checkpoint_as_if_there_was_none) {
     EXPECT_FALSE(other.restore(a));
 }
 
+TEST_F(VelocitySetsTest, sums_that_announce_more_revolutions_than_they_hold_are_refused) {
+    const VelocitySettings how = settings("0.1,0.2,-0.1,0\n", 8);
+    FakeFluid fluid = rotating_flow(6.0);
+    VelocitySets sets(how, fluid);
+    turn_to(0.3 * k_turn, sets, fluid);
+    std::ostringstream saved;
+    sets.write(saved);
+    for (const std::uint64_t revolutions : {std::uint64_t{1000}, std::uint64_t{1} << 59, ~std::uint64_t{0}}) {
+        std::string bytes = saved.str();
+        bytes.replace(sizeof(double) + 2 * sizeof revolutions, sizeof revolutions, reinterpret_cast<const char*>(&revolutions),
+                      sizeof revolutions);
+        std::istringstream stream(bytes);
+        VelocitySets resumed(how, fluid);
+        EXPECT_FALSE(resumed.restore(stream)) << revolutions;
+    }
+}
+
 TEST_F(VelocitySetsTest, tables_hold_means_revolutions_and_phases) {
     FakeFluid fluid = rotating_flow(6.0);
     VelocitySets sets(settings("0,0.2,-0.1,0\n0.1,0,0,1\n", 4), fluid);

@@ -24,6 +24,14 @@ void take(std::istream& stream, T* data, std::size_t count) {
     stream.read(reinterpret_cast<char*>(data), static_cast<std::streamsize>(count * sizeof(T)));
 }
 
+/// Bytes from here to the end.
+std::uint64_t bytes_left(std::istream& stream) {
+    const auto here = stream.tellg();
+    const auto end = stream.seekg(0, std::ios::end).tellg();
+    stream.seekg(here);
+    return here < 0 || end < here ? 0 : static_cast<std::uint64_t>(end - here);
+}
+
 /// Calls part(bin, from, to) for the pieces into which bins of equal width cut [from, to].
 template <class Part>
 void cut(double from, double to, double width, const Part& part) {
@@ -123,6 +131,8 @@ bool VelocityStatistics::restore(std::istream& stream) {
     std::uint64_t header[4] = {};
     take(stream, header, 4);
     if (!stream || header[0] != points() || header[1] != static_cast<std::uint64_t>(phases_)) return false;
+    const std::uint64_t bytes_per_revolution = points() * sizeof(WeightedVelocity);
+    if (bytes_per_revolution > 0 && header[2] > bytes_left(stream) / bytes_per_revolution) return false;
     revolutions_.assign(header[2], std::vector<WeightedVelocity>(points()));
     samples_ = header[3];
     take(stream, &last_angle_, 1);
