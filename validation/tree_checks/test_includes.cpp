@@ -83,6 +83,7 @@ const std::vector<Layer> k_layers = {
     {"validation/cases/",
      {k_base, "meshing/dictionary/", "solver/physics/", "solver/ports/", "solver/coupling/", "postproc/analysis/", "cases/study/",
       "cases/runner/", "cases/testing/", "validation/harness/"}},
+    {"validation/examples/", {k_base, "validation/harness/"}},
     {"validation/corpus/", {"geometry/", "validation/corpus/"}},
     {"validation/rotor/",
      {k_base, k_head_names, "meshing/dictionary/", "postproc/draw/", "cases/runner/", "cases/testing/", "validation/harness/"}},
