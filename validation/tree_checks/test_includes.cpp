@@ -84,6 +84,7 @@ const std::vector<Layer> k_layers = {
     {"validation/cases/",
      {k_base, "meshing/dictionary/", "solver/physics/", "solver/ports/", "solver/coupling/", "solver/free_surface/", "postproc/analysis/",
       "cases/study/", "cases/runner/", "cases/testing/", "validation/harness/"}},
+    {"validation/examples/", {k_base, "validation/harness/"}},
     {"validation/corpus/", {"geometry/", "validation/corpus/"}},
     {"validation/fuzz/",
      {"geometry/", "solver/ports/", "solver/coupling/", "postproc/", "cases/study/", "cases/scenes/cutter/", "cases/runner/",

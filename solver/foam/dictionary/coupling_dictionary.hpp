@@ -15,8 +15,28 @@ struct CouplingDictionary {
     std::optional<coupling::DemSettings> dem;  ///< with rock; without a log
 };
 
-/// Reads constant/couplingProperties (docs/design/001-contracts.md lists its keys) and, with rock, constant/g and rho and nu of
-/// constant/transportProperties. A case without the file is a pure flow. Collective.
+/// Reads constant/couplingProperties and, with rock, constant/g and rho and nu of constant/transportProperties. A case without the file is
+/// a pure flow. Collective. Every section and key, with default, unit and bounds: docs/user/your_own_case.md.
+///
+/// Usage
+/// \verbatim
+/// patches { outlet top; steel (blades floor); }               // optional
+/// rock                                                        // optional
+/// {
+///     feed     "constant/rockFeed.csv";
+///     contact  { youngsModulus 1e8; maxSpeed 1; }             // optional: poissonRock, poissonSteel, friction, restitution ...
+///     walls    ( { name a; file "constant/a.stl"; rotating false; } );                    // optional
+///     domain   { type box; lower (0 0 0); upper (1 1 1); walls (zMin); }
+///     // domain { type cylinder; axisPoint (0 0 0); radius 1; zMin 0; zMax 1; walls (zMin zMax); }
+/// }
+/// kernel     { gamma 1; minWidthInCells 1.5; maxSolidFraction 0.7; }                      // optional
+/// closures   { drag brown_lawler; hindrance di_felice; addedMass 0.5; lift none; }        // optional
+/// fates      { contour "constant/contour.csv"; ringRadius 0.4; zBackplate 0.03; binWidth 0.03; mouth { ... } }   // optional
+/// outflow    { offset 0.015; startTime 1; }                   // optional, needs fates
+/// velocity   { startTime 1; sets ( { name a; file "constant/a.csv"; } ); }                // optional, needs a turning zone
+/// stop       { undecided 0.05; }                              // optional, needs fates
+/// checkpoint { interval 0.25; keep 2; }                       // optional
+/// \endverbatim
 /// \throws UserError  with every mistake of the file: unknown key (with the nearest known one), wrong type, missing
 CouplingDictionary read_coupling_dictionary(FoamSession& session);
 

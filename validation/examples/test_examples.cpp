@@ -1,0 +1,67 @@
+/// The hand-written cases of cases/examples run as a user runs them, and obey their own force balances.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/falling_rock.hpp"
+
+namespace cutterflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A copy of an example, meshed and run.
+fs::path run_example(const std::string& name) {
+    const fs::path folder = scratch_folder("example_" + name);
+    fs::copy(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples" / name, folder, fs::copy_options::recursive);
+    run_in_case(folder, {"blockMesh"});
+    run_cutter_foam(folder);
+    return folder;
+}
+
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
+
+TEST(RockInABox, falls_as_its_force_balance_says) {
+    const fs::path folder = run_example("rock_in_a_box");
+    const RockPicture last = last_rocks(folder);
+    EXPECT_NEAR(last.time, 0.3, 1e-9);
+    const double expected = fall_speed(FallingRock(), 0.0, last.time);
+    EXPECT_NEAR(-last.velocity.at(0).z(), expected, 0.014 * expected);
+    EXPECT_NEAR(last.velocity.at(0).head<2>().norm(), 0.0, 0.01 * expected);
+    const auto balance = read_columns(folder / "postProcessing/balance/0/balance.csv");
+    EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-10);
+    EXPECT_LE(largest(balance.at("momentum_exchange_error")), 1e-10);
+    EXPECT_FALSE(fs::exists(folder / "postProcessing/rock/0/fates.csv"));
+}
+
+// dp A = N (pi/6) d^3 (rho_s - rho_f) g. The mean over a fifth of a second scatters with the bed's bubbles.
+TEST(FluidisedBed, is_carried_by_the_air) {
+    const fs::path folder = run_example("fluidised_bed");
+    const auto feed = read_columns(folder / "constant/rockFeed.csv");
+    const double rho = 1.2, area = 0.015 * 0.03;
+    const double volume = k_pi / 6.0 * std::pow(feed.at("diameter_m")[0], 3) * static_cast<double>(feed.at("id").size());
+    const double weight = volume * (feed.at("density_kg_m3")[0] - rho) * 9.81 / area;
+    double sum = 0.0, duration = 0.0, before = 0.0;
+    for (const std::vector<double>& row : read_function_object(folder, "bed")) {
+        if (row[0] > 0.1) {
+            sum += rho * row[1] * (row[0] - before);
+            duration += row[0] - before;
+        }
+        before = row[0];
+    }
+    ASSERT_GT(duration, 0.19);
+    EXPECT_NEAR(sum / duration, weight, 0.1 * weight);
+    const auto balance = read_columns(folder / "postProcessing/balance/0/balance.csv");
+    EXPECT_EQ(balance.at("rocks").back(), static_cast<double>(feed.at("id").size()));
+    EXPECT_LE(largest(balance.at("momentum_exchange_error")), 1e-10);
+    EXPECT_NEAR(balance.at("outlet_flow_m3_s").back(), 2.5 * area, 0.02 * 2.5 * area);
+}
+
+}  // namespace
+}  // namespace cutterflow::validation
