@@ -186,7 +186,7 @@ TEST(Parameter, refuses_values_outside_their_type_or_bounds) {
 }
 
 TEST(Parameter, tells_sections_and_arrays_of_tables_apart) {
-    expect_contains(only_mistake_in("rotor.speed_rpm = 1\nsuction = 3"), "Write [suction] on a line of its own");
+    expect_contains(only_mistake_in("rotor.speed_rpm = 1\nsuction = 3"), "Write [suction] on a separate line");
     expect_contains(only_mistake_in("rotor.speed_rpm = 1\n[feed]\ncount = 1"), "Write [[feed]] with two brackets");
     expect_contains(only_mistake_in("rotor.speed_rpm = 1\n[[feed]]\nseed = 1"), "study.toml:2: feed.count is missing");
 }
