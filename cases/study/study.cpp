@@ -151,7 +151,7 @@ double number_of_rocks(const ParameterValues& feed) {
     if (feed.has("feed.count")) return static_cast<double>(feed.integer("feed.count"));
     double number = 0.0, shares = 0.0;
     for (const ParameterValues& rock : feed.tables("feed.class")) {
-        const double mass = rock.number("feed.class.density_kg_m3") * physics::sphere_volume(rock.number("feed.class.diameter_m"));
+        const double mass = sphere_mass(rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"));
         number += rock.number("feed.class.mass_share") / mass;
         shares += rock.number("feed.class.mass_share");
     }

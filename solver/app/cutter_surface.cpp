@@ -74,7 +74,7 @@ std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::pa
         scene.dem.walls = {{"walls", folder / "walls.stl", false}};
     }
     scene.dem.log = folder / "log.liggghts";
-    auto engine = std::make_unique<liggghts::LiggghtsEngine>(scene.dem, coupling::RotorMotion{}, MPI_COMM_WORLD);
+    auto engine = std::make_unique<liggghts::LiggghtsEngine>(scene.dem, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
     if (!fresh) return engine;
     const std::vector<int> taken = engine->insert(scene.bodies);
     std::vector<Mistake> mistakes;

@@ -200,8 +200,8 @@ constexpr const char* k_manifest =
 
 // ---- checkpoints ----
 
-coupling::RotorMotion turning() {
-    coupling::RotorMotion motion;
+coupling::ZoneMotion turning() {
+    coupling::ZoneMotion motion;
     motion.speed = 6.0;
     return motion;
 }

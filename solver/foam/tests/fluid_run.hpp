@@ -13,9 +13,9 @@ namespace cutterflow::foam::testing {
 
 class FluidRun {
 public:
-    FluidRun(const std::filesystem::path& case_folder, bool with_rock)
+    FluidRun(const std::filesystem::path& case_folder, bool with_rock, const coupling::PatchSettings& patches = {})
         : session_(case_folder),
-          engine_(session_, with_rock),
+          engine_(session_, with_rock, patches),
           source(cells(), Vec3::Zero()),
           drag_rate(cells(), 0.0),
           inertia(cells(), 0.0) {}

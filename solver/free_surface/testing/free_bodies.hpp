@@ -31,7 +31,7 @@ public:
         }
         return step;
     }
-    double rotor_angle() const override { return 0.0; }
+    std::vector<double> zone_angles() const override { return {}; }
     void write_checkpoint(const std::filesystem::path&) override {}
     void read_checkpoint(const std::filesystem::path&) override {}
 
@@ -56,7 +56,7 @@ public:
         step.contact_impulse.assign(rocks_.size(), Vec3::Zero());
         return step;
     }
-    double rotor_angle() const override { return 0.0; }
+    std::vector<double> zone_angles() const override { return {}; }
     void write_checkpoint(const std::filesystem::path&) override {}
     void read_checkpoint(const std::filesystem::path&) override {}
 

@@ -140,7 +140,7 @@ public:
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override {
         return honest_.advance(duration, [&](std::size_t n, const Vec3& v) { return Vec3(0.9 * force(n, v)); });
     }
-    double rotor_angle() const override { return 0.0; }
+    std::vector<double> zone_angles() const override { return {}; }
     void write_checkpoint(const std::filesystem::path&) override {}
     void read_checkpoint(const std::filesystem::path&) override {}
 

@@ -70,17 +70,17 @@ TEST(Checkpoint, contact_free_rocks_go_on_as_if_never_stopped) {
 TEST(Checkpoint, rocks_in_contact_and_the_rotor_go_on_as_if_never_stopped) {
     const Mill mill;
     const int half = 60;
-    LiggghtsEngine through(mill.settings, mill.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine through(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
     ASSERT_EQ(through.insert(Mill::heap()).size(), 61u);
     coupling::DemStep last_through;
     for (int call = 0; call < half + 3; ++call) last_through = through.advance(duration(call), drag);
     ASSERT_GT(last_through.contacts, 15);
 
-    LiggghtsEngine first(mill.settings, mill.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine first(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
     first.insert(Mill::heap());
     for (int call = 0; call < half; ++call) first.advance(duration(call), drag);
     first.write_checkpoint(mill.folder);
-    LiggghtsEngine second(mill.settings, mill.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine second(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
     second.read_checkpoint(mill.folder);
     EXPECT_NEAR(second.zone_angles().at(0), first.zone_angles().at(0), 1e-15);
     coupling::DemStep last_first, last_second;
@@ -98,11 +98,11 @@ TEST(Checkpoint, rocks_in_contact_and_the_rotor_go_on_as_if_never_stopped) {
 
 TEST(Checkpoint, can_be_read_on_another_number_of_ranks) {
     const Mill mill;
-    LiggghtsEngine all(mill.settings, mill.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine all(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
     all.insert(Mill::heap());
     for (int call = 0; call < 40; ++call) all.advance(duration(call), drag);
     all.write_checkpoint(mill.folder);
-    LiggghtsEngine alone(mill.settings, mill.rotor, MPI_COMM_SELF);
+    LiggghtsEngine alone(mill.settings, {mill.rotor}, MPI_COMM_SELF);
     alone.read_checkpoint(mill.folder);
     EXPECT_LT(farthest(alone.rocks(), all.rocks()), 1e-300);
     for (int call = 40; call < 43; ++call) {
@@ -120,11 +120,11 @@ TEST(Checkpoint, a_folder_without_one_is_refused) {
 
 TEST(Checkpoint, rock_can_be_inserted_and_removed_after_reading) {
     const Mill mill;
-    LiggghtsEngine engine(mill.settings, mill.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine engine(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
     engine.insert(Mill::heap());
     for (int call = 0; call < 5; ++call) engine.advance(duration(call), drag);
     engine.write_checkpoint(mill.folder);
-    LiggghtsEngine resumed(mill.settings, mill.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine resumed(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
     resumed.read_checkpoint(mill.folder);
     coupling::Rocks more;
     add_rock(more, 300, Vec3(0, -0.3, 0.2), Vec3::Zero(), 0.03);

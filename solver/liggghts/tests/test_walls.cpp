@@ -31,7 +31,7 @@ class RotorAngle : public ::testing::TestWithParam<double> {};
 
 TEST_P(RotorAngle, is_speed_times_time_when_the_steps_differ) {
     Paddle paddle(GetParam());
-    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine engine(paddle.settings, {paddle.rotor}, MPI_COMM_WORLD);
     EXPECT_NEAR(engine.zone_angles().at(0), 0.0, 1e-15);
     engine.insert(one_rock(Vec3(-0.4, 0, 0.3)));  // gives the DEM its own step: 25 to 60 per call
     double time = 0.0;
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, RotorAngle, ::testing::Values(60.0, -60.0),
 
 TEST(Walls, a_rotating_wall_stands_when_the_rotor_does) {
     Paddle paddle(0.0);
-    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine engine(paddle.settings, {paddle.rotor}, MPI_COMM_WORLD);
     engine.insert(one_rock(Vec3(0.2, 0.03, 0)));
     engine.advance(0.01, no_force);
     EXPECT_EQ(engine.zone_angles().at(0), 0.0);
@@ -57,7 +57,7 @@ TEST(Walls, a_rotating_wall_stands_when_the_rotor_does) {
 // The angular momentum about the axis that the rock gains (added mass included) is what the steel loses.
 TEST(Walls, the_torque_on_a_paddle_balances_what_it_gives_to_the_rocks) {
     Paddle paddle(2.0 * k_pi);
-    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine engine(paddle.settings, {paddle.rotor}, MPI_COMM_WORLD);
     coupling::Rocks rocks;
     add_rock(rocks, 1, Vec3(0.15, 0.06, 0.0));
     add_rock(rocks, 2, Vec3(0.2, 0.08, 0.02));
@@ -137,7 +137,7 @@ TEST(Insertion, refuses_steel_where_it_stands_now_and_inside_it) {
         {"column", write_stl(scratch_folder() / "column.stl", block(Vec3(-0.4, -0.05, -0.3), Vec3(-0.3, 0.05, 0.3), 2)), false});
     paddle.settings.walls[0].file =
         write_stl(paddle.settings.walls[1].file.parent_path() / "paddle.stl", block(Vec3(0.05, -0.01, -0.05), Vec3(0.3, 0.01, 0.05), 3));
-    LiggghtsEngine engine(paddle.settings, paddle.rotor, MPI_COMM_WORLD);
+    LiggghtsEngine engine(paddle.settings, {paddle.rotor}, MPI_COMM_WORLD);
     engine.advance(0.01, no_force);
     EXPECT_NEAR(engine.zone_angles().at(0), k_pi / 2.0, 1e-12);
     coupling::Rocks rocks;

@@ -83,7 +83,7 @@ double rolling_acceleration(RockShape shape) {
     const double angle = std::atan(0.2);
     settings.gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
     settings.contact_gap = 0.0;
-    liggghts::LiggghtsEngine engine(settings, coupling::RotorMotion{}, MPI_COMM_WORLD);
+    liggghts::LiggghtsEngine engine(settings, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
     coupling::Rocks rock;
     rock.append(column_rocks(column), 0);
     rock.position[0] = Vec3(0.02, 0.5 * k_cylinder_length, 0.5 * k_cylinder_diameter + 1e-6);

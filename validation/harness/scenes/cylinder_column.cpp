@@ -48,7 +48,7 @@ coupling::DemSettings column_dem(const CylinderColumn& column) {
 }
 
 std::unique_ptr<liggghts::LiggghtsEngine> column_engine(const CylinderColumn& column) {
-    auto engine = std::make_unique<liggghts::LiggghtsEngine>(column_dem(column), coupling::RotorMotion{}, MPI_COMM_WORLD);
+    auto engine = std::make_unique<liggghts::LiggghtsEngine>(column_dem(column), std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
     const coupling::Rocks rocks = column_rocks(column);
     if (engine->insert(rocks).size() != rocks.size()) throw std::runtime_error("the DEM did not take all cylinders");
     return engine;
