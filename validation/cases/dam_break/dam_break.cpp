@@ -213,14 +213,15 @@ void compare_with_peer(Verification& verification, const Front& ours, int cells)
 }
 
 void compare_with_experiment(Verification& verification, const Front& ours) {
-    const validation::ReferenceTable table = validation::read_reference(CUTTERFLOW_CASE_DIR "/front.csv", {{"time", "-"}, {"front", "-"}});
+    const validation::ReferenceTable table =
+        validation::read_reference(validation::case_file("dam_break/front.csv"), {{"time", "-"}, {"front", "-"}});
     const double unit = std::sqrt(k_width / (2.0 * k_gravity));  // T = t sqrt(2 g / a)
     const auto error_at = [&](std::size_t n, double shift) {
         return std::abs(ours.at(std::max(0.0, (table.at("time")[n] - shift)) * unit) / k_width / table.at("front")[n] - 1.0);
     };
     const auto largest = [&](double shift) {
         double error = 0.0;
-        for (std::size_t n = 1; n < table.rows(); ++n) error = std::max(error, error_at(n, shift));
+        for (std::size_t n = 0; n < table.rows(); ++n) error = std::max(error, error_at(n, shift));
         return error;
     };
     double best = 0.0;
@@ -228,9 +229,7 @@ void compare_with_experiment(Verification& verification, const Front& ours) {
         if (largest(shift) < largest(best)) best = shift;
     }
     verification.at_most("error of the front after one shift in time", "-", largest(best), 0.04,
-                         {table.source, "largest of 14 places", {}});
-    verification.report("error of the front at the first place", "-", error_at(0, best), {},
-                        {table.source, "22 ms after the release the diaphragm still leaves: one shift in time cannot hold there", {}});
+                         {table.source, "largest of 15 places; the first, 22 ms after the release, is the worst", {}});
     verification.at_most("shift in time of the measured front", "-", best, 0.35, {table.source, "in T = t sqrt(2 g/a): the diaphragm", {}});
 }
 
@@ -248,7 +247,7 @@ void check_fall(Verification& verification, int cells, double volume_limit) {
                           {"exact", "shown to fail: the measure sees water that clumps", {}});
     if (cells == 20) {
         compare_with_peer(verification, fallen.front, cells);
-        compare_with_experiment(verification, fallen.front);
+        if (verification.wants(Effort::standard)) compare_with_experiment(verification, fallen.front);
         const Fall still = fall(dam(cells), 5.0);
         verification.relative("level after 5 s", "m", still.level, 0.4 * k_width, 0.015, {"exact", "volume over the tank's plan", {}});
     }

@@ -6,6 +6,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/draw/gnuplot.hpp"
 #include "validation/harness/suite/case_runs.hpp"
 
 namespace cutterflow::validation {
