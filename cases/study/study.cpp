@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 #include "solver/physics/drag.hpp"
