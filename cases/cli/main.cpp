@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameter.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/versions.hpp"
 
 namespace {

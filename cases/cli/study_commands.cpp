@@ -14,7 +14,7 @@
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/base/shell_word.hpp"
+#include "geometry/base/process/shell_word.hpp"
 #include "geometry/io/length_unit.hpp"
 
 namespace cutterflow::cli {

@@ -13,11 +13,11 @@
 #include "cases/runner/machine.hpp"
 #include "cases/runner/run_directory.hpp"
 #include "cases/sweep/sweep.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/parameter.hpp"
-#include "geometry/base/shell_word.hpp"
+#include "geometry/base/process/child_process.hpp"
+#include "geometry/base/process/shell_word.hpp"
 #include "postproc/pages/comparison_page.hpp"
 
 namespace cutterflow::cli {

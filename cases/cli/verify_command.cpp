@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "validation/harness/suite/case_runs.hpp"
 
 namespace cutterflow::cli {

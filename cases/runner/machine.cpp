@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 namespace cutterflow::cases {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/shell_word.hpp"
+#include "geometry/base/process/child_process.hpp"
+#include "geometry/base/process/shell_word.hpp"
 
 namespace cutterflow::cases {
 namespace {

@@ -17,9 +17,9 @@
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/study.hpp"
 #include "cases/sweep/slurm.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
 

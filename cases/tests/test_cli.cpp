@@ -8,8 +8,8 @@
 
 #include "cases/runner/machine.hpp"
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
 

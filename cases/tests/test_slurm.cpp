@@ -11,8 +11,8 @@
 #include <unistd.h>
 
 #include "cases/sweep/sweep.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 using namespace cutterflow;
 using namespace cutterflow::cases;

@@ -10,9 +10,9 @@
 
 #include "cases/runner/pipeline.hpp"
 #include "cases/study/study.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 using namespace cutterflow;
 using namespace cutterflow::cases;

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "cases/study/study.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/head/crown_cutter.hpp"
 #include "geometry/io/write_stl.hpp"
 

@@ -17,7 +17,7 @@
 #include <assimp/Importer.hpp>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/isolated_call.hpp"
+#include "geometry/base/process/isolated_call.hpp"
 #include "geometry/io/ply_layout.hpp"
 
 namespace cutterflow::geometry {

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "meshing/cutter/background_mesh.hpp"
 #include "meshing/cutter/mesh_dictionaries.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 namespace cutterflow::meshing {
 

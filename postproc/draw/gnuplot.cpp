@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 namespace cutterflow::postproc {
 namespace {

@@ -9,7 +9,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc::testing {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <string>
 
-#include "solver/free_surface/cut_cells.hpp"
-#include "solver/free_surface/still_solids.hpp"
+#include "solver/free_surface/cut_cells/cut_cells.hpp"
+#include "solver/free_surface/cut_cells/still_solids.hpp"
 
 namespace cutterflow::free_surface {
 

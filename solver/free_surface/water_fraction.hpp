@@ -1,6 +1,6 @@
 #pragma once
 /// \file Which cells are water: the particles' share of the room that solids leave, the surface between cells, the occupied volume.
-#include "solver/free_surface/cut_cells.hpp"
+#include "solver/free_surface/cut_cells/cut_cells.hpp"
 #include "solver/free_surface/transfer.hpp"
 
 namespace cutterflow::free_surface {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/soundness.hpp"
 

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     std::cout << fmt::format("{:<46}{:>10}{:>14}{:>8}  {}\n", "file", "result", "volume error", "s", "");
     for (const DamagedFile& file : damaged_files()) {
         if (file.name.find(word) == std::string::npos) continue;
-        const Verdict v = judge(file, installation().programs / "cutterflow", folder);
+        const Verdict v = judge(file, cutterflow::installation().programs / "cutterflow", folder);
         const char* result = v.repaired ? "repaired" : v.refused ? "refused" : v.hung ? "HANG" : "CRASH";
         std::cout << fmt::format("{:<46}{:>10}{:>14}{:>8.1f}  {}{}\n", v.name, result,
                                  v.repaired ? fmt::format("{:.2g} %", 100.0 * v.volume_error) : "", v.core_s, v.passed ? "" : "FAILED ",

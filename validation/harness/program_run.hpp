@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 namespace cutterflow::validation {
 

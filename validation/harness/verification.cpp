@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "validation/harness/reference_table.hpp"
 
 namespace cutterflow::validation {

@@ -1,4 +1,4 @@
-#include "geometry/base/isolated_call.hpp"
+#include "geometry/base/process/isolated_call.hpp"
 
 #include <csignal>
 #include <cstdlib>

@@ -1,8 +1,8 @@
-#include "geometry/base/shell_word.hpp"
+#include "geometry/base/process/shell_word.hpp"
 
 #include <gtest/gtest.h>
 
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 namespace cutterflow {
 namespace {

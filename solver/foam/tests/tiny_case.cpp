@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 namespace cutterflow::foam::testing {
 namespace {

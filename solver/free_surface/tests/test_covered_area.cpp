@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "solver/free_surface/covered_area.hpp"
-#include "solver/free_surface/cut_cells.hpp"
-#include "solver/free_surface/still_solids.hpp"
+#include "solver/free_surface/cut_cells/covered_area.hpp"
+#include "solver/free_surface/cut_cells/cut_cells.hpp"
+#include "solver/free_surface/cut_cells/still_solids.hpp"
 
 namespace cutterflow::free_surface {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "solver/free_surface/covered_area.hpp"
+#include "solver/free_surface/cut_cells/covered_area.hpp"
 #include "solver/free_surface/testing/free_bodies.hpp"
 #include "validation/harness/verification.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "solver/free_surface/surface_run.hpp"
 #include "validation/harness/reference_table.hpp"
 #include "validation/harness/verification.hpp"

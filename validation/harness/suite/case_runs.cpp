@@ -11,10 +11,10 @@
 
 #include "cases/runner/machine.hpp"
 #include "cases/runner/run_directory.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/parameter.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/progress.hpp"
 
 namespace cutterflow::validation {

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "validation/studies/heads/head_family.hpp"

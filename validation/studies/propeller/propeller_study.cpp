@@ -15,9 +15,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/child_process.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 

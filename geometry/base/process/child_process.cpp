@@ -1,4 +1,4 @@
-#include "geometry/base/child_process.hpp"
+#include "geometry/base/process/child_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "solver/free_surface/covered_area.hpp"
+#include "solver/free_surface/cut_cells/covered_area.hpp"
 
 namespace cutterflow::free_surface {
 

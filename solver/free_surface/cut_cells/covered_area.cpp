@@ -1,4 +1,4 @@
-#include "solver/free_surface/covered_area.hpp"
+#include "solver/free_surface/cut_cells/covered_area.hpp"
 
 #include <algorithm>
 #include <array>

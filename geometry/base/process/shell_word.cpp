@@ -1,4 +1,4 @@
-#include "geometry/base/shell_word.hpp"
+#include "geometry/base/process/shell_word.hpp"
 
 namespace cutterflow {
 

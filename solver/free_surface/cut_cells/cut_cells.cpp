@@ -1,4 +1,4 @@
-#include "solver/free_surface/cut_cells.hpp"
+#include "solver/free_surface/cut_cells/cut_cells.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solver/free_surface/still_solids.hpp"
+#include "solver/free_surface/cut_cells/still_solids.hpp"
 
 #include <cmath>
 #include <limits>
