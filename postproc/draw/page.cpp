@@ -43,7 +43,8 @@ std::string Page::address(const Image& image, const std::string& name) const {
 std::string Page::how_to_make_live(const std::string& command) const {
     if (form_ == PageForm::live) return "";
     return fmt::format(
-        "<p class=\"operating\" style=\"margin-bottom: 14px\">Still pictures, without scripts. A page whose plots answer the mouse and whose head turns: "
+        "<p class=\"operating\" style=\"margin-bottom: 14px\">Still pictures, without scripts. A page whose plots answer the mouse and "
+        "whose head turns: "
         "<code>{}</code></p>\n",
         html::escape(command));
 }
