@@ -103,18 +103,26 @@ std::string contour_section(const geometry::Head& head, const fs::path& folder) 
     const char* const title = "Contour of revolution";
     if (!postproc::gnuplot_is_installed())
         return html::section(title, "<p class=\"notice\">The plot is missing: gnuplot is not installed (package gnuplot-nox).</p>");
-    std::vector<std::vector<std::string>> rows;
-    for (std::size_t i = 0; i < head.contour.z.size(); ++i)
-        rows.push_back({fmt::format("{:.6g}", head.contour.z[i]), fmt::format("{:.6g}", head.contour.radius[i])});
-    const double height = -head.lowest_z;
-    const double radius = *std::max_element(head.contour.radius.begin(), head.contour.radius.end());
-    postproc::PlotScript plot{"contour", k_plot_width, 430, postproc::data_block("contour", rows)};
-    plot.commands += fmt::format(
-        "set size ratio -1\nset xlabel \"z along the axis, m (hub left, ring plane z = 0 right)\"\nset ylabel \"r, m\"\nunset key\n"
-        "set xrange [{:.6g}:{:.6g}]\nset yrange [0:{:.6g}]\n"
-        "set arrow from 0,0 to 0,{:.6g} nohead lc rgb \"{}\" dt 2\n"
-        "plot $contour using 1:2 with filledcurves y1=0 fc rgb \"#eef1f4\", $contour using 1:2 with lines lw 2 lc rgb \"{}\"\n",
-        head.lowest_z - 0.06 * height, 0.06 * height, 1.08 * radius, 1.08 * radius, palette::faint, palette::flow_load);
+    const std::vector<double>&z = head.contour.z, &radius = head.contour.radius;
+    const double height = -head.lowest_z, top = 1.08 * *std::max_element(radius.begin(), radius.end());
+    postproc::Plot plot;
+    plot.name = "contour";
+    plot.width = k_plot_width;
+    plot.height = 430;
+    plot.legend = postproc::Legend::none;
+    plot.equal_scales = true;
+    plot.x.title = "z along the axis, m (hub left, ring plane z = 0 right)";
+    plot.x.from = head.lowest_z - 0.06 * height;
+    plot.x.to = 0.06 * height;
+    plot.y.title = "r, m";
+    plot.y.from = 0.0;
+    plot.y.to = top;
+    plot.areas.push_back({"steel", "#eef1f4", z, std::vector<double>(z.size(), 0.0), radius});
+    postproc::Series ring{"", palette::faint, {0.0, 0.0}, {0.0, top}}, contour{"", palette::flow_load, z, radius};
+    ring.line_width = 1.0;
+    ring.dashed = true;
+    contour.line_width = 2.0;
+    plot.series = {ring, contour};
     const fs::path scratch = folder / "plots";
     const std::string svg = postproc::draw_svg(plot, scratch);
     fs::remove_all(scratch);

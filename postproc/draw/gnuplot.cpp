@@ -30,7 +30,7 @@ std::string read_text(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// gnuplot's file as an element of a page: without prolog and tool tips, with unique ids.
+/// gnuplot's file as an element of a page: without prolog and tool tips, with ids of its own.
 std::string as_element(const std::string& file, const std::string& name) {
     std::string svg = file.substr(file.find("<svg"));
     svg = std::regex_replace(svg, std::regex("<title>[^<]*</title>|<desc>[^<]*</desc>"), "");
@@ -45,13 +45,13 @@ bool gnuplot_is_installed() {
     return !find_program("gnuplot").empty();
 }
 
-std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) {
+std::string draw_svg(const Plot& plot, const fs::path& scratch_directory) {
     fs::create_directories(scratch_directory);
     const fs::path script = scratch_directory / (plot.name + ".gp");
     std::ofstream(script) << fmt::format("set terminal svg noenhanced size {},{} dynamic font \"sans-serif,12.5\"\nset output \"{}.svg\"\n",
                                          plot.width, plot.height, plot.name)
-                          << k_style << plot.commands << "unset output\n";
-    // gnuplot runs in the scratch directory: the script contains no path of the user.
+                          << k_style << gnuplot_commands(plot) << "unset output\n";
+    // gnuplot runs in the scratch directory: no path of the user's stands in the script.
     require_child({{"gnuplot", script.filename().string()}, scratch_directory, scratch_directory / (plot.name + ".log"), {}});
     const std::string svg = read_text(scratch_directory / (plot.name + ".svg"));
     if (svg.find("<svg") == std::string::npos || svg.find("</svg>") == std::string::npos) {
@@ -59,21 +59,6 @@ std::string draw_svg(const PlotScript& plot, const fs::path& scratch_directory) 
             {"", fmt::format("gnuplot drew nothing for {}", script.string()), "It writes an SVG file", "Read its log in the same folder"});
     }
     return as_element(svg, plot.name);
-}
-
-std::string data_block(const std::string& name, const std::vector<std::vector<std::string>>& rows) {
-    std::string block = fmt::format("${} << END_OF_DATA\n", name);
-    for (const auto& row : rows) block += fmt::format("{}\n", fmt::join(row, " "));
-    return block + "END_OF_DATA\n";
-}
-
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c == '\n' ? ' ' : c;
-    }
-    return result + '"';
 }
 
 }  // namespace cutterflow::postproc

@@ -37,7 +37,7 @@ figure { margin: 0; break-inside: avoid; min-width: 0; }
 figure.wide { grid-column: 1 / -1; }
 figure.head { display: grid; grid-template-columns: 13fr 10fr; gap: 10px; align-items: center; }
 figure.head figcaption { grid-column: 1 / -1; }
-figure.rose .replaceable { max-width: 430px; margin: 0 auto; }
+figure.rose .replaceable, figure.rose .static { max-width: 430px; margin: 0 auto; }
 .views { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 18px; }
 figure > svg, .views svg, .static svg { display: block; width: 100%; height: auto; }
 .static svg text { font-family: inherit; }

@@ -4,7 +4,9 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
+#include "postproc/draw/plotly.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -24,10 +26,9 @@ void require_own_folder(const fs::path& folder, const fs::path& document) {
                         "Name another folder");
 }
 
-std::string Page::draw(const Plot& plot) const {
-    nlohmann::json layout = plot.layout;
-    layout["height"] = plot.script.height;
-    return replaceable(form_, draw_svg(plot.script, scratch()), "plot", {{"data", plot.traces}, {"layout", layout}});
+std::string Page::draw(const Figure& figure) const {
+    const std::string plot = replaceable(form_, draw_svg(figure.plot, scratch()), "plot", plotly_figure(figure.plot));
+    return html::figure(plot, figure.caption, figure.css_class);
 }
 
 std::string Page::turnable(const std::string& picture, const nlohmann::json& view) const {

@@ -22,9 +22,9 @@ class Page {
 public:
     Page(std::filesystem::path file, PageForm form) : file_(std::move(file)), form_(form) {}
 
-    /// A plot as markup: its picture and, in a live page, what the script draws over it.
+    /// A figure as markup: its picture, in a live page what the script draws over it, and its caption.
     /// \throws ToolError  when gnuplot cannot be started or refuses the plot
-    std::string draw(const Plot& plot) const;
+    std::string draw(const Figure& figure) const;
 
     /// A picture of the head that a live page lets turn.
     std::string turnable(const std::string& picture, const nlohmann::json& view) const;

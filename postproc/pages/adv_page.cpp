@@ -4,25 +4,22 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/analysis/text.hpp"
+#include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
-#include "postproc/draw/palette.hpp"
 
 namespace cutterflow::postproc {
 namespace {
 
 namespace fs = std::filesystem;
 using html::escape;
-using nlohmann::json;
 
 constexpr std::array<const char*, 3> k_colours{palette::outflow, palette::sucked_up, palette::spilled};
-constexpr std::array<int, 3> k_marks{7, 5, 9};                                      // gnuplot's disc, square, triangle
-constexpr std::array<const char*, 3> k_symbols{"circle", "square", "triangle-up"};  // plotly's
+constexpr std::array<Mark, 3> k_marks{Mark::disc, Mark::square, Mark::triangle};
 
 const AdvVelocity& velocity_of(const AdvResult& result, AdvComponent component) {
     return result.velocity[static_cast<std::size_t>(component)];
@@ -34,50 +31,46 @@ double bar_of(const AdvVelocity& v) {
 }
 
 /// Model against measurement for the points inside or outside the head.
-Plot scatter_plot(const AdvComparison& comparison, bool inside) {
-    Plot plot{
-        {inside ? "inside" : "outside", 540, 480, ""}, json::array(), {{"xaxis", axis("measured, m/s")}, {"yaxis", axis("model, m/s")}}};
-    plot.layout["hovermode"] = "closest";
-    std::vector<std::string> curves{fmt::format("x with lines lc rgb \"{}\" notitle", palette::faint)};
+Figure scatter(const AdvComparison& comparison, bool inside) {
+    Plot plot;
+    plot.name = inside ? "inside" : "outside";
+    plot.height = 480;
+    plot.tips = Tips::at_point;
+    plot.equal_scales = true;
+    plot.x.title = "measured, m/s";
+    plot.x.tip = {".3f", " m/s", "measured "};
+    plot.y.title = "model, m/s";
+    plot.y.tip = {".3f", " m/s", "model "};
+    Series equal{"model = measured", palette::faint, {}, {}};
+    equal.line_width = 1.0;
+    plot.series.push_back(equal);
     double low = 0.0, high = 0.0;
     for (const AdvComponent c : k_adv_components) {
-        PlotRows rows;  // measured, model, half the bar
-        json names = json::array();
+        const auto index = static_cast<std::size_t>(c);
+        Series series{adv_component_name(c), k_colours[index], {}, {}};
+        series.mark = k_marks[index];
         for (const AdvResult& result : comparison.points) {
             const AdvVelocity& v = velocity_of(result, c);
             if (result.inside != inside || !v.measured || !v.model) continue;
-            const double bar = bar_of(v);
-            low = std::min({low, *v.measured, *v.model - bar});
-            high = std::max({high, *v.measured, *v.model + bar});
-            rows.push_back({*v.measured, *v.model, bar});
-            names.push_back(escape(result.point.name));
+            series.x.push_back(*v.measured);
+            series.y.push_back(*v.model);
+            series.y_low.push_back(*v.model - bar_of(v));
+            series.y_high.push_back(*v.model + bar_of(v));
+            series.point_names.push_back(result.point.name);
+            low = std::min({low, *v.measured, series.y_low.back()});
+            high = std::max({high, *v.measured, series.y_high.back()});
         }
-        if (rows.empty()) continue;
-        const auto index = static_cast<std::size_t>(c);
-        const char* name = adv_component_name(c);
-        plot.script.commands += data_block(name, rows);
-        curves.push_back(fmt::format("${0} using 1:2:3 with yerrorbars pt {1} ps 0.8 lw 1.4 lc rgb \"{2}\" title \"{0}\"", name,
-                                     k_marks[index], k_colours[index]));
-        json trace = curve(rows, 0, 1, name, k_colours[index]);
-        trace.update({{"mode", "markers"},
-                      {"marker", {{"symbol", k_symbols[index]}, {"size", 9}, {"color", k_colours[index]}}},
-                      {"error_y", {{"array", column(rows, 2)}, {"width", 3}, {"thickness", 1.4}}},
-                      {"text", names},
-                      {"hovertemplate", fmt::format("%{{text}}, {}<br>measured %{{x:.3f}}, model %{{y:.3f}} m/s<extra></extra>", name)}});
-        plot.traces.push_back(trace);
+        if (!series.x.empty()) plot.series.push_back(series);
     }
     const double margin = 0.05 * std::max(high - low, 1e-3), from = low - margin, to = high + margin;
-    plot.script.commands += fmt::format(
-        "set xrange [{0:.6g}:{1:.6g}]\nset yrange [{0:.6g}:{1:.6g}]\nset size square\nset xlabel \"measured, m/s\"\nset ylabel \"model, "
-        "m/s\"\n"
-        "set key top left\nplot {2}\n",
-        from, to, fmt::join(curves, ", "));
-    json equal = curve({{from, from}, {to, to}}, 0, 1, "model = measured", palette::faint);
-    equal["hoverinfo"] = "skip";
-    plot.traces.insert(plot.traces.begin(), equal);
-    plot.layout["xaxis"].update({{"range", {from, to}}, {"constrain", "domain"}});
-    plot.layout["yaxis"].update({{"range", {from, to}}, {"constrain", "domain"}, {"scaleanchor", "x"}});
-    return plot;
+    plot.x.from = plot.y.from = from;
+    plot.x.to = plot.y.to = to;
+    plot.series.front().x = plot.series.front().y = {from, to};
+    return {plot,
+            fmt::format("{} the head. On the line model and measurement agree. Bars: position error and two standard errors of the mean "
+                        "in time, root of the sum of squares.",
+                        inside ? "Inside" : "Outside"),
+            ""};
 }
 
 bool has_pairs(const AdvComparison& comparison, bool inside) {
@@ -90,12 +83,7 @@ std::string plots(const AdvComparison& comparison, const Page& page) {
     if (!gnuplot_is_installed()) return "<p class=\"notice\">Plots are missing: the program gnuplot was not found.</p>\n";
     std::string content;
     for (const bool inside : {true, false})
-        if (has_pairs(comparison, inside))
-            content += html::figure(
-                page.draw(scatter_plot(comparison, inside)),
-                fmt::format("{} the head. On the line model and measurement agree. Bars: position error and two standard errors of "
-                            "the mean in time, root of the sum of squares.",
-                            inside ? "Inside" : "Outside"));
+        if (has_pairs(comparison, inside)) content += page.draw(scatter(comparison, inside));
     return "<div class=\"figures\">" + content + "</div>\n";
 }
 

@@ -12,7 +12,6 @@
 #include "postproc/analysis/text.hpp"
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
-#include "postproc/draw/palette.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -36,34 +35,39 @@ std::size_t speeds_of(const AdvTrend& trend) {
     return speeds.size();
 }
 
-/// The three components of one point.
-PlotScript trend_plot(const std::vector<AdvTrend>& trends, std::size_t first, std::size_t index) {
-    PlotScript plot{fmt::format("adv_{}", std::string(1, static_cast<char>('a' + index % 26)) + std::string(index / 26, 'z')), 540, 250,
-                    ""};
-    std::vector<std::string> curves;
+/// The three components of one point. \param index  of the point on the page
+Figure trend_figure(const std::vector<AdvTrend>& trends, std::size_t first, std::size_t index) {
+    Plot plot;
+    plot.name = fmt::format("adv_{}", index);
+    plot.height = 250;
+    plot.x.title = "rotor speed, rpm";
+    plot.y.title = "velocity, m/s";
+    plot.y.tip = {".3f", " m/s"};
     for (std::size_t c = 0; c < k_adv_components.size(); ++c) {
-        std::vector<std::vector<std::string>> model, measured;
+        const std::string& name = trends[first + c].component;
+        Series model{name, k_colours[c], {}, {}}, measured{"", k_colours[c], {}, {}};
+        model.line_width = 1.6;
+        model.mark = Mark::disc;
+        model.mark_size = 3.0;
+        measured.mark = Mark::disc;
+        measured.mark_size = 9.0;
         for (const AdvTrendValue& v : trends[first + c].values) {
-            const std::string speed = fmt::format("{:.6g}", v.speed_rpm);
-            if (v.model) model.push_back({speed, fmt::format("{:.6g}", *v.model), fmt::format("{:.6g}", v.position_bar.value_or(0.0))});
-            if (v.measured) measured.push_back({speed, fmt::format("{:.6g}", *v.measured)});
+            if (v.model) {
+                const double bar = v.position_bar.value_or(0.0);
+                model.x.push_back(v.speed_rpm);
+                model.y.push_back(*v.model);
+                model.y_low.push_back(*v.model - bar);
+                model.y_high.push_back(*v.model + bar);
+            }
+            if (v.measured) {
+                measured.x.push_back(v.speed_rpm);
+                measured.y.push_back(*v.measured);
+            }
         }
-        const std::string name = trends[first + c].component;
-        if (!model.empty()) {
-            plot.commands += data_block(name, model);
-            curves.push_back(fmt::format("${0} using 1:2 with lines lw 1.6 lc rgb \"{1}\" title \"{0}\"", name, k_colours[c]));
-            curves.push_back(fmt::format("${} using 1:2:3 with yerrorbars pt 7 ps 0.3 lw 1.2 lc rgb \"{}\" notitle", name, k_colours[c]));
-        }
-        if (!measured.empty()) {
-            plot.commands += data_block(name + "_measured", measured);
-            curves.push_back(fmt::format("${}_measured using 1:2 with points pt 7 ps 0.9 lc rgb \"{}\" notitle", name, k_colours[c]));
-        }
+        for (const Series& series : {model, measured})
+            if (!series.x.empty()) plot.series.push_back(series);
     }
-    plot.commands += fmt::format(
-        "set xlabel \"rotor speed, rpm\"\nset ylabel \"velocity, m/s\"\nset key outside top center horizontal\nset offsets graph "
-        "0.05,graph 0.05,0,0\nplot {}\n",
-        curves.empty() ? "NaN notitle" : fmt::format("{}", fmt::join(curves, ", ")));
-    return plot;
+    return {plot, html::escape(trends[first].point), ""};
 }
 
 /// An operating point of the sweep: speed [rpm], discharge [m3/s].
@@ -138,14 +142,12 @@ std::vector<AdvTrend> read_adv_trends(const std::vector<fs::path>& run_directori
     return trends;
 }
 
-std::string adv_trend_section(const std::vector<AdvTrend>& trends, const fs::path& scratch) {
+std::string adv_trend_section(const std::vector<AdvTrend>& trends, const Page& page) {
     if (trends.empty()) return "";
     const bool measured = is_measured(trends);
     std::string figures;
     for (std::size_t first = 0; gnuplot_is_installed() && first < trends.size(); first += k_adv_components.size())
-        figures +=
-            html::figure(draw_svg(trend_plot(trends, first, first / k_adv_components.size()), scratch), html::escape(trends[first].point));
-    fs::remove_all(scratch);
+        figures += page.draw(trend_figure(trends, first, first / k_adv_components.size()));
     const std::string reading = fmt::format(
         "<p>Mean velocity of the water at named points, in m/s: lines are the model, with bars for the error of the point’s "
         "position{}.</p>\n",

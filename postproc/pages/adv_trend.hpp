@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "postproc/draw/page.hpp"
+
 namespace cutterflow::postproc {
 
 /// A component at a point over the runs, by increasing speed.
@@ -23,7 +25,7 @@ struct AdvTrend {
 std::vector<AdvTrend> read_adv_trends(const std::vector<std::filesystem::path>& run_directories);
 
 /// A section of the comparison's page: one plot a point, model as lines, measurement as marks; and the table. Empty without trends.
-std::string adv_trend_section(const std::vector<AdvTrend>& trends, const std::filesystem::path& scratch);
+std::string adv_trend_section(const std::vector<AdvTrend>& trends, const Page& page);
 
 nlohmann::json adv_trend_json(const std::vector<AdvTrend>& trends);
 

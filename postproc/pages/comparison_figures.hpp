@@ -1,5 +1,5 @@
 #pragma once
-/// \file The plots of a comparison.
+/// \file The figures of a comparison.
 #include <string>
 #include <vector>
 
@@ -8,14 +8,9 @@
 
 namespace cutterflow::postproc {
 
-struct CaptionedPlot {
-    Plot plot;
-    std::string caption;  ///< markup
-};
-
 /// Spillage and production by setting, against speed and against flow number (where settings differ in them), outflow and spillage by
 /// axial bin, spillage of the top bin against its outflow. Plots of rock are left out when a run has none.
-std::vector<CaptionedPlot> comparison_plots(const Comparison& comparison);
+std::vector<Figure> comparison_figures(const Comparison& comparison);
 
 /// Colour of a setting, by its number from 0.
 const char* setting_colour(std::size_t setting);

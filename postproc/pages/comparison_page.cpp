@@ -116,7 +116,7 @@ std::string heads(const Comparison& comparison, Page& page) {
 std::string plots(const Comparison& comparison, const Page& page) {
     if (!gnuplot_is_installed()) return "<p class=\"notice\">Plots are missing: the program gnuplot was not found.</p>";
     std::string content;
-    for (const CaptionedPlot& item : comparison_plots(comparison)) content += html::figure(page.draw(item.plot), item.caption);
+    for (const Figure& figure : comparison_figures(comparison)) content += page.draw(figure);
     return "<div class=\"figures\">" + content + "</div>";
 }
 
@@ -162,7 +162,7 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder, 
     std::vector<fs::path> directories;
     for (const ComparedRun& compared : comparison.runs) directories.push_back(compared.run.directory);
     const std::vector<AdvTrend> velocities = read_adv_trends(directories);
-    body += adv_trend_section(velocities, folder / "plots.part") + heads(comparison, page);
+    body += adv_trend_section(velocities, page) + heads(comparison, page);
     nlohmann::json numbers = comparison_json(comparison);
     if (!velocities.empty()) numbers["velocities_at_points"] = adv_trend_json(velocities);
     write_file(document, numbers.dump(2) + "\n");

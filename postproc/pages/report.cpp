@@ -1,45 +1,16 @@
 #include "postproc/pages/report.hpp"
 
-#include <algorithm>
-
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
+#include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/head_series.hpp"
 #include "postproc/draw/page.hpp"
-#include "postproc/pages/figures.hpp"
 #include "postproc/pages/report_page.hpp"
-#include "postproc/pages/velocity_figures.hpp"
 
 namespace cutterflow::postproc {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_outflow(const Results& results) {
-    return std::any_of(results.outflow.begin(), results.outflow.end(),
-                       [](const BinOutflow& bin) { return bin.radial_velocity.has_value(); });
-}
-
-std::vector<Plot> plots_of(const Results& results, const RunData& run) {
-    const double revolution = run.operating_point.revolution_s();
-    const bool with_rock = results.spillage.has_value();
-    std::vector<Plot> plots;
-    if (with_rock) {
-        plots.push_back(outcome_plot(*results.spillage));
-        plots.push_back(fates_plot(run.rock->fates, *results.spillage, revolution));
-        plots.push_back(ratio_plot(run.rock->fates, *results.spillage, revolution));
-        if (!results.spillage->first_exit_azimuths.empty()) plots.push_back(first_exit_plot(results.spillage->first_exit_azimuths));
-    }
-    if (with_rock || !results.outflow.empty()) plots.push_back(bins_plot(results));
-    if (with_rock && has_outflow(results) && results.spillage->fates.placed.mass > 0.0) plots.push_back(top_bin_plot(results));
-    for (const auto& plane : {axial_plane_plot(run), under_ring_plot(run)}) {
-        if (plane) plots.push_back(*plane);
-    }
-    plots.push_back(torque_plot(run.loads, results.rotor, revolution, with_rock));
-    plots.push_back(balance_plot(run.balance, revolution, with_rock));
-    plots.push_back(cost_plot(results.cost));
-    return plots;
-}
 
 PageFigures draw_figures(const Results& results, const RunData& run, Page& page) {
     PageFigures figures{{}, draw_head_from_side(run, page, "head_side"), draw_head_from_hub(run, page, "head_axial"), ""};
@@ -49,7 +20,7 @@ PageFigures draw_figures(const Results& results, const RunData& run, Page& page)
             "report again; the tables below hold the same numbers.";
         return figures;
     }
-    for (const Plot& plot : plots_of(results, run)) figures.plots[plot.script.name] = page.draw(plot);
+    for (const auto& [place, figure] : report_figures(results, run)) figures.plots[place] += page.draw(figure);
     return figures;
 }
 

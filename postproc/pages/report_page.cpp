@@ -10,9 +10,6 @@
 #include "postproc/analysis/text.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/palette.hpp"
-#include "postproc/pages/figures.hpp"
-#include "postproc/pages/onset_band.hpp"
-#include "postproc/pages/velocity_figures.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -80,9 +77,9 @@ std::string over_revolutions(const RotorLoads& rotor) {
     return fmt::format("mean over {:.3g} revolution{}", rotor.averaged_revolutions, rotor.averaged_revolutions == 1.0 ? "" : "s");
 }
 
-std::string plot(const PageFigures& figures, const std::string& name, const std::string& caption, const std::string& css_class = "") {
-    const auto found = figures.plots.find(name);
-    return found == figures.plots.end() ? "" : html::figure(found->second, caption, css_class);
+std::string plots_at(const PageFigures& figures, Place place) {
+    const auto found = figures.plots.find(place);
+    return found == figures.plots.end() ? "" : found->second;
 }
 
 const char* kind_of_run(const Results& results, const RunData& run) {
@@ -189,24 +186,10 @@ std::string trust_list(const Results& results) {
     return fmt::format("<ul class=\"trust\">{}</ul>\n", items);
 }
 
-std::string fate_legend(const Fates& fates) {
-    const auto entry = [](const char* colour, const char* name, const RockAmount& amount) {
-        return std::pair<std::string, std::string>{colour, fmt::format("{} ({})", name, amount.count)};
-    };
-    return html::legend({entry(palette::spilled, "spilled", fates.spilled), entry(palette::in_cutter, "in cutter", fates.in_cutter),
-                         entry(palette::never_entered, "never entered", fates.never_entered),
-                         entry(palette::sucked_up, "sucked up", fates.sucked_up)});
-}
-
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
     std::string content = fmt::format("<div class=\"answers\">\n{}</div>\n",
                                       results.spillage ? rock_answers(results, run.operating_point.revolution_s()) : flow_answers(results));
-    if (results.spillage) {
-        content +=
-            plot(figures, "outcome",
-                 fate_legend(results.spillage->fates) +
-                     "Share of the placed mass. Bar below: the spillage ratio (dot) between its bounds; undecided rock separates them.");
-    }
+    content += plots_at(figures, Place::answer);
     return content + fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(results.spillage.has_value()))) + trust_list(results);
 }
 
@@ -223,57 +206,9 @@ std::string head_figure(const Results& results, const PageFigures& figures) {
     return html::figure(figures.head.markup + figures.head_from_hub, caption, "head wide");
 }
 
-std::string velocity_figures(const RunData& run, const PageFigures& figures) {
-    if (run.plane_axial.empty() && run.plane_under_ring.empty()) return "";
-    const std::string colours =
-        " Colour: speed in the plane (the darkest stands for that speed and more); arrows: its direction; white: steel; orange: contour of "
-        "revolution; ";
-    std::string content;
-    if (!run.plane_axial.empty()) {
-        content += plot(figures, "plane_axial",
-                        "Velocity of the water on the plane through the axis and the suction mouth’s centre." + colours +
-                            averaging_text(run.plane_axial) + ".");
-    }
-    if (!run.plane_under_ring.empty()) {
-        content += plot(figures, "plane_under_ring",
-                        fmt::format("The same on a plane {:.3g} m below the ring, seen from the hub, the lowest side down.",
-                                    -run.plane_under_ring.number("z_m").front()));
-    }
-    return content;
-}
-
-std::string figure_section(const Results& results, const RunData& run, const PageFigures& figures) {
-    std::string content = head_figure(results, figures);
-    content +=
-        plot(figures, "bins",
-             results.spillage
-                 ? "Where rock left the head for the last time, and the radial velocity there: sampled just outside the contour of "
-                   "revolution, averaged over azimuth and time (whiskers: standard error by batch means). “gap” lies between ring and "
-                   "backplate."
-                 : "Radial velocity just outside the contour of revolution, averaged over azimuth and time (whiskers: standard error by "
-                   "batch means). “gap” lies between ring and backplate.");
-    content +=
-        plot(figures, "top_bin",
-             "Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error by batch "
-             "means). " +
-                 onset_band_text());
-    content += velocity_figures(run, figures);
-    content += plot(figures, "first_exit",
-                    "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock "
-                    "left out). Seen from the hub, the lowest side down.",
-                    "rose");
-    content += plot(figures, "fates",
-                    "Mass of the placed rock by fate. A fate is the last state of the rock’s centre, with a hysteresis of a "
-                    "quarter of its diameter; sucked up is final.");
-    content +=
-        plot(figures, "ratio", "Spillage ratio over time with its bounds: lower, all undecided rock is sucked up; upper, all is spilled.");
-    content += plot(figures, "torque",
-                    "Torque that flow and rock put on the cutter about the axis (right-handed, hub to ring), mean over 1/100 "
-                    "revolution; dashed: mean over whole revolutions.");
-    content += plot(figures, "balance", "Errors of the balances at every step, relative.");
-    return content.empty() ? ""
-                           : html::section(results.spillage ? "Where the rock goes, and why" : "The flow through the head",
-                                           "<div class=\"figures\">" + content + "</div>");
+std::string figure_section(const Results& results, const PageFigures& figures) {
+    return html::section(results.spillage ? "Where the rock goes, and why" : "The flow through the head",
+                         "<div class=\"figures\">" + head_figure(results, figures) + plots_at(figures, Place::figures) + "</div>");
 }
 
 std::string series_table(const Spillage& spillage) {
@@ -430,17 +365,8 @@ std::string prediction_table(const Cost& cost) {
 }
 
 std::string cost_section(const Results& results, const RunData& run, const PageFigures& figures) {
-    std::vector<std::pair<std::string, std::string>> shares;
-    double rest = 1.0;
-    for (const CostPart& part : cost_parts()) {
-        const double share = results.cost.share.at(part.key);
-        rest -= share;
-        shares.emplace_back(part.colour, fmt::format("{} ({})", part.title, percent(share)));
-    }
-    shares.emplace_back("transparent", fmt::format("not assigned ({})", percent(std::max(0.0, rest))));
-    const std::string legend = html::legend(shares);
-    std::string content = plot(figures, "cost", legend + "Share of the time steps’ wall time by part of the solver (slowest rank).");
-    if (content.empty()) content = legend;
+    std::string content = plots_at(figures, Place::cost);
+    if (content.empty()) content = cost_legend(results.cost);
     content += prediction_table(results.cost);
     std::vector<std::vector<std::string>> stages;
     const json recorded = run.manifest.value("stages", json::object());
@@ -473,7 +399,7 @@ void write_report_page(const Page& page, const Results& results, const RunData& 
     body += unfinished_notice(results);
     body += answer_section(results, run, figures);
     if (!figures.note.empty()) body += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
-    body += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
+    body += figure_section(results, figures) + rock_section(results, run) + operation_section(results, run);
     body += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
     body += version_section(results_json(results, run).at("versions"));
     page.write(title, body, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));

@@ -5,12 +5,13 @@
 
 #include "postproc/analysis/results.hpp"
 #include "postproc/pages/head_picture.hpp"
+#include "postproc/pages/report_figures.hpp"
 
 namespace cutterflow::postproc {
 
-/// What the page shows besides numbers. A plot that is absent is left out.
+/// What the page shows besides numbers.
 struct PageFigures {
-    std::map<std::string, std::string> plots;  ///< as Page draws them, by the plot's name
+    std::map<Place, std::string> plots;  ///< drawn
     HeadPicture head;
     std::string head_from_hub;
     std::string note;  ///< why plots are missing; empty when none are

@@ -136,7 +136,7 @@ TEST(AdvPoints, names_every_mistake_of_a_file_at_once) {
     const std::string header = refusal(file);
     for (const char* part : {"points.csv:1: column frame is missing", "column \"r_inch\" has no known unit. It is one of r_cm, r_m, r_mm",
                              "column \"u_tangential_knots\" has no known unit", "column u_axial is missing",
-                             "column \"depth\" is not known", "points.csv:2: 6 fields instead of 7"})
+                             "column \"depth\" is unknown", "points.csv:2: 6 fields instead of 7"})
         EXPECT_THAT(header, HasSubstr(part));
     testing::write_text(
         file,
@@ -296,7 +296,7 @@ TEST_F(AdvRun, trends_follow_named_points_over_the_runs_of_a_sweep) {
     EXPECT_NEAR(*trends[1].values[2].model, 0.99, 1e-12);
     EXPECT_EQ(trends[4].values.size(), 2u);
     EXPECT_FALSE(trends[0].values[0].model);
-    const std::string section = adv_trend_section(trends, run.directory / "plots");
+    const std::string section = adv_trend_section(trends, Page(run.directory / "trends.html", PageForm::live));
     EXPECT_THAT(section, HasSubstr("<svg"));
     EXPECT_THAT(section, HasSubstr("0.990 ± 0.100<br>(0.900)"));
     EXPECT_THAT(section, HasSubstr("<th scope=\"col\">30 rpm</th><th scope=\"col\">60 rpm</th><th scope=\"col\">90 rpm</th>"));

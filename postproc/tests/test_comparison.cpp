@@ -170,13 +170,12 @@ TEST(Comparison, draws_one_curve_along_the_discharges_of_one_speed) {
     }
     const Comparison comparison = compare_runs(runs);
     ASSERT_EQ(comparison.settings.size(), 3u);
-    for (const CaptionedPlot& item : comparison_plots(comparison)) {
-        if (item.plot.script.name != "flow_number") continue;
-        ASSERT_EQ(item.plot.traces.size(), 2u);  // spillage ratio and production
-        for (const auto& trace : item.plot.traces) {
-            const std::vector<double> x = trace.at("x");
-            EXPECT_EQ(x.size(), 3u);
-            EXPECT_TRUE(std::is_sorted(x.begin(), x.end()));
+    for (const Figure& figure : comparison_figures(comparison)) {
+        if (figure.plot.name != "flow_number") continue;
+        ASSERT_EQ(figure.plot.series.size(), 2u);  // spillage ratio and production
+        for (const Series& series : figure.plot.series) {
+            EXPECT_EQ(series.x.size(), 3u);
+            EXPECT_TRUE(std::is_sorted(series.x.begin(), series.x.end()));
         }
         return;
     }

@@ -13,8 +13,8 @@
 namespace cutterflow::validation {
 namespace {
 
-constexpr int k_width = 540, k_height = 330;
-constexpr std::array<int, 6> k_marks = {5, 9, 11, 13, 4, 6};  // gnuplot's numbers of filled and open shapes other than the default's disc
+constexpr std::array k_marks{postproc::Mark::square,  postproc::Mark::triangle,    postproc::Mark::triangle_down,
+                             postproc::Mark::diamond, postproc::Mark::open_square, postproc::Mark::ring};
 
 std::string label_text(const ChartPoint& point) {
     return point.label + (point.standard ? " (default)" : "");
@@ -28,13 +28,18 @@ double smallest_positive(const std::vector<ChartPoint>& points, double ChartPoin
     return smallest < std::numeric_limits<double>::infinity() ? smallest : 1.0;
 }
 
-/// Marks of a logarithmic axis at 1, 2 and 5 times the powers of ten: gnuplot's own leave out all but the powers.
-std::string log_tics(double low, double high) {
-    std::vector<std::string> tics;
+/// A logarithmic axis with ticks at 1, 2 and 5 times the powers of ten.
+postproc::Axis log_axis(const std::string& title, double low, double high) {
+    postproc::Axis axis;
+    axis.title = title;
+    axis.logarithmic = true;
+    axis.from = low;
+    axis.to = high;
     for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0)
         for (const double factor : {1.0, 2.0, 5.0})
-            if (factor * decade >= low && factor * decade <= high) tics.push_back(fmt::format("{:.6g}", factor * decade));
-    return fmt::format("({})", fmt::join(tics, ", "));
+            if (factor * decade >= low && factor * decade <= high)
+                axis.ticks.push_back({factor * decade, fmt::format("{:g}", factor * decade)});
+    return axis;
 }
 
 }  // namespace
@@ -67,11 +72,11 @@ Exhibits exhibits_from_json(const nlohmann::json& json) {
     return exhibits;
 }
 
-postproc::PlotScript chart_plot(const Chart& chart, const std::string& name) {
-    postproc::PlotScript plot{name, k_width, k_height, {}};
+postproc::postproc::Plot chart_plot(const Chart& chart, const std::string& name) {
+    postproc::Plot plot;
+    plot.name = name;
+    plot.legend = postproc::Legend::right;
     const double least_x = smallest_positive(chart.points, &ChartPoint::x), least_y = smallest_positive(chart.points, &ChartPoint::y);
-    std::vector<std::vector<std::string>> rows;
-    std::vector<std::string> series;
     double low[2] = {least_x, least_y}, high[2] = {least_x, least_y};
     for (const ChartPoint& point : chart.points) {
         const double place[2] = {std::max(point.x, 0.01 * least_x), std::max(point.y, 0.01 * least_y)};
@@ -79,21 +84,16 @@ postproc::PlotScript chart_plot(const Chart& chart, const std::string& name) {
             low[axis] = std::min(low[axis], place[axis]);
             high[axis] = std::max(high[axis], place[axis]);
         }
-        const std::size_t i = rows.size();
-        rows.push_back({fmt::format("{:.6g}", place[0]), fmt::format("{:.6g}", place[1])});
-        series.push_back(fmt::format("$points every ::{0}::{0} using 1:2 with points pt {1} ps {2} lc rgb \"{3}\" title {4}", i,
-                                     point.standard ? 7 : k_marks[i % k_marks.size()], point.standard ? 1.1 : 0.8,
-                                     point.standard ? postproc::palette::spilled : postproc::palette::outflow,
-                                     postproc::quoted(label_text(point))));
+        postproc::Series series{
+            label_text(point), point.standard ? postproc::palette::spilled : postproc::palette::outflow, {place[0]}, {place[1]}};
+        series.mark = point.standard ? postproc::Mark::disc : k_marks[plot.series.size() % k_marks.size()];
+        series.mark_size = point.standard ? 11.0 : 8.0;
+        plot.series.push_back(series);
     }
     // At least half a decade of error, so that agreement of points is visible.
     const double middle = std::sqrt(low[1] * high[1]), reach = std::max(std::sqrt(high[1] / low[1]) * 1.3, 1.8);
-    plot.commands = postproc::data_block("points", rows);
-    plot.commands += fmt::format(
-        "set logscale xy\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xlabel {}\nset ylabel {}\n"
-        "set xtics {}\nset ytics {}\nset format \"%g\"\nset key outside right top Left reverse\nplot {}\n",
-        low[0] / 1.5, high[0] * 1.5, middle / reach, middle * reach, postproc::quoted(chart.x_axis), postproc::quoted(chart.y_axis),
-        log_tics(low[0] / 1.5, high[0] * 1.5), log_tics(middle / reach, middle * reach), fmt::join(series, ", "));
+    plot.x = log_axis(chart.x_axis, low[0] / 1.5, high[0] * 1.5);
+    plot.y = log_axis(chart.y_axis, middle / reach, middle * reach);
     return plot;
 }
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "postproc/draw/gnuplot.hpp"
+#include "postproc/draw/plot.hpp"
 
 namespace cutterflow::validation {
 
@@ -38,9 +38,9 @@ nlohmann::json exhibits_json(const Exhibits& exhibits);
 /// \throws nlohmann::json::exception  when the JSON is not what exhibits_json makes
 Exhibits exhibits_from_json(const nlohmann::json& json);
 
-/// `name` as postproc::PlotScript has it. An error of 0 has no place on a logarithmic axis: it is drawn at a hundredth of the smallest
-/// other one.
-postproc::PlotScript chart_plot(const Chart& chart, const std::string& name);
+/// `name` as Plot has it. An error of 0 has no place on a logarithmic axis: it stands at a hundredth of the smallest other
+/// one.
+postproc::Plot chart_plot(const Chart& chart, const std::string& name);
 
 /// The chart's numbers, for pages without pictures.
 ExhibitTable chart_table(const Chart& chart);

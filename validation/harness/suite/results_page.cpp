@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/progress.hpp"
+#include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
 #include "validation/harness/suite/case_results.hpp"
 
