@@ -129,7 +129,9 @@ struct Plot {
 };
 
 /// Whether legend and tool tips know a series.
-bool is_named(const Series& series);
+inline bool is_named(const Series& series) {
+    return !series.name.empty() || !series.point_names.empty();
+}
 
 /// A plot with what stands below it. Adding one to a page is adding a row to the page's list.
 struct Figure {
