@@ -72,7 +72,7 @@ Exhibits exhibits_from_json(const nlohmann::json& json) {
     return exhibits;
 }
 
-postproc::postproc::Plot chart_plot(const Chart& chart, const std::string& name) {
+postproc::Plot chart_plot(const Chart& chart, const std::string& name) {
     postproc::Plot plot;
     plot.name = name;
     plot.legend = postproc::Legend::right;
