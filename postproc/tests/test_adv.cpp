@@ -135,8 +135,8 @@ TEST(AdvPoints, names_every_mistake_of_a_file_at_once) {
     testing::write_text(file, "name,r_inch,theta_deg,z_mm,u_radial_cm_s,u_tangential_knots,depth\nA,1,2,3,4,5\n");
     const std::string header = refusal(file);
     for (const char* part : {"points.csv:1: column frame is missing", "column \"r_inch\" has no known unit. It is one of r_cm, r_m, r_mm",
-                             "column \"u_tangential_knots\" has no known unit", "column u_axial is missing",
-                             "column \"depth\" is unknown", "points.csv:2: 6 fields instead of 7"})
+                             "column \"u_tangential_knots\" has no known unit", "column u_axial is missing", "column \"depth\" is unknown",
+                             "points.csv:2: 6 fields instead of 7"})
         EXPECT_THAT(header, HasSubstr(part));
     testing::write_text(
         file,
