@@ -30,7 +30,7 @@ std::string read_text(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// gnuplot's file as an element of a page: without prolog and tool tips, with unique ids.
+/// gnuplot's file as an element of a page: without prolog and tool tips, with ids of its own.
 std::string as_element(const std::string& file, const std::string& name) {
     std::string svg = file.substr(file.find("<svg"));
     svg = std::regex_replace(svg, std::regex("<title>[^<]*</title>|<desc>[^<]*</desc>"), "");

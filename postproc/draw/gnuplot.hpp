@@ -1,5 +1,5 @@
 #pragma once
-/// \file Plots by gnuplot, a child program, as SVG inside a page.
+/// \file Plots drawn by gnuplot, a child program, as SVG that stands inside a page.
 #include <filesystem>
 #include <string>
 
