@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "cases/study/study.hpp"
+#include "meshing/cutter/mesh_plan.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 
@@ -121,7 +122,7 @@ ParameterTable water_rows() {
         number(k_geometry_stage, "tank.height_m", "m", "Height of the water's cylinder along the axis.")
             .above(0.0)
             .derived("bed clearance + the head's height + 1.0875 ring radius"),
-        choice(k_mesh_stage, "mesh.preset", {"draft", "standard", "paper"},
+        choice(k_mesh_stage, "mesh.preset", meshing::mesh_preset_names(),
                "Resolution: draft has 40,000 to 70,000 cells, paper about 1,000,000 with 0.01 ring radius at the blades.")
             .standard(std::string("draft")),
         number(k_case_stage, "fluid.density_kg_m3", "kg/m3", "Density of the water.").above(0.0).standard(998.2),

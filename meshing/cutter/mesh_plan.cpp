@@ -38,7 +38,12 @@ constexpr double k_core_s_per_cell_step = 9.3e-6;
 constexpr double k_mesh_memory = 0.13e9, k_mesh_memory_per_cell = 1.36e3;  // snappyHexMesh [bytes]
 constexpr double k_run_memory = 0.32e9, k_run_memory_per_cell = 2.04e3;    // cutterFoam on one rank [bytes]
 
-constexpr std::array<const char*, 3> k_presets = {"draft", "standard", "paper"};
+/// All presets, from coarse to fine: the source of the study's choices and of the advice to use a finer one.
+const std::vector<MeshResolution>& presets() {
+    static const std::vector<MeshResolution> all{
+        {"draft", 0.075, 1.15, 1.6}, {"standard", 0.0375, 1.15, 1.35}, {"paper", 0.0225, 1.1, 1.3}};
+    return all;
+}
 
 int count(double number) {
     return static_cast<int>(std::lround(number));
@@ -112,8 +117,8 @@ double needed_thickness(double ring_radius, const MeshResolution& resolution) {
 /// "Use preset standard or ", or nothing when no preset is fine enough.
 template <class Enough>
 std::string finer_preset(const Enough& enough) {
-    for (const char* name : k_presets)
-        if (enough(mesh_preset(name))) return fmt::format("Use mesh.preset = \"{}\", or ", name);
+    for (const MeshResolution& preset : presets())
+        if (enough(preset)) return fmt::format("Use mesh.preset = \"{}\", or ", preset.preset);
     return {};
 }
 
@@ -267,11 +272,16 @@ MeshPrediction predict(const MeshPlan& plan) {
 }  // namespace
 
 MeshResolution mesh_preset(const std::string& name) {
-    if (name == "draft") return {"draft", 0.075, 1.15, 1.6};
-    if (name == "standard") return {"standard", 0.0375, 1.15, 1.35};
-    if (name == "paper") return {"paper", 0.0225, 1.1, 1.3};
-    throw UserError(fmt::format("mesh.preset = \"{}\"", name), fmt::format("It must be one of {}", fmt::join(k_presets, ", ")),
+    const auto preset = std::find_if(presets().begin(), presets().end(), [&](const MeshResolution& one) { return one.preset == name; });
+    if (preset != presets().end()) return *preset;
+    throw UserError(fmt::format("mesh.preset = \"{}\"", name), fmt::format("It must be one of {}", fmt::join(mesh_preset_names(), ", ")),
                     "Choose one of them");
+}
+
+std::vector<std::string> mesh_preset_names() {
+    std::vector<std::string> names;
+    for (const MeshResolution& preset : presets()) names.push_back(preset.preset);
+    return names;
 }
 
 CutterExtent extent_of_cutter(const geometry::TriangleSurface& cutter) {

@@ -19,9 +19,11 @@ struct MeshResolution {
     double stator_growth = 0.0;  ///< growth from cell to cell away from the head, above 1
 };
 
-/// draft, standard or paper.
-/// \throws UserError  for another name
+/// \throws UserError  for a name that is none of mesh_preset_names()
 MeshResolution mesh_preset(const std::string& name);
+
+/// Names of all presets, from coarse to fine.
+std::vector<std::string> mesh_preset_names();
 
 /// Sizes of the cutter that determine the mesh, in the run's frame.
 struct CutterExtent {

@@ -70,7 +70,9 @@ const std::vector<Layer> k_layers = {
     {"postproc/pages/", {k_base, k_head_names, "postproc/"}},
     {"postproc/tests/", {k_base, k_axial_bins, k_head_names, "postproc/"}},
 
-    {"cases/study/", {k_base, "geometry/head/", "solver/physics/", "solver/ports/", "postproc/run/adv_points.hpp", "cases/study/"}},
+    {"cases/study/",
+     {k_base, "geometry/head/", "meshing/cutter/mesh_plan.hpp", "solver/physics/", "solver/ports/", "postproc/run/adv_points.hpp",
+      "cases/study/"}},
     {"cases/scenes/cutter/", {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "cases/study/", "cases/scenes/cutter/"}},
     {"cases/runner/", {"geometry/", "meshing/", "solver/ports/", "postproc/pages/", "cases/study/", "cases/scenes/", "cases/runner/"}},
     {"cases/sweep/", {k_base, "cases/study/", "cases/scenes/", "cases/runner/", "cases/sweep/"}},

@@ -28,24 +28,22 @@ private:
 };
 
 void check_drag(Verification& verification) {
-    const std::pair<const char*, const char*> laws[] = {{"brown_lawler", "BrownLawler2003"},
-                                                        {"schiller_naumann", "SchillerNaumann1935"},
-                                                        {"haider_levenspiel", "HaiderLevenspiel1989"},
-                                                        {"gidaspow", "Gidaspow1994"},
-                                                        {"koch_hill", "KochHill2001"}};
+    const std::vector<std::string> laws = physics::closure_names(physics::ClosureKind::drag);
     std::vector<ReferenceColumn> columns{{"Re", "-"}, {"void fraction", "-"}, {"sphericity", "-"}};
-    for (const auto& law : laws) columns.push_back({law.first, "-"});
+    for (const std::string& name : laws) columns.push_back({name, "-"});
     const ReferenceTable table = read_reference(case_file("closures/drag.csv"), columns);
-    for (const auto& [name, source] : laws) {
+    for (const std::string& name : laws) {
+        const physics::Closure& closure = physics::find_closure(physics::ClosureKind::drag, name);
         const physics::DragLaw law = physics::find_drag_law(name);
         Worst coefficient;
         for (std::size_t i = 0; i < table.rows(); ++i) {
             const double reynolds = table.at("Re")[i], reference = table.at(name)[i];
             coefficient.take(law({reynolds, table.at("void fraction")[i], table.at("sphericity")[i]}), reference);
         }
-        verification.at_most(
-            fmt::format("{}: largest relative error of the drag coefficient", name), "-", coefficient.error(), k_tolerance,
-            {source, "11 states, Re 0.01 to 2e5, void fraction 0.45 to 0.99, sphericity 0.6 to 1; in the form of model B", {}});
+        verification.at_most(fmt::format("{}: largest relative error of the drag coefficient", name), "-", coefficient.error(), k_tolerance,
+                             {std::string(closure.citation),
+                              "11 states, Re 0.01 to 2e5, void fraction 0.45 to 0.99, sphericity 0.6 to 1; in the form of model B",
+                              {}});
     }
 }
 
