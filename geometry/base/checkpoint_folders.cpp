@@ -27,6 +27,7 @@ std::vector<fs::path> time_folders(const fs::path& root) {
         if (entry.is_directory() && end != name.c_str() && *end == '\0') found[time] = entry.path();
     }
     std::vector<fs::path> folders;
+    folders.reserve(found.size());
     for (const auto& [time, folder] : found) folders.push_back(folder);
     return folders;
 }

@@ -184,7 +184,7 @@ private:
     std::string nearest_key(const std::string& key) const {
         std::vector<std::string> keys;
         for (const Parameter& parameter : table_) keys.push_back(parameter.key);
-        const std::string nearest = nearest_word(key, keys);
+        std::string nearest = nearest_word(key, keys);
         if (!nearest.empty()) return nearest;
         std::vector<std::string> names;
         std::transform(keys.begin(), keys.end(), std::back_inserter(names), name_of);

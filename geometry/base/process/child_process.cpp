@@ -136,12 +136,13 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
         const std::string text(*entry);
         if (additions.count(text.substr(0, text.find('='))) == 0) merged.push_back(text);
     }
-    for (const auto& [name, value] : additions) merged.push_back(name + "=" + value);
+    for (const auto& [name, value] : additions) merged.push_back(fmt::format("{}={}", name, value));
     return merged;
 }
 
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     return pointers;
@@ -274,7 +275,7 @@ std::filesystem::path find_program(const std::string& name) {
     folders += ':';
     std::size_t begin = 0;
     for (std::size_t end = folders.find(':'); end != std::string::npos; end = folders.find(':', begin)) {
-        const std::filesystem::path candidate = std::filesystem::path(folders.substr(begin, end - begin)) / name;
+        std::filesystem::path candidate = std::filesystem::path(folders.substr(begin, end - begin)) / name;
         if (end > begin && is_program(candidate)) return candidate;
         begin = end + 1;
     }
