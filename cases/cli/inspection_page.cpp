@@ -37,8 +37,8 @@ std::vector<const geometry::Defect*> defect_kinds(const geometry::SoundnessRepor
 }
 
 /// The surface with a ball at each place of a defect.
-postproc::Scene scene_of(const geometry::TriangleSurface& surface, const geometry::SoundnessReport& report) {
-    postproc::Scene scene;
+postproc::HeadScene scene_of(const geometry::TriangleSurface& surface, const geometry::SoundnessReport& report) {
+    postproc::HeadScene scene;
     scene.steel = corners_of(surface);
     const double radius = k_mark * geometry::bounds_of(surface).extent().maxCoeff();
     for (const geometry::Defect* defect : defect_kinds(report))
@@ -62,7 +62,7 @@ std::string scale_bar(const postproc::View& view) {
         y - 5.0, y + 5.0, y, 16.0 + pixels, palette::ink, 24.0 + pixels, y + 5.0, length);
 }
 
-std::string picture(const postproc::Scene& scene, const geometry::Bounds& bounds, const Vec3& towards, const Vec3& upwards,
+std::string picture(const postproc::HeadScene& scene, const geometry::Bounds& bounds, const Vec3& towards, const Vec3& upwards,
                     const std::string& label) {
     const Vec3 toward = towards.normalized();
     const Vec3 up = (upwards - upwards.dot(toward) * toward).normalized();
@@ -84,13 +84,13 @@ std::string pictures(const geometry::GeometryInspection& inspection, const geome
     std::string figures;
     if (inspection.head) {
         const geometry::TriangleSurface& head = inspection.head->surface;
-        const postproc::Scene scene = scene_of(head, {});
+        const postproc::HeadScene scene = scene_of(head, {});
         const geometry::Bounds bounds = geometry::bounds_of(head);
         figures = picture(scene, bounds, Vec3(0.35, -1.0, 0.3), Vec3::UnitZ(), "From the side, ring and suction side up") +
                   picture(scene, bounds, Vec3::UnitZ(), Vec3::UnitY(), "From the suction side, along the axis") +
                   picture(scene, bounds, -Vec3::UnitZ(), Vec3::UnitY(), "From the hub, along the axis");
     } else {
-        const postproc::Scene scene = scene_of(surface, inspection.soundness);
+        const postproc::HeadScene scene = scene_of(surface, inspection.soundness);
         const geometry::Bounds& bounds = inspection.soundness.bounds;
         figures = picture(scene, bounds, Vec3(0.6, -1.0, 0.6), Vec3::UnitZ(), "From the side, the file’s z upwards") +
                   picture(scene, bounds, Vec3::UnitZ(), Vec3::UnitY(), "From the file’s +z") +

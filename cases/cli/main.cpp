@@ -8,7 +8,7 @@
 
 #include "cases/cli/commands.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/versions.hpp"
 

@@ -15,7 +15,7 @@
 #include "cases/sweep/sweep.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/installation.hpp"
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/shell_word.hpp"
 #include "postproc/pages/comparison_page.hpp"

@@ -15,8 +15,8 @@
 #include "cases/runner/run_progress.hpp"
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/contact_surfaces.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
-#include "cases/scenes/cutter/rock_feed.hpp"
 #include "cases/scenes/cutter/start_flow.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
@@ -105,7 +105,7 @@ bool start_is_done(const fs::path& run) {
 double smallest_diameter(const Study& study) {
     double smallest = std::numeric_limits<double>::max();
     for (const FeedRequest& feed : study.feeds)
-        for (const RockClass& rock : feed.classes) smallest = std::min(smallest, rock.diameter);
+        for (const FeedClass& rock : feed.classes) smallest = std::min(smallest, rock.diameter);
     return smallest;
 }
 

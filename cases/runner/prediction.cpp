@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/scenes/cutter/case_inputs.hpp"
-#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/progress.hpp"
@@ -59,7 +59,7 @@ meshing::MeshInput mesh_input_of(const Study& study, const HeadSize& head, const
     input.cutter.passage = head.passage;
     input.cutter.thickness = head.thickness;
     input.steel = stationary_steel_of(study, head);
-    input.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
+    input.tank = study.water(head);
     input.resolution = meshing::mesh_preset(study.mesh_preset);
     input.rotation_speed = study.rotation_speed;
     input.discharge = study.suction.discharge;
@@ -100,7 +100,7 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     for (const FeedRequest& feed : study.feeds) {
         const std::vector<std::size_t> counts = rocks_per_class(feed);
         prediction.rocks = std::accumulate(counts.begin(), counts.end(), prediction.rocks);
-        for (const RockClass& rock : feed.classes) prediction.settling_speeds.push_back(settling_speed(study, rock));
+        for (const FeedClass& rock : feed.classes) prediction.settling_speeds.push_back(settling_speed(study, rock));
     }
     return prediction;
 }

@@ -5,11 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "cases/study/study_section.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
-#include "solver/physics/drag.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -30,7 +31,8 @@ void fill(ParameterValues& values, const char* key, double derived) {
     if (!values.has(key)) values.set(key, derived);
 }
 
-/// Young's modulus [Pa] with which the densest rock at tip speed overlaps steel of the same modulus by the accepted share of its radius.
+/// Young's modulus [Pa] with which the densest rock at tip speed overlaps steel of the same modulus by the accepted share of its radius;
+/// for slow rotors the softest that is allowed.
 double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head) {
     double density = 2650.0;
     for (const ParameterValues& feed : values.tables("feed"))
@@ -39,7 +41,9 @@ double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head
     const double rock = values.number("rock.poisson_rock");
     const double steel = values.number("rock.poisson_steel");
     const double speed = rpm_to_rad_s(values.number("rotor.speed_rpm")) * head.tip_radius;
-    return physics::youngs_modulus_for_overlap(inertia_density, speed, physics::k_largest_overlap_ratio, 2.0 - rock * rock - steel * steel);
+    const double modulus =
+        physics::youngs_modulus_for_overlap(inertia_density, speed, physics::k_largest_overlap_ratio, 2.0 - rock * rock - steel * steel);
+    return std::max(modulus, *k_contact_section.row("youngsModulus").minimum);
 }
 
 double derived_outflow_start(const ParameterValues& values) {
@@ -77,20 +81,22 @@ public:
     explicit Rules(const ParameterValues& values) : values_(values) {}
 
     void require(bool kept, const std::string& key, const std::string& rule, const std::string& remedy) {
-        if (!kept) add(values_, key, rule, remedy);
+        require(kept, values_, key, rule, remedy);
     }
     void require(bool kept, const ParameterValues& table, const std::string& key, const std::string& rule, const std::string& remedy) {
-        if (!kept) add(table, key, rule, remedy);
+        if (!kept) mistakes_.add({table.where(key), value_text(table, key), rule, remedy});
     }
-    void add(const std::string& what, const std::string& rule, const std::string& remedy) { mistakes.push_back({"", what, rule, remedy}); }
-
-    std::vector<Mistake> mistakes;
+    void add(const std::string& what, const std::string& rule, const std::string& remedy) { mistakes_.add(what, rule, remedy); }
+    std::vector<Mistake> take() { return mistakes_.take(); }
 
 private:
-    void add(const ParameterValues& table, const std::string& key, const std::string& rule, const std::string& remedy) {
-        mistakes.push_back({table.where(key), fmt::format("{} = {:.6g}", key, table.number(key)), rule, remedy});
+    static std::string value_text(const ParameterValues& table, const std::string& key) {
+        const ParameterValue& value = *table.find(key);
+        return fmt::format("{} = {}", key,
+                           std::holds_alternative<std::string>(value) ? toml_text(value) : fmt::format("{:.6g}", table.number(key)));
     }
     const ParameterValues& values_;
+    Mistakes mistakes_;
 };
 
 /// What can be said of the feeds without the cutter.
@@ -184,6 +190,8 @@ void check_tank(const ParameterValues& study, const HeadSize& head, Rules& rules
     const double least_height = study.number("tank.bed_clearance_m") + head.depth + steel;
     rules.require(study.number("tank.height_m") > least_height, "tank.height_m",
                   fmt::format("Bed clearance, head, gap and backplate take {:.4g} m of it", least_height), "Make the tank higher");
+    rules.require(head.depth + study.number("tank.bed_clearance_m") > head.depth, "tank.bed_clearance_m", "The bed must lie below the head",
+                  "Raise the clearance");
     const double plate = study.number("suction.backplate_radius_m");
     const double widest = std::max(head.tip_radius, plate);
     rules.require(study.number("tank.radius_m") >= 1.5 * widest, "tank.radius_m",
@@ -211,11 +219,9 @@ double Study::period() const {
 double Study::end_time() const {
     return run.max_revolutions * period();
 }
-double Study::tank_bottom(const HeadSize& head) const {
-    return -head.depth - tank.bed_clearance;
-}
-double Study::tank_top(const HeadSize& head) const {
-    return tank_bottom(head) + tank.height;
+AxialCylinder Study::water(const HeadSize& head) const {
+    const double bottom = -head.depth - tank.bed_clearance;
+    return {tank.radius, bottom, bottom + tank.height};
 }
 
 double bank_azimuth_deg(const std::string& swing_direction, const std::string& rotor_direction) {
@@ -227,9 +233,10 @@ ParameterValues read_study(const std::filesystem::path& file) {
     ParameterValues values = read_parameters(study_table(), file);
     Rules rules(values);
     check_file_rules(values, rules);
-    for (Mistake& mistake : rules.mistakes)
+    std::vector<Mistake> mistakes = rules.take();
+    for (Mistake& mistake : mistakes)
         if (mistake.where.empty()) mistake.where = file.string();
-    if (!rules.mistakes.empty()) throw UserError(rules.mistakes);
+    if (!mistakes.empty()) throw UserError(mistakes);
     return values;
 }
 
@@ -282,19 +289,11 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.tank = {number("tank.radius_m"), number("tank.bed_clearance_m"), number("tank.height_m")};
     study.mesh_preset = resolved.text("mesh.preset");
     study.fluid = {number("fluid.density_kg_m3"), number("fluid.kinematic_viscosity_m2_s")};
-    study.rock = {number("rock.youngs_modulus_pa"), number("rock.poisson_rock"), number("rock.poisson_steel"),
-                  number("rock.friction"),          number("rock.restitution"),  resolved.boolean("rock.wet_restitution"),
-                  number("rock.time_step_fraction")};
-    study.closures = {resolved.text("closures.drag"),
-                      resolved.text("closures.hindrance"),
-                      number("closures.added_mass"),
-                      number("closures.drag_modifier"),
-                      number("closures.sphericity"),
-                      resolved.text("closures.lift"),
-                      resolved.boolean("closures.viscous_force")};
-    study.kernel = {number("kernel.gamma"), number("kernel.min_width_in_cells"), number("kernel.max_solid_fraction")};
+    study.contact = k_contact_section.read(resolved);
+    study.closures = k_closure_section.read(resolved);
+    study.kernel = k_kernel_section.read(resolved);
     study.length_ratio = number("scale.length_ratio");
-    study.run = {number("run.flow_revolutions"), number("run.max_revolutions"),       number("run.stop_undecided"),
+    study.run = {number("run.flow_revolutions"), number("run.max_revolutions"),       {number("run.stop_undecided")},
                  number("run.max_courant"),      number("run.checkpoint_interval_s"), number("run.write_interval_s")};
     study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s"), {}, {}};
     if (resolved.has("report.adv_points")) {
@@ -321,7 +320,7 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
                   "Set closures.hindrance = \"none\"");
     rules.require(resolved.number("report.outflow_start_s") < end_time_of(resolved), "report.outflow_start_s",
                   fmt::format("The run ends at {:.4g} s", end_time_of(resolved)), "Start the average earlier");
-    return rules.mistakes;
+    return rules.take();
 }
 
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
@@ -343,7 +342,7 @@ std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadS
             fmt::format("At a tip speed of {:.3g} m/s rock overlaps steel by {:.0f} % of its radius; {:.0f} % is accepted", speed,
                         100.0 * physics::k_largest_overlap_ratio * std::pow(softness, 0.4), 100.0 * physics::k_largest_overlap_ratio),
             "Raise it, or look at overlap_ratio_max in the report");
-    return rules.mistakes;
+    return rules.take();
 }
 
 std::string study_template(const std::string& name, const std::string& cutter_file, const std::optional<std::string>& unit) {

@@ -6,9 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/axial_cylinder.hpp"
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 #include "postproc/run/adv_points.hpp"
+#include "solver/ports/dem_settings.hpp"
+#include "solver/ports/settings.hpp"
 
 namespace cutterflow::cases {
 
@@ -28,7 +32,8 @@ struct HeadSize {
     int blades = 1;
 };
 
-struct RockClass {
+/// One size of rock in a feed.
+struct FeedClass {
     double diameter = 0.0;    ///< [m]
     double density = 0.0;     ///< [kg/m3]
     double mass_share = 0.0;  ///< of the feed, > 0; shares are relative to their sum
@@ -45,7 +50,7 @@ struct FeedRequest {
     double azimuth_width = 0.0;   ///< [rad]
     double depth_from = 0.0;      ///< [m] below the ring plane
     double depth_to = 0.0;        ///< [m]
-    std::vector<RockClass> classes;
+    std::vector<FeedClass> classes;
 };
 
 /// A study in SI units, radians and the run's frame (docs/design/001-contracts.md), every derived default filled in.
@@ -70,30 +75,15 @@ struct Study {
         double radius = 0.0, bed_clearance = 0.0, height = 0.0;  ///< [m]
     } tank;
     std::string mesh_preset;
-    struct Fluid {
-        double density = 0.0;              ///< [kg/m3]
-        double kinematic_viscosity = 0.0;  ///< [m2/s]
-    } fluid;
-    struct Rock {
-        double youngs_modulus = 0.0;  ///< [Pa]
-        double poisson_rock = 0.0, poisson_steel = 0.0, friction = 0.0, restitution = 0.0;
-        bool wet_restitution = true;
-        double time_step_fraction = 0.0;
-    } rock;
+    coupling::FluidProperties fluid;
+    coupling::ContactSettings contact;  ///< max_speed is the scene's
+    coupling::ClosureSettings closures;
+    coupling::KernelSettings kernel;
     std::vector<FeedRequest> feeds;  ///< none: pure flow
-    struct Closures {
-        std::string drag, hindrance;
-        double added_mass = 0.0, drag_modifier = 0.0, sphericity = 1.0;
-        std::string lift;
-        bool viscous_force = true;
-    } closures;
-    struct Kernel {
-        double gamma = 0.0, min_width_in_cells = 0.0, max_solid_fraction = 0.0;
-    } kernel;
     double length_ratio = 0.0;
     struct Run {
         double flow_revolutions = 0.0, max_revolutions = 0.0;
-        std::optional<double> stop_undecided;
+        coupling::StopSettings stop;
         double max_courant = 0.0;
         double checkpoint_interval = 0.0, write_interval = 0.0;  ///< [s]
     } run;
@@ -103,10 +93,9 @@ struct Study {
         postproc::AdvProbe adv_probe;
     } report;
 
-    double period() const;                           ///< of one revolution [s]
-    double end_time() const;                         ///< [s]
-    double tank_bottom(const HeadSize& head) const;  ///< z [m]
-    double tank_top(const HeadSize& head) const;     ///< z [m]
+    double period() const;    ///< of one revolution [s]
+    double end_time() const;  ///< [s]
+    AxialCylinder water(const HeadSize& head) const;
 };
 
 /// Every key of a study, each with its stage.

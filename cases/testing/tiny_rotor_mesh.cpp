@@ -146,11 +146,11 @@ CaseInputs tiny_inputs() {
     inputs.discharge = 0.01;
     inputs.gravity = gravity_of(30.0 * k_pi / 180.0);
     inputs.tank = {k_tiny_tank_radius, k_tiny_z_min, k_tiny_z_max};
-    inputs.mouth.centre = Vec3(0.25, 0.0, k_tiny_z_max);
-    inputs.mouth.radius = 0.05;
+    inputs.fates.mouth.centre = Vec3(0.25, 0.0, k_tiny_z_max);
+    inputs.fates.mouth.radius = 0.05;
     inputs.times.end = 0.1;
     inputs.times.write_interval = 0.1;
-    inputs.times.checkpoint_interval = 0.1;
+    inputs.checkpoint.interval = 0.1;
     inputs.times.first_time_step = 1e-3;
     fill_scaled_defaults(inputs);
     return inputs;

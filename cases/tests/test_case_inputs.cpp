@@ -16,7 +16,7 @@ CaseInputs model_cutter() {
     CaseInputs inputs(geometry::Contour({-0.485, -0.2, 0.0}, {0.15, 0.38, 0.40}, 0.40, 0.03));
     inputs.rotor.speed = rpm_to_rad_s(60.0);
     inputs.discharge = 0.12;
-    inputs.mouth.radius = 0.10;
+    inputs.fates.mouth.radius = 0.10;
     inputs.rock.emplace();
     fill_scaled_defaults(inputs);
     return inputs;
@@ -25,30 +25,31 @@ CaseInputs model_cutter() {
 TEST(ScaledDefaults, match_the_reference_model) {
     const CaseInputs inputs = model_cutter();
     EXPECT_NEAR(inputs.fates.bin_width, 0.030, 1e-12);
-    EXPECT_NEAR(inputs.fates.outflow_offset, 0.015, 1e-12);
-    EXPECT_NEAR(inputs.mouth.sucked_up_depth, 0.20, 1e-12);
+    EXPECT_NEAR(inputs.outflow.offset, 0.015, 1e-12);
+    EXPECT_NEAR(inputs.fates.mouth.depth, 0.20, 1e-12);
     EXPECT_NEAR(tip_speed(inputs), 2.0 * k_pi * 0.40, 1e-12);
     EXPECT_NEAR(mouth_speed(inputs), 0.12 / (k_pi * 0.01), 1e-12);
-    EXPECT_NEAR(inputs.rock->max_speed, 2.513274 + 3.819719, 1e-5);
+    EXPECT_NEAR(inputs.rock->contact.max_speed, 2.513274 + 3.819719, 1e-5);
 }
 
 TEST(ScaledDefaults, make_steel_and_rock_stiff_enough_for_the_tip_speed) {
     const CaseInputs inputs = model_cutter();
-    const Rock& rock = *inputs.rock;
+    const coupling::ContactSettings& contact = inputs.rock->contact;
     // A rock of 20 mm that hits a wall of the same modulus at the tip speed; added mass takes part.
     const double mass = (2650.0 + 0.5 * 998.2) * k_pi / 6.0 * std::pow(0.02, 3);
-    const double modulus = rock.youngs_modulus / (2.0 - 0.24 * 0.24 - 0.27 * 0.27);
+    const double modulus = contact.youngs_modulus / (2.0 - 0.24 * 0.24 - 0.27 * 0.27);
     EXPECT_NEAR(physics::hertz_largest_overlap({mass, 0.01, modulus, tip_speed(inputs)}) / 0.01, 0.05, 1e-9);
-    EXPECT_NEAR(rock.youngs_modulus, 0.26e9, 0.005e9);
+    EXPECT_NEAR(contact.youngs_modulus, 0.26e9, 0.005e9);
 }
 
 TEST(ScaledDefaults, make_stiffness_go_with_the_square_of_the_speed) {
     for (const double factor : {0.1, 10.0}) {
         CaseInputs inputs = model_cutter();
-        inputs.rock->youngs_modulus = 0.0;
+        inputs.rock->contact.youngs_modulus = 0.0;
         inputs.rotor.speed *= factor;
         fill_scaled_defaults(inputs);
-        EXPECT_NEAR(inputs.rock->youngs_modulus / model_cutter().rock->youngs_modulus, factor * factor, 1e-9 * factor * factor);
+        EXPECT_NEAR(inputs.rock->contact.youngs_modulus / model_cutter().rock->contact.youngs_modulus, factor * factor,
+                    1e-9 * factor * factor);
     }
 }
 
@@ -83,11 +84,10 @@ TEST(CaseInputs, report_every_broken_rule_at_once) {
     inputs.discharge = 0.0;
     inputs.rotor.speed = 0.0;
     inputs.tank.radius = 0.1;
-    inputs.times.outflow_from = 5.0;
+    inputs.outflow.start_time = 5.0;
     inputs.rock.emplace();
     const std::vector<Mistake> mistakes = check_case_inputs(inputs);
-    for (const char* name :
-         {"discharge", "rotor speed", "tank radius", "outflow average", "Young's modulus", "largest speed", "DEM walls"}) {
+    for (const char* name : {"discharge", "rotor speed", "tank radius", "outflow average", "youngsModulus", "maxSpeed", "DEM walls"}) {
         const bool told =
             std::any_of(mistakes.begin(), mistakes.end(), [&](const Mistake& m) { return m.what.find(name) != std::string::npos; });
         EXPECT_TRUE(told) << name;

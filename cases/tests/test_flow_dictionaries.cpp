@@ -122,9 +122,10 @@ TEST(Coupling, is_the_flow_alone_without_rock) {
 TEST(Coupling, has_the_keys_of_the_contract) {
     CaseInputs inputs = test::tiny_inputs();
     inputs.rock.emplace();
-    inputs.rock->youngs_modulus = 1.1e8;
+    inputs.rock->contact.youngs_modulus = 1.1e8;
+    inputs.rock->contact.max_speed = 4.0;
     inputs.rock->walls = standard_walls();
-    inputs.fates.stop_undecided = 0.05;
+    inputs.stop = coupling::StopSettings{0.05};
     const std::string text = coupling_dictionary(inputs).text();
     for (const char* entry : {"youngsModulus   110000000;",
                               "poissonRock     0.24;",

@@ -112,8 +112,8 @@ TEST(Study, the_model_cutters_tank_is_that_of_the_experiment) {
     const Study study = make_study(resolved, "/tmp");
     EXPECT_NEAR(2.0 * study.tank.radius, 5.0, 1e-12);
     EXPECT_NEAR(study.tank.height, 1.31, 1e-12);
-    EXPECT_NEAR(study.tank_bottom(k_model), -0.875, 1e-12);
-    EXPECT_NEAR(study.tank_top(k_model), 0.435, 1e-12);
+    EXPECT_NEAR(study.water(k_model).z_min, -0.875, 1e-12);
+    EXPECT_NEAR(study.water(k_model).z_max, 0.435, 1e-12);
     EXPECT_NEAR(study.report.bin_width, 0.03, 1e-12);
 }
 

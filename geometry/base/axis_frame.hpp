@@ -28,11 +28,6 @@ inline Vec3 rotate_about(const RotationAxis& axis, double angle, const Vec3& poi
     return axis.origin + Eigen::AngleAxisd(angle, axis.direction) * (point - axis.origin);
 }
 
-/// Vector (no position) rotated by `angle` [rad], right-handed about the axis' direction.
-inline Vec3 rotate_vector(const RotationAxis& axis, double angle, const Vec3& vector) {
-    return Eigen::AngleAxisd(angle, axis.direction) * vector;
-}
-
 /// Cylindrical coordinates of `point` with azimuth 0 along `reference` (any vector that is not parallel to the axis;
 /// only its part normal to the axis counts), positive by the right hand about the axis.
 inline Cylindrical to_cylindrical(const RotationAxis& axis, const Vec3& reference, const Vec3& point) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 #include "geometry/surface/surface.hpp"
 
 namespace cutterflow::geometry {

@@ -84,7 +84,7 @@ void sort_from_middle(std::vector<Vec3>& places) {
 
 class PlaceTest {
 public:
-    PlaceTest(const RockBatch& batch, const Contour& head, const WaterBody& water, const std::vector<const SolidSearch*>& steel)
+    PlaceTest(const RockBatch& batch, const Contour& head, const AxialCylinder& water, const std::vector<const SolidSearch*>& steel)
         : radius_(0.5 * batch.diameter), clearance_(batch.clearance), head_(head), water_(water), steel_(steel) {}
 
     std::optional<Blocked> blocked(const Vec3& place) const {
@@ -103,7 +103,7 @@ private:
     double radius_;
     double clearance_;
     const Contour& head_;
-    const WaterBody& water_;
+    const AxialCylinder& water_;
     const std::vector<const SolidSearch*>& steel_;
 };
 
@@ -141,7 +141,7 @@ std::string RockPlacement::rejection_reason() const {
     return fmt::format("no free place left: of the region's {} places {} are blocked ({})", places, places - placed(), blocked_text(*this));
 }
 
-RockPlacement place_rocks(const RockBatch& batch, const Contour& head, const WaterBody& water,
+RockPlacement place_rocks(const RockBatch& batch, const Contour& head, const AxialCylinder& water,
                           const std::vector<const SolidSearch*>& steel) {
     require_consistent(batch);
     std::vector<Vec3> places = lattice_places(batch);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/axial_cylinder.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/contour.hpp"
@@ -21,13 +22,6 @@ struct Wedge {
     double radius_max = 0.0;      ///< [m]
 
     bool contains(const Cylindrical& at) const;
-};
-
-/// Cylinder of water about the axis: the tank.
-struct WaterBody {
-    double radius = 0.0;  ///< [m]
-    double z_min = 0.0;   ///< [m]
-    double z_max = 0.0;   ///< [m]
 };
 
 struct RockBatch {
@@ -63,7 +57,7 @@ struct RockPlacement {
 /// replaced by the next nearest free one. Rocks left over when all free places are taken are rejected. \param steel  solids as they stand
 /// at the release, the cutter turned to its angle then \throws UserError  when the batch contradicts itself, when its lattice is too fine
 /// to be searched (nothing was searched then), or when its region has no free place at all
-RockPlacement place_rocks(const RockBatch& batch, const Contour& head, const WaterBody& water,
+RockPlacement place_rocks(const RockBatch& batch, const Contour& head, const AxialCylinder& water,
                           const std::vector<const SolidSearch*>& steel);
 
 }  // namespace cutterflow::geometry

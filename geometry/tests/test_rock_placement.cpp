@@ -19,7 +19,7 @@ struct Model {
     Contour contour{head.contour.z, head.contour.radius, head.ring_radius, 0.03};
     SolidSearch cutter{head.surface};
     SolidSearch stationary{generate_stationary_steel({0.4, 0.03, 0.03, {0.10, 0.22, 0.0}, 0.02, 0.535, 0.022}).solid()};
-    WaterBody water{2.5, -0.875, 0.435};
+    AxialCylinder water{2.5, -0.875, 0.435};
 };
 
 const Model& model() {
@@ -128,7 +128,7 @@ TEST(RockPlacement, a_free_region_takes_the_compact_batch_without_moving_a_rock)
 
 TEST(RockPlacement, a_region_outside_the_water_or_inside_steel_is_refused) {
     RockBatch batch = batch_of_the_paper();
-    const auto refusal = [&](const WaterBody& water) {
+    const auto refusal = [&](const AxialCylinder& water) {
         try {
             place_rocks(batch, model().contour, water, {&model().cutter});
         } catch (const UserError& error) {

@@ -160,7 +160,7 @@ void add_stator(Blocks& blocks, const MeshPlan& plan) {
         blocks.patch_strip(names::inlet_patch, low.tank, high.tank);
     };
 
-    Level low = level_at(plan.input.tank.z_bottom, true);
+    Level low = level_at(plan.input.tank.z_min, true);
     body.patch_disc(names::tank_bottom_patch, low);
     blocks.patch_strip(names::tank_bottom_patch, low.interface, low.tank);
     for (const CellRow& row : plan.below) {

@@ -110,7 +110,7 @@ FoamDictionary steel_cut(const MeshPlan& plan) {
 
 FoamDictionary outlet_selection(const MeshPlan& plan) {
     // Cells of the pipe's water at the tank's top; the radius ends within the pipe's wall.
-    const double top = plan.input.tank.z_top;
+    const double top = plan.input.tank.z_max;
     const double reach = top - plan.input.steel.gap - plan.input.steel.plate_thickness;
     FoamDictionary cells;
     cells.add("name", "outlet_cells").add("type", "cellSet").add("action", "new").add("source", "cylinderToCell");

@@ -176,10 +176,10 @@ void check_tank(const MeshPlan& plan, std::vector<Mistake>& mistakes) {
     require(in.tank.radius >= reach,
             fmt::format("tank.radius_m = {:.4g} leaves too little water around head, backplate and pipe", in.tank.radius), reach,
             "Widen the tank");
-    const double below = plan.rotor.z_bottom - in.tank.z_bottom;
+    const double below = plan.rotor.z_bottom - in.tank.z_min;
     require(below >= margin, fmt::format("The rotor zone ends {:.4g} m above the tank's bottom", below), margin,
             "Enlarge tank.bed_clearance_m");
-    const double above = in.tank.z_top - in.steel.gap - in.steel.plate_thickness;
+    const double above = in.tank.z_max - in.steel.gap - in.steel.plate_thickness;
     require(above >= margin, fmt::format("The tank's top is {:.4g} m above the backplate", above), margin, "Enlarge tank.height_m");
 }
 
@@ -220,12 +220,12 @@ void divide_stator_height(MeshPlan& plan) {
     const MeshInput& in = plan.input;
     const double growth = in.resolution.stator_growth;
     const double height = first_cell(plan.zone.front());
-    plan.below = {reversed(growing_row(in.tank.z_bottom, plan.rotor.z_bottom, height, growth))};
+    plan.below = {reversed(growing_row(in.tank.z_min, plan.rotor.z_bottom, height, growth))};
     const double plate_top = in.steel.gap + in.steel.plate_thickness;
     // The pipe leads up through these cells: they grow half as fast.
     plan.above = {even_row(plan.rotor.z_top, in.steel.gap, plan.zone.back().cells),
                   even_row(in.steel.gap, plate_top, std::max(1, count(in.steel.plate_thickness / height))),
-                  growing_row(plate_top, in.tank.z_top, height, 1.0 + 0.5 * (growth - 1.0))};
+                  growing_row(plate_top, in.tank.z_max, height, 1.0 + 0.5 * (growth - 1.0))};
 }
 
 /// Cells of the refined mesh that the cutter takes. `steel`: its volume in background cells; half of the refined cells are on its side.
@@ -238,7 +238,7 @@ double cells_in_cutter(double steel, double refined) {
 double volume_of_stationary_steel(const MeshInput& in) {
     const auto disc = [](double radius) { return k_pi * radius * radius; };
     const double mouth = disc(in.steel.mouth.radius);
-    const double pipe_height = in.tank.z_top - in.steel.gap - in.steel.plate_thickness;
+    const double pipe_height = in.tank.z_max - in.steel.gap - in.steel.plate_thickness;
     return (disc(in.steel.plate_radius) - mouth) * in.steel.plate_thickness +
            (disc(in.steel.mouth.radius + in.steel.pipe_wall) - mouth) * pipe_height;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/axial_cylinder.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/head/stationary_steel.hpp"
 #include "geometry/surface/surface.hpp"
@@ -40,18 +41,11 @@ struct CutterExtent {
 /// All but passage and thickness. \pre the surface is closed, outward oriented and in the run's frame
 CutterExtent extent_of_cutter(const geometry::TriangleSurface& cutter);
 
-/// The water: a cylinder about the axis.
-struct TankSize {
-    double radius = 0.0;
-    double z_bottom = 0.0;
-    double z_top = 0.0;
-};
-
 struct MeshInput {
     double ring_radius = 0.0;  ///< [m]
     CutterExtent cutter;
     geometry::StationarySteelParameters steel;  ///< backplate, mouth and pipe
-    TankSize tank;                              ///< [m]
+    AxialCylinder tank;
     MeshResolution resolution;
     double rotation_speed = 0.0;  ///< [rad/s], either sign; for the prediction of the time step
     double discharge = 0.0;       ///< [m3/s], likewise

@@ -115,7 +115,7 @@ double MeshReport::cell_size_at_cutter() const {
 
 std::vector<MeshGate> check_mesh_gates(const MeshPlan& plan, const CheckMeshFigures& quality, const ProbeFigures& figures) {
     const MeshInput& in = plan.input;
-    const double height = in.tank.z_top - in.tank.z_bottom;
+    const double height = in.tank.z_max - in.tank.z_min;
     const double inlet = 2.0 * plan.rotor.facets * in.tank.radius * std::sin(k_pi / plan.rotor.facets) * height;
     const double outlet = k_pi * in.steel.mouth.radius * in.steel.mouth.radius;
     const double split = split_faces(figures.rotor_side, plan.interface_faces()) + split_faces(figures.stator_side, plan.interface_faces());

@@ -38,8 +38,8 @@ inline MeshInput scaled(MeshInput input, double factor) {
     input.steel.pipe_wall *= factor;
     input.steel.pipe_top *= factor;
     input.tank.radius *= factor;
-    input.tank.z_bottom *= factor;
-    input.tank.z_top *= factor;
+    input.tank.z_min *= factor;
+    input.tank.z_max *= factor;
     return input;
 }
 

@@ -208,7 +208,7 @@ std::optional<double> mean_when_all(const std::vector<Estimate>& estimates, std:
     return sample_of(values).mean;
 }
 
-std::vector<Estimate> of_repeats(const Comparison& comparison, const Setting& setting, const Evaluate& evaluate) {
+std::vector<Estimate> of_repeats(const Comparison& comparison, const ComparedSetting& setting, const Evaluate& evaluate) {
     std::vector<Estimate> estimates;
     for (const std::size_t run : setting.runs) estimates.push_back(evaluate(comparison.runs[run]));
     return estimates;
@@ -243,30 +243,30 @@ std::string label_of(const RunData& run) {
 
 /// Settings whose studies have one name are told apart by their first run's directory: by its name, or by its path when names are equal
 /// too.
-void make_labels_differ(std::vector<Setting>& settings, const std::vector<ComparedRun>& runs) {
-    const auto directory = [&](const Setting& setting) { return runs[setting.runs.front()].run.directory.lexically_normal(); };
-    const auto add = [&](const std::function<std::string(const Setting&)>& distinction) {
+void make_labels_differ(std::vector<ComparedSetting>& settings, const std::vector<ComparedRun>& runs) {
+    const auto directory = [&](const ComparedSetting& setting) { return runs[setting.runs.front()].run.directory.lexically_normal(); };
+    const auto add = [&](const std::function<std::string(const ComparedSetting&)>& distinction) {
         std::map<std::string, int> count;
-        for (const Setting& setting : settings) ++count[setting.label];
-        for (Setting& setting : settings)
+        for (const ComparedSetting& setting : settings) ++count[setting.label];
+        for (ComparedSetting& setting : settings)
             if (count[setting.label] > 1) setting.label += fmt::format(" ({})", distinction(setting));
     };
-    add([&](const Setting& setting) { return directory(setting).filename().string(); });
-    add([&](const Setting& setting) { return directory(setting).string(); });
+    add([&](const ComparedSetting& setting) { return directory(setting).filename().string(); });
+    add([&](const ComparedSetting& setting) { return directory(setting).string(); });
 }
 
-std::vector<Setting> group(const std::vector<ComparedRun>& runs) {
-    std::vector<Setting> settings;
+std::vector<ComparedSetting> group(const std::vector<ComparedRun>& runs) {
+    std::vector<ComparedSetting> settings;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto same = std::find_if(settings.begin(), settings.end(),
-                                       [&](const Setting& s) { return runs[s.runs.front()].run.setting == runs[i].run.setting; });
+                                       [&](const ComparedSetting& s) { return runs[s.runs.front()].run.setting == runs[i].run.setting; });
         if (same == settings.end())
             settings.push_back({label_of(runs[i].run), {i}});
         else
             same->runs.push_back(i);
     }
     make_labels_differ(settings, runs);
-    for (Setting& setting : settings) {
+    for (ComparedSetting& setting : settings) {
         std::sort(setting.runs.begin(), setting.runs.end(),
                   [&](std::size_t a, std::size_t b) { return runs[a].run.seed < runs[b].run.seed; });
         if (setting.runs.size() > 1) setting.label += fmt::format(" ({} repeats)", setting.runs.size());
@@ -298,7 +298,7 @@ void find_equal_points(Comparison& comparison) {
     }
 }
 
-std::vector<int> seeds_of(const Comparison& comparison, const Setting& setting) {
+std::vector<int> seeds_of(const Comparison& comparison, const ComparedSetting& setting) {
     std::vector<int> seeds;
     for (const std::size_t run : setting.runs) seeds.push_back(comparison.runs[run].run.seed);
     return seeds;
@@ -393,7 +393,7 @@ Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
     find_equal_points(comparison);
     for (const QuantityRule& rule : rules_of(comparison)) {
         Quantity quantity{rule.key, rule.name, rule.unit, rule.of_rock, {}, {}};
-        for (const Setting& setting : comparison.settings) {
+        for (const ComparedSetting& setting : comparison.settings) {
             quantity.repeats.push_back(of_repeats(comparison, setting, rule.evaluate));
             quantity.settings.push_back(of_setting(quantity.repeats.back(), rule.of_rock));
         }
@@ -447,7 +447,7 @@ std::vector<std::string> differing_batches(const Comparison& comparison) {
     std::set<std::string> feeds;
     std::set<std::vector<int>> seeds;
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
-        const Setting& setting = comparison.settings[i];
+        const ComparedSetting& setting = comparison.settings[i];
         feeds.insert(batch_text(comparison.runs[setting.runs.front()].run));
         seeds.insert(seeds_of(comparison, setting));
         texts.push_back(fmt::format("{}; seed {}", batch_text(comparison.runs[setting.runs.front()].run),
@@ -473,7 +473,7 @@ std::map<std::string, std::vector<std::string>> differing_keys(const Comparison&
 
 json comparison_json(const Comparison& comparison) {
     json document{{"schema", k_comparison_schema}, {"settings", json::array()}, {"quantities", json::array()}};
-    for (const Setting& setting : comparison.settings) {
+    for (const ComparedSetting& setting : comparison.settings) {
         json runs = json::array();
         for (const std::size_t run : setting.runs) runs.push_back(comparison.runs[run].run.directory.string());
         document["settings"].push_back({{"label", setting.label},
@@ -504,7 +504,7 @@ json comparison_json(const Comparison& comparison) {
 
 std::string comparison_text(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows{{"quantity"}};
-    for (const Setting& setting : comparison.settings) rows[0].push_back(setting.label);
+    for (const ComparedSetting& setting : comparison.settings) rows[0].push_back(setting.label);
     for (const Quantity& quantity : comparison.quantities) {
         rows.push_back({quantity.unit == "-" ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit)});
         for (const Estimate& estimate : quantity.settings) rows.back().push_back(estimate_text(estimate));

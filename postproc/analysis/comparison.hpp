@@ -29,7 +29,7 @@ struct Estimate {
 bool is_count(double value);
 
 /// Runs of one setting: repeats that differ by placement and time of release only.
-struct Setting {
+struct ComparedSetting {
     std::string label;
     std::vector<std::size_t> runs;  ///< indices in Comparison::runs, by seed
 };
@@ -59,7 +59,7 @@ struct Difference {
 
 struct Comparison {
     std::vector<ComparedRun> runs;
-    std::vector<Setting> settings;
+    std::vector<ComparedSetting> settings;
     std::vector<Quantity> quantities;
     std::optional<double> equal_time;         ///< [s] since the first rock that all runs reached
     std::optional<double> equal_revolutions;  ///< since the first rock that all runs reached

@@ -59,7 +59,7 @@ std::string ViewSurfaces::markup() const {
     return surfaces_.empty() ? "" : html::data("surfaces", surfaces_);
 }
 
-json head_view(const Scene& scene, const View& view, ViewSurfaces& surfaces) {
+json head_view(const HeadScene& scene, const View& view, ViewSurfaces& surfaces) {
     std::map<std::string, json> rocks;
     for (const Sphere& rock : scene.rocks) {
         rocks[hex_of(rock.colour)].push_back({rounded(rock.centre.x()), rounded(rock.centre.y()), rounded(rock.centre.z()), rock.radius});

@@ -24,6 +24,6 @@ private:
 
 /// Scene and first view: `steel` (number of the surface), `steel_angle` [rad], `ghosts` (numbers), `rocks` ([{colour, spheres:
 /// [[x, y, z, radius], ...]}]), `centre`, `up`, `towards`, `height_m`, `aspect`.
-nlohmann::json head_view(const Scene& scene, const View& view, ViewSurfaces& surfaces);
+nlohmann::json head_view(const HeadScene& scene, const View& view, ViewSurfaces& surfaces);
 
 }  // namespace cutterflow::postproc

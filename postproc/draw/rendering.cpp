@@ -205,7 +205,7 @@ Vec3 View::project(const Vec3& point) const {
     return {0.5 * width + pixels_per_m * arm.dot(right), 0.5 * height - pixels_per_m * arm.dot(up), arm.dot(towards)};
 }
 
-Image render(const Scene& scene, const View& view) {
+Image render(const HeadScene& scene, const View& view) {
     View fine = view;
     fine.width *= k_supersampling;
     fine.height *= k_supersampling;

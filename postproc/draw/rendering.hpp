@@ -26,7 +26,7 @@ struct Sphere {
     Colour colour;
 };
 
-struct Scene {
+struct HeadScene {
     TriangleSurface steel;     ///< opaque
     double steel_angle = 0.0;  ///< by which the steel is turned about the z axis [rad]
     TriangleSurface ghosts;    ///< transparent: what would hide the rest
@@ -34,6 +34,6 @@ struct Scene {
 };
 
 /// Picture of a scene on white.
-Image render(const Scene& scene, const View& view);
+Image render(const HeadScene& scene, const View& view);
 
 }  // namespace cutterflow::postproc

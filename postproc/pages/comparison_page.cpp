@@ -69,7 +69,7 @@ std::string differences_table(const Comparison& comparison) {
 std::string settings_table(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
-        const Setting& setting = comparison.settings[i];
+        const ComparedSetting& setting = comparison.settings[i];
         const RunData& run = comparison.runs[setting.runs.front()].run;
         const bool finished =
             std::all_of(setting.runs.begin(), setting.runs.end(), [&](std::size_t r) { return comparison.runs[r].results.finished; });
@@ -133,7 +133,7 @@ std::string batches_notice(const Comparison& comparison) {
 
 bool has_repeats(const Comparison& comparison) {
     return std::any_of(comparison.settings.begin(), comparison.settings.end(),
-                       [](const Setting& s) { return s.runs.size() >= k_fewest_repeats; });
+                       [](const ComparedSetting& s) { return s.runs.size() >= k_fewest_repeats; });
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ std::vector<Sphere> rocks_by_fate(const Table& rocks) {
     return spheres;
 }
 
-Scene scene_of(const RunData& run) {
-    Scene scene;
+HeadScene scene_of(const RunData& run) {
+    HeadScene scene;
     scene.steel = read_binary_stl(run.directory / names::cutter_surface);
     scene.steel_angle = run.loads.number("rotor_angle_rad").back();
     scene.ghosts = read_binary_stl(run.directory / names::backplate_surface);
@@ -108,7 +108,7 @@ int count_outside(const std::vector<Sphere>& rocks, const View& view) {
 }  // namespace
 
 HeadPicture draw_head_from_side(const RunData& run, Page& page, const std::string& name) {
-    const Scene scene = scene_of(run);
+    const HeadScene scene = scene_of(run);
     const View view = side_view(run);
     const std::string still =
         picture(view, run, "Cutter head from the side with rock coloured by fate", page.address(render(scene, view), name));
@@ -117,7 +117,7 @@ HeadPicture draw_head_from_side(const RunData& run, Page& page, const std::strin
 }
 
 std::string draw_head_from_hub(const RunData& run, const Page& page, const std::string& name) {
-    Scene scene = scene_of(run);
+    HeadScene scene = scene_of(run);
     scene.ghosts.clear();  // behind the head
     const View view = axial_view(run);
     return picture(view, run, "Cutter head from the hub with rock coloured by fate", page.address(render(scene, view), name));

@@ -78,7 +78,7 @@ TEST(Comparison, gives_settings_of_equal_names_labels_of_their_own) {
         run.write();
         directories.push_back(run.directory);
     }
-    const std::vector<Setting> settings = compare_runs(directories).settings;
+    const std::vector<ComparedSetting> settings = compare_runs(directories).settings;
     ASSERT_EQ(settings.size(), 4u);
     EXPECT_EQ(settings[0].label, "small run (a) (" + directories[0].string() + ")");
     EXPECT_EQ(settings[1].label, "small run (b)");

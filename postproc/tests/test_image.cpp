@@ -59,7 +59,7 @@ View front_view() {
 }
 
 TEST(Rendering, nearer_rock_hides_the_farther_one) {
-    Scene scene;
+    HeadScene scene;
     scene.rocks = {{Vec3(0, 0, 0.5), 0.2, colour_of("#ff0000")}, {Vec3(0, 0, -0.5), 0.4, colour_of("#0000ff")}};
     const Image image = render(scene, front_view());
     EXPECT_GT(pixel(image, 50, 50)[0], 2 * pixel(image, 50, 50)[2]);
@@ -68,7 +68,7 @@ TEST(Rendering, nearer_rock_hides_the_farther_one) {
 }
 
 TEST(Rendering, sphere_covers_its_area) {
-    Scene scene;
+    HeadScene scene;
     scene.rocks = {{Vec3(0.1, -0.2, 0.0), 0.3, colour_of("#000000")}};
     const Image image = render(scene, front_view());
     int covered = 0;
@@ -81,7 +81,7 @@ TEST(Rendering, sphere_covers_its_area) {
 
 TEST(Rendering, steel_in_front_hides_rock_and_ghosts_do_not) {
     const TriangleSurface wall{{Vec3(-1, -1, 1), Vec3(1, -1, 1), Vec3(0, 1, 1)}};
-    Scene scene;
+    HeadScene scene;
     scene.rocks = {{Vec3(0, -0.3, 0), 0.2, colour_of("#ff0000")}};
     const auto redness = [&] {
         const auto at = pixel(render(scene, front_view()), 50, 65);

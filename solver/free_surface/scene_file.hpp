@@ -2,7 +2,7 @@
 /// \file The file of a plane free-surface scene (scene.toml): its keys, and the scene that they describe.
 #include <filesystem>
 
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 #include "solver/free_surface/scene.hpp"
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/dem_settings.hpp"

@@ -23,6 +23,9 @@ struct ContactSettings {
     double max_speed = 0.0;           ///< impact speed for the Hertz time [m/s]
 };
 
+template <>
+const SettingTable<ContactSettings>& setting_table<ContactSettings>();
+
 /// Linear spring and dashpot with a stiffness that follows from weight [Chen2019] [Zhang2009]; see liggghts/contacts/contact_law.hpp.
 struct LinearContactSettings {
     double theta = 0.01;              ///< overlap under the own weight over the reference length [-]
@@ -90,5 +93,8 @@ struct DemSettings {
     Vec3 gravity = Vec3::Zero();          ///< [m/s2]
     std::filesystem::path log;            ///< LIGGGHTS' own log; empty: none
 };
+
+/// Every mistake of the settings (not of the files they name).
+std::vector<Mistake> check_settings(const DemSettings& settings, const std::string& where);
 
 }  // namespace cutterflow::coupling

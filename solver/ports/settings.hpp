@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/vec3.hpp"
 #include "geometry/head/contour.hpp"
+#include "solver/ports/setting_table.hpp"
 
 namespace cutterflow::coupling {
 
@@ -24,6 +25,9 @@ struct KernelSettings {
     double max_solid_fraction = 0.7;  ///< [-]
 };
 
+template <>
+const SettingTable<KernelSettings>& setting_table<KernelSettings>();
+
 /// Names as physics::catalogue() has them.
 struct ClosureSettings {
     std::string drag = "brown_lawler";
@@ -34,6 +38,9 @@ struct ClosureSettings {
     std::string lift = "none";
     bool viscous_force = true;  ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
 };
+
+template <>
+const SettingTable<ClosureSettings>& setting_table<ClosureSettings>();
 
 /// The suction mouth: rock is sucked up for good once it is `depth` beyond the centre along `direction`, within `radius` of the mouth's
 /// axis.
@@ -59,6 +66,9 @@ struct OutflowSettings {
     double start_time = 0.0;  ///< [s], from which the report averages
 };
 
+template <>
+const SettingTable<OutflowSettings>& setting_table<OutflowSettings>();
+
 /// A set of points at which the velocity is averaged.
 struct VelocitySetSettings {
     std::string name;            ///< of the result's file; letters, digits, '-' and '_'
@@ -79,10 +89,16 @@ struct StopSettings {
     double undecided = 0.0;  ///< [-]
 };
 
+template <>
+const SettingTable<StopSettings>& setting_table<StopSettings>();
+
 struct CheckpointSettings {
     double interval = 0.0;  ///< of simulated time [s]
     int keep = 2;           ///< newest ones that stay
 };
+
+template <>
+const SettingTable<CheckpointSettings>& setting_table<CheckpointSettings>();
 
 /// Roles of boundary patches, by name.
 struct PatchSettings {

@@ -9,7 +9,7 @@
 
 #include "cases/runner/manifest.hpp"
 #include "cases/runner/prediction.hpp"
-#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"

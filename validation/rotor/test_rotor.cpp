@@ -50,7 +50,7 @@ fs::path rotor_case(const std::string& name, const std::string& feed = feed_tabl
     const fs::path folder = scratch_folder(name);
     cases::CaseInputs inputs = cases::test::tiny_inputs();
     inputs.times.end = end;
-    inputs.times.checkpoint_interval = 0.05;
+    inputs.checkpoint.interval = 0.05;
     inputs.times.write_interval = 0.1;
     inputs.rock.emplace();
     write_rotor_case(folder, inputs, feed);
@@ -193,7 +193,7 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
     }
     EXPECT_EQ(rows_of(killed / "postProcessing/rock", "fates.csv").size(), rows_of(whole / "postProcessing/rock", "fates.csv").size());
 
-    const RockPicture resumed = last_rocks(killed), uninterrupted = last_rocks(whole);
+    const RockSnapshot resumed = last_rocks(killed), uninterrupted = last_rocks(whole);
     ASSERT_EQ(resumed.position.size(), static_cast<std::size_t>(k_rocks));
     double apart = 0.0;
     for (std::size_t p = 0; p < resumed.position.size(); ++p)
@@ -203,7 +203,7 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
 }
 
 /// The run at its checkpoint of 0.1 s, resumed on another number of ranks.
-RockPicture gone_on_with(const fs::path& whole, int ranks) {
+RockSnapshot gone_on_with(const fs::path& whole, int ranks) {
     const fs::path folder = scratch_folder(fmt::format("rotor_on_{}_ranks", ranks));
     fs::copy(whole, folder, fs::copy_options::recursive);
     fs::remove_all(folder / names::checkpoints / "0.14");
@@ -220,10 +220,10 @@ TEST(Restart, goes_on_on_another_number_of_ranks) {
         "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,{0},0,0.18,-0.1,0.02,2650\n2,{0},-0.05,0.23,0,0.02,2650\n", k_release);
     const fs::path whole = rotor_case("rotor_two_rocks", feed, 0.14);
     run_cutter_foam(whole, 2);
-    const RockPicture uninterrupted = last_rocks(whole);
+    const RockSnapshot uninterrupted = last_rocks(whole);
     ASSERT_EQ(uninterrupted.position.size(), 2u);
     for (const int ranks : {1, 2}) {
-        const RockPicture resumed = gone_on_with(whole, ranks);
+        const RockSnapshot resumed = gone_on_with(whole, ranks);
         ASSERT_EQ(resumed.position.size(), 2u);
         double apart = 0.0;
         for (std::size_t p = 0; p < 2; ++p) apart = std::max(apart, (resumed.position[p] - uninterrupted.position[p]).norm());

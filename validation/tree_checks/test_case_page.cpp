@@ -24,6 +24,8 @@ TEST(CasePage, lists_the_keys_and_sections_that_the_reader_knows) {
     const std::string reader = content("solver/foam/dictionary/coupling_dictionary.cpp");
     const std::regex read_key("\\b(?:read|read_choice|sections|read_section|read_optional)\\((?:file, |section, )?\"(\\w+)\"");
     std::set<std::string> known = matches(reader, read_key);
+    const std::regex row("\\b(?:number|closure|yes_or_no|ParameterRow)\\(\\s*\"(\\w+)\"");
+    for (const std::string& key : matches(content("solver/ports/setting_table.cpp"), row)) known.insert(key);
     ASSERT_GT(known.size(), 40u) << "the scan found too few keys: it looks in the wrong place";
     for (const char* other_file : {"rho", "nu"}) known.erase(other_file);
 

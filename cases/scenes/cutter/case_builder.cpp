@@ -14,62 +14,71 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A twentieth of a passing of one of six blades: the trapezoidal rule in angle errs by 0.8 % of what passes once a blade, and by nothing
-// after a whole revolution.
-constexpr double k_degrees_between_samples = 3.0;
-
-meshing::FoamDictionary contact_section(const Rock& rock) {
-    return meshing::FoamDictionary()
-        .add("youngsModulus", rock.youngs_modulus)
-        .add("poissonRock", rock.poisson_rock)
-        .add("poissonSteel", rock.poisson_steel)
-        .add("friction", rock.friction)
-        .add("restitution", rock.restitution)
-        .add("wetRestitution", rock.wet_restitution)
-        .add("timeStepFraction", rock.time_step_fraction)
-        .add("maxSpeed", rock.max_speed);
+/// A section with every key of the struct's table.
+template <class Settings>
+meshing::FoamDictionary section_of(const Settings& settings) {
+    meshing::FoamDictionary section;
+    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>())
+        std::visit([&](auto member) { section.add(setting.parameter.key, settings.*member); }, setting.member);
+    return section;
 }
 
-meshing::FoamValue wall_list(const std::vector<Wall>& walls) {
+meshing::FoamValue file_name(const fs::path& file) {
+    return meshing::FoamValue::quoted(file.string());
+}
+
+meshing::FoamValue wall_list(const std::vector<coupling::WallSettings>& walls) {
     std::vector<meshing::FoamValue> items;
-    for (const Wall& wall : walls)
-        items.emplace_back(meshing::FoamDictionary()
-                               .add("name", wall.name)
-                               .add("file", meshing::FoamValue::quoted(wall.file))
-                               .add("rotating", wall.rotating));
+    for (const coupling::WallSettings& wall : walls)
+        items.emplace_back(
+            meshing::FoamDictionary().add("name", wall.name).add("file", file_name(wall.file)).add("rotating", wall.rotating));
     return meshing::FoamValue::list(items);
 }
 
-meshing::FoamDictionary rock_section(const CaseInputs& inputs) {
-    meshing::FoamDictionary domain;
-    domain.add("type", "cylinder")
-        .add("radius", inputs.tank.radius)
-        .add("zMin", inputs.tank.z_min)
-        .add("zMax", inputs.tank.z_max)
-        .add("walls", meshing::FoamValue::list({"zMin", "zMax"}));
-    meshing::FoamDictionary section;
-    section.add("feed", meshing::FoamValue::quoted(names::rock_feed))
-        .add("contact", contact_section(*inputs.rock))
-        .add("walls", wall_list(inputs.rock->walls))
-        .add("domain", domain);
-    return section;
+meshing::FoamDictionary domain_section(const coupling::DomainSettings& domain) {
+    std::vector<meshing::FoamValue> walls;
+    for (std::size_t side = 0; side < domain.side_is_wall.size(); ++side)
+        if (domain.side_is_wall[side]) walls.emplace_back(coupling::k_domain_sides[side]);
+    return meshing::FoamDictionary()
+        .add("type", "cylinder")
+        .add("radius", domain.radius)
+        .add("zMin", domain.lower.z())
+        .add("zMax", domain.upper.z())
+        .add("walls", meshing::FoamValue::list(walls));
 }
 
-meshing::FoamDictionary fates_section(const CaseInputs& inputs) {
-    const Mouth& mouth = inputs.mouth;
-    meshing::FoamDictionary mouth_section;
-    mouth_section.add("centre", mouth.centre)
-        .add("direction", mouth.direction)
-        .add("radius", mouth.radius)
-        .add("depth", mouth.sucked_up_depth);
-    meshing::FoamDictionary section;
-    section.add("contour", meshing::FoamValue::quoted(names::contour_for_solver))
-        .add("ringRadius", inputs.contour.ring_radius())
-        .add("zBackplate", inputs.contour.z_backplate())
-        .add("hysteresis", inputs.fates.hysteresis)
-        .add("mouth", mouth_section)
-        .add("binWidth", inputs.fates.bin_width);
-    return section;
+meshing::FoamDictionary rock_section(const fs::path& feed, const coupling::DemSettings& dem) {
+    return meshing::FoamDictionary()
+        .add("feed", file_name(feed))
+        .add("contact", section_of(dem.contact))
+        .add("walls", wall_list(dem.walls))
+        .add("domain", domain_section(dem.domain));
+}
+
+meshing::FoamDictionary fates_section(const coupling::FateSettings& fates) {
+    meshing::FoamDictionary mouth;
+    mouth.add("centre", fates.mouth.centre)
+        .add("direction", fates.mouth.direction)
+        .add("radius", fates.mouth.radius)
+        .add("depth", fates.mouth.depth);
+    return meshing::FoamDictionary()
+        .add("contour", file_name(fates.contour))
+        .add("ringRadius", fates.ring_radius)
+        .add("zBackplate", fates.z_backplate)
+        .add("hysteresis", fates.hysteresis)
+        .add("mouth", mouth)
+        .add("binWidth", fates.bin_width);
+}
+
+meshing::FoamDictionary velocity_section(const coupling::VelocitySettings& velocity) {
+    std::vector<meshing::FoamValue> sets;
+    for (const coupling::VelocitySetSettings& set : velocity.sets)
+        sets.emplace_back(meshing::FoamDictionary().add("name", set.name).add("file", file_name(set.file)).add("phases", set.phases));
+    return meshing::FoamDictionary()
+        .add("startTime", velocity.start_time)
+        .add("interval", velocity.interval)
+        .add("blades", velocity.blades)
+        .add("sets", meshing::FoamValue::list(sets));
 }
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -86,29 +95,11 @@ std::string contour_csv(const geometry::Contour& contour) {
     return text;
 }
 
-std::string sample_points_csv(const VelocitySet& set) {
+std::string sample_points_csv(const VelocitySetInput& set) {
     std::string text = "x_m,y_m,z_m,rotating\n";
     for (const VelocityPoint& point : set.points)
         text += fmt::format("{:.9g},{:.9g},{:.9g},{}\n", point.place[0], point.place[1], point.place[2], point.rotating ? 1 : 0);
     return text;
-}
-
-std::string sample_file(const VelocitySet& set) {
-    return fmt::format("{}/{}.csv", names::sample_points, set.name);
-}
-
-meshing::FoamDictionary velocity_section(const CaseInputs& inputs) {
-    std::vector<meshing::FoamValue> sets;
-    for (const VelocitySet& set : inputs.velocity_sets)
-        sets.emplace_back(meshing::FoamDictionary()
-                              .add("name", set.name)
-                              .add("file", meshing::FoamValue::quoted(sample_file(set)))
-                              .add("phases", set.phases));
-    return meshing::FoamDictionary()
-        .add("startTime", inputs.times.outflow_from)
-        .add("interval", k_degrees_between_samples)
-        .add("blades", inputs.blades)
-        .add("sets", meshing::FoamValue::list(sets));
 }
 
 std::vector<FoamFile> case_files(const CaseInputs& inputs) {
@@ -129,31 +120,17 @@ void copy_surface(const fs::path& run_directory, const WallSource& surface) {
 }  // namespace
 
 meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
+    const coupling::CouplingSettings settings = solver_settings(inputs);
     meshing::FoamDictionary coupling;
-    coupling.add("patches", meshing::FoamDictionary().add("outlet", names::outlet_patch));
-    if (inputs.rock) {
-        const Rock& rock = *inputs.rock;
-        meshing::FoamDictionary kernel, closures;
-        kernel.add("gamma", rock.kernel_gamma)
-            .add("minWidthInCells", rock.kernel_min_width_in_cells)
-            .add("maxSolidFraction", rock.max_solid_fraction);
-        closures.add("drag", rock.drag)
-            .add("hindrance", rock.hindrance)
-            .add("addedMass", rock.added_mass)
-            .add("dragModifier", rock.drag_modifier)
-            .add("sphericity", rock.sphericity)
-            .add("lift", rock.lift)
-            .add("viscousForce", rock.viscous_force);
-        coupling.add("rock", rock_section(inputs)).add("kernel", kernel).add("closures", closures);
-    }
-    coupling.add("fates", fates_section(inputs));
-    coupling.add("outflow",
-                 meshing::FoamDictionary().add("offset", inputs.fates.outflow_offset).add("startTime", inputs.times.outflow_from));
-    if (!inputs.velocity_sets.empty()) coupling.add("velocity", velocity_section(inputs));
-    if (inputs.fates.stop_undecided) coupling.add("stop", meshing::FoamDictionary().add("undecided", *inputs.fates.stop_undecided));
-    coupling.add("checkpoint",
-                 meshing::FoamDictionary().add("interval", inputs.times.checkpoint_interval).add("keep", inputs.times.checkpoints_kept));
-    return coupling;
+    coupling.add("patches", meshing::FoamDictionary().add("outlet", settings.patches.outlet));
+    if (settings.has_rock)
+        coupling.add("rock", rock_section(settings.rock_feed, dem_settings(inputs)))
+            .add("kernel", section_of(settings.kernel))
+            .add("closures", section_of(settings.closures));
+    coupling.add("fates", fates_section(*settings.fates)).add("outflow", section_of(*settings.outflow));
+    if (settings.velocity) coupling.add("velocity", velocity_section(*settings.velocity));
+    if (settings.stop) coupling.add("stop", section_of(*settings.stop));
+    return coupling.add("checkpoint", section_of(*settings.checkpoint));
 }
 
 std::vector<WallSource> wall_sources() {
@@ -162,8 +139,8 @@ std::vector<WallSource> wall_sources() {
             {{"suction_pipe", "constant/triSurface/suction_pipe_dem.stl", false}, names::suction_pipe_surface}};
 }
 
-std::vector<Wall> standard_walls() {
-    std::vector<Wall> walls;
+std::vector<coupling::WallSettings> standard_walls() {
+    std::vector<coupling::WallSettings> walls;
     for (const WallSource& source : wall_sources()) walls.push_back(source.wall);
     return walls;
 }
@@ -179,14 +156,14 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
     }
     write_text(run_directory / names::contour_for_solver, contour_csv(inputs.contour));
     written.emplace_back(names::contour_for_solver);
-    for (const VelocitySet& set : inputs.velocity_sets) {
+    for (const VelocitySetInput& set : inputs.velocity_sets) {
         write_text(run_directory / sample_file(set), sample_points_csv(set));
         written.emplace_back(sample_file(set));
     }
     if (inputs.rock) {
         for (const WallSource& surface : wall_sources()) {
             copy_surface(run_directory, surface);
-            written.emplace_back(surface.wall.file);
+            written.push_back(surface.wall.file);
         }
     }
     written.emplace_back(fs::weakly_canonical(run_directory).filename().string() + ".foam");

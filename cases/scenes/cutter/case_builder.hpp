@@ -14,13 +14,13 @@ meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs);
 
 /// A wall of the DEM and the surface in geometry/ of which its own is made.
 struct WallSource {
-    Wall wall;
+    coupling::WallSettings wall;
     const char* surface;
 };
 
 /// The steel of a run directory: cutter (rotating), backplate, suction pipe.
 std::vector<WallSource> wall_sources();
-std::vector<Wall> standard_walls();
+std::vector<coupling::WallSettings> standard_walls();
 
 /// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of
 /// geometry/*.stl, with rock only; write_contact_surfaces puts better ones in their place) and the empty file by which ParaView opens the

@@ -5,35 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/axial_cylinder.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/head/contour.hpp"
+#include "solver/ports/dem_settings.hpp"
+#include "solver/ports/settings.hpp"
 
 namespace cutterflow::cases {
 
 struct Rotor {
     RotationAxis axis;   ///< from hub to ring
     double speed = 0.0;  ///< [rad/s], right-handed about the axis; not 0
-};
-
-struct Fluid {
-    double kinematic_viscosity = 1.0034e-6;  ///< [m2/s]
-    double density = 998.2;                  ///< [kg/m3]
-};
-
-/// The cylinder of water about the axis.
-struct Tank {
-    double radius = 0.0;  ///< [m]
-    double z_min = 0.0;   ///< [m], the bed
-    double z_max = 0.0;   ///< [m]
-};
-
-/// The suction mouth in the backplate.
-struct Mouth {
-    Vec3 centre = Vec3::Zero();      ///< [m]
-    Vec3 direction = Vec3::UnitZ();  ///< unit, into the pipe
-    double radius = 0.0;             ///< [m]
-    double sucked_up_depth = 0.0;    ///< [m] along `direction`; rock beyond it is sucked up
 };
 
 /// Scheme of momentum convection in the transient run. The frozen-rotor start is always upwind.
@@ -53,52 +36,8 @@ struct FlowNumerics {
 /// Times of the transient run [s]; 0 is its start, with the frozen rotor's flow.
 struct RunTimes {
     double end = 0.0;
-    double write_interval = 0.0;  ///< fields and rocks
-    double checkpoint_interval = 0.0;
-    int checkpoints_kept = 2;
-    double outflow_from = 0.0;     ///< the radial outflow is averaged from here on
+    double write_interval = 0.0;   ///< fields and rocks
     double first_time_step = 0.0;  ///< the Courant limit takes over after it
-};
-
-/// A rock or steel body of the DEM.
-struct Wall {
-    std::string name;
-    std::string file;  ///< relative to the run directory
-    bool rotating = false;
-};
-
-/// Contacts, kernels and closures of the rock. Keys and meanings as in constant/couplingProperties.
-struct Rock {
-    double density = 2650.0;      ///< [kg/m3], the heaviest of the feed
-    double youngs_modulus = 0.0;  ///< [Pa], of rock and steel alike
-    double poisson_rock = 0.24;
-    double poisson_steel = 0.27;
-    double friction = 0.15;
-    double restitution = 0.97;  ///< dry
-    bool wet_restitution = true;
-    double time_step_fraction = 0.1;  ///< of the smaller of Rayleigh and Hertz times
-    double max_speed = 0.0;           ///< [m/s], for the Hertz time
-    std::vector<Wall> walls;
-
-    double kernel_gamma = 1.0;  ///< kernel width over the rock's diameter
-    double kernel_min_width_in_cells = 1.5;
-    double max_solid_fraction = 0.7;
-
-    std::string drag = "brown_lawler";
-    std::string hindrance = "di_felice";
-    double added_mass = 0.5;
-    double drag_modifier = 1.0;
-    double sphericity = 1.0;
-    std::string lift = "none";
-    bool viscous_force = true;
-};
-
-/// Settings of fates and outflow sampling.
-struct Fates {
-    double hysteresis = 0.25;              ///< of the rock's diameter
-    double bin_width = 0.0;                ///< [m]
-    double outflow_offset = 0.0;           ///< [m] outside the contour
-    std::optional<double> stop_undecided;  ///< ends the run when the undecided share is at most this
 };
 
 /// A point at which the run averages the velocity.
@@ -107,31 +46,47 @@ struct VelocityPoint {
     bool rotating = false;      ///< turns with the head
 };
 
-struct VelocitySet {
+struct VelocitySetInput {
     std::string name;
     int phases = 0;  ///< bins of rotor angle; 0: the mean alone
     std::vector<VelocityPoint> points;
 };
 
-/// Everything the case builder needs. The contour carries ring radius and backplate.
+/// Everything the case builder needs. What the solver reads is kept in the solver's own structs; solver_settings and dem_settings complete
+/// them with what follows from the rest.
 struct CaseInputs {
-    explicit CaseInputs(geometry::Contour head) : contour(std::move(head)) {}
+    explicit CaseInputs(geometry::Contour head);
 
-    geometry::Contour contour;
+    geometry::Contour contour;  ///< carries ring radius and backplate
     Rotor rotor;
     double discharge = 0.0;       ///< [m3/s], of the mixture, out of the suction pipe
     Vec3 gravity = Vec3::Zero();  ///< [m/s2]
-    Fluid fluid;
-    Tank tank;
-    Mouth mouth;
+    coupling::FluidProperties fluid{998.2, 1.0034e-6};
+    AxialCylinder tank;  ///< the water
     FlowNumerics numerics;
     RunTimes times;
-    Fates fates;
+    coupling::FateSettings fates;
+    coupling::OutflowSettings outflow;
+    coupling::CheckpointSettings checkpoint;
+    std::optional<coupling::StopSettings> stop;
+    coupling::KernelSettings kernel;
+    coupling::ClosureSettings closures;
     int blades = 1;
-    std::vector<VelocitySet> velocity_sets;  ///< averaged from times.outflow_from on
+    std::vector<VelocitySetInput> velocity_sets;  ///< averaged from outflow.start_time on
     int ranks = 1;
+    struct Rock {
+        coupling::ContactSettings contact;
+        std::vector<coupling::WallSettings> walls;  ///< files relative to the run directory
+        double density = 2650.0;                    ///< [kg/m3], the heaviest of the feed
+    };
     std::optional<Rock> rock;  ///< none: pure flow
 };
+
+/// What the solver reads in constant/couplingProperties, files relative to the run directory.
+coupling::CouplingSettings solver_settings(const CaseInputs& inputs);
+
+/// The same of the DEM; its domain is the water. \pre inputs.rock
+coupling::DemSettings dem_settings(const CaseInputs& inputs);
 
 /// Largest radius [m] of a head.
 double tip_radius(const geometry::Contour& contour);
@@ -158,7 +113,10 @@ double youngs_modulus_for(const CaseInputs& inputs);
 /// modulus of youngs_modulus_for.
 void fill_scaled_defaults(CaseInputs& inputs);
 
-/// Every rule that the inputs break; empty when a case can be written.
+/// File of a velocity set's points, relative to the run directory.
+std::string sample_file(const VelocitySetInput& set);
+
+/// Every rule that the inputs break, those of the solver included; empty when a case can be written.
 std::vector<Mistake> check_case_inputs(const CaseInputs& inputs);
 
 }  // namespace cutterflow::cases

@@ -18,28 +18,12 @@ constexpr double k_steel_edge_per_ring_radius = 0.05;
 // The Courant limit takes over after the first step.
 constexpr double k_first_step_per_revolution = 1e-4;
 
-Rock rock_of(const Study& study) {
-    Rock rock;
+CaseInputs::Rock rock_of(const Study& study) {
+    CaseInputs::Rock rock;
     for (const FeedRequest& feed : study.feeds)
-        for (const RockClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
-    rock.youngs_modulus = study.rock.youngs_modulus;
-    rock.poisson_rock = study.rock.poisson_rock;
-    rock.poisson_steel = study.rock.poisson_steel;
-    rock.friction = study.rock.friction;
-    rock.restitution = study.rock.restitution;
-    rock.wet_restitution = study.rock.wet_restitution;
-    rock.time_step_fraction = study.rock.time_step_fraction;
+        for (const FeedClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
+    rock.contact = study.contact;
     rock.walls = standard_walls();
-    rock.kernel_gamma = study.kernel.gamma;
-    rock.kernel_min_width_in_cells = study.kernel.min_width_in_cells;
-    rock.max_solid_fraction = study.kernel.max_solid_fraction;
-    rock.drag = study.closures.drag;
-    rock.hindrance = study.closures.hindrance;
-    rock.added_mass = study.closures.added_mass;
-    rock.drag_modifier = study.closures.drag_modifier;
-    rock.sphericity = study.closures.sphericity;
-    rock.lift = study.closures.lift;
-    rock.viscous_force = study.closures.viscous_force;
     return rock;
 }
 
@@ -80,7 +64,7 @@ geometry::StationarySteelParameters stationary_steel_of(const Study& study, cons
     steel.plate_thickness = study.suction.backplate_thickness;
     steel.mouth = {study.suction.mouth_radius, study.suction.mouth_offset, study.suction.mouth_azimuth};
     steel.pipe_wall = study.suction.pipe_wall;
-    steel.pipe_top = study.tank_top(head) + k_pipe_above_water * head.ring_radius;
+    steel.pipe_top = study.water(head).z_max + k_pipe_above_water * head.ring_radius;
     steel.edge_length = k_steel_edge_per_ring_radius * head.ring_radius;
     return steel;
 }
@@ -103,27 +87,28 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
     inputs.rotor.speed = study.rotation_speed;
     inputs.discharge = study.suction.discharge;
     inputs.gravity = gravity_of(study.inclination);
-    inputs.fluid = {study.fluid.kinematic_viscosity, study.fluid.density};
-    inputs.tank = {study.tank.radius, study.tank_bottom(head), study.tank_top(head)};
+    inputs.fluid = study.fluid;
+    inputs.tank = study.water(head);
     const double azimuth = study.suction.mouth_azimuth;
-    inputs.mouth.centre = Vec3(study.suction.mouth_offset * std::cos(azimuth), study.suction.mouth_offset * std::sin(azimuth),
-                               study.suction.gap + study.suction.backplate_thickness);
-    inputs.mouth.radius = study.suction.mouth_radius;
+    inputs.fates.mouth.centre = Vec3(study.suction.mouth_offset * std::cos(azimuth), study.suction.mouth_offset * std::sin(azimuth),
+                                     study.suction.gap + study.suction.backplate_thickness);
+    inputs.fates.mouth.radius = study.suction.mouth_radius;
+    inputs.fates.bin_width = study.report.bin_width;
+    inputs.outflow = {study.report.outflow_offset, study.report.outflow_start};
     inputs.numerics.max_courant = study.run.max_courant;
     inputs.times.end = study.end_time();
     inputs.times.write_interval = study.run.write_interval;
-    inputs.times.checkpoint_interval = study.run.checkpoint_interval;
-    inputs.times.outflow_from = study.report.outflow_start;
     inputs.times.first_time_step = k_first_step_per_revolution * study.period();
-    inputs.fates.bin_width = study.report.bin_width;
-    inputs.fates.outflow_offset = study.report.outflow_offset;
+    inputs.checkpoint.interval = study.run.checkpoint_interval;
+    inputs.kernel = study.kernel;
+    inputs.closures = study.closures;
     inputs.blades = head.blades;
     inputs.velocity_sets = {axial_plane(study, head), plane_under_ring(study, head)};
     if (study.report.adv_points) inputs.velocity_sets.push_back(adv_set(study));
     inputs.ranks = ranks;
     if (!study.feeds.empty()) {
         inputs.rock = rock_of(study);
-        inputs.fates.stop_undecided = study.run.stop_undecided;
+        inputs.stop = study.run.stop;
     }
     fill_scaled_defaults(inputs);
     return inputs;

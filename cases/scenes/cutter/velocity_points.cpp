@@ -41,28 +41,28 @@ bool always_in_steel(const postproc::AdvPoint& point, const geometry::SolidSearc
 
 }  // namespace
 
-VelocitySet axial_plane(const Study& study, const HeadSize& head) {
+VelocitySetInput axial_plane(const Study& study, const HeadSize& head) {
     const double ring = head.ring_radius, margin = k_off_walls * study.tank.height;
-    const double low = std::max(-head.depth - 0.25 * ring, study.tank_bottom(head) + margin);
-    const double high = std::min(study.suction.gap + study.suction.backplate_thickness + 0.6 * ring, study.tank_top(head) - margin);
+    const double low = std::max(-head.depth - 0.25 * ring, study.water(head).z_min + margin);
+    const double high = std::min(study.suction.gap + study.suction.backplate_thickness + 0.6 * ring, study.water(head).z_max - margin);
     const double width = std::min(1.5 * ring, (1.0 - k_off_walls) * study.tank.radius), azimuth = study.suction.mouth_azimuth;
-    VelocitySet set{names::axial_plane, 0, {}};
+    VelocitySetInput set{names::axial_plane, 0, {}};
     for (const double z : spaced(low, high, k_up))
         for (const double s : spaced(-width, width, k_across))
             set.points.push_back({{s * std::cos(azimuth), s * std::sin(azimuth), z}, false});
     return set;
 }
 
-VelocitySet plane_under_ring(const Study& study, const HeadSize& head) {
+VelocitySetInput plane_under_ring(const Study& study, const HeadSize& head) {
     const double width = std::min(1.4 * head.ring_radius, (1.0 - k_off_walls) * std::sqrt(0.5) * study.tank.radius);
-    VelocitySet set{names::plane_under_ring, 0, {}};
+    VelocitySetInput set{names::plane_under_ring, 0, {}};
     for (const double y : spaced(-width, width, k_across_ring))
         for (const double x : spaced(-width, width, k_across_ring)) set.points.push_back({{x, y, -k_under_ring * head.ring_radius}, false});
     return set;
 }
 
-VelocitySet adv_set(const Study& study) {
-    VelocitySet set{names::adv_set, k_adv_phases, {}};
+VelocitySetInput adv_set(const Study& study) {
+    VelocitySetInput set{names::adv_set, k_adv_phases, {}};
     for (const postproc::AdvPoint& point : postproc::read_adv_points(*study.report.adv_points))
         for (const Vec3& place : postproc::adv_places(point, study.report.adv_probe)) set.points.push_back({place, point.rotating});
     return set;
@@ -70,16 +70,16 @@ VelocitySet adv_set(const Study& study) {
 
 void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter) {
     const geometry::SolidSearch rotor(cutter), stationary(geometry::generate_stationary_steel(stationary_steel_of(study, head)).solid());
-    const double bottom = study.tank_bottom(head), top = study.tank_top(head);
+    const AxialCylinder water = study.water(head);
     std::vector<Mistake> mistakes;
     for (const postproc::AdvPoint& point : postproc::read_adv_points(*study.report.adv_points)) {
         const Cylindrical& place = point.place;
         const std::string what = fmt::format("point {} (r = {:.4g} m, theta = {:.4g} deg, z = {:.4g} m)", point.name, place.radius,
                                              place.azimuth * 180.0 / k_pi, place.axial);
-        if (place.radius >= study.tank.radius || place.axial <= bottom || place.axial >= top)
+        if (place.radius >= water.radius || place.axial <= water.z_min || place.axial >= water.z_max)
             mistakes.push_back(
                 {point.where, what + " lies outside the water",
-                 fmt::format("The water is the cylinder r < {:.4g} m, {:.4g} m < z < {:.4g} m", study.tank.radius, bottom, top),
+                 fmt::format("The water is the cylinder r < {:.4g} m, {:.4g} m < z < {:.4g} m", water.radius, water.z_min, water.z_max),
                  "Check the unit in the header and the frame: ring plane z = 0, the head below it"});
         else if (always_in_steel(point, rotor, stationary))
             mistakes.push_back({point.where, what + " lies inside steel",

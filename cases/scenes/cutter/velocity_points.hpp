@@ -8,15 +8,15 @@ namespace cutterflow::cases {
 
 /// Points, row by row, of a plane through the axis and the mouth's centre: from the tank's bottom, or a quarter of the ring radius below
 /// the head, to 0.6 ring radii above the backplate, and 1.5 ring radii to both sides.
-VelocitySet axial_plane(const Study& study, const HeadSize& head);
+VelocitySetInput axial_plane(const Study& study, const HeadSize& head);
 
 /// Points, row by row, of the plane 0.3425 ring radii under the ring plane (137 mm at R = 0.4 m, the reference model), 1.4 ring radii to
 /// all sides.
-VelocitySet plane_under_ring(const Study& study, const HeadSize& head);
+VelocitySetInput plane_under_ring(const Study& study, const HeadSize& head);
 
 /// The places around the study's points of measurement (postproc::adv_places), point by point.
 /// \pre  the study names points \throws UserError  with every mistake of their file
-VelocitySet adv_set(const Study& study);
+VelocitySetInput adv_set(const Study& study);
 
 /// Refuses points of measurement that lie outside the tank, or in steel whatever the rotor's angle. A still point through which the blades
 /// pass is in water between them.

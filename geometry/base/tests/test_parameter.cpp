@@ -1,4 +1,4 @@
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 
 #include <filesystem>
 #include <functional>

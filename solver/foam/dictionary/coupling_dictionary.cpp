@@ -43,15 +43,13 @@ void read_optional(DictionarySection& parent, const std::string& key, std::optio
     if (read_section(parent, key, k_optional, [&](DictionarySection& section) { read(section, values); })) settings = values;
 }
 
-void read_contact(DictionarySection& section, coupling::ContactSettings& contact) {
-    section.read("youngsModulus", contact.youngs_modulus, k_required);
-    section.read("poissonRock", contact.poisson_rock, k_optional);
-    section.read("poissonSteel", contact.poisson_steel, k_optional);
-    section.read("friction", contact.friction, k_optional);
-    section.read("restitution", contact.restitution, k_optional);
-    section.read("wetRestitution", contact.wet_restitution, k_optional);
-    section.read("timeStepFraction", contact.time_step_fraction, k_optional);
-    section.read("maxSpeed", contact.max_speed, k_required);
+/// Reads every key of the struct's table. One without a default must be there.
+template <class Settings>
+void read_settings(DictionarySection& section, Settings& settings) {
+    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>()) {
+        const Presence presence = setting.parameter.default_value ? k_optional : k_required;
+        std::visit([&](auto member) { section.read(setting.parameter.key, settings.*member, presence); }, setting.member);
+    }
 }
 
 coupling::WallSettings read_wall(DictionarySection& section, const std::filesystem::path& folder) {
@@ -94,7 +92,7 @@ void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
 void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::DemSettings dem;
     section.read("feed", result.coupling.rock_feed, folder, k_required);
-    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, dem.contact); });
+    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_settings(contact, dem.contact); });
     for (const Foam::dictionary& dict : section.sections("walls", k_optional)) {
         DictionarySection wall = section.below(dict, "walls");
         dem.walls.push_back(read_wall(wall, folder));
@@ -103,22 +101,6 @@ void read_rock(DictionarySection& section, const std::filesystem::path& folder, 
     read_section(section, "domain", k_required, [&](DictionarySection& domain) { read_domain(domain, dem.domain); });
     result.coupling.has_rock = true;
     result.dem = dem;
-}
-
-void read_kernel(DictionarySection& section, coupling::KernelSettings& kernel) {
-    section.read("gamma", kernel.gamma, k_optional);
-    section.read("minWidthInCells", kernel.min_width_in_cells, k_optional);
-    section.read("maxSolidFraction", kernel.max_solid_fraction, k_optional);
-}
-
-void read_closures(DictionarySection& section, coupling::ClosureSettings& closures) {
-    section.read("drag", closures.drag, k_optional);
-    section.read("hindrance", closures.hindrance, k_optional);
-    section.read("addedMass", closures.added_mass, k_optional);
-    section.read("dragModifier", closures.drag_modifier, k_optional);
-    section.read("sphericity", closures.sphericity, k_optional);
-    section.read("lift", closures.lift, k_optional);
-    section.read("viscousForce", closures.viscous_force, k_optional);
 }
 
 void read_mouth(DictionarySection& section, coupling::MouthSettings& mouth) {
@@ -169,22 +151,15 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
         section.read("steel", settings.patches.steel, k_optional);
     });
     read_section(file, "rock", k_optional, [&](DictionarySection& section) { read_rock(section, folder, result); });
-    read_section(file, "kernel", k_optional, [&](DictionarySection& section) { read_kernel(section, settings.kernel); });
-    read_section(file, "closures", k_optional, [&](DictionarySection& section) { read_closures(section, settings.closures); });
+    read_section(file, "kernel", k_optional, [&](DictionarySection& section) { read_settings(section, settings.kernel); });
+    read_section(file, "closures", k_optional, [&](DictionarySection& section) { read_settings(section, settings.closures); });
     read_optional(file, "fates", settings.fates,
                   [&](DictionarySection& section, coupling::FateSettings& fates) { read_fates(section, folder, fates); });
-    read_optional(file, "outflow", settings.outflow, [](DictionarySection& section, coupling::OutflowSettings& outflow) {
-        section.read("offset", outflow.offset, k_required);
-        section.read("startTime", outflow.start_time, k_required);
-    });
+    read_optional(file, "outflow", settings.outflow, read_settings<coupling::OutflowSettings>);
     read_optional(file, "velocity", settings.velocity,
                   [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
-    read_optional(file, "stop", settings.stop,
-                  [](DictionarySection& section, coupling::StopSettings& stop) { section.read("undecided", stop.undecided, k_required); });
-    read_optional(file, "checkpoint", settings.checkpoint, [](DictionarySection& section, coupling::CheckpointSettings& checkpoint) {
-        section.read("interval", checkpoint.interval, k_required);
-        section.read("keep", checkpoint.keep, k_optional);
-    });
+    read_optional(file, "stop", settings.stop, read_settings<coupling::StopSettings>);
+    read_optional(file, "checkpoint", settings.checkpoint, read_settings<coupling::CheckpointSettings>);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 
 #include "ITstream.H"
 #include "Switch.H"

@@ -33,13 +33,13 @@ IOobject registered(const word& name, const fvMesh& mesh, IOobject::readOption r
 }
 
 /// A field of the exchange: kept in files only when there is rock.
-IOobject of_rock(const word& name, const fvMesh& mesh, Rock rock) {
-    if (rock == Rock::absent) return unregistered(name, mesh);
+IOobject of_rock(const word& name, const fvMesh& mesh, RockPresence rock) {
+    if (rock == RockPresence::absent) return unregistered(name, mesh);
     return registered(name, mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE);
 }
 
-double read_density(const dictionary& transport, Rock rock) {
-    if (rock == Rock::present && !transport.found("rho")) {
+double read_density(const dictionary& transport, RockPresence rock) {
+    if (rock == RockPresence::present && !transport.found("rho")) {
         throw UserError("constant/transportProperties has no rho", "Rock needs the fluid's density [kg/m3]", "Add: rho 998.2;");
     }
     return transport.lookupOrDefault<scalar>("rho", 998.2);
@@ -53,7 +53,7 @@ std::vector<label> interface_patches(const fvMesh& mesh) {
     return patches;
 }
 
-CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
+CutterFluid::CutterFluid(dynamicFvMesh& mesh, RockPresence rock)
     : mesh_(mesh),
       time_(const_cast<Time&>(mesh.time())),
       rock_(rock),
@@ -77,10 +77,10 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
       explicit_source_(unregistered("explicitSource", mesh), mesh, dimensionedVector(dimAcceleration, Zero)),
       drag_rate_(unregistered("dragRate", mesh), mesh, dimensionedScalar(dimless / dimTime, Zero)),
       inertia_(unregistered("inertia", mesh), mesh, dimensionedScalar(dimless, Zero), zeroGradientFvPatchScalarField::typeName),
-      received_(rock == Rock::present ? mesh.nCells() : 0, Zero),
+      received_(rock == RockPresence::present ? mesh.nCells() : 0, Zero),
       state_(IOobject("fluidState", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)) {
     require_supported_case();
-    if (rock_ == Rock::present) require_case_for_rock();
+    if (rock_ == RockPresence::present) require_case_for_rock();
     setRefCell(p_, pimple_.dict(), p_ref_cell_, p_ref_value_);
     mesh_.setFluxRequired(p_.name());
     create_face_velocity();
@@ -88,7 +88,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, Rock rock)
     evaluate_flux_conditions();
     turbulence_.validate();
     restore_state();
-    if (rock_ == Rock::present && !DuDt_.headerOk()) update_material_acceleration();
+    if (rock_ == RockPresence::present && !DuDt_.headerOk()) update_material_acceleration();
 }
 
 void CutterFluid::create_face_velocity() {
@@ -138,7 +138,7 @@ void CutterFluid::begin_step(double travel_limit, double stop_time) {
 
 void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                            const coupling::MomentumExchange& exchange) {
-    if (rock_ == Rock::present) {
+    if (rock_ == RockPresence::present) {
         take_void_fraction(void_fraction_old, void_fraction_new);
         take_exchange(exchange);
     }
@@ -149,7 +149,7 @@ void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<
         while (pimple_.correct()) correct_pressure(momentum.ref());
         if (pimple_.turbCorr()) correct_turbulence();
     }
-    if (rock_ == Rock::present) {
+    if (rock_ == RockPresence::present) {
         update_material_acceleration();
         update_received();
     }

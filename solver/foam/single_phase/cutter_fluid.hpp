@@ -19,7 +19,7 @@
 namespace cutterflow::foam {
 
 /// Whether rock shares the domain with the fluid. Without rock the void fraction stays 1 and no field of the exchange is kept.
-enum class Rock { absent, present };
+enum class RockPresence { absent, present };
 
 /// Patches on both sides of sliding interfaces; none on a mesh without one.
 std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
@@ -41,7 +41,7 @@ std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 /// stays uniform, rock at rest in the turning zone causes no flow, and transport equations of turbulence have no source.
 class CutterFluid {
 public:
-    CutterFluid(Foam::dynamicFvMesh& mesh, Rock rock);
+    CutterFluid(Foam::dynamicFvMesh& mesh, RockPresence rock);
 
     bool running();
 
@@ -109,7 +109,7 @@ private:
 
     Foam::dynamicFvMesh& mesh_;
     Foam::Time& time_;
-    const Rock rock_;
+    const RockPresence rock_;
     Foam::pimpleControl pimple_;
     const std::optional<double> write_interval_;  // [s]
 

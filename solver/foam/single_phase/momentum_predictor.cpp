@@ -11,7 +11,7 @@ using namespace Foam;
 tmp<fvVectorMatrix> CutterFluid::momentum_matrix() {
     tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) +
                                viscous_matrix());
-    if (rock_ == Rock::present) add_exchange(matrix.ref());
+    if (rock_ == RockPresence::present) add_exchange(matrix.ref());
     if (!sources_.empty()) matrix.ref() -= sources_(U_);
     matrix.ref().relax();
     sources_.constrain(matrix.ref());

@@ -25,7 +25,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
         phiHbyA += fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
         HbyA -= (rAU - rAtU()) * fvc::grad(p_);
     }
-    if (rock_ == Rock::present) add_wall_forces(phiHbyA, rAtU());
+    if (rock_ == RockPresence::present) add_wall_forces(phiHbyA, rAtU());
     constrainPressure(p_, U_, phiHbyA, rAtU());
 
     const surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
@@ -49,7 +49,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
 }
 
 tmp<surfaceScalarField> CutterFluid::predicted_flux(const volVectorField& HbyA, const volScalarField& rAU) const {
-    if (rock_ == Rock::absent) return fvc::flux(HbyA) + fvc::interpolate(rAU) * fvc::ddtCorr(U_, phi_, Uf_);
+    if (rock_ == RockPresence::absent) return fvc::flux(HbyA) + fvc::interpolate(rAU) * fvc::ddtCorr(U_, phi_, Uf_);
     return fvc::flux(HbyA) + fvc::interpolate(rAU * (alpha_.oldTime() + inertia_)) * fvc::ddtCorr(U_, phi_, Uf_);
 }
 

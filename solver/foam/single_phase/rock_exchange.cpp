@@ -28,7 +28,7 @@ void copy_into(vectorField& field, gsl::span<const Vec3> values) {
 }  // namespace
 
 void CutterFluid::reset_void_fraction(gsl::span<const double> void_fraction) {
-    Expects(rock_ == Rock::present);
+    Expects(rock_ == RockPresence::present);
     copy_into(alpha_.primitiveFieldRef(), void_fraction);
     alpha_.correctBoundaryConditions();
 }

@@ -1,5 +1,9 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -113,6 +117,54 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_DOUBLE_EQ(read_back.dem->added_mass, 0.4);
     EXPECT_DOUBLE_EQ(read_back.dem->fluid.density, 1000.0);
     EXPECT_DOUBLE_EQ(read_back.dem->fluid.kinematic_viscosity, 1e-6);
+}
+
+/// Numbers of a setting that are hard to write down and allowed: its bounds, or what is next to them, and a third between them.
+std::vector<double> awkward_numbers(const Parameter& parameter) {
+    const double least = parameter.minimum_excluded ? 1e-12 : parameter.minimum.value(), most = parameter.maximum.value_or(1e9);
+    return {least, most, least + (most - least) / 3.0};
+}
+
+/// Fills the numbers of `settings` with their `choice`-th awkward number and writes the section with the shortest text of each number
+/// that reads back the same, as a case's writer does.
+template <class Settings>
+std::string section_of(Settings& settings, std::size_t choice) {
+    std::string text;
+    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>()) {
+        if (setting.parameter.kind == ParameterKind::number) setting.assign(settings, awkward_numbers(setting.parameter)[choice]);
+        std::visit([&](auto member) { text += fmt::format("{} {}; ", setting.parameter.key, settings.*member); }, setting.member);
+    }
+    return text;
+}
+
+template <class Settings>
+void expect_same(const Settings& found, const Settings& written) {
+    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>())
+        EXPECT_EQ(setting.value_in(found), setting.value_in(written)) << setting.parameter.key;
+}
+
+TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
+    for (const std::size_t choice : {0, 1, 2}) {
+        coupling::ContactSettings contact;
+        coupling::KernelSettings kernel;
+        coupling::ClosureSettings closures;
+        coupling::OutflowSettings outflow;
+        coupling::StopSettings stop;
+        coupling::CheckpointSettings checkpoint;
+        const std::string rock = fmt::format(
+            "rock {{ feed \"f.csv\"; contact {{ {} }} domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}", section_of(contact, choice));
+        const std::string text = fmt::format("{} kernel {{ {} }} closures {{ {} }} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }}", rock,
+                                             section_of(kernel, choice), section_of(closures, choice), section_of(outflow, choice),
+                                             section_of(stop, choice), section_of(checkpoint, choice));
+        const CouplingDictionary found = read("dictionary_round_trip_" + std::to_string(choice), text);
+        ASSERT_TRUE(found.dem && found.coupling.outflow && found.coupling.stop && found.coupling.checkpoint);
+        expect_same(found.dem->contact, contact);
+        expect_same(found.coupling.kernel, kernel);
+        expect_same(found.coupling.closures, closures);
+        expect_same(*found.coupling.outflow, outflow);
+        expect_same(*found.coupling.stop, stop);
+        expect_same(*found.coupling.checkpoint, checkpoint);
+    }
 }
 
 TEST(CouplingDictionary, IsAPureFlowWithoutTheFile) {

@@ -53,7 +53,7 @@ TEST(Settings, name_every_mistake) {
     const auto names = [&](const std::string& what) {
         return std::any_of(mistakes.begin(), mistakes.end(), [&](const Mistake& m) { return m.what.find(what) != std::string::npos; });
     };
-    EXPECT_TRUE(names("closures.drag = stokes"));
+    EXPECT_TRUE(names("closures.drag = \"stokes\""));
     EXPECT_TRUE(names("kernel.gamma = 0"));
     EXPECT_TRUE(names("checkpoint.keep = 0"));
 }

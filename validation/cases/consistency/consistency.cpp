@@ -41,7 +41,7 @@ fs::path rotor_case(const fs::path& folder, const std::string& rocks, double end
     cases::CaseInputs inputs = cases::test::tiny_inputs();
     inputs.ranks = ranks;
     inputs.times.end = end;
-    inputs.times.checkpoint_interval = interval;
+    inputs.checkpoint.interval = interval;
     inputs.times.write_interval = interval;
     inputs.rock.emplace();
     write_rotor_case(folder, inputs, "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n" + rocks);
@@ -144,7 +144,7 @@ double on_floor(const fs::path& folder) {
 /// Pictures in which two rocks touch.
 int pictures_with_touching_rock(const fs::path& folder) {
     int count = 0;
-    for (const RockPicture& picture : all_rocks(folder)) {
+    for (const RockSnapshot& picture : all_rocks(folder)) {
         bool touches = false;
         for (std::size_t i = 0; i < picture.position.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) touches = touches || (picture.position[i] - picture.position[j]).norm() < k_rock;

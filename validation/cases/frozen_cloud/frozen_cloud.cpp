@@ -21,8 +21,8 @@ constexpr double k_start_k = 1e-2;  // [m2/s2]
 constexpr double k_start_epsilon = 2e-2;
 
 /// A lattice of rock in the middle of the box.
-std::vector<FeedRock> cloud(double density, double stream) {
-    std::vector<FeedRock> rocks;
+std::vector<BoxRock> cloud(double density, double stream) {
+    std::vector<BoxRock> rocks;
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 3; ++j)
             for (int k = 0; k < 3; ++k)

@@ -78,7 +78,7 @@ void read_records(const fs::path& folder, double cell_size, Outcome& outcome) {
             outcome.flow_error = std::max(outcome.flow_error, balance.at("flow_balance_error")[i]);
     }
     if (!fs::exists(folder / "postProcessing/rock/vtk")) return;
-    for (const RockPicture& picture : all_rocks(folder))
+    for (const RockSnapshot& picture : all_rocks(folder))
         for (const Vec3& velocity : picture.velocity) outcome.rock_speed = std::max(outcome.rock_speed, velocity.norm());
 }
 
@@ -146,9 +146,9 @@ Cell box_cell(const std::string& row, const std::string& column, const BoxCase& 
     return {row, column, [box](const fs::path& folder) { write_box_case(folder, box); }, fastest, 3.0 * fastest, box.cell_size()};
 }
 
-std::string feed_text(const std::vector<FeedRock>& rocks) {
+std::string feed_text(const std::vector<BoxRock>& rocks) {
     std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
-    for (const FeedRock& rock : rocks)
+    for (const BoxRock& rock : rocks)
         text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", rock.id, rock.time, rock.position.x(), rock.position.y(), rock.position.z(),
                             rock.diameter, rock.density, rock.velocity.x(), rock.velocity.y(), rock.velocity.z());
     return text;
@@ -157,7 +157,7 @@ std::string feed_text(const std::vector<FeedRock>& rocks) {
 cases::CaseInputs rotor_inputs(double end_time) {
     cases::CaseInputs inputs = cases::test::tiny_inputs();
     inputs.times.end = end_time;
-    inputs.times.checkpoint_interval = end_time;
+    inputs.checkpoint.interval = end_time;
     inputs.times.write_interval = end_time / 8.0;
     inputs.rock.emplace();
     return inputs;
@@ -175,14 +175,14 @@ Vec3 around(double radius, double azimuth_deg, double z) {
 }
 
 /// Rock in the gap ahead of a lump of steel and in its lee.
-std::vector<FeedRock> rock_between_blades() {
-    std::vector<FeedRock> rocks;
+std::vector<BoxRock> rock_between_blades() {
+    std::vector<BoxRock> rocks;
     for (int i = 0; i < 20; ++i)
         rocks.push_back({i + 1, 0.0, around(0.1275, 66.0 + 26.0 * (i % 4), -0.2 + 0.045 * (i / 4)), k_rotor_rock, 2650, Vec3::Zero()});
     return rocks;
 }
 
-Cell rotor_cell(const std::string& row, const std::string& column, const cases::CaseInputs& inputs, const std::vector<FeedRock>& rocks,
+Cell rotor_cell(const std::string& row, const std::string& column, const cases::CaseInputs& inputs, const std::vector<BoxRock>& rocks,
                 double fastest) {
     return {row,     column,        [inputs, rocks](const fs::path& folder) { write_rotor_case(folder, inputs, feed_text(rocks)); },
             fastest, 3.0 * fastest, k_rotor_cell};
@@ -219,8 +219,8 @@ std::vector<Cell> density_ratio() {
 }
 
 /// Hexagonally packed layers with a little room, which fall together.
-std::vector<FeedRock> packed_layers(const BoxCase& box, double diameter, double height) {
-    std::vector<FeedRock> rocks;
+std::vector<BoxRock> packed_layers(const BoxCase& box, double diameter, double height) {
+    std::vector<BoxRock> rocks;
     const double a = 1.02 * diameter, layer = a * std::sqrt(2.0 / 3.0), line = a * std::sqrt(0.75);
     const double margin = 0.51 * diameter;
     for (int k = 0; margin + k * layer < height; ++k)
@@ -266,11 +266,11 @@ std::vector<Cell> squeezed_rock() {
                         around(0.105, angle(i + 1), height(i + 1))});
     cases::CaseInputs inputs = rotor_inputs(0.4);
     inputs.rock->walls.push_back({"ramp", "constant/ramp.stl", true});
-    inputs.rock->youngs_modulus = elastic_modulus;
-    inputs.rock->max_speed = 6.0;
+    inputs.rock->contact.youngs_modulus = elastic_modulus;
+    inputs.rock->contact.max_speed = 6.0;
     // Light, so that it stays under the backplate; ahead of the ramp.
     const double density = 1050.0;
-    const std::vector<FeedRock> rocks = {
+    const std::vector<BoxRock> rocks = {
         {1, 0.0, around(0.125, 110.0, cases::test::k_tiny_z_max - 0.55 * k_rotor_rock), k_rotor_rock, density, Vec3::Zero()}};
 
     // Hertz: two contacts, each compressed by half of what the gap lacks.
@@ -294,7 +294,7 @@ std::vector<Cell> interface_crossing(const std::string& row, int count) {
     for (const double speed : {0.1, 0.5, 1.0, 2.0, 4.0}) {
         cases::CaseInputs inputs = rotor_inputs(std::max(0.1, std::min(0.8, 0.08 / speed)));
         inputs.times.first_time_step = std::min(1e-3, 1e-3 / speed);
-        std::vector<FeedRock> rocks;
+        std::vector<BoxRock> rocks;
         for (int i = 0; i < count; ++i) {
             const double azimuth = 360.0 * (i / 2) / std::max(1, count / 2) + 3.0;
             rocks.push_back({i + 1, 0.0, around(0.178, azimuth, -0.1 - 0.06 * (i % 2)), k_rotor_rock, 2650, around(speed, azimuth, 0.0)});

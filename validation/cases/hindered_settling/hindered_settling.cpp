@@ -41,7 +41,7 @@ bool in_the_middle(const BoxCase& box, const Vec3& x) {
     return (relative > 0.3).all() && (relative < 0.7).all();
 }
 
-double mean_rock_speed(const BoxCase& box, const RockPicture& picture) {
+double mean_rock_speed(const BoxCase& box, const RockSnapshot& picture) {
     double sum = 0.0;
     int count = 0;
     for (std::size_t p = 0; p < picture.position.size(); ++p)

@@ -32,7 +32,7 @@ double hertz_force(const physics::Impact& impact) {
     return 4.0 / 3.0 * impact.modulus * std::sqrt(impact.radius) * std::pow(physics::hertz_largest_overlap(impact), 1.5);
 }
 
-void compare_with_hertz(Verification& verification, const std::string& name, const Impact& found, const physics::Impact& hertz) {
+void compare_with_hertz(Verification& verification, const std::string& name, const ImpactOutcome& found, const physics::Impact& hertz) {
     const About about{"ChungOoi2011", "the reference is Hertz' closed form", {}};
     verification.relative(name + ": largest force", "N", found.force, hertz_force(hertz), 0.01, about);
     verification.relative(name + ": largest overlap", "m", found.overlap, physics::hertz_largest_overlap(hertz), 0.01, about);
@@ -44,7 +44,7 @@ void check_elastic(Verification& verification) {
     for (const auto& [name, material] : pairs) {
         const double radius = 0.01, speed = 10.0, x = radius * (1.0 + 1e-4);
         const physics::Impact hertz{0.5 * ball_mass(radius, material.density), 0.5 * radius, 0.5 * plane_modulus(material), 2.0 * speed};
-        const Impact found = collide(
+        const ImpactOutcome found = collide(
             dry_room(0.2, false, material, 1.0, 0.35, 2.0 * speed),
             {{radius, material.density, Vec3(-x, 0, 0), Vec3(speed, 0, 0)}, {radius, material.density, Vec3(x, 0, 0), Vec3(-speed, 0, 0)}},
             physics::hertz_time(hertz) / 400.0);
@@ -54,8 +54,9 @@ void check_elastic(Verification& verification) {
     for (const auto& [name, material] : balls) {
         const double radius = 0.1, speed = 0.2;
         const physics::Impact hertz{ball_mass(radius, material.density), radius, plane_modulus(material), speed};
-        const Impact found = collide(dry_room(2.0, true, against_rigid(material), 1.0, 0.0, speed),
-                                     {above_floor(radius, material.density, Vec3(0, 0, -speed))}, physics::hertz_time(hertz) / 400.0);
+        const ImpactOutcome found =
+            collide(dry_room(2.0, true, against_rigid(material), 1.0, 0.0, speed),
+                    {above_floor(radius, material.density, Vec3(0, 0, -speed))}, physics::hertz_time(hertz) / 400.0);
         compare_with_hertz(verification, fmt::format("test 2, {} on a rigid wall", name), found, hertz);
     }
 }
@@ -66,8 +67,9 @@ void check_restitution(Verification& verification) {
         for (const double restitution : {0.2, 0.4, 0.6, 0.8, 1.0}) {
             const double radius = 0.0025, speed = 3.9;
             const physics::Impact hertz{ball_mass(radius, material.density), radius, plane_modulus(material), speed};
-            const Impact found = collide(dry_room(0.05, true, against_rigid(material), restitution, 0.0, speed),
-                                         {above_floor(radius, material.density, Vec3(0, 0, -speed))}, physics::hertz_time(hertz) / 100.0);
+            const ImpactOutcome found =
+                collide(dry_room(0.05, true, against_rigid(material), restitution, 0.0, speed),
+                        {above_floor(radius, material.density, Vec3(0, 0, -speed))}, physics::hertz_time(hertz) / 100.0);
             verification.relative(fmt::format("test 3, {}, e = {}", name, restitution), "-", found.velocity[0].z() / speed, restitution,
                                   0.01, {"ChungOoi2011", "3.9 m/s on a rigid wall", {}});
         }
@@ -81,9 +83,9 @@ struct Oblique {
 Oblique hit_wall(const Elastic& material, double radius, double restitution, double friction, double normal, double tangential,
                  double spin) {
     const physics::Impact hertz{ball_mass(radius, material.density), radius, plane_modulus(material), normal};
-    const Impact found = collide(dry_room(20.0 * radius, true, against_rigid(material), restitution, friction, normal),
-                                 {above_floor(radius, material.density, Vec3(tangential, 0, -normal), Vec3(0, spin, 0))},
-                                 physics::hertz_time(hertz) / 200.0);
+    const ImpactOutcome found = collide(dry_room(20.0 * radius, true, against_rigid(material), restitution, friction, normal),
+                                        {above_floor(radius, material.density, Vec3(tangential, 0, -normal), Vec3(0, spin, 0))},
+                                        physics::hertz_time(hertz) / 200.0);
     return {found.velocity[0].x(), found.velocity[0].z(), found.spin[0].y()};
 }
 
@@ -202,7 +204,7 @@ Spin spin_test(double x) {
     const double slip = 3.5 * friction * (1.0 + restitution) * normal / x;
     const Oblique after = hit_wall(k_alloy6, radius, restitution, friction, normal, 0.0, -slip / radius);
     const physics::Impact hertz{ball_mass(radius, k_alloy6.density), radius / 1.2, 0.5 * plane_modulus(k_alloy6), normal};
-    const Impact pair =
+    const ImpactOutcome pair =
         collide(dry_room(4.0, false, k_alloy6, restitution, friction, normal),
                 {{radius, k_alloy6.density, Vec3(0, 0, radius * (1.0 + 1e-4)), Vec3(0, 0, -normal), Vec3(0, -slip / radius, 0)},
                  {5.0 * radius, 1000.0 * k_alloy6.density, Vec3(0, 0, -5.0 * radius), Vec3::Zero(), Vec3::Zero()}},
@@ -247,10 +249,10 @@ void check_gears(Verification& verification) {
     double velocity = 0.0, spin = 0.0;
     for (const double ratio : {0.175, 1.0, 5.0, 22.86}) {
         const double given = ratio * friction * normal / radius;
-        const Impact found = collide(dry_room(2.0, false, k_alloy6, 0.5, friction, 2.0 * normal),
-                                     {{radius, k_alloy6.density, Vec3(-x, 0, 0), Vec3(normal, 0, 0), Vec3(0, 0, given)},
-                                      {radius, k_alloy6.density, Vec3(x, 0, 0), Vec3(-normal, 0, 0), Vec3(0, 0, -given)}},
-                                     physics::hertz_time(hertz) / 200.0);
+        const ImpactOutcome found = collide(dry_room(2.0, false, k_alloy6, 0.5, friction, 2.0 * normal),
+                                            {{radius, k_alloy6.density, Vec3(-x, 0, 0), Vec3(normal, 0, 0), Vec3(0, 0, given)},
+                                             {radius, k_alloy6.density, Vec3(x, 0, 0), Vec3(-normal, 0, 0), Vec3(0, 0, -given)}},
+                                            physics::hertz_time(hertz) / 200.0);
         for (const Vec3& v : found.velocity) velocity = std::max(velocity, std::abs(v.y()) / normal);
         for (const Vec3& w : found.spin) spin = std::max(spin, std::abs(std::abs(w.z()) / given - 1.0));
     }

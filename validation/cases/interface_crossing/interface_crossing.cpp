@@ -22,7 +22,7 @@ CrossingCase tank(std::optional<double> rpm) {
     return crossing;
 }
 
-std::vector<RockPicture> fall(const Verification& verification, std::optional<double> rpm, int ranks) {
+std::vector<RockSnapshot> fall(const Verification& verification, std::optional<double> rpm, int ranks) {
     const auto folder = verification.folder(rpm ? fmt::format("rpm_{}_ranks_{}", *rpm, ranks) : "one_mesh");
     write_box_case(folder, crossing_box(tank(rpm)));
     run_cutter_foam(folder, ranks);
@@ -30,12 +30,12 @@ std::vector<RockPicture> fall(const Verification& verification, std::optional<do
 }
 
 void run(Verification& verification) {
-    const std::vector<RockPicture> single = fall(verification, std::nullopt, 1);
+    const std::vector<RockSnapshot> single = fall(verification, std::nullopt, 1);
     verification.at_most("RMS error of velocity, one mesh", "m/s", rms_error_of_crossing(single), 0.01,
                          {"NieuwboerVanRheeKeetels2023", "against the rock's force balance, from x = 0.13 to -0.12 m"});
     for (const auto& [rpm, ranks] :
          {std::pair(0.0, 1), std::pair(20.0, 1), std::pair(60.0, 1), std::pair(90.0, 1), std::pair(60.0, 2), std::pair(60.0, 4)}) {
-        const std::vector<RockPicture> pictures = fall(verification, rpm, ranks);
+        const std::vector<RockSnapshot> pictures = fall(verification, rpm, ranks);
         const std::string where = fmt::format("{:g} rpm, {} rank{}", rpm, ranks, ranks > 1 ? "s" : "");
         verification.at_most("RMS error of velocity, " + where, "m/s", rms_error_of_crossing(pictures), 0.01,
                              {"NieuwboerVanRheeKeetels2023", "through the interface twice, against the rock's force balance"});

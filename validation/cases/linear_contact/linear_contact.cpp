@@ -41,7 +41,7 @@ double restitution_of(const Trial& trial) {
     } else {
         balls = {{radius, k_cylinder_density, Vec3(0.1, 0.5 * k_cylinder_length, apart), Vec3(0, 0, -trial.speed)}};
     }
-    const Impact impact = collide(room(trial), balls, 2e-6);
+    const ImpactOutcome impact = collide(room(trial), balls, 2e-6);
     return (trial.pair ? impact.velocity[1].x() - impact.velocity[0].x() : impact.velocity[0].z()) / trial.speed;
 }
 

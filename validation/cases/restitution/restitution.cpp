@@ -38,11 +38,11 @@ void check_dry(Verification& verification) {
     const About about{"SchwagerPoeschel2007", "20 mm, 1 m/s, E = 0.11 GPa, step 0.1 of the Rayleigh time", {}};
     for (const double restitution : {0.3, 0.5, 0.7, 0.9, 0.97}) {
         const auto settings = dry_room(0.3, true, k_rock, restitution, 0.0, 1.0);
-        const Impact wall = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -1.0))}, sample_of(k_rock, 1.0));
+        const ImpactOutcome wall = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -1.0))}, sample_of(k_rock, 1.0));
         verification.relative(fmt::format("dry restitution on a wall, e = {}", restitution), "-", wall.velocity[0].z(), restitution, 0.01,
                               about);
         const double x = k_radius * (1.0 + 1e-4);
-        const Impact pair = collide(
+        const ImpactOutcome pair = collide(
             dry_room(0.3, false, k_rock, restitution, 0.0, 1.0),
             {{k_radius, k_rock.density, Vec3(-x, 0, 0), Vec3(0.5, 0, 0)}, {k_radius, k_rock.density, Vec3(x, 0, 0), Vec3(-0.5, 0, 0)}},
             sample_of(k_rock, 1.0));
@@ -56,7 +56,8 @@ void check_wet(Verification& verification) {
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const double speed = table.at("impact speed")[i];
         const auto settings = in_fluid(dry_room(0.3, true, k_rock, 0.97, 0.0, 1.0), k_water, k_viscosity);
-        const Impact impact = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -speed))}, sample_of(k_rock, speed));
+        const ImpactOutcome impact =
+            collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -speed))}, sample_of(k_rock, speed));
         verification.relative(fmt::format("restitution in water at {} m/s", speed), "-", impact.velocity[0].z() / speed,
                               table.at("restitution")[i], 0.02, {table.source, "20 mm rock, Hertz, added mass 0.5", {}});
     }
@@ -101,7 +102,7 @@ void check_drum(Verification& verification) {
             coupling::DemSettings settings = in_fluid(dry_room(0.4, false, k_rock, 0.97, 0.0, 1.0), k_water, k_viscosity);
             settings.walls = {{"drum", file, true}};
             Ball ball{k_radius, k_rock.density, Vec3(drum + k_radius * 1.0001, 0.0, 0.0), Vec3(-speed, 0.0, 0.0)};
-            const Impact impact = collide(settings, {ball}, sample_of(k_rock, speed), surface_speed / drum);
+            const ImpactOutcome impact = collide(settings, {ball}, sample_of(k_rock, speed), surface_speed / drum);
             verification.relative(
                 fmt::format("restitution in water at {} m/s on a drum of 1 mm facets that pass at {:g} m/s", speed, surface_speed), "-",
                 impact.velocity[0].x() / speed, table.at("restitution")[i], 0.02,
@@ -136,7 +137,7 @@ void check_gondret(Verification& verification) {
         const double viscosity = table.at("oil viscosity")[i] / density;
         const double stokes = (steel.density / density + 0.5) * speed * diameter / (9.0 * viscosity);
         const auto settings = in_fluid(dry_room(0.1, true, steel, 0.97, 0.0, speed), density, viscosity);
-        const Impact impact = collide(settings, {above_floor(0.5 * diameter, steel.density, Vec3(0, 0, -speed))}, 1e-6);
+        const ImpactOutcome impact = collide(settings, {above_floor(0.5 * diameter, steel.density, Vec3(0, 0, -speed))}, 1e-6);
         verification.relative(fmt::format("restitution of Gondret's ball at St = {}", table.at("Stokes number")[i]), "-",
                               impact.velocity[0].z() / speed, 0.97 * std::exp(-35.0 / stokes), 0.01,
                               {"Legendre2006", "steel ball in silicone oil; the reference is Legendre's curve", {}});
@@ -152,7 +153,8 @@ void check_overlap(Verification& verification) {
         const Elastic material{modulus, 0.24, k_rock.density};
         auto settings = in_fluid(dry_room(0.3, true, material, 0.97, 0.15, speed), k_water, k_viscosity);
         settings.contact.poisson_steel = 0.27;
-        const Impact impact = collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -speed))}, sample_of(material, speed));
+        const ImpactOutcome impact =
+            collide(settings, {above_floor(k_radius, k_rock.density, Vec3(0, 0, -speed))}, sample_of(material, speed));
         const std::string name = fmt::format("overlap over radius at the tip speed of 90 rpm, E = {:.3g} GPa", modulus * 1e-9);
         if (modulus == chosen)
             verification.at_most(name, "-", impact.overlap / k_radius, 0.05,

@@ -14,13 +14,13 @@ using namespace cutterflow;
 using namespace cutterflow::validation;
 
 /// Rock of diameter d on a simple cubic lattice of the given spacing that fills the box, all with one velocity.
-std::vector<FeedRock> lattice(const BoxCase& box, double spacing, double diameter, const Vec3& velocity) {
-    std::vector<FeedRock> rocks;
+std::vector<BoxRock> lattice(const BoxCase& box, double spacing, double diameter, const Vec3& velocity) {
+    std::vector<BoxRock> rocks;
     const Eigen::Vector3i count = ((box.upper - box.lower) / spacing).array().round().cast<int>();
     for (int k = 0; k < count.z(); ++k)
         for (int j = 0; j < count.y(); ++j)
             for (int i = 0; i < count.x(); ++i) {
-                FeedRock rock;
+                BoxRock rock;
                 rock.id = static_cast<int>(rocks.size()) + 1;
                 rock.position = box.lower + spacing * Vec3(i + 0.5, j + 0.5, k + 0.5);
                 rock.diameter = diameter;

@@ -74,7 +74,7 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
                     box.contact, box.walls, vector_text(box.lower), vector_text(box.upper), walls, box.kernel, box.closures, box.extra));
     std::ofstream feed(folder / "constant/rockFeed.csv");
     feed << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
-    for (const FeedRock& rock : box.rocks)
+    for (const BoxRock& rock : box.rocks)
         feed << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", rock.id, rock.time,
                             rock.position.x(), rock.position.y(), rock.position.z(), rock.diameter, rock.density, rock.velocity.x(),
                             rock.velocity.y(), rock.velocity.z());
@@ -191,20 +191,21 @@ std::vector<Vec3> read_vectors(const std::string& text, const std::string& name)
 
 }  // namespace
 
-std::vector<RockPicture> all_rocks(const fs::path& folder) {
-    std::vector<RockPicture> pictures;
+std::vector<RockSnapshot> all_rocks(const fs::path& folder) {
+    std::vector<RockSnapshot> pictures;
     for (const auto& entry : fs::directory_iterator(folder / "postProcessing/rock/vtk")) {
         std::ifstream stream(entry.path());
         const std::string text((std::istreambuf_iterator<char>(stream)), {});
         const std::string stem = entry.path().stem().string();
-        pictures.push_back({std::stod(stem.substr(stem.find('_') + 1)), read_vectors(text, "Points"), read_vectors(text, "velocity")});
+        pictures.push_back({std::stod(stem.substr(stem.find('_') + 1)), read_vectors(text, "Points"), read_vectors(text, "velocity"),
+                            read_vectors(text, "hydrodynamic_force")});
     }
     if (pictures.empty()) throw std::runtime_error("no picture of rock in " + folder.string());
-    std::sort(pictures.begin(), pictures.end(), [](const RockPicture& a, const RockPicture& b) { return a.time < b.time; });
+    std::sort(pictures.begin(), pictures.end(), [](const RockSnapshot& a, const RockSnapshot& b) { return a.time < b.time; });
     return pictures;
 }
 
-RockPicture last_rocks(const fs::path& folder) {
+RockSnapshot last_rocks(const fs::path& folder) {
     return all_rocks(folder).back();
 }
 

@@ -11,7 +11,7 @@
 
 namespace cutterflow::validation {
 
-struct FeedRock {
+struct BoxRock {
     int id = 0;
     double time = 0.0;      ///< [s]
     Vec3 position;          ///< [m]
@@ -43,7 +43,7 @@ struct BoxCase {
     double time_step = 1e-3;
     double write_interval = 1e9;       ///< [s]
     double pressure_tolerance = 1e-9;  ///< of the linear solver, without a relative one
-    std::vector<FeedRock> rocks;
+    std::vector<BoxRock> rocks;
     std::string convection = "upwind";  ///< scheme of div(phi,U)
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
     std::string closures = "drag brown_lawler; hindrance di_felice; addedMass 0.5;";
@@ -79,16 +79,17 @@ void run_in_case(const std::filesystem::path& folder, const std::vector<std::str
 /// Columns of a CSV file with one header line, by name; not-a-number where a field is no number.
 std::map<std::string, std::vector<double>> read_columns(const std::filesystem::path& file);
 
-/// Rocks of a particle picture (postProcessing/rock/vtk), in the order of their ids.
-struct RockPicture {
-    double time = 0.0;           ///< [s]
-    std::vector<Vec3> position;  ///< [m]
-    std::vector<Vec3> velocity;  ///< [m/s]
+/// Rocks of a snapshot (postProcessing/rock/vtk), in the order of their ids.
+struct RockSnapshot {
+    double time = 0.0;                     ///< [s]
+    std::vector<Vec3> position;            ///< [m]
+    std::vector<Vec3> velocity;            ///< [m/s]
+    std::vector<Vec3> hydrodynamic_force;  ///< mean over the step [N]
 };
 
-/// All pictures that a run wrote, in the order of time, and the last one.
-std::vector<RockPicture> all_rocks(const std::filesystem::path& folder);
-RockPicture last_rocks(const std::filesystem::path& folder);
+/// All snapshots that a run wrote, in the order of time, and the last one.
+std::vector<RockSnapshot> all_rocks(const std::filesystem::path& folder);
+RockSnapshot last_rocks(const std::filesystem::path& folder);
 
 /// Numbers of a table that a function object wrote (postProcessing/<name>/<start>/<file>): rows, first column time; other fields than
 /// numbers are left out. Rows of all starts, in order.

@@ -79,14 +79,14 @@ Elastic against_rigid(Elastic material) {
     return material;
 }
 
-Impact collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed) {
+ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed) {
     Room room(settings, balls, rotor_speed);
     liggghts::LiggghtsEngine& engine = room.engine;
     const Ball& first = balls.front();
     const double mass = 4.0 / 3.0 * k_pi * std::pow(first.radius, 3) * (first.density + settings.added_mass * settings.fluid.density);
     double smallest = first.radius;
     for (const Ball& ball : balls) smallest = std::min(smallest, ball.radius);
-    Impact impact;
+    ImpactOutcome impact;
     bool touched = false;
     Vec3 before = first.velocity;
     for (int call = 0; call < k_most_samples; ++call) {

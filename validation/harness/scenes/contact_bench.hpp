@@ -33,7 +33,7 @@ coupling::DemSettings dry_room(double size, bool floor, const Elastic& material,
 /// are those of a rigid wall.
 Elastic against_rigid(Elastic material);
 
-struct Impact {
+struct ImpactOutcome {
     std::vector<Vec3> velocity, spin;  ///< of the balls after it
     double overlap = 0.0;              ///< largest [m]
     double force = 0.0;                ///< largest on the first ball, from its change of velocity [N]
@@ -42,7 +42,7 @@ struct Impact {
 
 /// Lets balls fly until a contact has begun and ended. The DEM is sampled every `sample` seconds.
 /// \throws std::runtime_error  when no contact ends within 100,000 samples
-Impact collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed = 0.0);
+ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed = 0.0);
 
 struct Slide {
     double speed = 0.0;   ///< where the ball passes x = 0 [m/s]

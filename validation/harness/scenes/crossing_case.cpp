@@ -31,7 +31,7 @@ BoxCase crossing_box(const CrossingCase& crossing) {
     return room;
 }
 
-double rms_error_of_crossing(const std::vector<RockPicture>& pictures) {
+double rms_error_of_crossing(const std::vector<RockSnapshot>& pictures) {
     return rms_velocity_error(pictures, [&](std::size_t i) { return crossing_velocity(pictures[i].time); });
 }
 

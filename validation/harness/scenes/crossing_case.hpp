@@ -29,13 +29,13 @@ Vec3 crossing_velocity(double time);
 
 /// Root mean square over the pictures of |velocity of the rock - reference(number of the picture)| [m/s].
 template <class Reference>
-double rms_velocity_error(const std::vector<RockPicture>& pictures, const Reference& reference) {
+double rms_velocity_error(const std::vector<RockSnapshot>& pictures, const Reference& reference) {
     double square = 0.0;
     for (std::size_t i = 0; i < pictures.size(); ++i) square += (pictures[i].velocity.at(0) - reference(i)).squaredNorm();
     return std::sqrt(square / static_cast<double>(pictures.size()));
 }
 
 /// The same against the rock's own force balance.
-double rms_error_of_crossing(const std::vector<RockPicture>& pictures);
+double rms_error_of_crossing(const std::vector<RockSnapshot>& pictures);
 
 }  // namespace cutterflow::validation

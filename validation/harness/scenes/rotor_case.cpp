@@ -13,7 +13,7 @@ namespace cutterflow::validation {
 
 void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed) {
     std::filesystem::create_directories(folder / "geometry");
-    std::optional<cases::Rock> rock;
+    std::optional<cases::CaseInputs::Rock> rock;
     std::swap(rock, inputs.rock);
     cases::write_case(folder, inputs);
     cases::test::write_tiny_block_mesh(folder);
@@ -23,7 +23,7 @@ void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inp
          {std::pair(names::cutter_patch, names::cutter_surface), std::pair(names::backplate_patch, names::backplate_surface),
           std::pair(names::tank_top_patch, names::suction_pipe_surface)})
         run_in_case(folder, {"surfaceMeshExtract", "-patches", fmt::format("({})", patch), surface});
-    const std::vector<cases::Wall> steel = cases::standard_walls();
+    const std::vector<coupling::WallSettings> steel = cases::standard_walls();
     rock->walls.insert(rock->walls.begin(), steel.begin(), steel.end());
     inputs.rock = rock;
     cases::fill_scaled_defaults(inputs);

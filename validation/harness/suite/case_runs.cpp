@@ -13,7 +13,7 @@
 #include "cases/runner/run_directory.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/progress.hpp"
 

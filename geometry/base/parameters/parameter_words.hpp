@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/base/parameter.hpp"
+#include "geometry/base/parameters/parameter.hpp"
 
 namespace cutterflow::parameter_words {
 

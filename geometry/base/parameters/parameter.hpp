@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/base/error.hpp"
+
 namespace cutterflow {
 
 enum class ParameterKind { number, integer, text, choice, boolean, path };
@@ -34,6 +36,9 @@ struct Parameter {
 };
 
 using ParameterTable = std::vector<Parameter>;
+
+/// What is wrong with a value of the parameter's type: not finite, outside the bounds, not among the choices. None: it is allowed.
+std::optional<Mistake> value_mistake(const Parameter& parameter, const ParameterValue& value);
 
 /// The values of one file (or of one of its repeated tables).
 class ParameterValues {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/parameter.hpp"
-#include "geometry/base/parameter_words.hpp"
+#include "geometry/base/parameters/parameter.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 
 namespace cutterflow {
 namespace {

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/parameter.hpp"
-#include "geometry/base/parameter_words.hpp"
+#include "geometry/base/parameters/parameter.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 #include "geometry/base/toml.hpp"
 
 namespace cutterflow {
@@ -69,6 +69,24 @@ std::optional<ParameterValue> typed_value(const Parameter& parameter, const toml
             return std::nullopt;
     }
     throw std::logic_error("unknown ParameterKind");
+}
+
+std::optional<Mistake> number_mistake(const Parameter& parameter, double number, const ParameterValue& value) {
+    const std::string what = fmt::format("{} = {}", parameter.key, toml_text(value));
+    if (!std::isfinite(number)) return Mistake{"", what + " is not finite", "It must be a finite number", "Correct the value"};
+    const bool low = parameter.minimum && (parameter.minimum_excluded ? number <= *parameter.minimum : number < *parameter.minimum);
+    const bool high = parameter.maximum && number > *parameter.maximum;
+    if (!low && !high) return std::nullopt;
+    return Mistake{"", what + (low ? " is too low" : " is too high"), fmt::format("It must be {}", bounds_text(parameter)),
+                   has_unit(parameter) ? fmt::format("Correct the value; its unit is {}", parameter.unit) : "Correct the value"};
+}
+
+std::optional<Mistake> choice_mistake(const Parameter& parameter, const std::string& word) {
+    if (std::find(parameter.choices.begin(), parameter.choices.end(), word) != parameter.choices.end()) return std::nullopt;
+    const std::string nearest = nearest_word(word, parameter.choices);
+    return Mistake{"", fmt::format("{} = {} is no choice", parameter.key, quoted(word)),
+                   fmt::format("It must be one of {}", join(parameter.choices, ", ")),
+                   nearest.empty() ? "Choose one of them" : fmt::format("Did you mean \"{}\"?", nearest)};
 }
 
 /// Reads one file's tree against the table and collects every mistake on the way.
@@ -131,46 +149,12 @@ private:
         if (!value)
             return add(where(node), fmt::format("{} = {} has the wrong type", parameter.key, node_text(node)),
                        fmt::format("It must be {}", kind_with_unit(parameter)), "Correct the value");
-        if (!check_finite(parameter, *value, node) || !check_bounds(parameter, *value, node) || !check_choice(parameter, *value, node))
+        if (std::optional<Mistake> mistake = value_mistake(parameter, *value)) {
+            mistake->where = where(node);
+            mistakes_.push_back(std::move(*mistake));
             return;
-        values.set(parameter.key, *value);
-    }
-
-    bool check_finite(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
-        const auto* number = std::get_if<double>(&value);
-        if (number == nullptr || std::isfinite(*number)) return true;
-        add(where(node), fmt::format("{} = {} is not finite", parameter.key, node_text(node)), "It must be a finite number",
-            "Correct the value");
-        return false;
-    }
-
-    bool check_bounds(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
-        double number = 0.0;
-        if (const auto* real = std::get_if<double>(&value)) {
-            number = *real;
-        } else if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-            number = static_cast<double>(*integer);
-        } else {
-            return true;
         }
-        const bool low = parameter.minimum && (parameter.minimum_excluded ? number <= *parameter.minimum : number < *parameter.minimum);
-        const bool high = parameter.maximum && number > *parameter.maximum;
-        if (!low && !high) return true;
-        add(where(node), fmt::format("{} = {} is too {}", parameter.key, toml_text(value), low ? "low" : "high"),
-            fmt::format("It must be {}", bounds_text(parameter)),
-            has_unit(parameter) ? fmt::format("Correct the value; its unit is {}", parameter.unit) : "Correct the value");
-        return false;
-    }
-
-    bool check_choice(const Parameter& parameter, const ParameterValue& value, const toml::node& node) {
-        if (parameter.kind != ParameterKind::choice) return true;
-        const std::string& text = std::get<std::string>(value);
-        if (std::find(parameter.choices.begin(), parameter.choices.end(), text) != parameter.choices.end()) return true;
-        const std::string nearest = nearest_word(text, parameter.choices);
-        add(where(node), fmt::format("{} = {} is not a valid choice", parameter.key, quoted(text)),
-            fmt::format("It must be one of {}", join(parameter.choices, ", ")),
-            nearest.empty() ? "Choose one of them" : fmt::format("Did you mean \"{}\"?", nearest));
-        return false;
+        values.set(parameter.key, *value);
     }
 
     void report_unknown(const std::string& key, const toml::node& node) {
@@ -258,6 +242,13 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::optional<Mistake> value_mistake(const Parameter& parameter, const ParameterValue& value) {
+    if (const auto* number = std::get_if<double>(&value)) return number_mistake(parameter, *number, value);
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) return number_mistake(parameter, static_cast<double>(*integer), value);
+    if (parameter.kind == ParameterKind::choice) return choice_mistake(parameter, std::get<std::string>(value));
+    return std::nullopt;
+}
 
 ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name) {
     Reader reader(table, name);

@@ -1,4 +1,4 @@
-#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -119,16 +119,16 @@ TEST(StudyCase, carries_the_study_into_the_case) {
     const CaseInputs inputs = case_inputs_of(study, k_head, cylinder(), 2);
     EXPECT_TRUE(check_case_inputs(inputs).empty());
     EXPECT_NEAR(inputs.rotor.speed, 2.0 * k_pi, 1e-12);
-    EXPECT_NEAR((inputs.mouth.centre - Vec3(0.0, 0.22, 0.05)).norm(), 0.0, 1e-12);
-    EXPECT_NEAR(inputs.mouth.sucked_up_depth, 0.2, 1e-12);
+    EXPECT_NEAR((inputs.fates.mouth.centre - Vec3(0.0, 0.22, 0.05)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(inputs.fates.mouth.depth, 0.2, 1e-12);
     EXPECT_NEAR(inputs.tank.z_min, -0.875, 1e-12);
     EXPECT_NEAR(inputs.tank.z_max, 0.435, 1e-12);
     EXPECT_NEAR(inputs.gravity.x(), inputs.gravity.norm() * std::cos(k_pi / 4.0), 1e-12);
     ASSERT_TRUE(inputs.rock.has_value());
     EXPECT_EQ(inputs.rock->density, 2700.0);
     EXPECT_EQ(inputs.ranks, 2);
-    EXPECT_TRUE(inputs.fates.stop_undecided.has_value());
+    EXPECT_TRUE(inputs.stop.has_value());
     const CaseInputs flow = case_inputs_of(study_of(""), k_head, cylinder(), 1);
     EXPECT_FALSE(flow.rock.has_value()) << "without feed it is a pure flow run";
-    EXPECT_FALSE(flow.fates.stop_undecided.has_value()) << "cutterFoam takes no rule of rock without rock";
+    EXPECT_FALSE(flow.stop.has_value()) << "cutterFoam takes no rule of rock without rock";
 }

@@ -53,6 +53,6 @@ std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds);
 std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study);
 
 /// Speed [m/s] at which a rock of that class settles in still water.
-double settling_speed(const Study& study, const RockClass& rock);
+double settling_speed(const Study& study, const FeedClass& rock);
 
 }  // namespace cutterflow::cases

@@ -1,4 +1,4 @@
-#include "geometry/base/parameter_words.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 #include "geometry/base/toml.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "cases/scenes/cutter/rock_feed.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +22,13 @@ namespace {
 // Rock starts clear of steel by this share of its diameter, so that no contact is under way at the release.
 constexpr double k_clearance_per_diameter = 0.05;
 
-double mass_of(const RockClass& rock) {
+double mass_of(const FeedClass& rock) {
     return sphere_mass(rock.diameter, rock.density);
 }
 
 double largest_diameter(const FeedRequest& request) {
     return std::max_element(request.classes.begin(), request.classes.end(),
-                            [](const RockClass& a, const RockClass& b) { return a.diameter < b.diameter; })
+                            [](const FeedClass& a, const FeedClass& b) { return a.diameter < b.diameter; })
         ->diameter;
 }
 
@@ -78,7 +78,7 @@ PlacedFeed place_feed(const FeedRequest& request, const Study& study, const Feed
     const geometry::SolidSearch cutter(geometry::transformed(scene.cutter, turn));
     const std::vector<std::size_t> counts = rocks_per_class(request);
     const std::size_t count = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-    const geometry::WaterBody water{study.tank.radius, study.tank_bottom(scene.size), study.tank_top(scene.size)};
+    const AxialCylinder water = study.water(scene.size);
     const geometry::RockPlacement placement =
         geometry::place_rocks(batch_of(request, count, scene.size), scene.head, water, {&cutter, &stationary});
 
@@ -94,7 +94,7 @@ PlacedFeed place_feed(const FeedRequest& request, const Study& study, const Feed
 std::vector<std::size_t> rocks_per_class(const FeedRequest& request) {
     std::vector<double> numbers;  // of rocks per kilogram of the feed, times the sum of the shares
     double shares = 0.0;
-    for (const RockClass& rock : request.classes) {
+    for (const FeedClass& rock : request.classes) {
         numbers.push_back(rock.mass_share / mass_of(rock));
         shares += rock.mass_share;
     }
@@ -129,7 +129,7 @@ std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds) {
     std::size_t id = 0;
     for (const PlacedFeed& feed : feeds) {
         for (const PlacedRock& rock : feed.rocks) {
-            const RockClass& rock_class = feed.request.classes[rock.rock_class];
+            const FeedClass& rock_class = feed.request.classes[rock.rock_class];
             text += fmt::format("{},{},{},{},{},{},{}\n", ++id, rock.time, rock.position.x(), rock.position.y(), rock.position.z(),
                                 rock_class.diameter, rock_class.density);
         }
@@ -142,7 +142,7 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
     for (const PlacedFeed& feed : feeds) {
         nlohmann::json classes = nlohmann::json::array();
         for (std::size_t i = 0; i < feed.request.classes.size(); ++i) {
-            const RockClass& rock = feed.request.classes[i];
+            const FeedClass& rock = feed.request.classes[i];
             const auto count = std::count_if(feed.rocks.begin(), feed.rocks.end(), [i](const PlacedRock& r) { return r.rock_class == i; });
             classes.push_back({{"diameter_m", rock.diameter},
                                {"density_kg_m3", rock.density},
@@ -159,7 +159,7 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
     return nlohmann::json{{"feeds", list}}.dump(2) + "\n";
 }
 
-double settling_speed(const Study& study, const RockClass& rock) {
+double settling_speed(const Study& study, const FeedClass& rock) {
     physics::SettlingRock settling;
     settling.rock = {rock.diameter, study.fluid.density, study.fluid.kinematic_viscosity, 1.0, study.closures.sphericity};
     settling.density = rock.density;

@@ -1,0 +1,79 @@
+#include "solver/ports/dem_settings.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/mistakes.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+constexpr const char* k_correct = "Correct the value";
+
+void check_linear(Mistakes& mistakes, const DemSettings& settings) {
+    const LinearContactSettings& law = settings.linear;
+    mistakes.positive("contact.theta", law.theta);
+    mistakes.positive("contact.reference_length_m", law.reference_length);
+    mistakes.positive("contact gravity", law.gravity);
+    mistakes.require(law.damping >= 0.0 && law.damping < std::sqrt(0.5), "contact.damping", law.damping,
+                     "It must be at least 0 and below sqrt(1/2): a pair swings", k_correct);
+    mistakes.require(law.poisson >= 0.0 && law.poisson <= 0.5, "contact.poisson", law.poisson, "It must be within 0 and 0.5", k_correct);
+    mistakes.require(std::isfinite(law.steps_per_period) && law.steps_per_period >= 20.0, "contact steps per period", law.steps_per_period,
+                     "It must be at least 20", k_correct);
+    mistakes.not_negative("contact.friction", settings.contact.friction);
+}
+
+void check_shape(Mistakes& mistakes, const DemSettings& settings) {
+    mistakes.not_negative("contact.gap_m", settings.contact_gap);
+    if (settings.shape != RockShape::cylinder) return;
+    mistakes.positive("cylinder length", settings.cylinder_length);
+    mistakes.require(settings.fluid.density == 0.0, "fluid density", settings.fluid.density,
+                     "It must be 0 for cylinders: added mass and buoyancy are a sphere's", k_correct);
+}
+
+void check_cylinder(Mistakes& mistakes, const DomainSettings& domain) {
+    mistakes.positive("rock.domain.radius", domain.radius);
+    mistakes.require(domain.lower.z() < domain.upper.z(),
+                     fmt::format("rock.domain.zMin = {}, zMax = {}", domain.lower.z(), domain.upper.z()), "zMin must be below zMax",
+                     "Correct them");
+    for (const std::size_t side : {0, 1, 2, 3})
+        mistakes.require(!domain.side_is_wall[side], fmt::format("rock.domain.walls: {} of a cylinder", k_domain_sides[side]),
+                         "A cylinder's plane sides are zMin and zMax", "Give its mantle as an STL in rock.walls");
+}
+
+void check_box(Mistakes& mistakes, const DomainSettings& domain) {
+    for (Eigen::Index i = 0; i < 3; ++i)
+        mistakes.require(domain.lower[i] < domain.upper[i],
+                         fmt::format("rock.domain: {0} from {1} to {2}", "xyz"[i], domain.lower[i], domain.upper[i]),
+                         "Corner lower must lie below corner upper", "Correct the corners");
+}
+
+void check_fluid(Mistakes& mistakes, const DemSettings& settings) {
+    mistakes.not_negative("fluid density", settings.fluid.density);
+    mistakes.not_negative("closures.addedMass", settings.added_mass);
+    if (!settings.contact.wet_restitution) return;
+    mistakes.require(
+        settings.fluid.density > 0.0 && settings.fluid.kinematic_viscosity > 0.0,
+        fmt::format("wet restitution with density {} and viscosity {}", settings.fluid.density, settings.fluid.kinematic_viscosity),
+        "It needs a fluid with both > 0", "Set rock.contact.wetRestitution false, or give rho and nu");
+}
+
+}  // namespace
+
+std::vector<Mistake> check_settings(const DemSettings& settings, const std::string& where) {
+    Mistakes mistakes(where);
+    if (settings.law == ContactLaw::linear)
+        check_linear(mistakes, settings);
+    else
+        mistakes.add(setting_mistakes(settings.contact, "rock.contact", where));
+    check_shape(mistakes, settings);
+    if (settings.domain.shape == DomainShape::cylinder)
+        check_cylinder(mistakes, settings.domain);
+    else
+        check_box(mistakes, settings.domain);
+    check_fluid(mistakes, settings);
+    return mistakes.take();
+}
+
+}  // namespace cutterflow::coupling
