@@ -24,19 +24,21 @@ namespace {
 
 using namespace cutterflow;
 
-std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& session, const foam::CouplingDictionary& dictionary,
-                                                     const foam::FoamFluidEngine& fluid, bool writes) {
-    if (!writes) return std::make_unique<coupling::SilentRecorder>();
-    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, fluid.time());
-    const auto versions = build_versions();
-    recorder->describe(models_in_use(dictionary, fluid), {versions.begin(), versions.end()});
-    return recorder;
-}
-
 void print_models(const std::vector<coupling::ModelNote>& models) {
     std::cout << "Models that are on:\n";
     for (const coupling::ModelNote& model : models) std::cout << "    " << model.name << "  (" << model.why << ")\n";
     std::cout << std::endl;
+}
+
+/// Of the rank that writes.
+std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& session, const foam::CouplingDictionary& dictionary,
+                                                     const foam::FoamFluidEngine& fluid) {
+    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, fluid.time());
+    const auto versions = build_versions();
+    const std::vector<coupling::ModelNote> models = models_in_use(dictionary, fluid);
+    recorder->describe(models, {versions.begin(), versions.end()});
+    print_models(models);
+    return recorder;
 }
 
 void run(int argc, char** argv) {
@@ -52,9 +54,8 @@ void run(int argc, char** argv) {
         const auto moving = fluid.moving_zones();
         dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, std::vector(moving.begin(), moving.end()), MPI_COMM_WORLD);
     }
-    const bool speaks = communicator.rank() == 0;
-    if (speaks) print_models(models_in_use(dictionary, fluid));
-    const auto recorder = make_recorder(session, dictionary, fluid, speaks);
+    std::unique_ptr<coupling::RunRecorder> recorder = std::make_unique<coupling::SilentRecorder>();
+    if (communicator.rank() == 0) recorder = make_recorder(session, dictionary, fluid);
 
     coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder,
                                  session.case_folder());
