@@ -151,10 +151,11 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         coupling::OutflowSettings outflow;
         coupling::StopSettings stop;
         coupling::CheckpointSettings checkpoint;
-        const std::string rock = fmt::format(
-            "rock {{ feed \"f.csv\"; contact {{ {} }} domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}", section_of(contact, choice));
-        const std::string text = fmt::format("{} kernel {{ {} }} closures {{ {} }} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }}", rock,
-                                             section_of(kernel, choice), section_of(closures, choice), section_of(outflow, choice),
+        const std::string rock =
+            fmt::format("rock {{ feed \"f.csv\"; contact {{ {} }} domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}",
+                        section_of(contact, choice));
+        const std::string text = fmt::format("{} kernel {{ {} }} closures {{ {} }} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }}",
+                                             rock, section_of(kernel, choice), section_of(closures, choice), section_of(outflow, choice),
                                              section_of(stop, choice), section_of(checkpoint, choice));
         const CouplingDictionary found = read("dictionary_round_trip_" + std::to_string(choice), text);
         ASSERT_TRUE(found.dem && found.coupling.outflow && found.coupling.stop && found.coupling.checkpoint);
