@@ -1,6 +1,7 @@
 #!/bin/sh
 # The Containerfile's steps without a container engine: its RUN lines in clean roots, one for each FROM.
 #   usage: cmake/check_containerfile.sh ROOTS     as root, from a clone; ROOTS is a new folder, which is kept
+# Prints every step with the last lines that it says; docs/results/package.md shows such a log.
 set -eu
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
 roots=$1
@@ -9,6 +10,12 @@ mkdir -p "$roots"
 stage=0
 root=
 folder=/
+
+run() { # what is shown, command
+    printf '\n[stage %s] %s\n' "$stage" "$1"
+    "$here/clean_root.sh" run "$root" "$2"
+}
+
 while read -r word rest; do
     case $word in
         FROM)
@@ -24,13 +31,7 @@ while read -r word rest; do
                 *) mkdir -p "$root/src" && git -C "$here/.." archive HEAD | tar -x -C "$root/src" ;;
             esac
             ;;
-        RUN)
-            printf '\n[stage %s] %s\n' "$stage" "$rest"
-            begin=$(date +%s)
-            "$here/clean_root.sh" run "$root" "cd $folder && { $rest ; } >/tmp/step.log 2>&1 || { tail -n 30 /tmp/step.log; exit 1; }"
-            tail -n 2 "$root/tmp/step.log"
-            echo "done in $(($(date +%s) - begin)) s"
-            ;;
-        ENTRYPOINT) "$here/clean_root.sh" run "$root" "cutterflow --version" ;;
+        RUN) run "$rest" "cd $folder && { $rest ; } >/tmp/step.log 2>&1 || { tail -n 30 /tmp/step.log; exit 1; }; tail -n 2 /tmp/step.log" ;;
+        ENTRYPOINT) run "cutterflow --version" "cutterflow --version" ;;
     esac
 done <"$here/../Containerfile"

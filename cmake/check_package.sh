@@ -1,30 +1,33 @@
 #!/bin/sh
 # The Debian package in a clean root: installed with its dependencies, and a tiny study from `cutterflow new` to its report.
 #   usage: cmake/check_package.sh PACKAGE.deb ROOT     as root; ROOT is a new folder, which is kept
-# Prints the log that docs/results/package.md shows.
+# Prints every command and what it says; docs/results/package.md shows such a log.
 set -eu
 package=$1
 root=$2
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
+deb=/tmp/$(basename "$package")
 
-in_root() {
-    printf '\n$ %s\n' "$1"
-    "$here/clean_root.sh" run "$root" "$1" 2>&1
+in_root() { # user, command: by that user, in their home
+    printf '\n%s$ %s\n' "$1" "$2"
+    printf 'cd\n%s\n' "$2" >"$root/tmp/command.sh"
+    "$here/clean_root.sh" run "$root" "su $1 -c 'sh -eu /tmp/command.sh'" 2>&1
 }
 
 "$here/clean_root.sh" make "$root"
 cp "$package" "$root/tmp/"
-deb=/tmp/$(basename "$package")
-in_root "dpkg -l | grep -c ^ii"
-in_root "apt-get -q update >/tmp/update.log && apt-get -q -y --no-install-recommends install $deb >/tmp/install.log && tail -n 1 /tmp/install.log"
-in_root "dpkg-deb -f $deb Package Version Architecture Depends"
-in_root "useradd --create-home user"
-as_user() { in_root "su user -c 'cd && $1'"; }
-as_user "cutterflow --version"
-as_user "cutterflow generate-cutter /usr/share/cutterflow/cases/examples/model_cutter/crown.toml -o head.stl"
-as_user "cutterflow new --cutter head.stl --unit m study.toml"
-# What a user edits: little rock, and a fiftieth of a revolution.
-as_user 'sed -i -e "s/^flow_revolutions = .*/flow_revolutions = 0.01/" -e "s/^max_revolutions = .*/max_revolutions = 0.02/" -e "s/^count = .*/count = 20/" study.toml'
-as_user "cutterflow check study.toml"
-as_user "cutterflow run study.toml -o runs/tiny"
-as_user "ls runs/tiny/report && cutterflow verify closures --fast -o runs/verification | tail -n 3"
+in_root root "dpkg --list | grep -c ^ii"
+in_root root "dpkg-deb --field $deb Package Version Architecture Installed-Size Depends && du --apparent-size -h $deb"
+in_root root "apt-get -q update >update.log && apt-get -q -y --no-install-recommends install $deb >install.log
+grep -e 'newly installed' -e 'After this operation' install.log && dpkg --list | grep -c ^ii"
+in_root root "useradd --create-home user"
+in_root user "cutterflow --version"
+in_root user "cutterflow generate-cutter /usr/share/cutterflow/cases/examples/model_cutter/crown.toml -o head.stl"
+in_root user "cutterflow new --cutter head.stl --unit m study.toml"
+# What a user edits: little rock, and a tenth of a revolution.
+in_root user 'sed -i -e "s/^flow_revolutions = .*/flow_revolutions = 0.02/" -e "s/^max_revolutions = .*/max_revolutions = 0.1/" \
+    -e "s/^count = .*/count = 20/" study.toml && grep -e _revolutions -e ^count study.toml'
+in_root user "cutterflow check study.toml"
+in_root user "cutterflow run study.toml -o 'runs/a tiny study'"
+in_root user "ls 'runs/a tiny study/report'"
+in_root user "cutterflow verify closures --fast -o runs/verification"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # A bare Debian bookworm in a folder, and commands in it, for checks of what an installation needs. As root.
 #   usage: cmake/clean_root.sh make ROOT          debootstrap, with the machine's own Debian sources
-#          cmake/clean_root.sh run ROOT COMMAND   sh -c COMMAND in ROOT, with /proc, /dev and the machine's name servers
+#          cmake/clean_root.sh run ROOT COMMAND   sh -c COMMAND in ROOT, with /proc, /sys, /dev and the machine's name servers; prints its processor time
 set -eu
 action=$1
 root=$2
@@ -20,10 +20,13 @@ case $action in
         # Mounts of a namespace of its own: they end with the command.
         unshare --mount sh -eu -c '
             mount -t proc proc "$1/proc"
+            mount --rbind /sys "$1/sys"
             mount --rbind /dev "$1/dev"
             mount --bind /etc/resolv.conf "$1/etc/resolv.conf" 2>/dev/null || cp /etc/resolv.conf "$1/etc/resolv.conf"
             exec chroot "$1" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
                 DEBIAN_FRONTEND=noninteractive sh -eu -c "$2"' sh "$root" "$3"
+        times >"$root.times"
+        awk -F '[ms ]+' 'NR == 2 { printf "[%.1f s of processor time]\n", 60 * ($1 + $3) + $2 + $4 }' "$root.times"
         ;;
     *) echo "clean_root: unknown action $action" >&2; exit 2 ;;
 esac
