@@ -14,7 +14,7 @@ file(CREATE_LINK "${CUTTERFLOW_OPENFOAM_DIR}/src/tutorials" "${CMAKE_BINARY_DIR}
 install(FILES docs/references.bib DESTINATION ${CUTTERFLOW_DATA}/docs)
 install(DIRECTORY docs/results/validation DESTINATION ${CUTTERFLOW_DATA}/docs/results FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY validation/cases DESTINATION ${CUTTERFLOW_DATA}/validation FILES_MATCHING PATTERN "README.md" PATTERN "*.csv")
-install(DIRECTORY cases/examples DESTINATION ${CUTTERFLOW_DATA}/cases)
+install(DIRECTORY cases/examples DESTINATION ${CUTTERFLOW_DATA}/cases USE_SOURCE_PERMISSIONS)
 install(DIRECTORY "${CUTTERFLOW_OPENFOAM_DIR}/src/tutorials/lagrangian/DPMFoam/Goldschmidt"
   DESTINATION ${CUTTERFLOW_DATA}/tutorials/lagrangian/DPMFoam OPTIONAL)
 
@@ -32,6 +32,7 @@ surface to a report of what is spilled, with the error and the cost beside it.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Programs that are started, and OpenFOAM's libraries, for which Debian keeps no dependency information.

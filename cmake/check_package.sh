@@ -28,6 +28,6 @@ in_root user "cutterflow new --cutter head.stl --unit m study.toml"
 in_root user 'sed -i -e "s/^flow_revolutions = .*/flow_revolutions = 0.02/" -e "s/^max_revolutions = .*/max_revolutions = 0.1/" \
     -e "s/^count = .*/count = 20/" study.toml && grep -e _revolutions -e ^count study.toml'
 in_root user "cutterflow check study.toml"
-in_root user "cutterflow run study.toml -o 'runs/a tiny study'"
-in_root user "ls 'runs/a tiny study/report'"
+in_root user "cutterflow run study.toml -o runs/tiny"
+in_root user "ls runs/tiny/report"
 in_root user "cutterflow verify closures --fast -o runs/verification"
