@@ -29,5 +29,7 @@ in_root user 'sed -i -e "s/^flow_revolutions = .*/flow_revolutions = 0.02/" -e "
     -e "s/^count = .*/count = 20/" study.toml && grep -e _revolutions -e ^count study.toml'
 in_root user "cutterflow check study.toml"
 in_root user "cutterflow run study.toml -o runs/tiny"
-in_root user "ls runs/tiny/report"
+in_root user "ls runs/tiny/report && sed -n -e '/\"conservation\"/,/}/p' -e '/\"fates\"/,/}/p' -e '/\"placed\"/p' runs/tiny/report/results.json"
+in_root user "cp -r /usr/share/cutterflow/cases/examples/rock_in_a_box . && rock_in_a_box/Allrun
+cut -d , -f 1-3 rock_in_a_box/postProcessing/balance/0/balance.csv | sed -n -e 1p -e '\$p'"
 in_root user "cutterflow verify closures --fast -o runs/verification"
