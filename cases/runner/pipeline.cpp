@@ -22,6 +22,7 @@
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
@@ -137,22 +138,29 @@ std::map<std::string, std::string> stage_inputs(const ParameterValues& values, c
 }
 
 RunHead read_run_head(const RunDirectory& directory) {
-    const fs::path file = directory.file(names::geometry_report);
+    const nlohmann::json head = read_json_document(directory.file(names::geometry_report),
+                                                   {{"head/ring_radius_m", JsonKind::number, true},
+                                                    {"head/blades", JsonKind::whole, true},
+                                                    {"head/passage_m", JsonKind::number_or_null, true},
+                                                    {"head/thickness_m", JsonKind::number, true}},
+                                                   "Start again in another directory with -o")
+                                    .at("head");
+    HeadSize size;
+    size.ring_radius = head.at("ring_radius_m");
+    size.blades = std::max(1, head.at("blades").get<int>());
+    if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m");
+    size.thickness = head.at("thickness_m");
+    geometry::RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
+    size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
+    size.depth = -contour.z.front();
+    RunHead run_head{size, std::move(contour)};
     try {
-        const nlohmann::json head = nlohmann::json::parse(read_file(file)).at("head");
-        HeadSize size;
-        size.ring_radius = head.at("ring_radius_m").get<double>();
-        size.blades = std::max(1, head.at("blades").get<int>());
-        if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m").get<double>();
-        size.thickness = head.at("thickness_m").get<double>();
-        geometry::RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
-        size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
-        size.depth = -contour.z.front();
-        return {size, std::move(contour)};
-    } catch (const nlohmann::json::exception& error) {
-        throw UserError(fmt::format("{} cannot be read: {}", file.string(), error.what()), "It must be as the geometry stage writes it",
-                        "Start again in another directory with -o");
+        run_head.with_backplate(0.0);
+    } catch (const std::invalid_argument& error) {
+        throw UserError(fmt::format("{} is not the contour of a head: {}", directory.file(names::contour_table).string(), error.what()),
+                        "Its axial coordinates increase, its radii and the ring radius are above 0", "Start again in another directory");
     }
+    return run_head;
 }
 
 geometry::Contour RunHead::with_backplate(double z_backplate) const {
@@ -335,7 +343,9 @@ std::optional<Mistake> Pipeline::full_disk() const {
 void Pipeline::say_cost(double core_s) const {
     const fs::path file = directory_.file(names::prediction);
     if (!fs::exists(file)) return;  // the case is of an older version
-    const nlohmann::json prediction = nlohmann::json::parse(read_file(file));
+    const nlohmann::json prediction =
+        read_json_document(file, {{"core_hours", JsonKind::number, true}, {"revolutions", JsonKind::number, true}},
+                           "Keep the run directory as the run wrote it");
     say_(fmt::format("took {:.3g} core hours; {:.3g} were predicted for {:g} revolutions", core_s / 3600.0,
                      prediction.at("core_hours").get<double>(), prediction.at("revolutions").get<double>()));
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/base/error.hpp"
 #include "geometry/head/axial_bins.hpp"
 
 namespace cutterflow::geometry {
@@ -27,6 +28,12 @@ TEST(AxialBins, hold_every_height_once) {
     EXPECT_EQ(bins.at(bin_of(bins, 0.01)).name, "gap");
     EXPECT_EQ(bins.at(bin_of(bins, -0.031)).name, "30-60mm");
     EXPECT_EQ(bins.at(bin_of(bins, -0.6)).name, "below_hub");
+}
+
+TEST(AxialBins, that_would_fill_the_memory_are_refused) {
+    const Contour contour({-1.0, 0.0}, {1.0, 1.0}, 1.0, 0.1);
+    EXPECT_EQ(axial_bins(contour, 1e-3).size(), 1002u);
+    for (const double width : {0.9e-3, 1e-300, 5e-324}) EXPECT_THROW(axial_bins(contour, width), UserError) << width;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Sampled read_sampled(const fs::path& directory) {
     Sampled sampled;
     for (const auto& [start, folder] : start_folders(directory, "velocity")) {
         if (!fs::exists(folder / mean_file) || !fs::exists(folder / revolution_file)) continue;
-        TableRules rules{{"point", "x_m", "y_m", "z_m", "rotating", "revolutions"}, {}, velocity, k_sample_again};
+        TableRules rules{{"point", "x_m", "y_m", "z_m", "rotating", "revolutions"}, {}, velocity, k_sample_again, {"revolutions"}};
         for (const char* component : {"radial", "tangential", "axial"}) rules.may_be_empty.push_back(fmt::format("se_{}_m_s", component));
         sampled.places = read_table(folder / mean_file, rules);
         sampled.revolutions =
@@ -56,6 +56,12 @@ Sampled read_sampled(const fs::path& directory) {
         throw UserError(fmt::format("{} contains no velocities at measurement points", directory.string()),
                         "The run averages the velocity at the points that its study names", k_sample_again);
     sampled.whole_revolutions = static_cast<int>(sampled.places.number("revolutions")[0]);
+    const std::size_t needed = sampled.places.rows() * static_cast<std::size_t>(sampled.whole_revolutions);
+    if (sampled.revolutions.rows() < needed)
+        throw UserError(fmt::format("{} of {} has {} rows", revolution_file, directory.string(), sampled.revolutions.rows()),
+                        fmt::format("{} tells of {} places and {} whole revolutions: {} rows", mean_file, sampled.places.rows(),
+                                    sampled.whole_revolutions, needed),
+                        "Copy the run directory again as a whole");
     return sampled;
 }
 

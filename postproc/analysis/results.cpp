@@ -284,7 +284,7 @@ Results compute_results(const RunData& run) {
     results.end_time = run.balance.number("time_s").back();
     if (run.rock) {
         results.spillage = evaluate_spillage(run.rock->fates, run.rock->events, run.bins, run.operating_point.revolution_s(), run.finished);
-        const int rejected_in_run = static_cast<int>(run.rock->rejected_in_run);
+        const auto rejected_in_run = static_cast<std::int64_t>(run.rock->rejected_in_run);
         results.rock_requested = run.feed ? run.feed->requested : results.spillage->fates.placed.count + rejected_in_run;
         results.rock_rejected = (run.feed ? run.feed->rejected : 0) + rejected_in_run;
     }

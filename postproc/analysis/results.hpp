@@ -72,7 +72,7 @@ struct Results {
     bool finished = false;
     double end_time = 0.0;             ///< of the last step [s]
     std::optional<Spillage> spillage;  ///< none: no rock
-    int rock_requested = 0, rock_rejected = 0;
+    std::int64_t rock_requested = 0, rock_rejected = 0;
     std::vector<BinOutflow> outflow;  ///< empty when the run did not sample it
     RotorLoads rotor;
     Delivery delivery;

@@ -17,7 +17,7 @@ constexpr double k_mass_tolerance = 1e-6;  ///< relative; the tables are text wi
 constexpr const char* k_remedy = "Keep the run directory and report this as a defect of the fates";
 
 RockAmount amount(const Table& fates, const std::string& fate, std::size_t row) {
-    return {static_cast<int>(std::lround(fates.number(fate + "_count")[row])), fates.number(fate + "_kg")[row]};
+    return {static_cast<int>(fates.number(fate + "_count")[row]), fates.number(fate + "_kg")[row]};
 }
 
 /// Rows at or before `time`; a thousandth of a step more is the rounding of text.
@@ -72,12 +72,12 @@ void require_same_mass(const std::vector<BinSpillage>& bins, const Fates& fates)
 }
 
 /// Ratios after 1, 2, 3 ... `interval`s [s] since `start`, up to row `last`. The run may end 0.5 % of an interval early: time steps do
-/// not fall on the mark.
+/// not fall on the mark. A table tells no more of them apart than it has rows.
 std::vector<RatiosAt> ratios_every(const Table& fates, std::size_t last, double start, double interval) {
     std::vector<RatiosAt> series;
     const std::vector<double>& times = fates.number("time_s");
     const double end = times[last] + 0.005 * interval;
-    for (int k = 1; start + k * interval <= end; ++k) {
+    for (int k = 1; start + k * interval <= end && series.size() <= last; ++k) {
         RatiosAt at = ratios_after(fates, start, k * interval);
         at.since_feed = k;
         series.push_back(at);
@@ -98,7 +98,7 @@ double first_placed_time(const Table& fates) {
 Fates fates_at(const Table& fates, std::size_t row) {
     const Fates now{fates.number("time_s")[row],   amount(fates, "placed", row),    amount(fates, "sucked_up", row),
                     amount(fates, "spilled", row), amount(fates, "in_cutter", row), amount(fates, "never_entered", row)};
-    const int count = now.sucked_up.count + now.spilled.count + now.in_cutter.count + now.never_entered.count;
+    const std::int64_t count = std::int64_t{now.sucked_up.count} + now.spilled.count + now.in_cutter.count + now.never_entered.count;
     const double mass = now.sucked_up.mass + now.spilled.mass + now.in_cutter.mass + now.never_entered.mass;
     if (count != now.placed.count || std::abs(mass - now.placed.mass) > k_mass_tolerance * now.placed.mass) {
         throw CheckFailure({"postProcessing/rock/fates.csv",
@@ -138,7 +138,7 @@ void RockHistories::advance(const Table& events, double time) {
 }
 
 void RockHistories::take(const Table& events, std::size_t row) {
-    RockHistory& rock = rocks_[static_cast<int>(std::lround(events.number("id")[row]))];
+    RockHistory& rock = rocks_[static_cast<int>(events.number("id")[row])];
     const double diameter = events.number("diameter_m")[row];
     rock.volume = sphere_volume(diameter);
     rock.mass = rock.volume * events.number("density_kg_m3")[row];

@@ -22,6 +22,7 @@ std::string percent(const std::optional<double>& share) {
 /// Number with `digits` significant digits: plain where people read it so, else with a power of ten.
 std::string digits_of(double value, int digits) {
     if (std::abs(value) < 1e-300) return "0";  // also limits that say "above zero"
+    if (!std::isfinite(value)) return k_dash;
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     if (exponent < -4 || exponent > 6) {
         const std::string power = exponent < 0 ? fmt::format("−{}", -exponent) : fmt::format("{}", exponent);

@@ -35,10 +35,10 @@ Integral integrate(const std::vector<double>& times, const std::vector<double>& 
 std::optional<double> batch_error(const std::vector<double>& times, const std::vector<double>& values, double start, double end,
                                   double period) {
     // A thousandth of a period short still counts as whole: the run's end is a sum of time steps.
-    const int periods = static_cast<int>(std::floor((end - start) / period + 1e-3));
-    const int periods_per_batch = std::max(1, periods / k_batches);
-    const int batches = periods / periods_per_batch;
-    if (batches < k_fewest_batches) return std::nullopt;
+    const double periods = std::floor((end - start) / period + 1e-3);
+    if (!(periods >= k_fewest_batches && std::isfinite(periods))) return std::nullopt;
+    const double periods_per_batch = std::max(1.0, std::floor(periods / k_batches));
+    const int batches = static_cast<int>(periods / periods_per_batch);
     const double width = periods_per_batch * period;
     std::vector<double> means;
     for (int batch = batches; batch > 0; --batch) {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/analysis/adv_comparison.hpp"
 #include "postproc/analysis/text.hpp"
@@ -20,6 +20,18 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::array<const char*, 3> k_colours{palette::outflow, palette::sucked_up, palette::spilled};
+
+constexpr const char* k_report_again = "Make the report of that run again";
+
+/// What a trend takes from adv.json.
+std::vector<JsonField> document_fields() {
+    std::vector<JsonField> fields{
+        {"speed_rpm", JsonKind::number, true}, {"discharge_m3_s", JsonKind::number, true}, {"points/*/name", JsonKind::text, true}};
+    for (const AdvComponent c : k_adv_components)
+        for (const char* value : {"measured_m_s", "model_m_s", "position_bar_m_s"})
+            fields.push_back({fmt::format("points/*/{}/{}", adv_component_name(c), value), JsonKind::number_or_null, true});
+    return fields;
+}
 
 std::optional<double> optional_of(const json& value) {
     return value.is_number() ? std::optional<double>(value.get<double>()) : std::nullopt;
@@ -122,8 +134,8 @@ std::vector<AdvTrend> read_adv_trends(const std::vector<fs::path>& run_directori
     for (const fs::path& directory : run_directories) {
         const fs::path file = directory / names::adv_json;
         if (!fs::exists(file)) continue;
-        const json document = json::parse(read_file(file), nullptr, false);
-        if (!document.is_object() || document.value("schema", "") != k_adv_schema) continue;
+        if (read_json_document(file, {{"schema", JsonKind::text, true}}, k_report_again).at("schema") != k_adv_schema) continue;
+        const json document = read_json_document(file, document_fields(), k_report_again);
         for (const json& point : document.at("points"))
             for (const AdvComponent c : k_adv_components) {
                 const std::string name = point.at("name"), component = adv_component_name(c);

@@ -1,12 +1,13 @@
 #include "postproc/run/run_reader.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <cstdint>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/toml.hpp"
 #include "geometry/head/head_names.hpp"
@@ -19,13 +20,36 @@ using nlohmann::json;
 
 constexpr const char* k_rerun = "Repeat the run with this version of Cutterflow";
 
+// What the report takes from the JSON files of a run.
+const std::vector<JsonField> k_geometry_fields{{"file", JsonKind::text},
+                                               {"head/ring_radius_m", JsonKind::number, true},
+                                               {"head/blades", JsonKind::whole},
+                                               {"surface", JsonKind::object}};
+const std::vector<JsonField> k_feed_fields{{"feeds/*/requested", JsonKind::whole, true},
+                                           {"feeds/*/rejected", JsonKind::whole, true},
+                                           {"feeds/*/reasons/*", JsonKind::text},
+                                           {"feeds/*/classes/*/diameter_m", JsonKind::number, true},
+                                           {"feeds/*/classes/*/density_kg_m3", JsonKind::number, true},
+                                           {"feeds/*/classes/*/count", JsonKind::number, true},
+                                           {"feeds/*/classes/*/settling_velocity_m_s", JsonKind::number_or_null}};
+const std::vector<JsonField> k_mesh_fields{
+    {"cells", JsonKind::whole}, {"gates/*/name", JsonKind::text}, {"gates/*/passed", JsonKind::truth}};
+const std::vector<JsonField> k_manifest_fields{{"stages", JsonKind::object}, {"versions", JsonKind::object}};
+const std::vector<JsonField> k_prediction_fields{{"first_release_s", JsonKind::number, true},
+                                                 {"core_hours_per_revolution", JsonKind::number, true},
+                                                 {"core_hours_per_revolution_with_rock", JsonKind::number, true},
+                                                 {"cells", JsonKind::number, true},
+                                                 {"time_step_s", JsonKind::number, true},
+                                                 {"time_step_with_rock_s", JsonKind::number, true}};
+const std::vector<JsonField> k_cost_fields{{"cells", JsonKind::whole},
+                                           {"ranks", JsonKind::whole},
+                                           {"models/*/name", JsonKind::text},
+                                           {"models/*/why", JsonKind::text},
+                                           {"versions", JsonKind::object}};
+
 /// Object of a JSON file; empty object when the file is absent.
-json read_json(const fs::path& file) {
-    if (!fs::exists(file)) return json::object();
-    std::ifstream stream(file);
-    json value = json::parse(stream, nullptr, false);
-    if (!value.is_object()) throw UserError(fmt::format("{} is not a JSON object", file.string()), "", k_rerun);
-    return value;
+json read_json(const fs::path& file, const std::vector<JsonField>& fields) {
+    return fs::exists(file) ? read_json_document(file, fields, k_rerun) : json::object();
 }
 
 /// Collects all mistakes in the values of a file.
@@ -149,16 +173,7 @@ AdvProbe read_adv_probe(const StudyReader& study) {
             study.number_or("report.adv_position_error_m", standard.position_error)};
 }
 
-double required_number(const json& object, const char* key, const fs::path& file) {
-    const auto found = object.find(key);
-    if (found == object.end() || !found->is_number()) {
-        throw UserError({{file.string(), fmt::format("{} is missing or not a number", key), "The report needs it", k_rerun}});
-    }
-    return found->get<double>();
-}
-
-geometry::Contour read_contour(const fs::path& directory, const json& geometry, double gap) {
-    const double ring_radius = required_number(geometry.value("head", json::object()), "ring_radius_m", directory / names::geometry_report);
+geometry::Contour read_contour(const fs::path& directory, double ring_radius, double gap) {
     const fs::path file = directory / names::contour_table;
     const Table table = read_table(file, {{"z_m", "r_m"}, {}, {}, k_rerun});
     try {
@@ -168,25 +183,18 @@ geometry::Contour read_contour(const fs::path& directory, const json& geometry, 
     }
 }
 
-int read_blades(const json& geometry) {
-    const json blades = geometry.value("head", json::object()).value("blades", json(1));
-    return blades.is_number_integer() ? std::max(1, blades.get<int>()) : 1;
-}
-
 std::optional<FeedSummary> read_feed(const fs::path& file) {
     if (!fs::exists(file)) return std::nullopt;
-    const json report = read_json(file);
+    const json report = read_json(file, k_feed_fields);
     FeedSummary summary;
-    for (const json& feed : report.value("feeds", json::array())) {
-        summary.requested += static_cast<int>(required_number(feed, "requested", file));
-        summary.rejected += static_cast<int>(required_number(feed, "rejected", file));
-        for (const json& reason : feed.value("reasons", json::array())) summary.reasons.push_back(reason.get<std::string>());
+    for (const json& feed : report.at("feeds")) {
+        summary.requested += feed.at("requested").get<std::int64_t>();
+        summary.rejected += feed.at("rejected").get<std::int64_t>();
+        for (const json& reason : feed.value("reasons", json::array())) summary.reasons.push_back(reason);
         for (const json& item : feed.value("classes", json::array())) {
-            RockClass rock_class{required_number(item, "diameter_m", file), required_number(item, "density_kg_m3", file),
-                                 required_number(item, "count", file), std::nullopt};
-            if (const auto speed = item.find("settling_velocity_m_s"); speed != item.end() && speed->is_number()) {
-                rock_class.settling_velocity = speed->get<double>();
-            }
+            RockClass rock_class{item.at("diameter_m"), item.at("density_kg_m3"), item.at("count"), std::nullopt};
+            const json speed = item.value("settling_velocity_m_s", json());
+            if (!speed.is_null()) rock_class.settling_velocity = speed;
             summary.classes.push_back(rock_class);
         }
     }
@@ -197,7 +205,8 @@ TableRules event_rules() {
     return {{"time_s", "id", "x_m", "y_m", "z_m", "rotor_angle_rad", "azimuth_rad", "axial_m", "diameter_m", "density_kg_m3"},
             {"surface", "direction", "bin"},
             {},
-            k_rerun};
+            k_rerun,
+            {"id"}};
 }
 
 TableRules fate_rules() {
@@ -205,7 +214,8 @@ TableRules fate_rules() {
              "in_cutter_kg", "never_entered_count", "never_entered_kg"},
             {},
             {},
-            k_rerun};
+            k_rerun,
+            {"placed_count", "sucked_up_count", "spilled_count", "in_cutter_count", "never_entered_count"}};
 }
 
 TableRules final_rules() {
@@ -296,8 +306,8 @@ RunData read_run(const fs::path& directory) {
     const double bin_width = study.positive("report.bin_width_m");
     const double gap = study.positive("suction.gap_m");
     study.require_all();
-    const json geometry = read_json(directory / names::geometry_report);
-    const geometry::Contour contour = read_contour(directory, geometry, gap);
+    const json geometry = read_json_document(directory / names::geometry_report, k_geometry_fields, k_rerun);
+    const geometry::Contour contour = read_contour(directory, geometry.at("head").at("ring_radius_m"), gap);
     RunData run{directory,
                 point,
                 contour,
@@ -311,12 +321,12 @@ RunData read_run(const fs::path& directory) {
                 read_plane(directory, "plane_axial.csv"),
                 read_plane(directory, "plane_under_ring.csv"),
                 geometry,
-                read_json(directory / names::mesh_report),
-                read_json(directory / names::manifest),
+                read_json(directory / names::mesh_report, k_mesh_fields),
+                read_json(directory / names::manifest, k_manifest_fields),
                 {},
-                read_blades(geometry),
+                std::max(1, geometry.at("head").value("blades", 1)),
                 read_adv_probe(study)};
-    run.prediction = read_json(directory / names::prediction);
+    run.prediction = read_json(directory / names::prediction, k_prediction_fields);
     run.setting = study.setting(cutter_of(run.manifest));
     run.release = study.release();
     run.seed = study.seed();
@@ -333,7 +343,7 @@ RunData read_run(const fs::path& directory) {
                                  {{"time_s", "step_s", "fluid_s", "mesh_motion_s", "mapping_s", "dem_s", "output_s"}, {}, {}, k_rerun});
     require_computed(run);
     const auto cost_folders = start_folders(directory, "cost");
-    run.cost_summary = read_json(cost_folders.back().second / "cost.json");
+    run.cost_summary = read_json(cost_folders.back().second / "cost.json", k_cost_fields);
     run.finished = !run.cost_summary.empty();
     require_whole(run);
     return run;

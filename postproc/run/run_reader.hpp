@@ -1,5 +1,6 @@
 #pragma once
 /// \file What a run directory holds, read for the report. Which file has what: docs/design/001-contracts.md.
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -45,8 +46,8 @@ struct RockClass {
 
 /// Content of feed.json, summed over the feeds.
 struct FeedSummary {
-    int requested = 0;
-    int rejected = 0;
+    std::int64_t requested = 0;
+    std::int64_t rejected = 0;
     std::vector<std::string> reasons;
     std::vector<RockClass> classes;
 };

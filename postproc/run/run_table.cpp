@@ -60,6 +60,13 @@ double parse_number(std::string_view field, bool may_be_empty, const std::string
     return value;
 }
 
+void require_whole(double value, const std::string& where, const std::string& column) {
+    constexpr double largest = std::numeric_limits<int>::max();
+    if (value >= 0.0 && value <= largest && value == std::floor(value)) return;
+    throw UserError({{where, fmt::format("{} = {}", column, value), fmt::format("The column has whole numbers from 0 to {:.0f}", largest),
+                      "Read the run's log at that time"}});
+}
+
 void require_columns(const std::vector<std::string>& columns, const TableRules& rules, const std::filesystem::path& file) {
     std::vector<Mistake> mistakes;
     for (const auto* required : {&rules.numbers, &rules.texts}) {
@@ -143,7 +150,9 @@ Table read_table(const std::filesystem::path& file, const TableRules& rules) {
             if (contains(rules.texts, column)) {
                 table.texts_[column].emplace_back(fields[c]);
             } else {
-                table.numbers_[column].push_back(parse_number(fields[c], contains(rules.may_be_empty, column), where, column));
+                const double value = parse_number(fields[c], contains(rules.may_be_empty, column), where, column);
+                if (contains(rules.whole, column)) require_whole(value, where, column);
+                table.numbers_[column].push_back(value);
             }
         }
         ++table.rows_;

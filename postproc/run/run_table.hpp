@@ -13,6 +13,7 @@ struct TableRules {
     std::vector<std::string> texts;         ///< required columns of text
     std::vector<std::string> may_be_empty;  ///< of `numbers`: an empty field or nan is allowed and read as NaN
     std::string remedy;                     ///< what a user does when a column is missing
+    std::vector<std::string> whole{};       ///< of `numbers`: 0 to 2147483647, without a fraction
 };
 
 /// Columns of equal length.
@@ -42,7 +43,8 @@ private:
 
 /// Reads one CSV file with a header line. A last line without a newline is what a killed run left behind and does not count.
 /// \throws UserError  when the file cannot be read, a required column is missing, a line has another number of fields than the header, or
-///                    a field is not a finite number; names file, line and column, every missing column at once
+///                    a field is not a finite number or not a whole one where it must be; names file, line and column, every missing column
+///                    at once
 Table read_table(const std::filesystem::path& file, const TableRules& rules);
 
 /// The folders `<t0>` of postProcessing/<what> of a run, by increasing start time. Other entries are ignored.

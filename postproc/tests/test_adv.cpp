@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/run_files.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
@@ -269,6 +270,26 @@ TEST_F(AdvRun, refuses_points_that_the_run_did_not_sample) {
     } catch (const UserError& error) {
         EXPECT_THAT(error.what(), HasSubstr("points.csv:2: the run did not sample the point A"));
         EXPECT_THAT(error.what(), HasSubstr("points.csv:3: the run did not sample the point B"));
+    }
+}
+
+TEST_F(AdvRun, refuses_revolutions_that_its_table_does_not_hold) {
+    const fs::path file = points_file("A,100,30,-50,still,10,20,30\n");
+    write_sampled(read_adv_points(file), {0.0, 0.1});
+    EXPECT_NO_THROW(compare_with_measurement(run.directory, file));
+    const fs::path table = run.directory / "postProcessing/velocity/0/adv_revolutions.csv";
+    const std::string text = testing::read_text(table);
+    testing::write_text(table, text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+    EXPECT_THROW(compare_with_measurement(run.directory, file), UserError);
+}
+
+TEST_F(AdvRun, trends_refuse_documents_with_values_of_another_kind) {
+    for (const char* text : {R"({"schema": 1})", R"({"schema": "SCHEMA", "points": 3})",
+                             R"({"schema": "SCHEMA", "speed_rpm": 60, "discharge_m3_s": 0.1, "points": [{"name": "A", "radial": {}}]})"}) {
+        std::string document = text;
+        if (const auto at = document.find("SCHEMA"); at != std::string::npos) document.replace(at, 6, k_adv_schema);
+        testing::write_text(run.directory / names::adv_json, document);
+        EXPECT_THROW(read_adv_trends({run.directory}), UserError) << document;
     }
 }
 

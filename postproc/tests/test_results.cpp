@@ -1,6 +1,7 @@
 #include "postproc/analysis/results.hpp"
 
 #include <fstream>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -287,6 +288,75 @@ TEST(ReadRun, refuses_a_directory_without_a_computed_step) {
         EXPECT_NE(std::string(error.what()).find("contains no computed time step"), std::string::npos);
     }
     EXPECT_THROW(read_run(run.directory / "elsewhere"), UserError);
+}
+
+/// Each of these ended as a defect of the program, or as another number, before it was checked.
+TEST(ReadRun, refuses_values_of_another_kind_with_file_value_rule_and_remedy) {
+    const std::vector<std::tuple<const char*, const char*, json, const char*>> wrong{
+        {"feed.json", "/feeds/0/requested", "eleven", "feeds[0].requested = \"eleven\""},
+        {"feed.json", "/feeds/0/requested", 1e300, "feeds[0].requested = 1e+300"},
+        {"feed.json", "/feeds/0/rejected", -1, "feeds[0].rejected = -1"},
+        {"feed.json", "/feeds/0/reasons", {1}, "feeds[0].reasons[0] = 1"},
+        {"feed.json", "/feeds/0/classes/0", "round", "feeds[0].classes[0] = \"round\""},
+        {"feed.json", "/feeds", 7, "feeds = 7"},
+        {"geometry/geometry.json", "/head/blades", 4294967296, "head.blades = 4294967296"},
+        {"geometry/geometry.json", "/head/ring_radius_m", "wide", "head.ring_radius_m = \"wide\""},
+        {"geometry/geometry.json", "/file", json::object(), "file = {}"},
+        {"mesh.json", "/gates/0/passed", "yes", "gates[0].passed = \"yes\""},
+        {"mesh.json", "/gates/1", 1, "gates[1] = 1"},
+        {"mesh.json", "/cells", 1e300, "cells = 1e+300"},
+        {"manifest.json", "/stages", "mesh", "stages = \"mesh\""},
+        {"manifest.json", "/versions", 2, "versions = 2"},
+        {"postProcessing/cost/0/cost.json", "/models/0", nullptr, "models[0] = null"},
+        {"postProcessing/cost/0/cost.json", "/ranks", -2, "ranks = -2"},
+        {"postProcessing/cost/0/cost.json", "/versions", {1}, "versions = [1]"}};
+    for (const auto& [file, place, value, what] : wrong) {
+        SmallRun run("wrong_kind");
+        run.write();
+        json document = json::parse(testing::read_text(run.directory / file));
+        document[json::json_pointer(place)] = value;
+        testing::write_text(run.directory / file, document.dump());
+        try {
+            const RunData data = read_run(run.directory);
+            results_json(compute_results(data), data);
+            ADD_FAILURE() << file << " " << place << " = " << value << " is accepted";
+        } catch (const UserError& error) {
+            ASSERT_EQ(error.mistakes().size(), 1u) << error.what();
+            const Mistake& mistake = error.mistakes().front();
+            EXPECT_EQ(mistake.where, (run.directory / file).string());
+            EXPECT_EQ(mistake.what, what);
+            EXPECT_FALSE(mistake.rule.empty() || mistake.remedy.empty()) << error.what();
+        }
+    }
+}
+
+TEST(ReadRun, counts_of_several_feeds_add_up_beyond_the_range_of_one) {
+    SmallRun run("many_rocks");
+    run.write();
+    json report = json::parse(testing::read_text(run.directory / "feed.json"));
+    report["feeds"][0]["requested"] = 2147483647;
+    report["feeds"].push_back(report["feeds"][0]);
+    testing::write_text(run.directory / "feed.json", report.dump());
+    EXPECT_EQ(read_run(run.directory).feed->requested, 4294967294);
+}
+
+TEST(ReadRun, refuses_a_bin_width_that_would_fill_the_memory) {
+    SmallRun run("narrow_bins");
+    run.write();
+    const auto file = run.directory / "study.resolved.toml";
+    std::string text = testing::read_text(file);
+    const std::string key = "bin_width_m = 0.03";
+    text.replace(text.find(key), key.size(), "bin_width_m = 1e-300");
+    testing::write_text(file, text);
+    EXPECT_THROW(read_run(run.directory), UserError);
+}
+
+TEST(Results, of_a_rotor_too_fast_for_its_time_steps_end) {
+    SmallRun run("fast");
+    run.speed_rpm = 1e300;
+    run.write();
+    const Spillage spillage = *compute_results(read_run(run.directory)).spillage;
+    EXPECT_LE(spillage.at_revolutions.size(), 200u);  // rows of the tables
 }
 
 TEST(ReadRun, refuses_outflow_of_another_bin_width) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
@@ -58,6 +59,18 @@ TEST(ReadTable, refuses_broken_lines_and_fields_by_line_number) {
         } catch (const UserError& error) {
             EXPECT_NE(std::string(error.what()).find("t.csv:3"), std::string::npos) << error.what();
         }
+    }
+}
+
+TEST(ReadTable, refuses_numbers_that_are_not_whole_where_they_must_be) {
+    const auto file = fresh_directory("table") / "t.csv";
+    const TableRules rules{{"time_s", "value"}, {}, {}, "Run again", {"value"}};
+    write_text(file, "time_s,value\n0.05,0\n0.1,2147483647\n");
+    EXPECT_EQ(read_table(file, rules).number("value")[1], 2147483647.0);
+    for (const char* value : {"-1", "0.5", "2147483648", "1e300"}) {
+        write_text(file, fmt::format("time_s,value\n0.05,1\n0.1,{}\n", value));
+        EXPECT_THROW(read_table(file, rules), UserError) << value;
+        EXPECT_NO_THROW(read_table(file, k_rules));
     }
 }
 

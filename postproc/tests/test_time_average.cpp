@@ -29,6 +29,13 @@ TEST(TimeAverage, window_without_values_has_no_mean) {
     EXPECT_FALSE(time_average({}, {}, 0.0, 1.0, 1.0));
 }
 
+TEST(TimeAverage, over_more_periods_than_can_be_counted_has_no_error) {
+    const auto average = time_average({1.0, 2.0}, {1.0, 3.0}, 0.0, 2.0, 1e-300);
+    ASSERT_TRUE(average);
+    EXPECT_FALSE(average->standard_error);
+    EXPECT_FALSE(time_average({1e300, 1.5e300}, {1.0, 3.0}, 0.0, 2e300, 1e-300)->standard_error);
+}
+
 TEST(TimeAverage, batch_means_give_the_standard_error_of_the_mean) {
     // Ten batches of means 0, 1, 0, 1 ...: standard deviation sqrt(10 / 36), error of the mean that over sqrt(10).
     std::vector<double> times, values;
