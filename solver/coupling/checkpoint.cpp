@@ -9,6 +9,7 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
 
 namespace cutterflow::coupling {
@@ -20,10 +21,31 @@ namespace fs = std::filesystem;
 constexpr const char* k_state_file = "state.json";
 constexpr const char* k_velocity_file = "velocity.sums";
 constexpr const char* k_schema = "cutterflow.state/2";
+constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
+
+const std::vector<JsonField> k_state_fields{{"schema", JsonKind::text, true},
+                                            {"time_s", JsonKind::number, true},
+                                            {"rotor_angle_rad", JsonKind::number, true},
+                                            {"ranks", JsonKind::whole, true},
+                                            {"handled_feed/*", JsonKind::whole, true},
+                                            {"booked/volume_m3", JsonKind::number, true},
+                                            {"booked/momentum_n_s/*", JsonKind::number, true},
+                                            {"rocks/*/id", JsonKind::whole, true},
+                                            {"rocks/*/diameter_m", JsonKind::number, true},
+                                            {"rocks/*/density_kg_m3", JsonKind::number, true},
+                                            {"rocks/*/position_m/*", JsonKind::number, true},
+                                            {"rocks/*/in_run", JsonKind::truth, true},
+                                            {"rocks/*/inside", JsonKind::truth, true},
+                                            {"rocks/*/was_inside", JsonKind::truth, true},
+                                            {"rocks/*/sucked_up", JsonKind::truth, true},
+                                            {"rocks/*/last_exit_bin", JsonKind::whole_or_null, true},
+                                            {"rocks/*/first_exit_time_s", JsonKind::number_or_null, true},
+                                            {"rocks/*/first_exit_azimuth_rad", JsonKind::number_or_null, true}};
 
 json to_json(const Vec3& v) {
     return {v[0], v[1], v[2]};
 }
+/// \throws json::exception  when it has fewer than three components
 Vec3 vector_of(const json& j) {
     return Vec3(j.at(0), j.at(1), j.at(2));
 }
@@ -70,7 +92,7 @@ TrackedRock rock_of(const json& j) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule) {
-    throw UserError({{file.string(), what, rule, "Remove this checkpoint folder; the run then resumes from the one before"}});
+    throw UserError({{file.string(), what, rule, k_remedy}});
 }
 
 std::string carry_file(int rank) {
@@ -93,12 +115,10 @@ void write_state(const fs::path& folder, const RunState& state) {
 
 RunState read_state(const fs::path& folder) {
     const fs::path file = folder / k_state_file;
-    std::ifstream stream(file);
-    if (!stream) refuse(file, "the file cannot be read", "A checkpoint holds the state of the run");
+    const json schema = read_json_document(file, {{"schema", JsonKind::text, true}}, k_remedy).at("schema");
+    if (schema != k_schema) refuse(file, fmt::format("schema {} is not {}", schema.dump(), k_schema), "Versions must match");
+    const json j = read_json_document(file, k_state_fields, k_remedy);
     try {
-        const json j = json::parse(stream);
-        if (j.at("schema") != k_schema)
-            refuse(file, fmt::format("schema {} is not {}", j.at("schema").dump(), k_schema), "Versions must match");
         RunState state;
         state.time = j.at("time_s");
         state.rotor_angle = j.at("rotor_angle_rad");
@@ -144,6 +164,9 @@ std::vector<Vec3> read_carry(const fs::path& folder, int written_by, gsl::span<c
         for (std::size_t i = 0; i < count; ++i) {
             const auto cell = place.find(ids[i]);
             if (cell == place.end()) continue;
+            if (!values[i].allFinite())
+                refuse(file, fmt::format("the momentum of cell {} is ({}, {}, {})", ids[i], values[i][0], values[i][1], values[i][2]),
+                       "Momentum is finite");
             carry[cell->second] = values[i];
             ++found;
         }

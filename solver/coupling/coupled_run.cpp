@@ -378,6 +378,11 @@ void CoupledRun::resume(const fs::path& checkpoint) {
             if (state.rocks.count(id) == 0)
                 refuse(fmt::format("the checkpoint does not tell what became of rock {}", id), "Fates are followed from the first rock on",
                        "Remove section fates, or the folder to start from the beginning");
+        for (const auto& [id, rock] : state.rocks)
+            if (rock.last_exit_bin && *rock.last_exit_bin >= fates_->bins().size())
+                refuse(fmt::format("rock {} left the head through bin {}", id, *rock.last_exit_bin),
+                       fmt::format("The head has {} bins, counted from 0", fates_->bins().size()),
+                       "Resume with the bin width that the run began with, or remove the folder to start from the beginning");
         fates_->restore(state.rocks);
     }
     rock_->restore(std::move(carry), state.booked);

@@ -28,6 +28,7 @@
 #include "update.h"
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/liggghts/contacts/contact_registration.hpp"
 #include "solver/liggghts/contacts/wall_contacts.hpp"
@@ -604,11 +605,13 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
 }
 
 void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path& folder) {
-    std::ifstream stream(folder / k_state_file);
-    if (!stream || !std::filesystem::exists(folder / k_restart_file))
-        throw std::runtime_error(fmt::format("{} and {} cannot be read in {}", k_state_file, k_restart_file, folder.string()));
-    const nlohmann::json state = nlohmann::json::parse(stream);
-    time_ = state.at("time_s").get<double>();
+    const char* const remedy = "Remove this checkpoint folder; the run then resumes from the one before";
+    const nlohmann::json state =
+        read_json_document(folder / k_state_file, {{"time_s", JsonKind::number, true}, {"torque_n_m", JsonKind::number, true}}, remedy);
+    if (!std::filesystem::is_regular_file(folder / k_restart_file))
+        throw UserError(
+            {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", remedy}});
+    time_ = state.at("time_s");
     contact_torque_ = is_first_rank() ? state.at("torque_n_m").get<double>() : 0.0;
     set_up_needed_ = true;
     command("clear");

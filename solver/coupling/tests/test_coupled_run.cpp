@@ -1,5 +1,7 @@
 // The coupled run with stand-ins for fluid and DEM: stages, records, stop rule, checkpoint, pure flow.
 #include <cstring>
+#include <fstream>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -461,6 +463,60 @@ TEST(Checkpoint, whose_carry_counts_more_cells_than_it_holds_is_refused) {
     for (const std::uint64_t count : {std::uint64_t{1}, std::uint64_t{1} << 59, ~std::uint64_t{0}}) {
         std::ofstream(folder.path() / "carry.0", std::ios::binary).write(reinterpret_cast<const char*>(&count), sizeof count);
         EXPECT_THROW(read_carry(folder.path(), 1, cells), UserError) << count;
+    }
+}
+
+TEST(Checkpoint, of_carried_momentum_that_is_no_number_is_refused) {
+    const TemporaryFolder folder;
+    const std::vector<std::int64_t> cells{1, 2};
+    const std::vector<Vec3> carry{Vec3::Zero(), Vec3(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0)};
+    write_carry(folder.path(), 0, cells, carry);
+    EXPECT_THROW(read_carry(folder.path(), 1, cells), UserError);
+}
+
+/// Without a check nlohmann's conversion to int of each of these is undefined or gives another number.
+TEST(Checkpoint, whose_state_holds_numbers_that_int_cannot_is_refused_with_all_of_them) {
+    const TemporaryFolder folder;
+    RunState state;
+    state.handled_feed = {1, 2};
+    state.rocks[2].id = 2;
+    state.rocks[2].last_exit_bin = 3;
+    write_state(folder.path(), state);
+    EXPECT_EQ(read_state(folder.path()).rocks.at(2).last_exit_bin, 3u);
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(folder.path() / "state.json"));
+    document["ranks"] = 1e300;
+    document["handled_feed"][1] = 4294967297;
+    document["rocks"][0]["id"] = 2.5;
+    document["rocks"][0]["last_exit_bin"] = -1;
+    std::ofstream(folder.path() / "state.json") << document.dump();
+    try {
+        read_state(folder.path());
+        FAIL();
+    } catch (const UserError& error) {
+        ASSERT_EQ(error.mistakes().size(), 4u) << error.what();
+        EXPECT_EQ(error.mistakes()[0].what, "ranks = 1e+300");
+        EXPECT_NE(error.mistakes()[0].remedy.find("Remove this checkpoint folder"), std::string::npos);
+    }
+}
+
+TEST(Checkpoint, whose_rock_left_through_a_bin_that_the_head_has_not_is_refused) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    settings.checkpoint = CheckpointSettings{0.01, 2};
+    MemoryRecorder recorder;
+    Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+    while (newest_checkpoint(folder.path()).empty()) rig.run->step();
+    const auto checkpoint = newest_checkpoint(folder.path());
+    RunState state = read_state(checkpoint);
+    for (const std::size_t bin : {std::size_t{0}, std::size_t{100000}}) {
+        state.rocks.at(1).last_exit_bin = bin;
+        write_state(checkpoint, state);
+        Rig fresh(settings, folder.path(), recorder, Vec3::Zero());
+        fresh.fluid.restart_at(rig.fluid.time());
+        if (bin == 0)
+            EXPECT_NO_THROW(fresh.run->resume(checkpoint));
+        else
+            EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
     }
 }
 

@@ -115,7 +115,19 @@ TEST(Checkpoint, can_be_read_on_another_number_of_ranks) {
 
 TEST(Checkpoint, a_folder_without_one_is_refused) {
     LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
-    EXPECT_THROW(engine.read_checkpoint(scratch_folder()), std::runtime_error);
+    EXPECT_THROW(engine.read_checkpoint(scratch_folder()), UserError);
+}
+
+TEST(Checkpoint, a_damaged_one_is_refused_as_the_users_input) {
+    const auto folder = scratch_folder();
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
+    engine.write_checkpoint(folder);
+    for (const char* text : {"", "{\"time_s\": 0.1", "{\"time_s\": 0.1}", "{\"time_s\": \"now\", \"torque_n_m\": 0}", "[]"}) {
+        MPI_Barrier(MPI_COMM_WORLD);
+        std::ofstream(folder / "dem.json") << text;
+        MPI_Barrier(MPI_COMM_WORLD);
+        EXPECT_THROW(engine.read_checkpoint(folder), UserError) << text;
+    }
 }
 
 TEST(Checkpoint, rock_can_be_inserted_and_removed_after_reading) {

@@ -1,5 +1,6 @@
 // Averages of the velocity at points: analytic fields that turn with the head, steel that passes, what a checkpoint keeps.
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -203,6 +204,28 @@ TEST_F(VelocitySetsTest, sums_that_announce_more_revolutions_than_they_hold_are_
         std::istringstream stream(bytes);
         VelocitySets resumed(how, fluid);
         EXPECT_FALSE(resumed.restore(stream)) << revolutions;
+    }
+}
+
+/// The angle counts the whole revolutions, by which the tables index the sums.
+TEST_F(VelocitySetsTest, sums_of_an_angle_that_they_cannot_have_reached_are_refused) {
+    for (const char* points : {"0.1,0.2,-0.1,0\n", ""}) {
+        const VelocitySettings how = settings(points, 8);
+        FakeFluid fluid = rotating_flow(6.0);
+        VelocitySets sets(how, fluid);
+        turn_to(2.3 * k_turn, sets, fluid);
+        std::ostringstream saved;
+        sets.write(saved);
+        const std::size_t angle_at = sizeof(double) + 4 * sizeof(std::uint64_t);
+        for (const double angle : {1e3, -1.0, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+            for (const std::size_t at : {std::size_t{0}, angle_at}) {
+                if (at == 0 && std::isfinite(angle)) continue;  // the next sample's angle may be any
+                std::string bytes = saved.str();
+                bytes.replace(at, sizeof angle, reinterpret_cast<const char*>(&angle), sizeof angle);
+                std::istringstream stream(bytes);
+                VelocitySets resumed(how, fluid);
+                EXPECT_FALSE(resumed.restore(stream)) << angle << " at byte " << at;
+            }
     }
 }
 

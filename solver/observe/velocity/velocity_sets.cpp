@@ -120,7 +120,8 @@ void VelocitySets::write(std::ostream& stream) const {
 
 bool VelocitySets::restore(std::istream& stream) {
     stream.read(reinterpret_cast<char*>(&next_), sizeof next_);
-    return stream && std::all_of(sets_.begin(), sets_.end(), [&](VelocitySet& set) { return set.statistics.restore(stream); });
+    return stream && std::isfinite(next_) &&
+           std::all_of(sets_.begin(), sets_.end(), [&](VelocitySet& set) { return set.statistics.restore(stream); });
 }
 
 }  // namespace cutterflow::coupling

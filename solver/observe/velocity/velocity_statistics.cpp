@@ -13,6 +13,7 @@ namespace {
 constexpr double k_turn = 2.0 * k_pi;
 // A revolution is whole when no more than this is missing [rad]: angles are sums of steps and carry their rounding.
 constexpr double k_rounding = 1e-6;
+constexpr double k_most_revolutions = 1e6;  // of a checkpoint that is believed
 
 template <class T>
 void put(std::ostream& stream, const T* data, std::size_t count) {
@@ -133,12 +134,16 @@ bool VelocityStatistics::restore(std::istream& stream) {
     if (!stream || header[0] != points() || header[1] != static_cast<std::uint64_t>(phases_)) return false;
     const std::uint64_t bytes_per_revolution = points() * sizeof(WeightedVelocity);
     if (bytes_per_revolution > 0 && header[2] > bytes_left(stream) / bytes_per_revolution) return false;
+    take(stream, &last_angle_, 1);
+    const double turns = last_angle_ / k_turn;
+    // The last revolution is there from its first moment on.
+    if (!stream || !(turns >= 0.0 && turns <= k_most_revolutions) || std::abs(static_cast<double>(header[2]) - turns) > 1.001) return false;
     revolutions_.assign(header[2], std::vector<WeightedVelocity>(points()));
     samples_ = header[3];
-    take(stream, &last_angle_, 1);
     for (Bins* bins : {&revolutions_, &by_phase_})
         for (auto& bin : *bins) take(stream, bin.data(), bin.size());
     take(stream, dry_.data(), dry_.size());
+    if (whole_revolutions() > static_cast<int>(revolutions_.size())) return false;
     if (samples_ == 0) return static_cast<bool>(stream);
     last_velocity_.resize(points());
     last_wet_.resize(points());
