@@ -19,7 +19,8 @@
 #ifdef __SANITIZE_ADDRESS__
 /// A process that asks for this much memory at once, or leaves by a sanitizer, is a finding.
 extern "C" const char* __asan_default_options() {
-    return "detect_leaks=0:max_allocation_size_mb=2048";
+    static_assert(cutterflow::validation::k_sanitizer_exit_code == 86);
+    return "detect_leaks=0:max_allocation_size_mb=2048:exitcode=86";
 }
 #endif
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
 
 namespace cutterflow::validation {
 namespace {
@@ -148,11 +151,59 @@ void change_number_of_bytes(std::string& text, FuzzDice& dice) {
     for (std::size_t i = 0; i < length && at + i < text.size(); ++i) text[at + i] = static_cast<char>(value >> (8 * i));
 }
 
+/// Every value of a document: the root, then what it holds.
+void collect(nlohmann::json& value, std::vector<nlohmann::json*>& found) {
+    found.push_back(&value);
+    if (value.is_structured())
+        for (nlohmann::json& item : value) collect(item, found);
+}
+
+/// A value of another kind or beyond a range, or one of the document's own.
+nlohmann::json any_value(const std::vector<nlohmann::json*>& found, FuzzDice& dice) {
+    static const std::vector<nlohmann::json> values{nullptr,
+                                                    true,
+                                                    0,
+                                                    -1,
+                                                    2.5,
+                                                    2147483648,
+                                                    -2147483649,
+                                                    18446744073709551615ull,
+                                                    1e300,
+                                                    -1e300,
+                                                    5e-324,
+                                                    "",
+                                                    "text",
+                                                    nlohmann::json::array(),
+                                                    nlohmann::json::array({1}),
+                                                    nlohmann::json::object(),
+                                                    nlohmann::json::object({{"name", "text"}})};
+    return dice.below(4) == 0 ? *found[dice.below(found.size())] : values[dice.below(values.size())];
+}
+
+/// Changes, leaves out or doubles a value of a JSON document, which stays one. \return whether the text is a document
+bool change_json(std::string& text, FuzzDice& dice) {
+    nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+    if (!document.is_structured()) return false;
+    std::vector<nlohmann::json*> found;
+    collect(document, found);
+    nlohmann::json& value = *found[dice.below(found.size())];
+    const std::size_t how = value.empty() || !value.is_structured() ? 0 : dice.below(3);
+    if (how == 0)
+        value = nlohmann::json(any_value(found, dice));
+    else if (how == 1)
+        value.erase(std::next(value.begin(), static_cast<std::ptrdiff_t>(dice.below(value.size()))));
+    else if (value.is_array())
+        value.push_back(nlohmann::json(value[dice.below(value.size())]));
+    text = document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return true;
+}
+
 void change(std::string& text, const std::string& other, const std::vector<std::string>& words, FuzzDice& dice) {
     if (text.empty()) {
         text = other.substr(0, dice.below(other.size() + 1));
         return;
     }
+    if (text.front() == '{' && dice.below(2) == 0 && change_json(text, dice)) return;
     switch (dice.below(16)) {
         case 0:
             text.resize(dice.below(text.size()));

@@ -22,7 +22,7 @@ private:
 
 /// A copy of `content` with one to four changes: a bit or a byte, a cut, a piece left out or doubled, a line left out, doubled or moved, a
 /// word replaced by another of the file or by one of `words` or by an extreme number, a word put in, the head of one file with the tail of
-/// another.
+/// another. Every second change of a JSON document leaves one: a value becomes another, is left out or doubled.
 /// \param other  a second file of the kind, for the last one
 /// \param words  that mean something in files of the kind
 std::string mutated(const std::string& content, const std::string& other, const std::vector<std::string>& words, FuzzDice& dice);

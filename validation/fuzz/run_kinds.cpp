@@ -16,8 +16,13 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/crown_cutter.hpp"
+#include "geometry/head/stationary_steel.hpp"
 #include "geometry/io/write_stl.hpp"
+#include "postproc/analysis/adv_comparison.hpp"
 #include "postproc/analysis/comparison.hpp"
+#include "postproc/draw/page.hpp"
+#include "postproc/pages/adv_trend.hpp"
+#include "postproc/pages/report_page.hpp"
 #include "postproc/run/adv_points.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 #include "solver/coupling/checkpoint.hpp"
@@ -120,6 +125,15 @@ const geometry::GeometryInspection& inspection_of(const ParameterValues& values,
     return found != known.end() ? found->second : known.emplace(key, cases::import_study_cutter(values, folder)).first->second;
 }
 
+/// As cases::feed_scene, but with coarse stationary steel: remeshing it would be nine tenths of an input's time.
+cases::FeedScene coarse_scene(const cases::Study& study, const cases::HeadSize& size, const geometry::Contour& contour,
+                              const geometry::TriangleSurface& cutter) {
+    constexpr double coarser = 8.0;
+    geometry::StationarySteelParameters steel = cases::stationary_steel_of(study, size);
+    steel.edge_length *= coarser;
+    return {contour, cutter, geometry::generate_stationary_steel(steel).solid(), size};
+}
+
 /// As `cutterflow check`, but for the machine's speed.
 void check_study_file(const fs::path& folder, const std::string& file) {
     const ParameterValues values = cases::read_study(folder / file);
@@ -132,11 +146,24 @@ void check_study_file(const fs::path& folder, const std::string& file) {
     to_text(cases::predict(study, size, inspection.head->surface, {1, 1.0}));
     const geometry::Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
-    const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
+    const auto feeds = cases::place_feeds(study, coarse_scene(study, size, contour, inspection.head->surface));
     cases::study_warnings(resolved, size);
     cases::carrying_warnings(study, *inspection.head);
     cases::feed_lines(feeds);
     cases::feed_json(feeds, study);
+}
+
+std::vector<FuzzSeed> studies() {
+    return {{"study.toml", short_study()}, {"long.toml", k_long_study}};
+}
+
+/// The process that starts the others inspects the cutter of the good studies for them.
+void prepare_studies(const fs::path& folder) {
+    write_cutter(folder);
+    for (const FuzzSeed& study : studies()) {
+        write_file(folder / study.file, study.content);
+        inspection_of(cases::read_study(folder / study.file), folder);
+    }
 }
 
 // ---- tables ----
@@ -149,12 +176,38 @@ constexpr const char* k_feed =
 
 constexpr const char* k_other_run = "other";
 
-/// The small run of the tests of postproc.
+constexpr const char* k_adv_points =
+    "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\nA,100,30,-50,still,10,20,30\n";
+constexpr const char* k_prediction =
+    R"({"cells": 61000, "time_step_s": 0.01, "time_step_with_rock_s": 0.008, "first_release_s": 1, "core_hours": 1.5, "revolutions": 2,
+ "core_hours_per_revolution": 0.5, "core_hours_per_revolution_with_rock": 1.0})";
+
+/// Velocities at a point of measurement over two revolutions.
+void write_adv_tables(const fs::path& folder) {
+    write_file(folder / "points.csv", k_adv_points);
+    std::string places =
+        "point,x_m,y_m,z_m,rotating,u_radial_m_s,u_tangential_m_s,u_axial_m_s,se_radial_m_s,se_tangential_m_s,se_axial_m_s,samples,"
+        "dry_samples,revolutions,from_s,to_s\n";
+    std::string revolutions = "revolution,point,u_radial_m_s,u_tangential_m_s,u_axial_m_s,wet_share\n";
+    const std::vector<Vec3> sampled = postproc::adv_places(postproc::read_adv_points(folder / "points.csv").front(), {});
+    for (std::size_t i = 0; i < sampled.size(); ++i)
+        places += fmt::format("{},{},{},{},0,0.1,0.2,0.3,,,,240,0,2,1,2\n", i + 1, sampled[i].x(), sampled[i].y(), sampled[i].z());
+    for (int n = 1; n <= 2; ++n)
+        for (std::size_t i = 0; i < sampled.size(); ++i) revolutions += fmt::format("{},{},0.1,0.2,{},1\n", n, i + 1, 0.1 * n);
+    write_file(folder / "postProcessing/velocity/0/adv.csv", places);
+    write_file(folder / "postProcessing/velocity/0/adv_revolutions.csv", revolutions);
+}
+
+/// The small run of the tests of postproc, with measurements and a prediction.
 void write_run(const fs::path& folder, double speed_rpm) {
     postproc::testing::SmallRun run("fuzz");
     run.directory = folder;
     run.speed_rpm = speed_rpm;
     run.write();
+    write_adv_tables(folder);
+    write_file(folder / names::prediction, k_prediction);
+    const postproc::AdvComparison adv = postproc::compare_with_measurement(folder, folder / "points.csv");
+    write_file(folder / names::adv_json, postproc::adv_json(adv).dump(2));
 }
 
 void write_runs(const fs::path& folder) {
@@ -184,12 +237,17 @@ std::vector<FuzzSeed> files_of_run(bool tables) {
     return seeds;
 }
 
-/// As `cutterflow compare`, with a good run, and `cutterflow report` but for its pictures.
+/// As `cutterflow compare`, with a good run, and `cutterflow report`, both but for their pictures.
 void compare_run(const fs::path& folder, const std::string&) {
     const postproc::Comparison comparison = postproc::compare_runs({folder, folder / k_other_run});
     postproc::comparison_json(comparison).dump();
     postproc::comparison_text(comparison);
-    postproc::results_json(comparison.runs.front().results, comparison.runs.front().run).dump();
+    const postproc::ComparedRun& run = comparison.runs.front();
+    postproc::results_json(run.results, run.run).dump();
+    const postproc::Page page(folder / "fuzz.html", postproc::PageForm::still);
+    postproc::write_report_page(page, run.results, run.run, {});
+    postproc::adv_text(postproc::compare_with_measurement(folder, folder / "points.csv"));
+    postproc::adv_trend_json(postproc::read_adv_trends({folder, folder / k_other_run})).dump();
 }
 
 constexpr const char* k_manifest =
@@ -269,7 +327,7 @@ const std::vector<std::string> k_csv_words{",", ";", "#", "name", "still", "rota
 std::vector<FuzzKind> run_kinds() {
     const auto of_file = [](auto reader) { return [reader](const fs::path& folder, const std::string& file) { reader(folder / file); }; };
     return {
-        {"study", {{"study.toml", short_study()}, {"long.toml", k_long_study}}, k_study_words, write_cutter, check_study_file, 1.0},
+        {"study", studies(), k_study_words, prepare_studies, check_study_file, 1.0},
         {"adv_points",
          {{"polar.csv", k_points}, {"cartesian.csv", k_cartesian_points}, {"template.csv", postproc::adv_template()}},
          k_csv_words,

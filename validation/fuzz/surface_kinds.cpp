@@ -2,6 +2,7 @@
 #include "validation/fuzz/surface_kinds.hpp"
 
 #include <cstring>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -92,6 +93,27 @@ constexpr const char* k_rich_ply =
     "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n0 0 0 255 0.5\n1 0 0 0 0.5\n1 1 0 0 1e-3\n0 1 0 9 0\n"
     "0.5 0.5 1 0 1\n4 0 3 2 1 0\n3 0 1 4 0\n3 1 2 4 0\n3 2\t3 4 1\n3 3 0 4 0\n0 1\n";
 
+std::string bytes_of(const TriangleSurface& surface) {
+    std::string bytes;
+    for (const Vec3& point : surface.points)
+        for (int axis = 0; axis < 3; ++axis) put(bytes, point[axis]);
+    for (const geometry::Triangle& triangle : surface.triangles)
+        for (const std::uint32_t corner : triangle) put(bytes, corner);
+    return bytes;
+}
+
+/// Most of an input's time: a process does it once for each surface, as changed names and normals leave the surface as it was.
+void inspect(const geometry::ImportedSurface& imported, const fs::path& path) {
+    static std::set<std::string> known;
+    const std::string key =
+        fmt::format("{} {} ", path.filename().string(), static_cast<int>(imported.unit.unit)) + bytes_of(imported.surface);
+    if (known.count(key) > 0) return;
+    const geometry::GeometryInspection inspection = geometry::inspect_cutter(imported, path.string());
+    geometry::to_json(inspection).dump();
+    geometry::to_text(inspection);
+    known.insert(key);
+}
+
 /// What inspect and repair do with a file, but for writing.
 void read_surface_file(const fs::path& folder, const std::string& file) {
     const fs::path path = folder / file;
@@ -100,9 +122,7 @@ void read_surface_file(const fs::path& folder, const std::string& file) {
         geometry::repair::repair_surface(imported.surface, geometry::repair::default_limits(imported.surface), path.string());
     geometry::repair::to_json(repaired, path.string(), imported.unit).dump();
     geometry::repair::to_text(repaired, path.string(), imported.unit);
-    const geometry::GeometryInspection inspection = geometry::inspect_cutter(imported, path.string());
-    geometry::to_json(inspection).dump();
-    geometry::to_text(inspection);
+    inspect(imported, path);
     if (repaired.repaired()) geometry::write_stl(repaired.result.surface, folder / "repaired.stl");
 }
 

@@ -6,7 +6,9 @@
 #include <set>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -58,8 +60,26 @@ TEST(Trials, count_the_exit_codes_of_the_command_line) {
 TEST(Trials, find_defects_deaths_hangs_and_changed_inputs) {
     const std::vector<std::pair<FuzzEnd, std::function<void(const fs::path&)>>> planted{
         {FuzzEnd::defect, [](const fs::path&) { throw std::runtime_error("no message for the user"); }},
+        {FuzzEnd::defect, [](const fs::path&) { std::vector<int>().at(1); }},
         {FuzzEnd::died, [](const fs::path&) { std::raise(SIGSEGV); }},
         {FuzzEnd::died, [](const fs::path&) { std::_Exit(3); }},
+#ifdef __SANITIZE_ADDRESS__
+        {FuzzEnd::died,  // AddressSanitizer
+         [](const fs::path& file) {
+             const std::vector<char> bytes(8);
+             volatile char beyond = bytes.data()[8 + file.native().size() % 2];
+             (void)beyond;
+         }},
+        {FuzzEnd::died,  // UndefinedBehaviorSanitizer
+         [](const fs::path& file) {
+             volatile int number = static_cast<int>(1e300 * static_cast<double>(file.native().size()));
+             (void)number;
+         }},
+        {FuzzEnd::died,  // either of them, in a child process of the reader
+         [](const fs::path&) {
+             throw UserError(fmt::format("the importer (assimp) ended with code {}", k_sanitizer_exit_code), "rule", "remedy");
+         }},
+#endif
         {FuzzEnd::hung,
          [](const fs::path&) {
              for (volatile bool go_on = true; go_on;) {
@@ -93,6 +113,23 @@ TEST(Kinds, begin_with_files_that_are_read) {
         for (const FuzzSeed& seed : kind.seeds) write_file(k_folder / seed.file, seed.content);
         for (const FuzzSeed& seed : kind.seeds) EXPECT_NO_THROW(kind.read(k_folder, seed.file)) << kind.name << " " << seed.file;
     }
+}
+
+/// Else next to all mutants of a JSON file would end in the parser.
+TEST(Mutations, of_a_json_file_are_often_json_of_other_values) {
+    FuzzKind kind = kind_that([](std::size_t, const fs::path&) {});
+    const std::string good = R"({"cells": 61240, "gates": [{"name": "skewness", "passed": true}], "head": {"radius_m": 0.4}})";
+    kind.seeds = {{"input.json", good}};
+    std::size_t documents = 0;
+    std::set<nlohmann::json::value_t> kinds;
+    for (std::uint64_t i = 0; i < 500; ++i) {
+        const nlohmann::json document = nlohmann::json::parse(fuzz_input(kind, 7, i).content, nullptr, false);
+        if (document.is_discarded() || document == nlohmann::json::parse(good)) continue;
+        ++documents;
+        if (document.is_object() && document.contains("cells")) kinds.insert(document["cells"].type());
+    }
+    EXPECT_GT(documents, 125u);
+    EXPECT_GE(kinds.size(), 6u);
 }
 
 TEST(Mutations, are_the_same_for_the_same_seed_and_many_for_many_indices) {

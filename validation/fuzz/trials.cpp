@@ -68,7 +68,10 @@ FuzzEnd end_of(const std::function<void()>& call) {
         call();
         return FuzzEnd::done;
     } catch (const Failure& failure) {
-        if (std::string(failure.what()).find("the importer (assimp)") != std::string::npos) return FuzzEnd::importer_died;
+        const std::string text = failure.what();
+        if (text.find(fmt::format("the importer (assimp) ended with code {}", k_sanitizer_exit_code)) != std::string::npos)
+            return FuzzEnd::died;
+        if (text.find("the importer (assimp)") != std::string::npos) return FuzzEnd::importer_died;
         switch (failure.code()) {
             case ExitCode::user_input:
                 return FuzzEnd::user_input;

@@ -26,6 +26,9 @@ struct FuzzKind {
     double weight = 1.0;  ///< share of the inputs, relative
 };
 
+/// Exit code of a process that a sanitizer ended; no importer's process ends so by itself.
+inline constexpr int k_sanitizer_exit_code = 86;
+
 /// How an input ended.
 enum class FuzzEnd : std::uint8_t {
     untried,
