@@ -9,11 +9,19 @@ function(cutterflow_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINKS})
 endfunction()
 
+# A program for developers: with BUILD_TESTING=OFF only what is installed is built.
+function(cutterflow_for_developers name)
+  if(NOT BUILD_TESTING)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
+endfunction()
+
 # cutterflow_test(NAME LABEL unit SOURCES test_x.cpp ... LINKS lib ... [RANKS n] [ARGS ...]): one GoogleTest program, one CTest
 # entry. Labels: tree, unit, cli, mpi, liggghts, foam, coupled. With RANKS the program is started by mpirun and brings its own main.
 function(cutterflow_test name)
   cmake_parse_arguments(ARG "" "LABEL;RANKS;TIMEOUT" "SOURCES;LINKS;ARGS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  cutterflow_for_developers(${name})
   target_compile_options(${name} PRIVATE -Wall -Wextra)
   target_compile_definitions(${name} PRIVATE CUTTERFLOW_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CUTTERFLOW_BUILD_DIR="${CMAKE_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
