@@ -116,7 +116,7 @@ json read_json_document(const std::filesystem::path& file, const std::vector<Jso
     std::ifstream stream(file);
     if (!stream || !std::filesystem::is_regular_file(file)) refuse("the file cannot be read", "It must be there and readable");
     bool too_deep = false;
-    const json document = json::parse(
+    json document = json::parse(
         stream,
         [&](int depth, json::parse_event_t, const json&) {
             too_deep = too_deep || depth > k_deepest;
