@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameters/parameter.hpp"
@@ -35,10 +36,25 @@ const Parameter* find_parameter(const ParameterTable& table, const std::string& 
     return found == table.end() ? nullptr : &*found;
 }
 
-std::string node_text(const toml::node& node) {
+/// As TOML. toml++ writes single values only: to break the lines of an array it converts log10 of each number to an unsigned one, which
+/// is undefined for numbers up to 0.1 and for infinity.
+std::string toml_of(const toml::node& node) {
+    std::vector<std::string> parts;
+    if (const toml::array* array = node.as_array()) {
+        for (const toml::node& item : *array) parts.push_back(toml_of(item));
+        return fmt::format("[ {} ]", fmt::join(parts, ", "));
+    }
+    if (const toml::table* table = node.as_table()) {
+        for (auto&& [key, value] : *table) parts.push_back(fmt::format("{} = {}", std::string_view(key.str()), toml_of(value)));
+        return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+    }
     std::ostringstream stream;
     stream << toml::toml_formatter(node, toml::format_flags::none);
-    std::string text = stream.str();
+    return stream.str();
+}
+
+std::string node_text(const toml::node& node) {
+    std::string text = toml_of(node);
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }

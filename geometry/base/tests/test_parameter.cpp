@@ -91,6 +91,12 @@ TEST(ParameterFile, with_stray_brackets_is_refused_as_no_toml) {
     }
 }
 
+/// toml++ formats these with an undefined conversion, which UndefinedBehaviorSanitizer reports.
+TEST(Parameter, that_is_an_array_or_a_table_is_shown_on_one_line) {
+    expect_contains(only_mistake_in("rotor.speed_rpm = [0.0625, inf, [1e-300]]\n"), "[ 0.0625, inf, [ 1e-300 ] ]");
+    expect_contains(only_mistake_in("rotor.speed_rpm = [{a = 0.0625}]\n"), "[ { a = 0.0625 } ]");
+}
+
 TEST(Parameter, reads_every_kind_and_fills_in_defaults) {
     const ParameterValues values = parse_parameters(sample_table(), R"(
 [rotor]
