@@ -2,12 +2,11 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -18,8 +17,7 @@ constexpr std::size_t k_facet_bytes = 12 * sizeof(float) + sizeof(std::uint16_t)
 }  // namespace
 
 TriangleSurface read_binary_stl(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::string bytes = read_file(file);
     std::uint32_t count = 0;
     if (bytes.size() >= k_header_bytes) std::memcpy(&count, bytes.data() + 80, sizeof count);
     if (bytes.size() < k_header_bytes || bytes.size() != k_header_bytes + count * k_facet_bytes) {

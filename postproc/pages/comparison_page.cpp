@@ -15,12 +15,15 @@
 #include "postproc/pages/adv_trend.hpp"
 #include "postproc/pages/comparison_figures.hpp"
 #include "postproc/pages/head_picture.hpp"
+#include "postproc/pages/own_document.hpp"
 
 namespace cutterflow::postproc {
 namespace {
 
 namespace fs = std::filesystem;
 using html::escape;
+
+constexpr const char* k_document = "comparison.json";
 
 std::string estimate_markup(const Estimate& estimate) {
     if (!estimate.value) return text::k_dash;
@@ -131,6 +134,17 @@ std::string batches_notice(const Comparison& comparison) {
         items);
 }
 
+/// The runs that an earlier comparison.json compares; none when it is no such document.
+std::set<std::string> runs_of(const nlohmann::json& document) {
+    std::set<std::string> runs;
+    if (document.value("schema", nlohmann::json()) != k_comparison_schema) return runs;
+    for (const nlohmann::json& setting : document.value("settings", nlohmann::json::array()))
+        if (setting.is_object())
+            for (const nlohmann::json& run : setting.value("runs", nlohmann::json::array()))
+                if (run.is_string()) runs.insert(run.get<std::string>());
+    return runs;
+}
+
 bool has_repeats(const Comparison& comparison) {
     return std::any_of(comparison.settings.begin(), comparison.settings.end(),
                        [](const ComparedSetting& s) { return s.runs.size() >= k_fewest_repeats; });
@@ -138,9 +152,14 @@ bool has_repeats(const Comparison& comparison) {
 
 }  // namespace
 
+void require_own_comparison(const Comparison& comparison, const fs::path& folder) {
+    std::set<std::string> runs;
+    for (const ComparedRun& compared : comparison.runs) runs.insert(compared.run.directory.string());
+    require_own_document(folder, k_document, [&](const nlohmann::json& earlier) { return runs_of(earlier) == runs; });
+}
+
 fs::path write_comparison(const Comparison& comparison, const fs::path& folder, PageForm form) {
-    const fs::path file = folder / "index.html", document = folder / "comparison.json";
-    require_own_folder(folder, document.filename());
+    const fs::path file = folder / "index.html", document = folder / k_document;
     fs::create_directories(folder);
     Page page(file, form);
     const bool with_rock = find_quantity(comparison, "ratio") != nullptr;

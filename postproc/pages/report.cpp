@@ -5,6 +5,7 @@
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/head_series.hpp"
 #include "postproc/draw/page.hpp"
+#include "postproc/pages/own_document.hpp"
 #include "postproc/pages/report_page.hpp"
 
 namespace cutterflow::postproc {
@@ -24,10 +25,21 @@ PageFigures draw_figures(const Results& results, const RunData& run, Page& page)
     return figures;
 }
 
+constexpr const char* k_published_run = "published_run";  // key by which a published results.json is recognised
+
+/// Tells runs of different studies, cutters and repeats apart.
+std::string identity_of(const RunData& run) {
+    return sha256(nlohmann::json{{"setting", run.setting}, {"release", run.release}, {"seed", run.seed}}.dump());
+}
+
 /// Writes results.json and the page.
-ReportSummary write_files(const RunData& run, const fs::path& results_file, const fs::path& page_file, PageForm form) {
+/// \param additions  to results.json
+ReportSummary write_files(const RunData& run, const fs::path& results_file, const fs::path& page_file, PageForm form,
+                          const nlohmann::json& additions) {
     ReportSummary summary{results_file, page_file, compute_results(run), ""};
-    write_file(summary.results_file, results_json(summary.results, run).dump(2) + "\n");
+    nlohmann::json numbers = results_json(summary.results, run);
+    numbers.update(additions);
+    write_file(summary.results_file, numbers.dump(2) + "\n");
     Page page(summary.page_file, form);
     const PageFigures figures = draw_figures(summary.results, run, page);
     summary.note = figures.note;
@@ -38,8 +50,8 @@ ReportSummary write_files(const RunData& run, const fs::path& results_file, cons
 }  // namespace
 
 ReportSummary write_report(const fs::path& run_directory) {
-    const ReportSummary summary =
-        write_files(read_run(run_directory), run_directory / names::results_json, run_directory / names::report_page, PageForm::live);
+    const ReportSummary summary = write_files(read_run(run_directory), run_directory / names::results_json,
+                                              run_directory / names::report_page, PageForm::live, nlohmann::json::object());
     write_head_series(run_directory);
     return summary;
 }
@@ -47,8 +59,10 @@ ReportSummary write_report(const fs::path& run_directory) {
 ReportSummary publish_report(const fs::path& run_directory, const fs::path& folder) {
     const fs::path results = fs::path(names::results_json).filename(), page = fs::path(names::report_page).filename();
     const RunData run = read_run(run_directory);
-    require_own_folder(folder, results);
-    return write_files(run, folder / results, folder / page, PageForm::still);
+    const std::string identity = identity_of(run);
+    require_own_document(folder, results,
+                         [&](const nlohmann::json& earlier) { return earlier.value(k_published_run, nlohmann::json()) == identity; });
+    return write_files(run, folder / results, folder / page, PageForm::still, {{k_published_run, identity}});
 }
 
 }  // namespace cutterflow::postproc

@@ -22,7 +22,8 @@ struct ReportSummary {
 ReportSummary write_report(const std::filesystem::path& run_directory);
 
 /// The same for publishing: results.json and a still page with its pictures in `folder`; the run's own report stays as it is.
-/// \throws UserError  also when the folder holds something else already
+/// results.json has one key more, `published_run`: the SHA-256 of what distinguishes the run (study, cutter, repeat).
+/// \throws UserError  also when the folder holds anything but an earlier publication of the same run
 ReportSummary publish_report(const std::filesystem::path& run_directory, const std::filesystem::path& folder);
 
 }  // namespace cutterflow::postproc

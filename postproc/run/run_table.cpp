@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -39,14 +38,6 @@ std::vector<std::string_view> complete_lines(std::string_view text) {
         text.remove_prefix(end + 1);
     }
     return lines;
-}
-
-std::string read_text(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (stream) text << stream.rdbuf();
-    if (!stream) throw UserError(fmt::format("{} cannot be read", file.string()), "", "Check that the run wrote it and its permissions");
-    return text.str();
 }
 
 double parse_number(std::string_view field, bool may_be_empty, const std::string& where, const std::string& column) {
@@ -131,7 +122,7 @@ void Table::append(const Table& other) {
 }
 
 Table read_table(const std::filesystem::path& file, const TableRules& rules) {
-    const std::string text = read_text(file);
+    const std::string text = read_file(file);
     const std::vector<std::string_view> lines = complete_lines(text);
     Table table;
     if (lines.empty()) return table;

@@ -252,9 +252,17 @@ TEST(ComparisonPage, holds_every_setting_and_escapes_names) {
     const auto document = nlohmann::json::parse(testing::read_text(folder / "comparison.json"));
     EXPECT_EQ(document.at("schema"), k_comparison_schema);
     EXPECT_EQ(document.at("settings").size(), 2u);
+    const Comparison comparison = compare_runs({first.directory, second.directory});
+    EXPECT_NO_THROW(require_own_comparison(comparison, folder));
+    EXPECT_THROW(require_own_comparison(compare_runs({first.directory, variant("page_third", {})}), folder), UserError);
     const fs::path taken = testing::fresh_directory("comparison_taken");
+    EXPECT_NO_THROW(require_own_comparison(comparison, taken));
     testing::write_text(taken / "thesis.tex", "mine");
-    EXPECT_THROW(write_comparison(compare_runs({first.directory, second.directory}), taken), UserError);
+    EXPECT_THROW(require_own_comparison(comparison, taken), UserError);
+    for (const char* mine : {"{}", "{\"schema\": 1, \"settings\": 2}", "[]", "mine"}) {
+        testing::write_text(taken / "comparison.json", mine);
+        EXPECT_THROW(require_own_comparison(comparison, taken), UserError) << mine;
+    }
 }
 
 }  // namespace

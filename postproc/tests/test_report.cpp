@@ -177,11 +177,58 @@ TEST(PublishReport, writes_a_page_without_scripts_with_its_pictures_beside_it) {
         EXPECT_TRUE(contains(page, std::string("href=\"") + picture));
         EXPECT_EQ(read_text(folder / picture).substr(1, 3), "PNG");
     }
-    EXPECT_EQ(read_text(summary.results_file), read_text(run.directory / "report/results.json"));
+    auto published = nlohmann::json::parse(read_text(summary.results_file));
+    EXPECT_EQ(published.at("published_run").get<std::string>().size(), 64u);
+    published.erase("published_run");
+    EXPECT_EQ(published, nlohmann::json::parse(read_text(run.directory / "report/results.json")));
     EXPECT_NO_THROW(publish_report(run.directory, folder));
     const auto taken = testing::fresh_directory("published_taken");
     testing::write_text(taken / "thesis.tex", "mine");
     EXPECT_THROW(publish_report(run.directory, taken), UserError);
+}
+
+void expect_kept(const std::filesystem::path& run, const std::filesystem::path& folder) {
+    const std::string page = read_text(folder / "index.html"), results = read_text(folder / "results.json");
+    EXPECT_THROW(publish_report(run, folder), UserError) << folder;
+    EXPECT_EQ(read_text(folder / "index.html"), page);
+    EXPECT_EQ(read_text(folder / "results.json"), results);
+}
+
+TEST(PublishReport, replaces_nothing_but_an_earlier_publication_of_the_same_run) {
+    SmallRun run("report_owner"), other("report_other");
+    other.length_ratio = 2.0;
+    run.write();
+    other.write();
+    const auto folder = testing::fresh_directory("published_owner") / "page";
+    publish_report(run.directory, folder);
+    expect_kept(other.directory, folder);
+    write_report(run.directory);
+    write_report(other.directory);
+    expect_kept(run.directory, run.directory / "report");
+    expect_kept(run.directory, other.directory / "report");
+    const auto site = testing::fresh_directory("published_site");
+    testing::write_text(site / "index.html", "<h1>mine</h1>");
+    for (const char* results : {"{\"mine\": 1}", "[1, 2]", "no JSON", ""}) {
+        testing::write_text(site / "results.json", results);
+        expect_kept(run.directory, site);
+    }
+}
+
+TEST(WriteReport, says_of_a_folder_in_the_place_of_a_file_that_it_cannot_be_read) {
+    for (const char* file : {"manifest.json", "mesh.json", "feed.json", "geometry/geometry.json", "geometry/cutter.stl",
+                             "geometry/contour.csv", "postProcessing/cost/0/cost.json", "postProcessing/cost/0/cost.csv"}) {
+        SmallRun run("report_of_folders");
+        run.write();
+        std::filesystem::remove(run.directory / file);
+        std::filesystem::create_directories(run.directory / file);
+        try {
+            write_report(run.directory);
+            ADD_FAILURE() << file << " was read";
+        } catch (const UserError& error) {
+            EXPECT_TRUE(contains(error.what(), std::filesystem::path(file).filename().string())) << error.what();
+            EXPECT_TRUE(contains(error.what(), "read")) << error.what();
+        }
+    }
 }
 
 TEST(WriteReport, names_of_the_user_cannot_become_markup) {
