@@ -119,8 +119,10 @@ Mistake missing_program(const std::string& program) {
             fmt::format("Run ./bootstrap in the repository, or apt-get install {}", package)};
 }
 
+/// What cannot be looked at is no program, as for a shell.
 bool is_program(const std::filesystem::path& path) {
-    return !std::filesystem::is_directory(path) && ::access(path.c_str(), X_OK) == 0;
+    std::error_code unreadable;
+    return std::filesystem::is_regular_file(path, unreadable) && ::access(path.c_str(), X_OK) == 0;
 }
 
 /// Path of a program by name or path; empty if it does not exist.
@@ -256,6 +258,19 @@ private:
     std::string line_;
 };
 
+/// The stop signal as the user knows it.
+std::string stop_text(int signal_number) {
+    switch (signal_number) {
+        case SIGINT:
+            return "Ctrl-C (SIGINT)";
+        case SIGTERM:
+            return "a request to end (SIGTERM)";
+        case SIGHUP:
+            return "the end of its terminal (SIGHUP)";
+    }
+    return ::strsignal(signal_number);
+}
+
 std::string last_lines(const std::filesystem::path& log, std::size_t count) {
     std::ifstream stream(log);
     std::deque<std::string> lines;
@@ -309,7 +324,7 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
     ChildResult result = child.wait();
     result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (SignalRelay::received() != 0)
-        throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), ::strsignal(SignalRelay::received())));
+        throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), stop_text(SignalRelay::received())));
     return result;
 }
 

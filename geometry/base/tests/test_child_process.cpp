@@ -102,6 +102,15 @@ TEST_F(ChildProcess, names_the_package_of_a_missing_program) {
     EXPECT_THROW(run_child({{"sh", "-c", "true"}, folder_ / "missing", folder_ / "log", {}}), ToolError);
 }
 
+TEST_F(ChildProcess, skips_folders_of_path_that_cannot_be_looked_into) {
+    const std::string path = std::getenv("PATH");
+    fs::create_symlink("loop", folder_ / "loop");
+    ::setenv("PATH", ((folder_ / "loop").string() + ":" + std::string(5000, 'x') + ":" + path).c_str(), 1);
+    EXPECT_NO_THROW(EXPECT_EQ(find_program("sh").filename(), "sh"));
+    EXPECT_NO_THROW(EXPECT_EQ(find_program("no-such-program-anywhere"), fs::path()));
+    ::setenv("PATH", path.c_str(), 1);
+}
+
 TEST_F(ChildProcess, passes_a_stop_signal_on_and_waits_for_the_child) {
     for (const int number : {SIGINT, SIGTERM}) {
         const ChildCommand command = script("trap 'echo stopped; exit 0' INT TERM; echo ready; while :; do sleep 0.05; done");
