@@ -41,6 +41,7 @@ struct InspectOptions {
 
 void inspect(const InspectOptions& options) {
     if (options.contour) require_new_file(*options.contour);
+    if (options.contour && options.output) require_different_places("--output", *options.output, "--contour", *options.contour);
     std::optional<geometry::LengthUnit> unit;
     if (options.unit) unit = geometry::length_unit_of(*options.unit);
     const geometry::ImportedSurface imported = geometry::import_cutter(options.cutter, unit);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/numbers.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
@@ -73,6 +74,12 @@ UserError refusal(const CLI::ParseError& error, const CLI::App& app) {
             fmt::format("{} --help names each option and what it takes", name_of(command))};
 }
 
+void refuse_empty_words(CLI::App& app) {
+    for (CLI::Option* option : app.get_options({}))
+        if (option->get_items_expected_max() > 0) option->check(cli::k_not_empty);
+    for (CLI::App* command : app.get_subcommands({})) refuse_empty_words(*command);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Predicts flow-induced spillage in the rotating cutter head of a cutter suction dredger: cutter STL in, report out.",
                  "cutterflow");
@@ -80,7 +87,8 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", build_versions_text());
     app.footer(
         "Start with: cutterflow new --cutter head.stl my_study.toml\n"
-        "Exit codes: 0 done, 1 defect of the program, 2 wrong input, 3 an external program failed, 4 a check failed.");
+        "Exit codes: 0 done, 1 defect of the program, 2 wrong input, 3 an external program failed, 4 a check failed, 130 stopped by "
+        "Ctrl-C.");
     cli::add_new(app);
     cli::add_params(app);
     cli::add_generate_cutter(app);
@@ -94,6 +102,7 @@ int run(int argc, char** argv) {
     cli::add_sweep(app);
     cli::add_compare(app);
     cli::add_verify(app);
+    refuse_empty_words(app);
     if (argc > 1 && argv[1][0] != '\0') require_known_command(app, argv[1]);
     try {
         app.parse(argc, argv);

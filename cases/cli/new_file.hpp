@@ -1,6 +1,7 @@
 #pragma once
 /// \file Files that a command writes for the user.
 #include <filesystem>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,13 @@ namespace cutterflow::cli {
 inline void require_new_file(const std::filesystem::path& file) {
     if (std::filesystem::exists(file))
         throw UserError(fmt::format("{} is there already", file.string()), "Nothing is overwritten", "Choose another name or remove it");
+}
+
+/// \throws UserError  when two options name one place: the second would be written over the first
+inline void require_different_places(const char* option, const std::string& place, const char* other_option, const std::string& other) {
+    if (std::filesystem::weakly_canonical(place) == std::filesystem::weakly_canonical(other))
+        throw UserError(fmt::format("{} and {} both name {}", option, other_option, place), "One would be written over the other",
+                        "Give them different names");
 }
 
 }  // namespace cutterflow::cli

@@ -17,6 +17,9 @@ inline CLI::Validator number_that(bool (*holds)(double), const char* rule) {
         "NUMBER");
 }
 
+/// Of every option: "" is a name that a script left out.
+inline const CLI::Validator k_not_empty([](std::string& text) { return text.empty() ? std::string("\"\" is empty") : std::string(); }, "");
+
 inline const CLI::Validator k_positive = number_that([](double value) { return value > 0.0; }, "a number above 0");
 inline const CLI::Validator k_not_negative = number_that([](double value) { return value >= 0.0; }, "a number from 0 on");
 

@@ -66,7 +66,10 @@ geometry::repair::RepairLimits limits_of(const RepairOptions& options, const geo
 
 void run_repair(const RepairOptions& options) {
     require_new_file(options.output);
-    if (options.report) require_new_file(*options.report);
+    if (options.report) {
+        require_new_file(*options.report);
+        require_different_places("--output", options.output, "--report", *options.report);
+    }
     std::optional<geometry::LengthUnit> unit;
     if (options.unit) unit = geometry::length_unit_of(*options.unit);
     const geometry::ImportedSurface imported = geometry::import_cutter(options.input, unit);

@@ -10,6 +10,7 @@
 #include "cases/cli/commands.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/pipeline.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/process/child_process.hpp"
@@ -93,9 +94,16 @@ void go_through_stages(const RunOptions& options, const cases::RunDirectory& dir
     }
 }
 
-void mesh(const RunOptions& options) {
+/// Refuses what can be refused before the run directory is made.
+void require_begun_well(const RunOptions& options, const std::string& until) {
     cases::require_usable_run_directory(run_folder(options));
-    cases::require_machine(options.ranks, programs_for(options, "mesh"));
+    cases::require_machine(options.ranks, programs_for(options, until));
+    if (!options.start_from.empty()) cases::require_start_donor(options.start_from);
+    cases::require_cutter_file(cases::read_study(options.study), fs::path(options.study).parent_path());
+}
+
+void mesh(const RunOptions& options) {
+    require_begun_well(options, "mesh");
     const cases::RunDirectory directory(run_folder(options));
     go_through_stages(options, directory, "mesh", 2);
     const std::string report = read_file(directory.file(names::mesh_report));
@@ -103,8 +111,7 @@ void mesh(const RunOptions& options) {
 }
 
 void run(const RunOptions& options) {
-    cases::require_usable_run_directory(run_folder(options));
-    cases::require_machine(options.ranks, programs_for(options, "report"));
+    require_begun_well(options, "report");
     const cases::RunDirectory directory(run_folder(options));
     go_through_stages(options, directory, "report", 6);
     if (options.json) {

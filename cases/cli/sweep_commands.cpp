@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/run_directory.hpp"
@@ -108,6 +109,9 @@ struct CompareOptions {
 
 void compare(const CompareOptions& options) {
     const postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
+    if (options.output && options.still_folder) require_different_places("--output", *options.output, "--static", *options.still_folder);
+    for (const auto& folder : {options.output, options.still_folder})
+        if (folder) postproc::require_own_comparison(comparison, *folder);
     std::cout << (options.json ? postproc::comparison_json(comparison).dump(2) + "\n" : postproc::comparison_text(comparison));
     if (options.output) say(fmt::format("the page: {}", postproc::write_comparison(comparison, *options.output).string()));
     if (options.still_folder)

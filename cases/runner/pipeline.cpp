@@ -125,6 +125,13 @@ void remove_unfinished_run(const fs::path& directory) {
 
 }  // namespace
 
+void require_start_donor(const fs::path& folder) {
+    if (fs::is_directory(folder) && may_hold_a_run(folder)) return;
+    throw UserError(fmt::format("--start-from {} is no run directory", folder.string()),
+                    fmt::format("It has a {}: its frozen-rotor flow is reused", names::manifest),
+                    "Correct the path, or leave --start-from out");
+}
+
 std::map<std::string, std::string> stage_inputs(const ParameterValues& values, const fs::path& study_folder, const std::string& stage) {
     std::map<std::string, std::string> inputs;
     for (const Parameter& parameter : study_table())
@@ -316,6 +323,8 @@ StageOutcome Pipeline::make_start() {
             return {files_below(directory_.path(), "0"), 0.0};
         }
     }
+    if (!settings_.start_from.empty())
+        say_(fmt::format("{} has no finished start of the same case: it is computed here", settings_.start_from.string()));
     Progress progress("  frozen rotor");
     const StartFlowReport report = run_start_flow(directory_.path(), inputs, k_start_iterations, [&](int iteration, int iterations) {
         progress.update(static_cast<double>(iteration) / iterations, fmt::format("iteration {} of {}", iteration, iterations));

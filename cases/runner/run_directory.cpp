@@ -32,15 +32,14 @@ void require_openfoam_path(const fs::path& path) {
                     "Choose a path of letters, digits, '-', '_', '.' and '/' with -o");
 }
 
-namespace {
-
-/// Empty, holding nothing but overrides/, or a run directory already.
 bool may_hold_a_run(const fs::path& path) {
     if (fs::exists(path / names::manifest)) return true;
     return std::all_of(fs::directory_iterator(path), fs::directory_iterator(), [](const fs::directory_entry& entry) {
         return entry.path().filename() == k_overrides || entry.path().filename() == k_lock;
     });
 }
+
+namespace {
 
 int take_lock(const fs::path& path) {
     // Without O_CLOEXEC: children keep the lock.

@@ -9,6 +9,10 @@ namespace cutterflow::cases {
 /// \throws UserError  when the path holds characters that OpenFOAM cannot take (spaces, quotes, brackets ...)
 void require_openfoam_path(const std::filesystem::path& path);
 
+/// Whether a folder is empty, holds nothing but overrides/, or is a run directory already.
+/// \pre it is a folder
+bool may_hold_a_run(const std::filesystem::path& path);
+
 /// \throws UserError  as require_openfoam_path, or when a folder that is there holds something that is no run: nothing is overwritten
 void require_usable_run_directory(const std::filesystem::path& path);
 

@@ -18,13 +18,22 @@ bool covers(const std::vector<std::string>& places, const std::string& file) {
                        [&](const std::string& place) { return place.back() == '/' ? file.rfind(place, 0) == 0 : file == place; });
 }
 
+/// Whether an input is a file, recorded by its SHA-256.
+bool is_hash(const std::string& value) {
+    return value.size() == 64 && value.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+std::string change_text(const std::string& name, const std::string& before, const std::string& now) {
+    return is_hash(before) && is_hash(now) ? name + " (the file has other content)" : fmt::format("{} ({} -> {})", name, before, now);
+}
+
 /// Names of inputs whose values differ, or that only one of both has.
 std::vector<std::string> changed_inputs(const std::map<std::string, std::string>& before, const std::map<std::string, std::string>& now) {
     std::vector<std::string> changed;
     for (const auto& [name, value] : now) {
         const auto found = before.find(name);
         if (found == before.end() || found->second != value)
-            changed.push_back(found == before.end() ? name : fmt::format("{} ({} -> {})", name, found->second, value));
+            changed.push_back(found == before.end() ? name : change_text(name, found->second, value));
     }
     for (const auto& [name, value] : before)
         if (now.count(name) == 0) changed.push_back(name);

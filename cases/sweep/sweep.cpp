@@ -177,7 +177,7 @@ ChildCommand command_of(const SweepSettings& settings, const SweepPoint& point, 
                          "--ranks",
                          std::to_string(settings.ranks)};
     if (what == "run") command.arguments.emplace_back("--resume");
-    if (what == "run" && !point.start_donor.empty())
+    if (what == "run" && !point.start_donor.empty() && fs::is_directory(settings.folder / point.start_donor))
         command.arguments.insert(command.arguments.end(), {"--start-from", (settings.folder / point.start_donor).string()});
     command.log = settings.folder / k_logs / fmt::format("{}.{}.log", point.name, what);
     return command;
@@ -195,7 +195,7 @@ std::vector<SweepPoint> points_to_mesh(const std::vector<SweepPoint>& points, co
     const auto donors = mesh_donors(points);
     std::vector<SweepPoint> to_mesh;
     for (const SweepPoint& point : points)
-        if (donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name)) to_mesh.push_back(point);
+        if (donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name / names::manifest)) to_mesh.push_back(point);
     return to_mesh;
 }
 
@@ -245,7 +245,7 @@ public:
         std::vector<std::thread> workers;
         for (int job = 0; job < settings_.jobs; ++job) workers.emplace_back([this] { work(); });
         for (std::thread& worker : workers) worker.join();
-        if (interrupted_) throw Interrupted(*interrupted_);
+        if (interrupted_) throw Interrupted(fmt::format("{}; {} of {} points are done", *interrupted_, finished_, points_.size()));
         progress_.finish();
         SweepOutcome outcome;
         for (std::size_t i = 0; i < points_.size(); ++i)
@@ -273,6 +273,7 @@ private:
             const ChildResult result = run_child(command, [&](const std::string& line) { note(i, share_of(line)); });
             const std::lock_guard<std::mutex> lock(mutex_);
             if (result.exit_code == 0) {
+                ++finished_;
                 say_(fmt::format("{}: done in {}", points_[i].name, duration_text(result.wall_s)));
             } else {
                 failures_[i] = failure_of(command, result).text();
@@ -281,6 +282,7 @@ private:
         } catch (const Interrupted& stop) {
             const std::lock_guard<std::mutex> lock(mutex_);
             interrupted_ = stop.what();
+            return;
         } catch (const std::exception& error) {
             const std::lock_guard<std::mutex> lock(mutex_);
             failures_[i] = fmt::format("{}: {}", points_[i].name, error.what());
@@ -301,6 +303,7 @@ private:
     std::mutex mutex_;
     std::map<std::size_t, std::string> failures_;
     std::optional<std::string> interrupted_;
+    std::size_t finished_ = 0;
     SweepProgress progress_;
 };
 
@@ -332,6 +335,7 @@ fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSe
     absolute.folder = fs::absolute(settings.folder).lexically_normal();
     std::vector<SlurmTask> tasks;
     for (const SweepPoint& point : points) {
+        if (what == "run" && !point.start_donor.empty()) fs::create_directories(absolute.folder / point.start_donor);
         const ChildCommand command = command_of(absolute, point, what);
         tasks.push_back({command.arguments, command.log});
     }

@@ -543,7 +543,7 @@ TEST_F(Cli, an_interrupt_stops_the_program_under_way_and_says_how_to_go_on) {
     EXPECT_EQ(run_child(command).exit_code, 130);
     EXPECT_TRUE(fs::exists(folder_ / "blockMesh.stopped"));
     const std::string text = read_file(folder_ / "output");
-    expect_contains(text, "blockMesh was stopped by Interrupt");
+    expect_contains(text, "blockMesh was stopped by Ctrl-C (SIGINT)");
     expect_contains(text, "resume with: cutterflow mesh study.toml -o runs/a --ranks 1");
     const nlohmann::json stages = nlohmann::json::parse(read_file(folder_ / "runs/a/manifest.json")).at("stages");
     EXPECT_EQ(stages.at("geometry").at("state"), "done");

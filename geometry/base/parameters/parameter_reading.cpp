@@ -263,6 +263,9 @@ std::optional<Mistake> value_mistake(const Parameter& parameter, const Parameter
     if (const auto* number = std::get_if<double>(&value)) return number_mistake(parameter, *number, value);
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return number_mistake(parameter, static_cast<double>(*integer), value);
     if (parameter.kind == ParameterKind::choice) return choice_mistake(parameter, std::get<std::string>(value));
+    if (parameter.kind == ParameterKind::path && std::get<std::string>(value).empty())
+        return Mistake{"", fmt::format("{} = \"\" is empty", parameter.key), "It must name a file",
+                       parameter.optional ? "Give its path, or leave the key out" : "Give its path"};
     return std::nullopt;
 }
 
