@@ -95,7 +95,8 @@ Conservation worst_balance(const Table& balance, bool with_rock) {
     worst.interface_imbalance = largest_magnitude(balance.number("interface_imbalance"));
     if (!with_rock) return worst;
     worst.solid_volume = largest_magnitude(balance.number("solid_volume_error"));
-    worst.momentum_exchange = largest_magnitude(balance.number("momentum_exchange_error"));
+    worst.momentum = largest_magnitude(balance.number("momentum_error"));
+    worst.momentum_interface = largest_magnitude(balance.number("momentum_interface_error"));
     return worst;
 }
 
@@ -304,7 +305,8 @@ json results_json(const Results& results, const RunData& run) {
     document["spillage"] = results.spillage ? spillage_json(*results.spillage, results.outflow) : json(nullptr);
     document["outflow"] = results.outflow.empty() ? json(nullptr) : outflow_json(results.outflow);
     document["conservation"] = {{"solid_volume_max_error", or_null(results.conservation.solid_volume)},
-                                {"momentum_exchange_max_error", or_null(results.conservation.momentum_exchange)},
+                                {"momentum_max_error", or_null(results.conservation.momentum)},
+                                {"momentum_interface_max_error", or_null(results.conservation.momentum_interface)},
                                 {"flow_balance_max_error", or_null(results.conservation.flow_balance)},
                                 {"interface_imbalance_max", or_null(results.conservation.interface_imbalance)}};
     document["rotor"] = rotor_json(results, run);

@@ -438,7 +438,7 @@ Figure balances(const Table& balance, double revolution, bool with_rock) {
     add("interface_imbalance", "rotor interface", palette::outflow);
     if (with_rock) {
         add("solid_volume_error", "solid volume", palette::spilled);
-        add("momentum_exchange_error", "momentum exchange", palette::rock_load);
+        add("momentum_error", "momentum", palette::rock_load);
     }
     return {plot, "Errors of the balances at every step, relative.", ""};
 }

@@ -153,8 +153,9 @@ std::string flow_answers(const Results& results) {
 std::string conservation_text(const Conservation& conservation) {
     std::string text;
     if (conservation.solid_volume) text += fmt::format("rock volume on the mesh {}, ", number(conservation.solid_volume, "", 2));
-    if (conservation.momentum_exchange)
-        text += fmt::format("momentum exchanged between rock and water {}, ", number(conservation.momentum_exchange, "", 2));
+    if (conservation.momentum)
+        text += fmt::format("momentum of rock and water {} of what rock exchanged, and {} lost or gained at the rotor interface, ",
+                            number(conservation.momentum, "", 2), number(conservation.momentum_interface, "", 2));
     return text +
            fmt::format("water balance {} of the discharge, rotor interface {} of the flow through it: largest relative error of all steps",
                        number(conservation.flow_balance, "", 2), number(conservation.interface_imbalance, "", 2));

@@ -226,8 +226,17 @@ TableRules final_rules() {
 }
 
 TableRules balance_rules() {
-    const std::vector<std::string> rock{
-        "solid_volume_error", "momentum_exchange_error", "solid_fraction_max", "overlap_ratio_max", "dem_substeps", "rocks", "contacts"};
+    const std::vector<std::string> rock{"solid_volume_error",
+                                        "deposit_error",
+                                        "momentum_error",
+                                        "momentum_interface_error",
+                                        "momentum_replaced",
+                                        "momentum_carried",
+                                        "solid_fraction_max",
+                                        "overlap_ratio_max",
+                                        "dem_substeps",
+                                        "rocks",
+                                        "contacts"};
     TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "continuity_error", "outlet_flow_m3_s",
                       "outlet_pressure_m2_s2", "courant_max"},
                      {},

@@ -85,7 +85,10 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         }
     }
     if (!mistakes.empty()) throw UserError(mistakes);
-    if (settings.has_rock) rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
+    if (settings.has_rock) {
+        rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
+        momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
+    }
 
     double cells = static_cast<double>(fluid.cells().centres.size());
     communicator.sum(gsl::span<double>(&cells, 1));
@@ -142,6 +145,7 @@ void CoupledRun::sample_flow() {
     if (!has_rock()) return;
     const Timer timer(cost_.mapping);
     rock_->sample();
+    momentum_->begin(rock_->carry());
 }
 
 void CoupledRun::begin_fluid_step() {
@@ -233,8 +237,8 @@ void CoupledRun::report_loads_and_balance() {
     BalanceRow balance;
     balance.time = fluid_.time();
     balance.solid_volume_error = balance_.solid_volume_error;
-    balance.momentum_exchange_error = balance_.momentum_exchange_error;
-    balance.flow_balance_error = loads.through_flow > 0.0 ? std::abs(loads.boundary_flow) / loads.through_flow : 0.0;
+    balance.deposit_error = balance_.deposit_error;
+    balance.flow_balance_error = loads.through_flow > 0.0 ? (std::abs(loads.boundary_flow) + loads.wall_flow) / loads.through_flow : 0.0;
     balance.interface_imbalance = loads.interface_imbalance;
     balance.continuity_error = loads.continuity_error;
     balance.outlet_flow = loads.outlet_flow;
@@ -245,6 +249,7 @@ void CoupledRun::report_loads_and_balance() {
     balance.dem_substeps = moved_.substeps;
     balance.contacts = moved_.contacts;
     if (has_rock()) {
+        balance.momentum = momentum_->end(rock_->carry(), moved_, loads);
         balance.rocks = static_cast<int>(dem_->rocks().size());
         balance.exchanged_volume = rock_->booked().volume;
         balance.exchanged_momentum = rock_->booked().momentum.norm();

@@ -10,6 +10,7 @@
 #include "solver/coupling/kernel/kernel_coupling.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/head/outflow_sampler.hpp"
+#include "solver/observe/momentum_balance.hpp"
 #include "solver/observe/run_recorder.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
 #include "solver/ports/communicator.hpp"
@@ -85,6 +86,7 @@ private:
     std::filesystem::path case_folder_;
 
     std::unique_ptr<KernelCoupling> rock_;
+    std::unique_ptr<MomentumBalance> momentum_;
     std::optional<FateTracker> fates_;
     std::optional<OutflowSampler> outflow_;
     std::optional<VelocitySets> velocity_;

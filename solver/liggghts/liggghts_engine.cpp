@@ -545,6 +545,7 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
 
     coupling::DemStep done;
     done.substeps = steps;
+    done.gravity = settings_.gravity;
     done.cutter_torque = sum(motion_->angular_impulse()) / duration;
     done.contacts = static_cast<int>(std::lround(sum(context_.tally.contacts)));
     done.max_overlap_ratio = context_.tally.overlap_ratio;
@@ -556,6 +557,7 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
         } else {
             done.left.append(rocks_, k);
             done.left_impulse.push_back(impulse[k]);
+            done.left_contact_impulse.push_back(contact_impulse[k]);
         }
     }
     delete_rocks(done.left.id);

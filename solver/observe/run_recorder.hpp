@@ -8,6 +8,7 @@
 #include <gsl/span>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/observe/momentum_balance.hpp"
 #include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::coupling {
@@ -87,9 +88,10 @@ struct LoadsRow {
 
 struct BalanceRow {
     double time = 0.0;
-    double solid_volume_error = 0.0;       ///< |volume on the mesh - volume of rock| / volume of rock
-    double momentum_exchange_error = 0.0;  ///< |rock + fluid + carry| / sum |impulse|
-    double flow_balance_error = 0.0;       ///< |net boundary flow| / flow through the open patches
+    double solid_volume_error = 0.0;  ///< |volume on the mesh - volume of rock| / volume of rock
+    double deposit_error = 0.0;       ///< |momentum laid into cells - that of the rocks| / (sum |impulse| + carry)
+    MomentumErrors momentum;
+    double flow_balance_error = 0.0;  ///< (|net flow of open patches and interfaces| + flow through walls) / flow through open patches
     double interface_imbalance = 0.0;
     double continuity_error = 0.0;
     std::optional<double> outlet_flow, outlet_pressure;  ///< of the named outlet [m3/s], [m2/s2]

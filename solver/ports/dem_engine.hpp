@@ -41,11 +41,12 @@ struct DemStep {
         impulse;  ///< of HydrodynamicForce on each rock of rocks() after the call [N s]: sum of force times DEM step, ends half
     std::vector<Vec3> contact_impulse;  ///< of all contacts on each rock, in the order of `impulse` [N s]
     Rocks left;                         ///< rocks that left the DEM domain in the call, in their last state; no longer in rocks()
-    std::vector<Vec3> left_impulse;     ///< as `impulse`, of `left` [N s]
-    double cutter_torque = 0.0;         ///< mean torque of rock contacts on the rotating steel about the axis [N m]
-    double max_overlap_ratio = 0.0;     ///< largest overlap over rock radius seen at the call's end
-    int substeps = 0;                   ///< DEM steps of the call
-    int contacts = 0;                   ///< rock-rock and rock-wall contacts at the call's end
+    std::vector<Vec3> left_impulse, left_contact_impulse;  ///< as `impulse` and `contact_impulse`, of `left` [N s]
+    Vec3 gravity = Vec3::Zero();                           ///< that acted on all rocks [m/s2]
+    double cutter_torque = 0.0;                            ///< mean torque of rock contacts on the rotating steel about the axis [N m]
+    double max_overlap_ratio = 0.0;                        ///< largest overlap over rock radius seen at the call's end
+    int substeps = 0;                                      ///< DEM steps of the call
+    int contacts = 0;                                      ///< rock-rock and rock-wall contacts at the call's end
 };
 
 class DemEngine {

@@ -69,11 +69,17 @@ struct FluidLoads {
     double torque_viscous = 0.0;            ///< [N m]
     std::optional<double> outlet_flow;      ///< volume flow out through the patch that PatchSettings::outlet names [m3/s]
     std::optional<double> outlet_pressure;  ///< area mean of p* there [m2/s2]
-    double boundary_flow = 0.0;        ///< net volume flow out through all patches, interfaces included: 0 when every cell closes [m3/s]
-    double through_flow = 0.0;         ///< half of the sum of |flow| over the faces of all open patches [m3/s]
+    double boundary_flow = 0.0;  ///< net volume flow out through open patches and interfaces: 0 when cells close and walls hold [m3/s]
+    double wall_flow = 0.0;      ///< sum of |flow| over the faces of all walls [m3/s]
+    double through_flow = 0.0;   ///< half of the sum of |flow| over the faces of all open patches; of a closed domain volume / step [m3/s]
     double interface_imbalance = 0.0;  ///< |flow out of one side - flow into the other side| / gross flow through interfaces [-]
-    double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / gross boundary flow [-]
+    double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / (2 through_flow) [-]
     double courant_max = 0.0;
+    // With rock only, over the last step:
+    Vec3 boundary_impulse = Vec3::Zero();   ///< on the fluid by pressure, stress and through-flow of patches that are no interface [N s]
+    Vec3 interface_impulse = Vec3::Zero();  ///< the same of both sides of all sliding interfaces: 0 where they conserve [N s]
+    Vec3 replaced_momentum = Vec3::Zero();  ///< [N s] of fluid that took the place of rock that left, less that of fluid it pushed aside
+                                            ///< (also below rock where the mesh turns), without a source in the equations
 };
 
 class FluidEngine {
@@ -116,7 +122,7 @@ public:
     /// Replaces the present void fraction without a source (rock was inserted or removed).
     virtual void reset_void_fraction(gsl::span<const double> void_fraction) = 0;
 
-    /// Momentum that the fluid received in the last step, per cell [m/s2]: the expression at MomentumExchange with the solved fields.
+    /// Momentum that the fluid received in the last step, per cell [m/s2]: its gain less outflow, pressure and stress, by its state.
     virtual gsl::span<const Vec3> received() const = 0;
 
     /// Fluid velocity at points of the absolute frame (whole mesh; collective): value of the cell that holds or is nearest to the point,

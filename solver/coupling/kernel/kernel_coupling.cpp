@@ -206,10 +206,21 @@ const DemStep& KernelCoupling::move() {
     };
     step_ = dem_.advance(fluid_.time_step(), force);
 
+    require_all_rocks();
     index_before_.clear();
     for (const int id : dem_.rocks().id)
         index_before_.push_back(static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), id) - before_.id.begin()));
     return step_;
+}
+
+/// \throws CheckFailure  when rock neither stays nor leaves
+void KernelCoupling::require_all_rocks() const {
+    std::vector<int> ids = dem_.rocks().id;
+    ids.insert(ids.end(), step_.left.id.begin(), step_.left.id.end());
+    std::sort(ids.begin(), ids.end());
+    if (ids == before_.id) return;
+    throw CheckFailure({"", fmt::format("of {} rocks {} are there or left after a step", before_.size(), ids.size()),
+                        "Rock stays in the run or leaves it through the domain's boundary", "Report this as a defect"});
 }
 
 void KernelCoupling::map() {
@@ -387,17 +398,19 @@ ExchangeBalance KernelCoupling::book() {
     const gsl::span<const Vec3> received = fluid_.received();
     const gsl::span<const double> volumes = mapping_.cells().volumes;
     const double dt = fluid_.time_step();
-    Eigen::Vector4d sums = Eigen::Vector4d::Zero();  // momentum of fluid and change of carry over rho_f; gross carry
+    Eigen::Vector4d sums = Eigen::Vector4d::Zero();  // deposits of the step and amount of carry, over rho_f
+    std::vector<double> solid_fraction(carry_.size());
     for (std::size_t c = 0; c < carry_.size(); ++c) {
-        const Vec3 rest = (1.0 - k_carry_share) * carry_[c] + (source_[c] - received[c]) * dt;
-        sums.head<3>() += (received[c] * dt + rest - carry_[c]) * volumes[c];
+        solid_fraction[c] = 1.0 - fluid_.fields().void_fraction[c];
+        sums.head<3>() += (source_[c] * dt - k_carry_share * carry_[c]) * volumes[c];
         sums[3] += carry_[c].norm() * volumes[c];
-        carry_[c] = rest;
+        carry_[c] += (source_[c] - received[c]) * dt - k_carry_share * carry_[c];
     }
     communicator_.sum(gsl::span<double>(sums.data(), 4));
     sums *= properties_.density;
     const double gross = gross_impulse_ + sums[3];
-    balance_.momentum_exchange_error = gross > 0.0 ? (rock_momentum_ + sums.head<3>()).norm() / gross : 0.0;
+    balance_.solid_volume_error = std::max(balance_.solid_volume_error, volume_error(solid_fraction, volumes_of(dem_.rocks())));
+    balance_.deposit_error = gross > 0.0 ? (rock_momentum_ + sums.head<3>()).norm() / gross : 0.0;
     return balance_;
 }
 

@@ -26,8 +26,8 @@ struct FlowAtRock {
 
 /// Conservation errors and maximum solid fraction of one step.
 struct ExchangeBalance {
-    double solid_volume_error = 0.0;       ///< |volume on the mesh - volume of rock| / volume of rock
-    double momentum_exchange_error = 0.0;  ///< |rock + fluid + carry| / sum |impulse|
+    double solid_volume_error = 0.0;  ///< |solid volume of mapping and of the fluid's cells - volume of rock| / volume of rock
+    double deposit_error = 0.0;  ///< |momentum laid into cells - that of the rocks| / (sum |impulse| + carry); says nothing of the fluid
     double solid_fraction_max = 0.0;
 };
 
@@ -73,7 +73,7 @@ public:
     gsl::span<const double> void_fraction_new() const { return void_fraction_new_; }
     MomentumExchange exchange() const { return {source_, drag_rate_, inertia_}; }
 
-    /// Updates the carry from the momentum that the fluid received.
+    /// Updates the carry from the momentum that the fluid received. MomentumBalance tells whether it did.
     ExchangeBalance book();
 
     /// New warnings since the last call: closures outside their range, rock whose centre lies in steel.
@@ -90,6 +90,7 @@ public:
 private:
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
     void map_present_rock();
+    void require_all_rocks() const;
     void follow_departures();
     void add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
                       gsl::span<const double> volume);

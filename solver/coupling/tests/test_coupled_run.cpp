@@ -185,7 +185,7 @@ TEST(CoupledRun, carries_rock_out_and_up_and_accounts_for_all_of_it) {
     EXPECT_EQ(recorder.last_outcomes[1].last_exit_bin, "gap");
     for (const BalanceRow& row : recorder.balance_rows) {
         EXPECT_LE(row.solid_volume_error, 1e-12);
-        EXPECT_LE(row.momentum_exchange_error, 1e-10);
+        EXPECT_LE(row.deposit_error, 1e-10);
     }
     EXPECT_EQ(recorder.cost_rows.size(), recorder.balance_rows.size());
     EXPECT_EQ(recorder.run_cost->steps, static_cast<int>(recorder.cost_rows.size()));

@@ -144,15 +144,14 @@ void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<
     }
     alphaPhi_ = alphaf_ * phi_;
     while (pimple_.loop()) {
-        tmp<fvVectorMatrix> momentum = momentum_matrix();
+        const tmp<fvVectorMatrix> stress = viscous_matrix();
+        tmp<fvVectorMatrix> momentum = momentum_matrix(stress());
         predict_velocity(momentum.ref());
         while (pimple_.correct()) correct_pressure(momentum.ref());
+        if (rock_ == RockPresence::present && pimple_.finalIter()) update_received(stress());
         if (pimple_.turbCorr()) correct_turbulence();
     }
-    if (rock_ == RockPresence::present) {
-        update_material_acceleration();
-        update_received();
-    }
+    if (rock_ == RockPresence::present) update_material_acceleration();
     save_state();
 }
 

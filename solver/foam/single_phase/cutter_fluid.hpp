@@ -21,6 +21,13 @@ namespace cutterflow::foam {
 /// Whether rock shares the domain with the fluid. Without rock the void fraction stays 1 and no field of the exchange is kept.
 enum class RockPresence { absent, present };
 
+/// Momentum that the fluid of the whole mesh got in the last step from elsewhere than rock, over density [m4/s].
+struct OutsideMomentum {
+    Foam::vector boundary = Foam::Zero;   ///< pressure, stress and through-flow of all patches that are no interface
+    Foam::vector interface = Foam::Zero;  ///< the same of both sides of all sliding interfaces
+    Foam::vector replaced = Foam::Zero;   ///< of fluid that the step's old void fraction has more than the field before it
+};
+
 /// Patches on both sides of sliding interfaces; none on a mesh without one.
 std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 
@@ -65,6 +72,7 @@ public:
     const Foam::volScalarField& void_fraction() const { return alpha_; }
     const Foam::volVectorField& material_acceleration() const { return DuDt_; }
     const Foam::vectorField& received() const { return received_; }
+    const OutsideMomentum& outside_momentum() const { return outside_; }
     Foam::tmp<Foam::volScalarField> effective_viscosity() const { return turbulence_.nuEff(); }
     Foam::tmp<Foam::vectorField> vorticity() const;          ///< curl u [1/s]
     Foam::tmp<Foam::vectorField> stress_divergence() const;  ///< div(tau) [m/s2]
@@ -90,7 +98,7 @@ private:
     void move_mesh();
     void take_void_fraction(gsl::span<const double> old_values, gsl::span<const double> new_values);
     void take_exchange(const coupling::MomentumExchange& exchange);
-    Foam::tmp<Foam::fvVectorMatrix> momentum_matrix();
+    Foam::tmp<Foam::fvVectorMatrix> momentum_matrix(const Foam::fvVectorMatrix& stress);
     Foam::tmp<Foam::fvVectorMatrix> viscous_matrix();
     void add_exchange(Foam::fvVectorMatrix& momentum);
     void predict_velocity(Foam::fvVectorMatrix& momentum);
@@ -103,7 +111,8 @@ private:
     void report_continuity();
     void correct_turbulence();
     void update_material_acceleration();
-    void update_received();
+    void update_received(const Foam::fvVectorMatrix& stress);
+    void update_outside_momentum(const Foam::fvVectorMatrix& stress, const Foam::surfaceVectorField& through);
     void restore_state();
     void save_state();
 
@@ -134,6 +143,7 @@ private:
     Foam::volScalarField::Internal drag_rate_;
     Foam::volScalarField inertia_;
     Foam::vectorField received_;
+    OutsideMomentum outside_;
 
     Foam::IOdictionary state_;
     Foam::label p_ref_cell_ = 0;

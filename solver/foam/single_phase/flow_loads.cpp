@@ -55,11 +55,11 @@ void add_torque(const CutterFluid& fluid, const MovingZones& zones, coupling::Fl
     reduce(loads.torque_viscous, sumOp<scalar>());
 }
 
-/// Net and gross flow through boundary patches and through the two sides of sliding interfaces.
+/// Net and gross flow through open patches, walls and through the two sides of sliding interfaces.
 struct BoundaryFlows {
-    double net = 0.0;
-    double gross = 0.0;
-    double open_gross = 0.0;  // of patches that are no walls
+    double open_net = 0.0;
+    double open_gross = 0.0;
+    double wall_gross = 0.0;
     double interface_net = 0.0;
     double interface_gross = 0.0;  // both sides
 };
@@ -73,13 +73,14 @@ BoundaryFlows sum_boundary_flows(const surfaceScalarField& flux) {
         if (isA<cyclicAMIFvPatch>(of_patch.patch())) {
             flows.interface_net += net;
             flows.interface_gross += gross;
+        } else if (isA<wallFvPatch>(of_patch.patch())) {
+            flows.wall_gross += gross;
         } else if (!of_patch.coupled()) {
-            flows.net += net;
-            flows.gross += gross;
-            if (!isA<wallFvPatch>(of_patch.patch())) flows.open_gross += gross;
+            flows.open_net += net;
+            flows.open_gross += gross;
         }
     }
-    for (double* value : {&flows.net, &flows.gross, &flows.open_gross, &flows.interface_net, &flows.interface_gross})
+    for (double* value : {&flows.open_net, &flows.open_gross, &flows.wall_gross, &flows.interface_net, &flows.interface_gross})
         reduce(*value, sumOp<scalar>());
     return flows;
 }
@@ -97,11 +98,16 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     add_torque(fluid, zones, loads);
     if (outlet) add_outlet(fluid, *outlet, loads);
     const BoundaryFlows flows = sum_boundary_flows(fluid.relative_fluid_flux());
-    loads.boundary_flow = flows.net + flows.interface_net;
-    loads.through_flow = 0.5 * flows.open_gross;
+    loads.boundary_flow = flows.open_net + flows.interface_net;
+    loads.wall_flow = flows.wall_gross;
+    const fvMesh& mesh = fluid.mesh();
+    loads.through_flow = flows.open_gross > 0.0 ? 0.5 * flows.open_gross : gSum(mesh.V().field()) / mesh.time().deltaTValue();
     loads.interface_imbalance = std::abs(flows.interface_net) / (0.5 * flows.interface_gross + VSMALL);
-    loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (flows.gross + VSMALL);
+    loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (2.0 * loads.through_flow);
     loads.courant_max = fluid.courant_max();
+    loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);
+    loads.interface_impulse = fluid.density() * to_vec3(fluid.outside_momentum().interface);
+    loads.replaced_momentum = fluid.density() * to_vec3(fluid.outside_momentum().replaced);
     return loads;
 }
 

@@ -8,9 +8,9 @@ namespace cutterflow::foam {
 
 using namespace Foam;
 
-tmp<fvVectorMatrix> CutterFluid::momentum_matrix() {
+tmp<fvVectorMatrix> CutterFluid::momentum_matrix(const fvVectorMatrix& stress) {
     tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) +
-                               viscous_matrix());
+                               stress);
     if (rock_ == RockPresence::present) add_exchange(matrix.ref());
     if (!sources_.empty()) matrix.ref() -= sources_(U_);
     matrix.ref().relax();

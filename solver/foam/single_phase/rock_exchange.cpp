@@ -7,6 +7,8 @@
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/single_phase/fields.hpp"
 
+#include "cyclicAMIFvPatch.H"
+#include "fvMatrices.H"
 #include "fvc.H"
 
 namespace cutterflow::foam {
@@ -34,6 +36,7 @@ void CutterFluid::reset_void_fraction(gsl::span<const double> void_fraction) {
 }
 
 void CutterFluid::take_void_fraction(gsl::span<const double> old_values, gsl::span<const double> new_values) {
+    const scalarField shown(alpha_.primitiveField());
     copy_into(alpha_.primitiveFieldRef(), new_values);
     alpha_.correctBoundaryConditions();
     alphaf_ = fvc::interpolate(alpha_);
@@ -47,6 +50,8 @@ void CutterFluid::take_void_fraction(gsl::span<const double> old_values, gsl::sp
         old_field = (old_field - swept) * mesh_.V().field() / mesh_.V0().field();
     }
     alpha_old.correctBoundaryConditions();
+    const scalarField& volume = mesh_.moving() ? mesh_.V0().field() : mesh_.V().field();
+    outside_.replaced = gSum(((old_field - shown) * volume * U_.primitiveField())());
 }
 
 void CutterFluid::take_exchange(const coupling::MomentumExchange& exchange) {
@@ -63,9 +68,32 @@ void CutterFluid::update_material_acceleration() {
     DuDt_.correctBoundaryConditions();
 }
 
-void CutterFluid::update_received() {
-    received_ = explicit_source_.field() - drag_rate_.field() * (U_.primitiveField() - U_.oldTime().primitiveField()) -
-                inertia_.primitiveField() * (DuDt_.primitiveField() - DuDt_.oldTime().primitiveField());
+/// What the state shows: gain of momentum and its outflow, less pressure and stress. The pressure has made the last flux, so that its
+/// remaining error of continuity takes no momentum along and a uniform flow receives nothing.
+void CutterFluid::update_received(const fvVectorMatrix& stress) {
+    const surfaceVectorField through(fvc::flux(alphaPhi_, U_, "div(phi,U)"));
+    received_ = fvc::ddt(alpha_, U_)().primitiveField() + fvc::div(through)().primitiveField() -
+                continuity_residual() / mesh_.V().field() * U_.primitiveField() + fvc::grad(p_)().primitiveField() +
+                (stress & U_)().primitiveField();
+    update_outside_momentum(stress, through);
+}
+
+/// Sums over boundary faces, but for the explicit part of the stress: a sum over cells, in which the faces between them cancel.
+void CutterFluid::update_outside_momentum(const fvVectorMatrix& stress, const surfaceVectorField& through) {
+    vector boundary(sum(stress.source())), interface(Zero);
+    forAll(mesh_.boundary(), patch) {
+        const fvPatchVectorField& u = U_.boundaryField()[patch];
+        const bool is_interface = isA<cyclicAMIFvPatch>(u.patch());
+        if (u.coupled() && !is_interface) continue;
+        const vectorField beyond(is_interface ? vectorField(u.patchNeighbourField()) : vectorField(u.size(), vector::one));
+        (is_interface ? interface : boundary) -= sum(through.boundaryField()[patch] + p_.boundaryField()[patch] * u.patch().Sf() +
+                                                     cmptMultiply(stress.internalCoeffs()[patch], vectorField(u.patchInternalField())) -
+                                                     cmptMultiply(stress.boundaryCoeffs()[patch], beyond));
+    }
+    reduce(boundary, sumOp<vector>());
+    reduce(interface, sumOp<vector>());
+    outside_.boundary = time_.deltaTValue() * boundary;
+    outside_.interface = time_.deltaTValue() * interface;
 }
 
 }  // namespace cutterflow::foam

@@ -13,7 +13,7 @@ namespace cutterflow::coupling::testing {
 
 /// Cells that exchange momentum with rock and with nothing else: alpha du/dt = received, each for itself, so that a part of what rock hands
 /// over stays behind (drag implicit). A prescribed flow replaces that when `flow` is set.
-class FakeFluid final : public FluidEngine {
+class FakeFluid : public FluidEngine {
 public:
     FakeFluid(SyntheticMesh m, const ZoneMotion& motion, double step) : mesh(std::move(m)), moving{motion}, time_step_(step) {
         velocity.assign(mesh.size(), Vec3::Zero());
@@ -53,6 +53,9 @@ public:
         log += "end ";
         if (new_values.empty()) return;
         void_fraction_old.assign(old_values.begin(), old_values.end());
+        given_loads.replaced_momentum.setZero();
+        for (std::size_t c = 0; c < mesh.size(); ++c)  // nothing carries momentum from cell to cell with the fluid that rock pushes aside
+            given_loads.replaced_momentum += density * mesh.volumes[c] * (new_values[c] - void_fraction[c]) * velocity[c];
         void_fraction.assign(new_values.begin(), new_values.end());
         for (std::size_t c = 0; c < mesh.size(); ++c) {
             const Vec3 before = velocity[c], acceleration_before = acceleration[c];
@@ -94,18 +97,21 @@ public:
     std::vector<double> retreat;     // of walls, set by the test
     std::vector<double> travel_limits;
     FluidLoads given_loads;
+    double density = 998.2;
     bool writes_fields = false;
     std::string log;
 
-private:
+protected:
     std::vector<Vec3> received_;
+
+private:
     double time_ = 0.0;
     double time_step_;
     double step_ = 0.0;
 };
 
 /// Rocks without contacts: half kick, drift, half kick with added mass in the inertia.
-class FakeDem final : public DemEngine {
+class FakeDem : public DemEngine {
 public:
     FakeDem(ZoneMotion rotor_motion, double added_mass, double fluid_density)
         : motion_(std::move(rotor_motion)), added_mass_(added_mass), fluid_density_(fluid_density) {}
@@ -155,10 +161,12 @@ public:
             step.contact_impulse.push_back(Vec3::Zero());  // its rocks never touch
         }
         time_ += duration;
+        step.gravity = gravity;
         for (std::size_t p = rocks_.size(); p-- > 0;) {
             if (!leaves || !leaves(rocks_.position[p])) continue;
             step.left.append(rocks_, p);
             step.left_impulse.push_back(step.impulse[p]);
+            step.left_contact_impulse.push_back(Vec3::Zero());
             step.impulse.erase(step.impulse.begin() + static_cast<std::ptrdiff_t>(p));
             step.contact_impulse.pop_back();
             erase(p);
@@ -217,8 +225,10 @@ private:
 
     ZoneMotion motion_;
     double added_mass_, fluid_density_;
-    Rocks rocks_;
     double time_ = 0.0;
+
+protected:
+    Rocks rocks_;
 };
 
 }  // namespace cutterflow::coupling::testing

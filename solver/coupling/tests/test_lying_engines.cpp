@@ -1,0 +1,186 @@
+// Every published balance fails when an engine lies, and holds when none does.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
+#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/observe/momentum_balance.hpp"
+#include "solver/ports/testing/fake_engines.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+using testing::FakeDem;
+using testing::FakeFluid;
+using testing::SyntheticMesh;
+
+const FluidProperties k_water{998.2, 1.0034e-6};
+constexpr double k_half = 0.15, k_cell = 0.01;
+constexpr int k_steps = 40;
+
+SyntheticMesh box() {
+    SyntheticMesh mesh;
+    mesh.add_box(Vec3::Constant(-k_half), Vec3::Constant(k_half), k_cell, false);
+    return mesh;
+}
+
+/// Takes nothing and keeps its velocity, whatever it says.
+class DeafFluid : public FakeFluid {
+public:
+    using FakeFluid::FakeFluid;
+    void end_step(gsl::span<const double> old_values, gsl::span<const double> new_values, const MomentumExchange& exchange) override {
+        const std::vector<Vec3> kept = velocity;
+        FakeFluid::end_step(old_values, new_values, exchange);
+        velocity = kept;
+        acceleration.assign(velocity.size(), Vec3::Zero());
+        for (Vec3& received : received_) received = says(received);
+    }
+
+private:
+    virtual Vec3 says(const Vec3& would_have_received) = 0;
+};
+
+class BoastfulFluid final : public DeafFluid {
+    using DeafFluid::DeafFluid;
+    Vec3 says(const Vec3& would_have_received) override { return would_have_received; }
+};
+
+class BabblingFluid final : public DeafFluid {
+    using DeafFluid::DeafFluid;
+    Vec3 says(const Vec3&) override { return Vec3(any_(random_), any_(random_), any_(random_)); }
+    std::mt19937 random_{7};
+    std::uniform_real_distribution<double> any_{-5.0, 5.0};
+};
+
+class HonestDeafFluid final : public DeafFluid {
+    using DeafFluid::DeafFluid;
+    Vec3 says(const Vec3&) override { return Vec3::Zero(); }
+};
+
+/// Its wall at the lower end of x takes a hundredth of the momentum beside it, and no force on the boundary is reported.
+class FluidAtLeakyWall final : public FakeFluid {
+public:
+    using FakeFluid::FakeFluid;
+    void end_step(gsl::span<const double> old_values, gsl::span<const double> new_values, const MomentumExchange& exchange) override {
+        FakeFluid::end_step(old_values, new_values, exchange);
+        for (std::size_t c = 0; c < mesh.size(); ++c)
+            if (mesh.centres[c].x() < -k_half + k_cell) velocity[c] *= 0.99;
+    }
+};
+
+/// Keeps the void fraction that it had.
+class FluidWithoutRoom final : public FakeFluid {
+public:
+    using FakeFluid::FakeFluid;
+    void end_step(gsl::span<const double> old_values, gsl::span<const double> new_values, const MomentumExchange& exchange) override {
+        const std::vector<double> kept = void_fraction;
+        FakeFluid::end_step(old_values, new_values, exchange);
+        for (std::size_t c = 0; c < mesh.size(); ++c) void_fraction[c] = 0.5 * (1.0 + kept[c]);
+    }
+};
+
+/// Stops rock at a wall at x = 0 without saying so.
+class DemWithSilentWall final : public FakeDem {
+public:
+    using FakeDem::FakeDem;
+    DemStep advance(double duration, const HydrodynamicForce& force) override {
+        DemStep step = FakeDem::advance(duration, force);
+        for (std::size_t p = 0; p < rocks_.size(); ++p)
+            if (rocks_.position[p].x() > 0.0) rocks_.velocity[p].x() = 0.0;
+        return step;
+    }
+};
+
+/// Loses the first rock.
+class DemWithLeak final : public FakeDem {
+public:
+    using FakeDem::FakeDem;
+    DemStep advance(double duration, const HydrodynamicForce& force) override {
+        DemStep step = FakeDem::advance(duration, force);
+        remove(std::vector<int>{rocks_.id.front()});
+        step.impulse.erase(step.impulse.begin());
+        step.contact_impulse.erase(step.contact_impulse.begin());
+        return step;
+    }
+};
+
+/// Largest errors over all steps.
+struct Worst {
+    ExchangeBalance exchange;
+    MomentumErrors momentum;
+};
+
+/// Twenty rocks that fall and fly through water at rest.
+template <class Fluid, class Dem>
+Worst run_with() {
+    Fluid fluid(box(), {}, 2e-3);
+    Dem dem({}, 0.5, k_water.density);
+    SerialCommunicator serial;
+    CouplingSettings settings;
+    settings.has_rock = true;
+    KernelCoupling coupling(settings, k_water, fluid, dem, serial);
+    MomentumBalance momentum(k_water, fluid, dem, serial);
+    dem.gravity = Vec3(3.0, -1.0, -9.0);
+    std::vector<FeedRock> due;
+    for (int i = 0; i < 20; ++i)
+        due.push_back(
+            {i + 1, 0.0, Vec3(0.022 * (i % 5) - 0.1, 0.03 * (i / 5) - 0.04, 0.008 * i - 0.06), 0.02, 2650.0, Vec3(0.6, 0.1, -0.2)});
+    coupling.insert(due);
+    Worst worst;
+    for (int n = 0; n < k_steps; ++n) {
+        coupling.sample();
+        momentum.begin(coupling.carry());
+        fluid.begin_step(coupling.travel_limit(), std::numeric_limits<double>::infinity());
+        const DemStep moved = coupling.move();
+        coupling.map();
+        fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
+        const ExchangeBalance exchange = coupling.book();
+        const MomentumErrors errors = momentum.end(coupling.carry(), moved, fluid.loads());
+        worst.exchange.solid_volume_error = std::max(worst.exchange.solid_volume_error, exchange.solid_volume_error);
+        worst.exchange.deposit_error = std::max(worst.exchange.deposit_error, exchange.deposit_error);
+        worst.momentum.error = std::max(worst.momentum.error, errors.error);
+        worst.momentum.carried = std::max(worst.momentum.carried, errors.carried);
+    }
+    return worst;
+}
+
+constexpr double k_momentum_gate = 1e-10, k_volume_gate = 1e-12, k_carried_gate = 2.0;
+
+TEST(HonestEngines, pass_every_gate) {
+    const Worst worst = run_with<FakeFluid, FakeDem>();
+    EXPECT_LE(worst.momentum.error, k_momentum_gate);
+    EXPECT_LE(worst.momentum.carried, k_carried_gate);
+    EXPECT_LE(worst.exchange.solid_volume_error, k_volume_gate);
+    EXPECT_LE(worst.exchange.deposit_error, k_momentum_gate);
+}
+
+TEST(FluidThatTakesNothing, fails_the_momentum_balance_when_it_says_that_it_took) {
+    for (const Worst& worst : {run_with<BoastfulFluid, FakeDem>(), run_with<BabblingFluid, FakeDem>()}) {
+        EXPECT_GE(worst.momentum.error, 0.1);
+        EXPECT_LE(worst.exchange.deposit_error, k_momentum_gate);  // which says nothing of the fluid
+    }
+}
+
+TEST(FluidThatTakesNothing, owes_more_and_more_when_it_says_so) {
+    const Worst worst = run_with<HonestDeafFluid, FakeDem>();
+    EXPECT_LE(worst.momentum.error, k_momentum_gate);
+    EXPECT_GE(worst.momentum.carried, 5.0 * k_carried_gate);
+}
+
+TEST(WallThatLeaksMomentum, fails_the_momentum_balance) {
+    EXPECT_GE((run_with<FluidAtLeakyWall, FakeDem>().momentum.error), 1e3 * k_momentum_gate);
+    EXPECT_GE((run_with<FakeFluid, DemWithSilentWall>().momentum.error), 1e3 * k_momentum_gate);
+}
+
+TEST(FluidThatMakesNoRoom, fails_the_volume_balance) {
+    EXPECT_GE((run_with<FluidWithoutRoom, FakeDem>().exchange.solid_volume_error), 0.1);
+}
+
+TEST(RockThatVanishes, ends_the_run) {
+    EXPECT_THROW((run_with<FakeFluid, DemWithLeak>()), CheckFailure);
+}
+
+}  // namespace
+}  // namespace cutterflow::coupling
