@@ -36,7 +36,6 @@ struct Cell {
     double cell_size = 0.0;      ///< [m], smallest
     double overlap = 0.1;        ///< of the radius
     int ranks = 1;
-    double momentum_limit = k_momentum_limit;
 };
 
 struct Outcome {
@@ -48,7 +47,7 @@ struct Outcome {
 
     double largest_balance_error() const { return std::max({volume_error, momentum_error, flow_error}); }
     bool conserves(const Cell& cell) const {
-        return volume_error <= k_volume_limit && momentum_error <= cell.momentum_limit && flow_error <= k_flow_limit;
+        return volume_error <= k_volume_limit && momentum_error <= k_momentum_limit && flow_error <= k_flow_limit;
     }
     bool is_bounded(const Cell& cell) const {
         return rock_speed <= cell.fastest_rock && fluid_speed <= cell.fastest_fluid && solid_fraction <= 0.7 && overlap <= cell.overlap;
@@ -289,9 +288,6 @@ std::vector<Cell> squeezed_rock() {
         write_surface(folder / "constant/ramp.stl", ramp);
     };
     cell.overlap = 1.5 * overlap / radius;
-    // The rock hardly weighs: what the flow's own limit leaves of its momentum counts against that.
-    const double submerged_weight = k_pi / 6.0 * std::pow(k_rotor_rock, 3) * (density - 998.2) * k_gravity;
-    cell.momentum_limit += k_flow_limit * 998.2 * inputs.discharge * tip / submerged_weight;
     return {cell};
 }
 
