@@ -14,6 +14,7 @@
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
+#include "solver/foam/session/case_errors.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/openfoam_installation.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
@@ -66,17 +67,21 @@ void run(int argc, char** argv) {
     coupled.finish();
 }
 
-/// Reports why the run ends, once, and ends all ranks with the failure's code. User errors are thrown on every rank;
-/// anything else may have struck one rank alone, so that the others must be stopped.
+/// Reports why the run ends, and ends all ranks with the failure's code. Failures are thrown on every rank and told once; what OpenFOAM
+/// finds in a file, and a defect, may have struck one rank alone, so that the others must be stopped.
 int explain(const std::exception& error) {
     int started = 0;
     MPI_Initialized(&started);
-    int rank = 0;
-    if (started != 0) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    int rank = 0, ranks = 1;
+    if (started != 0) {
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    }
     const auto* failure = dynamic_cast<const Failure*>(&error);
     const int code = static_cast<int>(failure != nullptr ? failure->code() : ExitCode::defect);
-    if (rank == 0 || failure == nullptr) std::cerr << "cutterFoam: " << error.what() << std::endl;
-    if (failure == nullptr && started != 0) MPI_Abort(MPI_COMM_WORLD, code);
+    const bool on_all_ranks = failure != nullptr && dynamic_cast<const foam::CaseFileError*>(&error) == nullptr;
+    if (rank == 0 || !on_all_ranks) std::cerr << "cutterFoam: " << error.what() << std::endl;
+    if (!on_all_ranks && (ranks > 1 || (failure == nullptr && started != 0))) MPI_Abort(MPI_COMM_WORLD, code);
     return code;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/base/error.hpp"
+#include "solver/foam/session/case_errors.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
@@ -113,7 +114,7 @@ struct FoamFluidEngine::Parts {
 };
 
 FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches)
-    : parts_(std::make_unique<Parts>(session, with_rock, patches)) {
+    : parts_(with_case_errors(ThrownErrors::all, [&] { return std::make_unique<Parts>(session, with_rock, patches); })) {
     Parts& p = *parts_;
     p.sampler = std::make_unique<VelocitySampler>(p.fluid.mesh(), p.cells(), p.zones.motion);
 }
@@ -159,7 +160,7 @@ bool FoamFluidEngine::running() {
     return parts_->fluid.running();
 }
 void FoamFluidEngine::begin_step(double travel_limit, double stop_time) {
-    parts_->fluid.begin_step(travel_limit, stop_time);
+    with_case_errors(ThrownErrors::of_file_content, [&] { parts_->fluid.begin_step(travel_limit, stop_time); });
     add_up_wall_motion(parts_->fluid.mesh(), parts_->wall_retreat);
 }
 
@@ -169,7 +170,7 @@ gsl::span<const double> FoamFluidEngine::wall_retreat() const {
 
 void FoamFluidEngine::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
                                const coupling::MomentumExchange& exchange) {
-    parts_->fluid.end_step(void_fraction_old, void_fraction_new, exchange);
+    with_case_errors(ThrownErrors::of_file_content, [&] { parts_->fluid.end_step(void_fraction_old, void_fraction_new, exchange); });
 }
 
 void FoamFluidEngine::reset_void_fraction(gsl::span<const double> void_fraction) {

@@ -35,8 +35,8 @@ void check_shape(Mistakes& mistakes, const DemSettings& settings) {
 void check_cylinder(Mistakes& mistakes, const DomainSettings& domain) {
     mistakes.positive("rock.domain.radius", domain.radius);
     mistakes.require(domain.lower.z() < domain.upper.z(),
-                     fmt::format("rock.domain.zMin = {}, zMax = {}", domain.lower.z(), domain.upper.z()), "zMin must be below zMax",
-                     "Correct them");
+                     fmt::format("rock.domain.zMin = {}, rock.domain.zMax = {}", domain.lower.z(), domain.upper.z()),
+                     "zMin must be below zMax", "Correct them");
     for (const std::size_t side : {0, 1, 2, 3})
         mistakes.require(!domain.side_is_wall[side], fmt::format("rock.domain.walls: {} of a cylinder", k_domain_sides[side]),
                          "A cylinder's plane sides are zMin and zMax", "Give its mantle as an STL in rock.walls");
@@ -44,9 +44,10 @@ void check_cylinder(Mistakes& mistakes, const DomainSettings& domain) {
 
 void check_box(Mistakes& mistakes, const DomainSettings& domain) {
     for (Eigen::Index i = 0; i < 3; ++i)
-        mistakes.require(domain.lower[i] < domain.upper[i],
-                         fmt::format("rock.domain: {0} from {1} to {2}", "xyz"[i], domain.lower[i], domain.upper[i]),
-                         "Corner lower must lie below corner upper", "Correct the corners");
+        mistakes.require(
+            domain.lower[i] < domain.upper[i],
+            fmt::format("rock.domain.lower and rock.domain.upper: {0} from {1} to {2}", "xyz"[i], domain.lower[i], domain.upper[i]),
+            "Corner lower must lie below corner upper", "Correct the corners");
 }
 
 void check_fluid(Mistakes& mistakes, const DemSettings& settings) {

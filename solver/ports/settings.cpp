@@ -13,9 +13,11 @@
 namespace cutterflow::coupling {
 namespace {
 
-void check_fluid(Mistakes& mistakes, const FluidProperties& fluid) {
-    mistakes.positive("rho (of transportProperties)", fluid.density);
-    mistakes.positive("nu (of transportProperties)", fluid.kinematic_viscosity);
+std::vector<Mistake> fluid_mistakes(const FluidProperties& fluid) {
+    Mistakes mistakes("constant/transportProperties");
+    mistakes.positive("rho", fluid.density);
+    mistakes.positive("nu", fluid.kinematic_viscosity);
+    return mistakes.take();
 }
 
 void check_hindrance(Mistakes& mistakes, const ClosureSettings& closures) {
@@ -61,7 +63,7 @@ void check_velocity(Mistakes& mistakes, const VelocitySettings& velocity) {
 
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where) {
     Mistakes mistakes(where);
-    check_fluid(mistakes, fluid);
+    mistakes.add(fluid_mistakes(fluid));
     if (settings.has_rock) {
         mistakes.add(setting_mistakes(settings.kernel, "kernel", where));
         mistakes.add(setting_mistakes(settings.closures, "closures", where));

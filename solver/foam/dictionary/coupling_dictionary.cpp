@@ -1,16 +1,19 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "geometry/base/run_files.hpp"
 #include "solver/foam/dictionary/dictionary_section.hpp"
+#include "solver/foam/session/case_errors.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/session/foam_session.hpp"
 
 #include "IOdictionary.H"
+#include "Pstream.H"
 #include "Time.H"
 #include "uniformDimensionedFields.H"
 
@@ -20,6 +23,9 @@ namespace {
 using Presence = DictionarySection::Presence;
 constexpr Presence k_required = Presence::required;
 constexpr Presence k_optional = Presence::optional;
+
+/// Stands for the case's fluid in checks that are not about it.
+constexpr coupling::FluidProperties k_any_fluid{1000.0, 1e-6};
 
 Foam::IOobject in_constant(const Foam::word& name, const Foam::Time& time) {
     return Foam::IOobject(name, time.constant(), time, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false);
@@ -134,14 +140,63 @@ void read_velocity(DictionarySection& section, const std::filesystem::path& fold
     }
 }
 
+/// Whether there is a file of the folder constant with a FoamFile header. Collective.
+bool has_header(const Foam::word& name, const Foam::Time& time) {
+    return in_constant(name, time).typeHeaderOk<Foam::IOdictionary>(false);
+}
+
+/// Whether there is anything of that name in the folder constant. Collective.
+bool is_in_constant(const std::string& name, const FoamSession& session) {
+    bool there = Foam::UPstream::master() && std::filesystem::exists(session.case_folder() / "constant" / name);
+    Foam::Pstream::scatter(there);
+    return there;
+}
+
+/// Whether a file that rock needs can be read; adds a mistake when not.
+bool can_read(const std::string& name, const std::string& content, const Foam::Time& time, Findings& findings) {
+    if (has_header(name, time)) return true;
+    findings.add({"constant/" + name, "the file is missing or has no FoamFile header", "With rock it holds " + content,
+                  "Add or correct it; cases/examples/rock_in_a_box has one"});
+    return false;
+}
+
 /// Gravity and the fluid; the other keys of these files are OpenFOAM's.
-void read_surroundings(const Foam::Time& time, coupling::DemSettings& dem, std::vector<Mistake>& mistakes) {
-    const Foam::uniformDimensionedVectorField gravity(in_constant("g", time));
-    dem.gravity = to_vec3(gravity.value());
+void read_surroundings(const Foam::Time& time, coupling::DemSettings& dem, Findings& findings) {
+    if (can_read("g", "the gravity [m/s2]", time, findings))
+        dem.gravity = to_vec3(Foam::uniformDimensionedVectorField(in_constant("g", time)).value());
+    if (!can_read("transportProperties", "rho [kg/m3] and nu [m2/s]", time, findings)) {
+        dem.fluid = k_any_fluid;
+        return;
+    }
     const Foam::IOdictionary transport(in_constant("transportProperties", time));
-    DictionarySection fluid(transport, "", "constant/transportProperties", mistakes);
+    DictionarySection fluid(transport, "", "constant/transportProperties", findings);
     fluid.read_dimensioned("rho", dem.fluid.density, k_required);
     fluid.read_dimensioned("nu", dem.fluid.kinematic_viscosity, k_required);
+}
+
+void require_above_zero(DictionarySection& section, const std::string& key, Presence presence) {
+    double value = 1.0;
+    section.read(key, value, presence);
+    if (!(value > 0.0)) section.report(key, fmt::format("= {}", value), "It must be above 0");
+}
+
+/// What of system/controlDict sets the time step; the other keys are OpenFOAM's.
+void check_time_control(const Foam::Time& time, Findings& findings) {
+    DictionarySection control(time.controlDict(), "", "system/controlDict", findings);
+    require_above_zero(control, "deltaT", k_required);
+    require_above_zero(control, "maxCo", k_optional);
+    require_above_zero(control, "maxDeltaT", k_optional);
+    require_above_zero(control, "writeInterval", k_optional);
+}
+
+/// The file, or null when there is none. \throws UserError  when OpenFOAM would not take it for a dictionary
+std::unique_ptr<Foam::IOdictionary> open_coupling_properties(const FoamSession& session, const Foam::Time& time) {
+    Foam::IOobject header = in_constant("couplingProperties", time);
+    if (header.typeHeaderOk<Foam::IOdictionary>(true)) return std::make_unique<Foam::IOdictionary>(header);
+    if (!is_in_constant("couplingProperties", session)) return nullptr;
+    throw UserError({{names::coupling_properties, "this is no OpenFOAM dictionary: it has no FoamFile header with class dictionary",
+                      "OpenFOAM reads a file only with that header; without the file the run would be a pure flow",
+                      "Begin the file with: FoamFile { version 2.0; format ascii; class dictionary; object couplingProperties; }"}});
 }
 
 void read_file(DictionarySection& file, const std::filesystem::path& folder, CouplingDictionary& result) {
@@ -162,23 +217,39 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
     read_optional(file, "checkpoint", settings.checkpoint, read_settings<coupling::CheckpointSettings>);
 }
 
-}  // namespace
+/// Checks the values, with the same rules as everywhere else.
+void check_values(const CouplingDictionary& result, Findings& findings) {
+    findings.add_of_values(
+        coupling::check_settings(result.coupling, result.dem ? result.dem->fluid : k_any_fluid, names::coupling_properties));
+    if (!result.dem) return;
+    coupling::DemSettings dem = *result.dem;
+    dem.added_mass = coupling::ClosureSettings().added_mass;  // its mistakes and the fluid's are among those above
+    dem.fluid = k_any_fluid;
+    findings.add_of_values(coupling::check_settings(dem, names::coupling_properties));
+}
 
-CouplingDictionary read_coupling_dictionary(FoamSession& session) {
-    CouplingDictionary result;
+void read_case(FoamSession& session, CouplingDictionary& result, Findings& findings) {
     const Foam::Time& time = session.time();
-    Foam::IOobject header = in_constant("couplingProperties", time);
-    if (!header.typeHeaderOk<Foam::IOdictionary>(true)) return result;
-
-    const Foam::IOdictionary dict(header);
-    std::vector<Mistake> mistakes;
-    DictionarySection file(dict, "", names::coupling_properties, mistakes);
+    check_time_control(time, findings);
+    const auto dict = open_coupling_properties(session, time);
+    if (!dict) return;
+    DictionarySection file(*dict, "", names::coupling_properties, findings);
     read_file(file, session.case_folder(), result);
     file.finish();
     if (result.dem) {
         result.dem->added_mass = result.coupling.closures.added_mass;
-        read_surroundings(time, *result.dem, mistakes);
+        read_surroundings(time, *result.dem, findings);
     }
+    check_values(result, findings);
+}
+
+}  // namespace
+
+CouplingDictionary read_coupling_dictionary(FoamSession& session) {
+    CouplingDictionary result;
+    Findings findings;
+    with_case_errors(ThrownErrors::all, [&] { read_case(session, result, findings); });
+    std::vector<Mistake> mistakes = findings.take();
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return result;
 }

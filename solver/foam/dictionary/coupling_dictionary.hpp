@@ -16,7 +16,8 @@ struct CouplingDictionary {
 };
 
 /// Reads constant/couplingProperties and, with rock, constant/g and rho and nu of constant/transportProperties. A case without the file is
-/// a pure flow. Collective. Every section and key, with default, unit and bounds: docs/user/your_own_case.md.
+/// a pure flow. What sets the time step in system/controlDict is checked too. Collective. Every section and key, with default, unit and
+/// bounds: docs/user/your_own_case.md.
 ///
 /// Usage
 /// \verbatim
@@ -37,7 +38,9 @@ struct CouplingDictionary {
 /// stop       { undecided 0.05; }                              // optional, needs fates
 /// checkpoint { interval 0.25; keep 2; }                       // optional
 /// \endverbatim
-/// \throws UserError  with every mistake of the file: unknown key (with the nearest known one), wrong type, missing
+/// \throws UserError  with every mistake of the file: unknown key (with the nearest known one), wrong type, missing, out of bounds, or that
+/// it is no dictionary
+/// \throws CaseFileError  where OpenFOAM cannot read a file
 CouplingDictionary read_coupling_dictionary(FoamSession& session);
 
 }  // namespace cutterflow::foam

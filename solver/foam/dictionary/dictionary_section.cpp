@@ -1,6 +1,7 @@
 #include "solver/foam/dictionary/dictionary_section.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,8 +13,57 @@
 
 namespace cutterflow::foam {
 
-DictionarySection::DictionarySection(const Foam::dictionary& dict, std::string name, std::string file, std::vector<Mistake>& mistakes)
-    : dict_(dict), name_(std::move(name)), file_(std::move(file)), mistakes_(mistakes) {}
+namespace {
+
+/// The dotted words of a text, as "rock.domain.lower". Text in quotes is the user's.
+std::vector<std::string> words_of(const std::string& text) {
+    std::vector<std::string> words(1);
+    bool quoted = false;
+    for (const char c : text) {
+        if (c == '\'' || c == '"') quoted = !quoted;
+        if (!quoted && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_'))
+            words.back() += c;
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    return words;
+}
+
+/// The section of a key; empty when it has none.
+std::string section_of(const std::string& key) {
+    const auto dot = key.rfind('.');
+    return dot == std::string::npos ? std::string() : key.substr(0, dot);
+}
+
+}  // namespace
+
+void Findings::add(const std::string& key, Mistake mistake) {
+    mistaken_.insert(key);
+    add(std::move(mistake));
+}
+
+bool Findings::has_mistake(const std::string& key) const {
+    for (std::string part = key; !part.empty(); part = section_of(part))
+        if (mistaken_.count(part) > 0) return true;
+    return false;
+}
+
+void Findings::add_of_values(const std::vector<Mistake>& mistakes) {
+    for (Mistake mistake : mistakes) {
+        const std::vector<std::string> words = words_of(mistake.what);
+        if (std::any_of(words.begin(), words.end(), [this](const std::string& word) { return has_mistake(word); })) continue;
+        for (const std::string& word : words) {
+            const auto place = places_.find(word);
+            if (place == places_.end()) continue;
+            mistake.where = place->second;
+            break;
+        }
+        add(std::move(mistake));
+    }
+}
+
+DictionarySection::DictionarySection(const Foam::dictionary& dict, std::string name, std::string file, Findings& findings)
+    : dict_(dict), name_(std::move(name)), file_(std::move(file)), findings_(findings) {}
 
 void DictionarySection::read(const std::string& key, double& target, Presence presence) {
     const Foam::tokenList* value = tokens(key, presence);
@@ -122,6 +172,7 @@ const Foam::dictionary* DictionarySection::section(const std::string& key, Prese
         report_missing(key, presence);
         return nullptr;
     }
+    findings_.place(full_name(key), where(key));
     const Foam::dictionary* found = dict_.findDict(key, Foam::keyType::LITERAL);
     if (!found) report_type(key, "a section { ... }");
     return found;
@@ -142,20 +193,20 @@ std::vector<Foam::dictionary> DictionarySection::sections(const std::string& key
 }
 
 DictionarySection DictionarySection::below(const Foam::dictionary& dict, const std::string& key) {
-    return DictionarySection(dict, full_name(key), file_, mistakes_);
+    return DictionarySection(dict, full_name(key), file_, findings_);
 }
 
 void DictionarySection::report(const std::string& key, const std::string& what, const std::string& rule) {
-    mistakes_.push_back({where(key), fmt::format("{} {}", full_name(key), what), rule, "Correct the value"});
+    findings_.add(full_name(key), {where(key), fmt::format("{} {}", full_name(key), what), rule, "Correct the value"});
 }
 
 void DictionarySection::finish() {
     for (const Foam::word& key : dict_.toc()) {
         if (key == "FoamFile" || std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
         const std::string nearest = nearest_word(key, known_);
-        mistakes_.push_back({where(key), fmt::format("{} is unknown", full_name(key)),
-                             fmt::format("The keys {} are {}", name_.empty() ? "of the file" : "of " + name_, fmt::join(known_, ", ")),
-                             nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
+        findings_.add({where(key), fmt::format("{} is unknown", full_name(key)),
+                       fmt::format("The keys {} are {}", name_.empty() ? "of the file" : "of " + name_, fmt::join(known_, ", ")),
+                       nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
     }
 }
 
@@ -166,6 +217,7 @@ const Foam::tokenList* DictionarySection::tokens(const std::string& key, Presenc
         report_missing(key, presence);
         return nullptr;
     }
+    findings_.place(full_name(key), where(key));
     if (!entry->isStream()) {
         report_type(key, "a value, not a section");
         return nullptr;
@@ -175,13 +227,14 @@ const Foam::tokenList* DictionarySection::tokens(const std::string& key, Presenc
 
 void DictionarySection::report_missing(const std::string& key, Presence presence) {
     if (presence == Presence::optional) return;
-    mistakes_.push_back({where(""), fmt::format("{} is missing", full_name(key)), "The key is required", "Add it"});
+    findings_.add(full_name(key), {where(""), fmt::format("{} is missing", full_name(key)), "The key is required", "Add it"});
 }
 
 void DictionarySection::report_type(const std::string& key, const std::string& expected) {
     const Foam::entry* entry = dict_.findEntry(key, Foam::keyType::LITERAL);
     const std::string value = entry->isStream() ? std::string(entry->stream().toString()) : std::string("{ ... }");
-    mistakes_.push_back({where(key), fmt::format("{} = {}", full_name(key), value), "It must be " + expected, "Correct the value"});
+    findings_.add(full_name(key),
+                  {where(key), fmt::format("{} = {}", full_name(key), value), "It must be " + expected, "Correct the value"});
 }
 
 std::string DictionarySection::full_name(const std::string& key) const {

@@ -1,6 +1,8 @@
 #pragma once
 /// \file Reads one section of an OpenFOAM dictionary and collects what is wrong with it. Only for .cpp files of this folder.
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,28 @@
 
 namespace cutterflow::foam {
 
+/// What the sections of a case's dictionaries say: mistakes so far, and where each key stands. Keys have their sections in front.
+class Findings {
+public:
+    void add(Mistake mistake) { mistakes_.push_back(std::move(mistake)); }
+    /// Adds a mistake of a key, about which nothing more is to be said.
+    void add(const std::string& key, Mistake mistake);
+    void place(const std::string& key, const std::string& where) { places_[key] = where; }
+
+    /// Adds what a check found in the values. Each mistake gets the line of the first key in its `what`; one that has a key with a mistake
+    /// is left out, because the value that it is about was not the user's.
+    void add_of_values(const std::vector<Mistake>& mistakes);
+
+    std::vector<Mistake> take() { return std::move(mistakes_); }
+
+private:
+    bool has_mistake(const std::string& key) const;
+
+    std::vector<Mistake> mistakes_;
+    std::map<std::string, std::string> places_;
+    std::set<std::string> mistaken_;
+};
+
 /// Every read marks its key as known; finish() reports the unread keys. A read of an absent or wrong entry leaves the target.
 class DictionarySection {
 public:
@@ -18,7 +42,7 @@ public:
 
     /// \param name  of the section in messages, empty for the file itself
     /// \param file  of the dictionary in messages
-    DictionarySection(const Foam::dictionary& dict, std::string name, std::string file, std::vector<Mistake>& mistakes);
+    DictionarySection(const Foam::dictionary& dict, std::string name, std::string file, Findings& findings);
 
     void read(const std::string& key, double& target, Presence presence);
     void read(const std::string& key, int& target, Presence presence);
@@ -59,7 +83,7 @@ private:
     const Foam::dictionary& dict_;
     std::string name_;
     std::string file_;
-    std::vector<Mistake>& mistakes_;
+    Findings& findings_;
     std::vector<std::string> known_;
 };
 

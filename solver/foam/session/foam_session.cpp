@@ -11,6 +11,7 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "solver/foam/session/case_errors.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 
 #include "IFstream.H"
@@ -111,10 +112,12 @@ struct FoamSession::Parts {
 FoamSession::FoamSession(int argc, char** argv) : parts_(std::make_unique<Parts>()) {
     const Foam::argList& arguments = parse_arguments(argc, argv);
     parts_->case_folder = to_path(arguments.rootPath() / arguments.globalCaseName());
-    require_checkpoint_is_latest(parts_->case_folder);
-    Foam::Info << "Create time\n" << Foam::endl;
-    parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, arguments);
-    parts_->open_mesh();
+    with_case_errors(ThrownErrors::all, [&] {
+        require_checkpoint_is_latest(parts_->case_folder);
+        Foam::Info << "Create time\n" << Foam::endl;
+        parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, arguments);
+        parts_->open_mesh();
+    });
 }
 
 FoamSession::FoamSession(const std::filesystem::path& case_folder) : parts_(std::make_unique<Parts>()) {
@@ -124,8 +127,10 @@ FoamSession::FoamSession(const std::filesystem::path& case_folder) : parts_(std:
     const Foam::fileName root(parts_->case_folder.parent_path().string());
     Foam::fileName name(parts_->case_folder.filename().string());
     if (Foam::UPstream::parRun()) name = name / ("processor" + std::to_string(Foam::UPstream::myProcNo()));
-    parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, root, name);
-    parts_->open_mesh();
+    with_case_errors(ThrownErrors::all, [&] {
+        parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, root, name);
+        parts_->open_mesh();
+    });
 }
 
 FoamSession::~FoamSession() {

@@ -16,9 +16,11 @@ class FoamSession {
 public:
     /// Opens the case that the command line names (-case, -parallel, -help ... as in every OpenFOAM application; `argc`, `argv` as main
     /// got them). Mistakes on the command line end the program as OpenFOAM does.
+    /// \throws CaseFileError  when OpenFOAM cannot open the case
     FoamSession(int argc, char** argv);
 
     /// Opens a case without a command line. On several MPI ranks the case must be decomposed, one processor folder per rank.
+    /// \throws CaseFileError  as above
     explicit FoamSession(const std::filesystem::path& case_folder);
 
     ~FoamSession();

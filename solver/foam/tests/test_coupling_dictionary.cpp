@@ -1,5 +1,7 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -7,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "solver/foam/foam_fluid_engine.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/tests/tiny_case.hpp"
 
@@ -15,23 +18,57 @@
 namespace cutterflow::foam {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-CouplingDictionary read(const std::string& name, const std::string& text) {
+testing::TinyCase case_with(const std::string& name, const std::string& text) {
     testing::Box box;
     for (int& cells : box.cells) cells = 2;
     testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(box), 1e-3, 1e-3);
     if (!text.empty()) tiny.files["constant/couplingProperties"] = text;
     tiny.files["constant/g"] = "dimensions [0 1 -2 0 0 0 0]; value (6.9 0 -6.9);";
+    return tiny;
+}
+
+CouplingDictionary read(const testing::TinyCase& tiny) {
     FoamSession session(testing::build_case(tiny));
     return read_coupling_dictionary(session);
+}
+
+CouplingDictionary read(const std::string& name, const std::string& text) {
+    return read(case_with(name, text));
+}
+
+/// The mistakes for which a case is refused; none when it is not.
+template <class Action>
+std::vector<std::string> mistakes_of(Action action) {
+    std::vector<std::string> texts;
+    try {
+        action();
+    } catch (const UserError& error) {
+        for (const Mistake& mistake : error.mistakes()) texts.push_back(mistake.text());
+    }
+    return texts;
+}
+
+/// The mistakes of a decomposed case after `spoil(path of constant/couplingProperties)`.
+template <class Spoil>
+std::vector<std::string> mistakes_after(const std::string& name, Spoil spoil) {
+    const std::filesystem::path folder = testing::build_case(case_with(name, ""));
+    if (Foam::UPstream::master()) spoil(folder / "constant/couplingProperties");
+    FoamSession session(folder);
+    return mistakes_of([&] { read_coupling_dictionary(session); });
 }
 
 /// ":n" as in a message. Only the rank that reads a file knows its lines, and only that rank's messages are told.
 std::string line(int number) {
     return Foam::UPstream::master() ? ":" + std::to_string(number) : "";
 }
+
+const char* const k_fates = R"(
+fates { contour "c.csv"; ringRadius 0.4; zBackplate 0.03; binWidth 0.03; mouth { centre (0 0 0); direction (0 0 1); radius 0.1; depth 0.2; } }
+)";
 
 const char* const k_complete = R"(
 patches { outlet suction_end; steel (cutter "backplate"); }
@@ -154,9 +191,9 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         const std::string rock =
             fmt::format("rock {{ feed \"f.csv\"; contact {{ {} }} domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}",
                         section_of(contact, choice));
-        const std::string text = fmt::format("{} kernel {{ {} }} closures {{ {} }} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }}",
-                                             rock, section_of(kernel, choice), section_of(closures, choice), section_of(outflow, choice),
-                                             section_of(stop, choice), section_of(checkpoint, choice));
+        const std::string text = fmt::format("{} kernel {{ {} }} closures {{ {} }} {} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }}",
+                                             rock, section_of(kernel, choice), section_of(closures, choice), k_fates,
+                                             section_of(outflow, choice), section_of(stop, choice), section_of(checkpoint, choice));
         const CouplingDictionary found = read("dictionary_round_trip_" + std::to_string(choice), text);
         ASSERT_TRUE(found.dem && found.coupling.outflow && found.coupling.stop && found.coupling.checkpoint);
         expect_same(found.dem->contact, contact);
@@ -173,6 +210,84 @@ TEST(CouplingDictionary, IsAPureFlowWithoutTheFile) {
     EXPECT_FALSE(read_back.coupling.has_rock);
     EXPECT_FALSE(read_back.dem);
     EXPECT_FALSE(read_back.coupling.checkpoint);
+}
+
+TEST(CouplingDictionary, RefusesAFileThatIsNoDictionary) {
+    const auto write = [](const std::string& text) {
+        return [text](const std::filesystem::path& file) { std::ofstream(file, std::ios::binary) << text; };
+    };
+    const auto refused =
+        ElementsAre(AllOf(HasSubstr("constant/couplingProperties: this is no OpenFOAM dictionary"), HasSubstr("FoamFile")));
+    EXPECT_THAT(mistakes_after("no_dictionary_header", write("rock { }\n")), refused);
+    EXPECT_THAT(mistakes_after("no_dictionary_empty", write("")), refused);
+    EXPECT_THAT(mistakes_after("no_dictionary_bytes", write(std::string("\x01\xfe\x00\x9c{\x80", 6))), refused);
+    EXPECT_THAT(mistakes_after("no_dictionary_folder", [](const std::filesystem::path& file) { std::filesystem::create_directory(file); }),
+                refused);
+    EXPECT_THAT(mistakes_after("no_dictionary_class",
+                               write("FoamFile { version 2.0; format ascii; class volScalarField; object couplingProperties; }\n")),
+                refused);
+}
+
+TEST(CouplingDictionary, NamesWrongValuesBesideWrongKeys) {
+    testing::TinyCase tiny = case_with("dictionary_values", R"(
+rock
+{
+    feed "f.csv";
+    contact { youngModulus 1e8; maxSpeed -1; poissonRock 0.7; }
+    domain { type box; lower (0 0 1); upper (1 1 0);
+             walls (xMin qMax); }
+}
+closures { drag brownlawler; addedMass -1; }
+stop { undecided 0.1; }
+)");
+    tiny.files["constant/transportProperties"] = "transportModel Newtonian;\nnu 0;\nrho -5;\n";
+    tiny.files["system/controlDict"] += "maxCo -1; maxDeltaT none;";
+    const auto about = [](const std::string& file, int number, const std::string& what) {
+        return AllOf(::testing::StartsWith(file + line(number)), HasSubstr(what));
+    };
+    const std::string coupling = "constant/couplingProperties", transport = "constant/transportProperties";
+    EXPECT_THAT(
+        mistakes_of([&] { read(tiny); }),
+        ::testing::UnorderedElementsAre(
+            AllOf(::testing::StartsWith("system/controlDict"), HasSubstr("maxCo = -1")),
+            AllOf(::testing::StartsWith("system/controlDict"), HasSubstr("maxDeltaT = none")),
+            about(coupling, 6, "youngModulus is unknown"), about(coupling, 6, "youngsModulus is missing"),
+            about(coupling, 6, "rock.contact.maxSpeed = -1"), about(coupling, 6, "rock.contact.poissonRock = 0.7"),
+            about(coupling, 7, "z from 1 to 0"), about(coupling, 8, "qMax is no side"), about(coupling, 10, "closures.drag = \"brownlawler\""),
+            about(coupling, 10, "closures.addedMass = -1"), about(coupling, 11, "section stop without section fates"),
+            about(transport, 3, "nu = 0"), about(transport, 4, "rho = -5")));
+}
+
+TEST(CouplingDictionary, NamesAMissingFileOfRockAsAMistake) {
+    testing::TinyCase tiny = case_with("dictionary_no_g", k_complete);
+    tiny.files.erase("constant/g");
+    EXPECT_THAT(mistakes_of([&] { read(tiny); }), ElementsAre(AllOf(HasSubstr("constant/g"), HasSubstr("missing"))));
+}
+
+TEST(CouplingDictionary, RefusesTimeStepsThatAreNotAboveZeroInAPureFlow) {
+    testing::TinyCase tiny = case_with("control_values", "");
+    tiny.files["system/controlDict"] += "deltaT 0; maxCo abc; maxDeltaT -2;";
+    EXPECT_THAT(mistakes_of([&] { read(tiny); }),
+                ElementsAre(HasSubstr("deltaT = 0"), HasSubstr("maxCo = abc"), HasSubstr("maxDeltaT = -2")));
+}
+
+/// What OpenFOAM itself refuses may strike the reading rank alone: only on one rank can a test go on from there.
+TEST(CaseErrors, OfOpenFoamAreTheUsersAndKeepItsText) {
+    if (Foam::UPstream::parRun()) GTEST_SKIP() << "serial";
+    const auto unclosed = mistakes_of([] { read("case_unclosed", "rock { feed \"f.csv\";"); });
+    EXPECT_THAT(unclosed, ElementsAre(AllOf(HasSubstr("constant/couplingProperties:"), HasSubstr("cannot use what stands here"),
+                                            HasSubstr("Unexpected EOF"))));
+    const std::filesystem::path folder = testing::build_case(case_with("case_no_mesh", ""));
+    std::filesystem::remove_all(folder / "constant/polyMesh");
+    EXPECT_THAT(mistakes_of([&] { const FoamSession session(folder); }), ElementsAre(AllOf(HasSubstr("blockMesh"), HasSubstr("points"))));
+    EXPECT_FALSE(Foam::FatalError.throwing());
+    EXPECT_FALSE(Foam::FatalIOError.throwing());
+}
+
+TEST(CaseErrors, OfAMissingFieldNameIt) {
+    if (Foam::UPstream::parRun()) GTEST_SKIP() << "serial";
+    FoamSession session(testing::build_case(case_with("case_no_fields", "")));
+    EXPECT_THAT(mistakes_of([&] { FoamFluidEngine(session, false, {}); }), ElementsAre(HasSubstr("0/p")));
 }
 
 TEST(CouplingDictionary, NamesEveryMistakeWithItsLine) {
@@ -193,7 +308,8 @@ colour red;
                                        ::testing::AllOf(HasSubstr(line(4)), HasSubstr("closures.addedMass = half"), HasSubstr("a number")),
                                        ::testing::AllOf(HasSubstr(line(5)), HasSubstr("outflow.startTime is missing")),
                                        ::testing::AllOf(HasSubstr(line(6)), HasSubstr("checkpoint.keep = 2.5"), HasSubstr("whole number")),
-                                       ::testing::AllOf(HasSubstr(line(7)), HasSubstr("colour is unknown"))));
+                                       ::testing::AllOf(HasSubstr(line(7)), HasSubstr("colour is unknown")),
+                                       ::testing::AllOf(HasSubstr(line(5)), HasSubstr("outflow without section fates"))));
     }
 }
 
