@@ -253,9 +253,9 @@ stop { undecided 0.1; }
             AllOf(::testing::StartsWith("system/controlDict"), HasSubstr("maxDeltaT = none")),
             about(coupling, 6, "youngModulus is unknown"), about(coupling, 6, "youngsModulus is missing"),
             about(coupling, 6, "rock.contact.maxSpeed = -1"), about(coupling, 6, "rock.contact.poissonRock = 0.7"),
-            about(coupling, 7, "z from 1 to 0"), about(coupling, 8, "qMax is no side"), about(coupling, 10, "closures.drag = \"brownlawler\""),
-            about(coupling, 10, "closures.addedMass = -1"), about(coupling, 11, "section stop without section fates"),
-            about(transport, 3, "nu = 0"), about(transport, 4, "rho = -5")));
+            about(coupling, 7, "z from 1 to 0"), about(coupling, 8, "qMax is no side"),
+            about(coupling, 10, "closures.drag = \"brownlawler\""), about(coupling, 10, "closures.addedMass = -1"),
+            about(coupling, 11, "section stop without section fates"), about(transport, 3, "nu = 0"), about(transport, 4, "rho = -5")));
 }
 
 TEST(CouplingDictionary, NamesAMissingFileOfRockAsAMistake) {

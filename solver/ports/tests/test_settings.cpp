@@ -46,13 +46,15 @@ TEST(Settings, name_every_mistake) {
     const auto mistakes = check_settings(settings, {0.0, 1e-6}, "constant/couplingProperties");
     ASSERT_EQ(mistakes.size(), 8u);
     for (const Mistake& mistake : mistakes) {
-        EXPECT_EQ(mistake.where, "constant/couplingProperties");
+        const bool of_fluid = mistake.what.rfind("rho", 0) == 0;
+        EXPECT_EQ(mistake.where, of_fluid ? "constant/transportProperties" : "constant/couplingProperties");
         EXPECT_FALSE(mistake.rule.empty());
         EXPECT_FALSE(mistake.remedy.empty());
     }
     const auto names = [&](const std::string& what) {
         return std::any_of(mistakes.begin(), mistakes.end(), [&](const Mistake& m) { return m.what.find(what) != std::string::npos; });
     };
+    EXPECT_TRUE(names("rho = 0"));
     EXPECT_TRUE(names("closures.drag = \"stokes\""));
     EXPECT_TRUE(names("kernel.gamma = 0"));
     EXPECT_TRUE(names("checkpoint.keep = 0"));
