@@ -19,6 +19,10 @@ constexpr double k_degree = k_pi / 180.0;
 // Bernoulli: where water at rest 35 m below the surface, as deep as cutters dredge, has reached 30 m/s, its pressure is the vapour's.
 constexpr double k_largest_mouth_speed = 30.0;  // [m/s]
 constexpr double k_most_rocks = 1e6;            // of a study; each is followed on its own
+// Farther walls change nothing: at 50 ring radii a source's flow has fallen to 1/2500.
+constexpr double k_largest_tank_in_rings = 50.0;
+constexpr double k_thinnest_steel_in_rings = 1e-3;  // far below what any mesh resolves; thinner solids are lost to rounding
+constexpr double k_most_bins = 1e4, k_most_writes = 1e4;
 
 double period_of(const ParameterValues& values) {
     return 60.0 / values.number("rotor.speed_rpm");
@@ -146,6 +150,11 @@ void check_suction(const ParameterValues& study, const HeadSize& head, Rules& ru
         fmt::format("The mouth must lie inside the ring: mouth_offset_m + mouth_radius_m = {:.4g} may be at most the ring radius {:.4g} m",
                     offset + radius, head.ring_radius),
         "Make the mouth smaller or move it towards the axis");
+    for (const char* part : {"suction.backplate_thickness_m", "suction.pipe_wall_m"})
+        rules.require(study.number(part) >= k_thinnest_steel_in_rings * head.ring_radius, part,
+                      fmt::format("Steel must be at least {:g} ring radius, {:.3g} m, thick", k_thinnest_steel_in_rings,
+                                  k_thinnest_steel_in_rings * head.ring_radius),
+                      "Correct the value; its unit is m");
     rules.require(
         offset + radius + wall <= plate, "suction.backplate_radius_m",
         fmt::format("The backplate must carry the pipe: mouth_offset_m + mouth_radius_m + pipe_wall_m = {:.4g} may be at most its radius",
@@ -153,21 +162,34 @@ void check_suction(const ParameterValues& study, const HeadSize& head, Rules& ru
         "Enlarge the backplate or make the pipe smaller");
 }
 
-/// Rocks of a feed, not rounded.
+/// Rocks of a feed; of a mass, whole ones of each class.
 double number_of_rocks(const ParameterValues& feed) {
     if (feed.has("feed.count")) return static_cast<double>(feed.integer("feed.count"));
     double number = 0.0, shares = 0.0;
+    for (const ParameterValues& rock : feed.tables("feed.class")) shares += rock.number("feed.class.mass_share");
     for (const ParameterValues& rock : feed.tables("feed.class")) {
         const double mass = sphere_mass(rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"));
-        number += rock.number("feed.class.mass_share") / mass;
-        shares += rock.number("feed.class.mass_share");
+        number += std::round(feed.number("feed.mass_kg") * rock.number("feed.class.mass_share") / shares / mass);
     }
-    return feed.number("feed.mass_kg") * number / shares;
+    return number;
 }
 
-void check_number_of_rocks(const ParameterValues& study, Rules& rules) {
+/// A feed that is told in full: others are refused by check_feed_quantities.
+bool has_quantity(const ParameterValues& feed) {
+    return feed.has("feed.count") != feed.has("feed.mass_kg") && !feed.tables("feed.class").empty();
+}
+
+void check_rocks(const ParameterValues& study, const HeadSize& head, Rules& rules) {
     for (const ParameterValues& feed : study.tables("feed")) {
+        for (const ParameterValues& rock : feed.tables("feed.class"))
+            rules.require(rock.number("feed.class.diameter_m") < 2.0 * head.tip_radius, rock, "feed.class.diameter_m",
+                          fmt::format("Rock must be smaller than the head, whose diameter is {:.4g} m", 2.0 * head.tip_radius),
+                          "Correct the diameter; its unit is m");
+        if (!has_quantity(feed)) continue;
         const double number = number_of_rocks(feed);
+        if (feed.has("feed.mass_kg"))
+            rules.require(number >= 1.0, feed, "feed.mass_kg", "It is less than half a rock of each class: nothing would be released",
+                          "Release more, or give count");
         rules.require(number <= k_most_rocks, feed, feed.has("feed.count") ? "feed.count" : "feed.mass_kg",
                       fmt::format("It makes {:.3g} rocks; a feed has at most {:.3g}, as each is followed on its own", number, k_most_rocks),
                       "Release less, or larger rock");
@@ -192,6 +214,11 @@ void check_tank(const ParameterValues& study, const HeadSize& head, Rules& rules
                   fmt::format("Bed clearance, head, gap and backplate take {:.4g} m of it", least_height), "Make the tank higher");
     rules.require(head.depth + study.number("tank.bed_clearance_m") > head.depth, "tank.bed_clearance_m", "The bed must lie below the head",
                   "Raise the clearance");
+    for (const char* key : {"tank.radius_m", "tank.height_m"})
+        rules.require(study.number(key) <= k_largest_tank_in_rings * head.ring_radius, key,
+                      fmt::format("It may be at most {:g} ring radii, {:.4g} m: farther walls change nothing and cost cells",
+                                  k_largest_tank_in_rings, k_largest_tank_in_rings * head.ring_radius),
+                      "Make the tank smaller, or check cutter.unit");
     const double plate = study.number("suction.backplate_radius_m");
     const double widest = std::max(head.tip_radius, plate);
     rules.require(study.number("tank.radius_m") >= 1.5 * widest, "tank.radius_m",
@@ -208,6 +235,31 @@ void check_feed_region(const ParameterValues& study, const HeadSize& head, Rules
                       "Exchange or correct them");
         rules.require(to <= head.depth, feed, "feed.depth_to_m", fmt::format("The head ends {:.4g} m below the ring plane", head.depth),
                       "Keep the wedge inside the head");
+    }
+}
+
+void check_report(const ParameterValues& study, const HeadSize& head, Rules& rules) {
+    const double bins = head.depth / study.number("report.bin_width_m");
+    rules.require(
+        bins <= k_most_bins, "report.bin_width_m",
+        fmt::format("It divides the head, {:.4g} m deep, into {:.3g} bins; at most {:g} are counted", head.depth, bins, k_most_bins),
+        "Widen the bins");
+    const double outflow = head.tip_radius + study.number("report.outflow_offset_m");
+    rules.require(outflow < study.number("tank.radius_m"), "report.outflow_offset_m",
+                  fmt::format("Outflow is sampled up to {:.4g} m from the axis; the water ends at tank.radius_m = {:.4g} m", outflow,
+                              study.number("tank.radius_m")),
+                  "Sample nearer to the head");
+    rules.require(study.number("report.outflow_start_s") < end_time_of(study), "report.outflow_start_s",
+                  fmt::format("The run ends at {:.4g} s", end_time_of(study)), "Start the average earlier");
+}
+
+void check_intervals(const ParameterValues& study, Rules& rules) {
+    for (const char* key : {"run.checkpoint_interval_s", "run.write_interval_s"}) {
+        const double times = end_time_of(study) / study.number(key);
+        rules.require(times <= k_most_writes, key,
+                      fmt::format("The run, {:.4g} s long, would write {:.3g} times; at most {:g} are written", end_time_of(study), times,
+                                  k_most_writes),
+                      "Write less often");
     }
 }
 
@@ -311,15 +363,15 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
     check_discharge(resolved, rules);
     check_tank(resolved, head, rules);
     check_feed_region(resolved, head, rules);
-    check_number_of_rocks(resolved, rules);
+    check_rocks(resolved, head, rules);
+    check_report(resolved, head, rules);
+    check_intervals(resolved, rules);
     rules.require(!physics::drag_law_holds_void_fraction(resolved.text("closures.drag")) ||
                       resolved.text("closures.hindrance") == physics::k_no_closure,
                   "closures.hindrance",
                   fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice",
                               resolved.text("closures.drag")),
                   "Set closures.hindrance = \"none\"");
-    rules.require(resolved.number("report.outflow_start_s") < end_time_of(resolved), "report.outflow_start_s",
-                  fmt::format("The run ends at {:.4g} s", end_time_of(resolved)), "Start the average earlier");
     return rules.take();
 }
 

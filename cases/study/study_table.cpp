@@ -15,6 +15,10 @@ namespace {
 
 using Row = ParameterRow;
 
+// No cutter and no flume is larger: a value beyond is a slip of the unit.
+constexpr double k_largest_length = 100.0, k_largest_tank = 1000.0;  // [m]
+constexpr double k_most_revolutions = 1e4;
+
 /// A row of the study, which belongs to a stage of a run.
 Row row(const char* stage, std::string key, ParameterKind kind, const char* unit, std::string help) {
     const bool repeated = key.rfind("feed.", 0) == 0;
@@ -41,11 +45,13 @@ ParameterTable head_rows() {
             "Surface of the cutter (STL, OBJ or PLY), relative to this file; closed and facing outwards."),
         choice(k_geometry_stage, "cutter.unit", {"m", "mm", "cm", "inch", "ft"}, "Unit of length in the cutter's file.")
             .derived("metres, millimetres or inches, the first that gives a plausible size"),
-        number(k_case_stage, "rotor.speed_rpm", "rpm", "Rotation speed of the cutter.").above(0.0).at_most(600.0),
+        number(k_case_stage, "rotor.speed_rpm", "rpm", "Rotation speed of the cutter.").at_least(0.1).at_most(600.0),
         choice(k_case_stage, "rotor.direction", {"right_handed", "left_handed"},
                "Sense of rotation about the axis from hub to ring. Seen from the suction side, right_handed turns counterclockwise.")
             .by_default(std::string("right_handed")),
-        number(k_case_stage, "suction.discharge_m3_s", "m3/s", "Volume flow of the mixture through the suction pipe.").above(0.0),
+        number(k_case_stage, "suction.discharge_m3_s", "m3/s", "Volume flow of the mixture through the suction pipe.")
+            .at_least(1e-6)
+            .at_most(100.0),
         number(k_geometry_stage, "suction.mouth_azimuth_deg", "deg",
                "Azimuth of the mouth's centre: 0 is lowest, positive by the right hand about the axis.")
             .at_least(-360.0)
@@ -53,16 +59,28 @@ ParameterTable head_rows() {
             .by_default(0.0),
         number(k_geometry_stage, "suction.mouth_offset_m", "m", "Distance of the mouth's centre from the rotor's axis.")
             .at_least(0.0)
+            .at_most(k_largest_length)
             .derived("0.55 ring radius"),
         number(k_geometry_stage, "suction.mouth_radius_m", "m", "Inner radius of mouth and suction pipe.")
             .above(0.0)
+            .at_most(k_largest_length)
             .derived("0.25 ring radius"),
-        number(k_geometry_stage, "suction.gap_m", "m", "Gap between ring plane and backplate.").above(0.0).derived("0.075 ring radius"),
-        number(k_geometry_stage, "suction.backplate_radius_m", "m", "Radius of the backplate.").above(0.0).derived("the ring radius"),
-        number(k_geometry_stage, "suction.backplate_thickness_m", "m", "Thickness of the backplate.")
+        number(k_geometry_stage, "suction.gap_m", "m", "Gap between ring plane and backplate.")
             .above(0.0)
+            .at_most(k_largest_length)
+            .derived("0.075 ring radius"),
+        number(k_geometry_stage, "suction.backplate_radius_m", "m", "Radius of the backplate.")
+            .above(0.0)
+            .at_most(k_largest_length)
+            .derived("the ring radius"),
+        number(k_geometry_stage, "suction.backplate_thickness_m", "m", "Thickness of the backplate; at least 0.001 ring radius.")
+            .above(0.0)
+            .at_most(k_largest_length)
             .derived("0.05 ring radius"),
-        number(k_geometry_stage, "suction.pipe_wall_m", "m", "Wall thickness of the suction pipe.").above(0.0).derived("0.025 ring radius"),
+        number(k_geometry_stage, "suction.pipe_wall_m", "m", "Wall thickness of the suction pipe; at least 0.001 ring radius.")
+            .above(0.0)
+            .at_most(k_largest_length)
+            .derived("0.025 ring radius"),
         number(k_case_stage, "ladder.inclination_deg", "deg",
                "Rotor axis below horizontal; gravity stands at 90 degrees minus it from the axis.")
             .at_least(0.0)
@@ -76,21 +94,25 @@ ParameterTable head_rows() {
 
 ParameterTable water_rows() {
     return {
-        number(k_geometry_stage, "tank.radius_m", "m", "Radius of the water's cylinder about the axis.")
+        number(k_geometry_stage, "tank.radius_m", "m", "Radius of the water's cylinder about the axis; at most 50 ring radii.")
             .above(0.0)
+            .at_most(k_largest_tank)
             .derived("6.25 ring radius"),
         number(k_geometry_stage, "tank.bed_clearance_m", "m", "Distance of the head's lowest point from the bed, along the axis.")
             .above(0.0)
+            .at_most(k_largest_tank)
             .derived("0.975 ring radius"),
-        number(k_geometry_stage, "tank.height_m", "m", "Height of the water's cylinder along the axis.")
+        number(k_geometry_stage, "tank.height_m", "m", "Height of the water's cylinder along the axis; at most 50 ring radii.")
             .above(0.0)
+            .at_most(k_largest_tank)
             .derived("bed clearance + the head's height + 1.0875 ring radius"),
         choice(k_mesh_stage, "mesh.preset", meshing::mesh_preset_names(),
                "Resolution: draft has 40,000 to 70,000 cells, paper about 1,000,000 with 0.01 ring radius at the blades.")
             .by_default(std::string("draft")),
-        number(k_case_stage, "fluid.density_kg_m3", "kg/m3", "Density of the water.").above(0.0).by_default(998.2),
+        number(k_case_stage, "fluid.density_kg_m3", "kg/m3", "Density of the water.").at_least(0.1).at_most(20000.0).by_default(998.2),
         number(k_case_stage, "fluid.kinematic_viscosity_m2_s", "m2/s", "Kinematic viscosity of the water.")
-            .above(0.0)
+            .at_least(1e-8)
+            .at_most(1.0)
             .by_default(1.0034e-6),
     };
 }
@@ -132,25 +154,30 @@ ParameterTable run_rows() {
     return {
         number(k_report_stage, "scale.length_ratio", "-",
                "Length of the prototype over that of this head; the report adds columns scaled by Froude's law.")
-            .above(0.0)
+            .at_least(1e-3)
+            .at_most(1e3)
             .by_default(1.0),
         number(k_case_stage, "run.flow_revolutions", "-", "Revolutions of the flow alone before rock is released.")
             .at_least(0.0)
+            .at_most(k_most_revolutions)
             .by_default(1.0),
         number(k_case_stage, "run.max_revolutions", "-", "Revolutions after which the run ends, those of the flow alone included.")
-            .above(0.0)
+            .at_least(1e-3)
+            .at_most(k_most_revolutions)
             .by_default(4.0),
         setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.05),
         number(k_case_stage, "run.max_courant", "-", "Largest Courant number of the flow relative to the mesh.")
-            .above(0.0)
+            .at_least(0.01)
             .at_most(5.0)
             .by_default(0.9),
         setting<coupling::CheckpointSettings>("run.checkpoint_interval_s", "interval").derived("a quarter of a revolution"),
-        number(k_case_stage, "run.write_interval_s", "s", "Simulated time between fields and rock positions for ParaView.")
+        number(k_case_stage, "run.write_interval_s", "s",
+               "Simulated time between fields and rock positions for ParaView; a run has at most 10,000 of them.")
             .above(0.0)
             .derived("a quarter of a revolution"),
-        number(k_case_stage, "report.bin_width_m", "m", "Width of the axial bins of spillage and outflow.")
+        number(k_case_stage, "report.bin_width_m", "m", "Width of the axial bins of spillage and outflow; the head has at most 10,000.")
             .above(0.0)
+            .at_most(k_largest_length)
             .derived("0.075 ring radius"),
         setting<coupling::OutflowSettings>("report.outflow_offset_m", "offset").derived("0.0375 ring radius"),
         setting<coupling::OutflowSettings>("report.outflow_start_s", "startTime")
@@ -162,10 +189,12 @@ ParameterTable run_rows() {
         number(k_case_stage, "report.adv_probe_diameter_m", "m",
                "Diameter of the volume, a cylinder along the axis, in which the instrument measures.")
             .above(0.0)
+            .at_most(1.0)
             .derived("0.006 m"),
-        number(k_case_stage, "report.adv_probe_length_m", "m", "Length of that volume.").above(0.0).derived("0.009 m"),
+        number(k_case_stage, "report.adv_probe_length_m", "m", "Length of that volume.").above(0.0).at_most(1.0).derived("0.009 m"),
         number(k_case_stage, "report.adv_position_error_m", "m", "How far the instrument may have been from where it is said to have been.")
             .above(0.0)
+            .at_most(k_largest_length)
             .derived("0.025 ring radius"),
     };
 }
@@ -176,6 +205,7 @@ ParameterTable feed_rows() {
         number(k_case_stage, "feed.mass_kg", "kg", "Mass of the rocks; give this or count.").above(0.0).derived("from count"),
         number(k_case_stage, "feed.start_revolution", "-", "Revolution at which the rock is released.")
             .at_least(0.0)
+            .at_most(k_most_revolutions)
             .derived("run.flow_revolutions"),
         number(k_case_stage, "feed.duration_s", "s", "0 releases all at once, as a batch. Other values are kept for continuous feed.")
             .at_least(0.0)
@@ -197,14 +227,24 @@ ParameterTable feed_rows() {
             .above(0.0)
             .at_most(360.0)
             .by_default(120.0),
-        number(k_case_stage, "feed.depth_from_m", "m", "Upper end of the wedge, below the ring plane.").at_least(0.0).by_default(0.0),
+        number(k_case_stage, "feed.depth_from_m", "m", "Upper end of the wedge, below the ring plane.")
+            .at_least(0.0)
+            .at_most(k_largest_length)
+            .by_default(0.0),
         number(k_case_stage, "feed.depth_to_m", "m", "Lower end of the wedge, below the ring plane.")
             .above(0.0)
+            .at_most(k_largest_length)
             .derived("the head's lowest point"),
-        number(k_case_stage, "feed.class.diameter_m", "m", "Diameter of the rocks of this class.").above(0.0),
-        number(k_case_stage, "feed.class.density_kg_m3", "kg/m3", "Density of the rock.").above(0.0).by_default(2650.0),
+        number(k_case_stage, "feed.class.diameter_m", "m", "Diameter of the rocks of this class; less than the head's.")
+            .at_least(1e-5)
+            .at_most(10.0),
+        number(k_case_stage, "feed.class.density_kg_m3", "kg/m3", "Density of the rock.")
+            .at_least(100.0)
+            .at_most(30000.0)
+            .by_default(2650.0),
         number(k_case_stage, "feed.class.mass_share", "-", "Share of this class in the feed's mass, relative to the sum of all shares.")
-            .above(0.0)
+            .at_least(1e-6)
+            .at_most(1e6)
             .by_default(1.0),
     };
 }

@@ -64,7 +64,7 @@ TEST_F(StudyFile, two_mistakes_are_both_reported_with_their_lines) {
         mistakes_of("[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0\nmouth_radius = 0.1\n");
     ASSERT_EQ(mistakes.size(), 2u);
     EXPECT_EQ(mistakes[0].where, file_.string() + ":6");
-    EXPECT_TRUE(any_contains(mistakes, "suction.discharge_m3_s = 0 is too low. It must be above 0 m3/s"));
+    EXPECT_TRUE(any_contains(mistakes, "suction.discharge_m3_s = 0 is too low. It must be 1e-06 to 100 m3/s"));
     EXPECT_TRUE(any_contains(mistakes, "Did you mean suction.mouth_radius_m?"));
 }
 
@@ -219,6 +219,59 @@ TEST(Study, refuses_sizes_that_contradict_each_other) {
     EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n[tank]\nheight_m = 0.9\n[report]\noutflow_start_s = 4\n").size(), 4u)
         << "ring and backplate, tank, report";
     EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n")[0].where, "study.toml:7");
+}
+
+TEST(Study, refuses_values_that_no_dredger_has) {
+    const auto one = [](const std::string& text, const std::string& key) {
+        try {
+            parse(text);
+            ADD_FAILURE() << text;
+        } catch (const UserError& error) {
+            EXPECT_EQ(error.mistakes().size(), 1u) << error.what();
+            EXPECT_TRUE(any_contains(error.mistakes(), key)) << error.what();
+        }
+    };
+    for (const char* diameter : {"1e300", "1e-300", "11", "9e-6"})
+        one(with_feed("count = 3\n", std::string("diameter_m = ") + diameter + "\n"), "feed.class.diameter_m");
+    for (const char* density : {"99", "30001", "1e300"})
+        one(with_feed("count = 3\n", std::string("diameter_m = 0.02\ndensity_kg_m3 = ") + density + "\n"), "feed.class.density_kg_m3");
+    for (const char* line :
+         {"density_kg_m3 = 0.09", "density_kg_m3 = 20001", "kinematic_viscosity_m2_s = 9e-9", "kinematic_viscosity_m2_s = 2"})
+        one(minimal(std::string("[fluid]\n") + line + "\n"), "fluid.");
+    for (const char* line : {"max_revolutions = 1e-300", "max_revolutions = 10001", "max_courant = 1e-9", "flow_revolutions = 1e300"})
+        one(minimal(std::string("[run]\n") + line + "\n"), "run.");
+    one(minimal("[scale]\nlength_ratio = 1e-300\n"), "scale.length_ratio");
+    one(minimal("[tank]\nheight_m = 1e300\n"), "tank.height_m");
+    one(minimal("[report]\noutflow_offset_m = 1e300\n"), "report.outflow_offset_m");
+    one("cutter.file = \"c.stl\"\nrotor.speed_rpm = 1e-300\nsuction.discharge_m3_s = 0.12\n", "rotor.speed_rpm");
+    one("cutter.file = \"\"\nrotor.speed_rpm = 60\nsuction.discharge_m3_s = 0.12\n", "cutter.file");
+}
+
+TEST(Study, refuses_sizes_out_of_proportion_to_the_head) {
+    const auto only = [](const std::string& keys, const std::string& rule) {
+        const std::vector<Mistake> mistakes = check_study(resolve_study(parse(minimal(keys)), k_model), k_model);
+        EXPECT_EQ(mistakes.size(), 1u) << keys;
+        EXPECT_TRUE(any_contains(mistakes, rule)) << keys;
+    };
+    const auto none = [](const std::string& keys) {
+        EXPECT_TRUE(check_study(resolve_study(parse(minimal(keys)), k_model), k_model).empty()) << keys;
+    };
+    only("[tank]\nradius_m = 20.1\n", "at most 50 ring radii, 20 m");
+    only("[tank]\nheight_m = 20.1\n", "at most 50 ring radii, 20 m");
+    none("[tank]\nradius_m = 20\nheight_m = 20\n");
+    only("backplate_thickness_m = 3.9e-4\n", "0.0004 m, thick");
+    only("pipe_wall_m = 1e-300\n", "0.0004 m, thick");
+    none("backplate_thickness_m = 4.1e-4\npipe_wall_m = 4.1e-4\n");
+    only("[report]\nbin_width_m = 4.8e-5\n", "at most 10000");
+    none("[report]\nbin_width_m = 4.9e-5\n");
+    only("[report]\noutflow_offset_m = 2.2\n", "the water ends at tank.radius_m = 2.5");  // 0.40 + 2.2 > 2.5
+    only("[run]\nwrite_interval_s = 3.9e-4\n", "at most 10000");                          // of 4 s
+    only("[run]\ncheckpoint_interval_s = 1e-300\n", "at most 10000");
+    none("[run]\nwrite_interval_s = 4.1e-4\n");
+    // A rock of 20 mm and 2650 kg/m3 has 11.1 g.
+    only("[[feed]]\nmass_kg = 0.005\n[[feed.class]]\ndiameter_m = 0.02\n", "less than half a rock");
+    none("[[feed]]\nmass_kg = 0.006\n[[feed.class]]\ndiameter_m = 0.02\n");
+    only("[[feed]]\ncount = 1\n[[feed.class]]\ndiameter_m = 0.8\n", "whose diameter is 0.8 m");
 }
 
 TEST(Study, warns_of_rock_larger_than_a_third_of_the_passage) {

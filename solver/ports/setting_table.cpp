@@ -119,7 +119,8 @@ SettingTable<ContactSettings> contact_rows() {
 SettingTable<OutflowSettings> outflow_rows() {
     using S = OutflowSettings;
     return Rows<S>()
-        .require(&S::offset, number("offset", "m", "Distance outside the contour at which the radial outflow is sampled.").above(0.0))
+        .require(&S::offset,
+                 number("offset", "m", "Distance outside the contour at which the radial outflow is sampled.").above(0.0).at_most(100.0))
         .require(&S::start_time,
                  number("startTime", "s", "Time from which the radial outflow, and the velocity at points, is averaged.").at_least(0.0))
         .take();
