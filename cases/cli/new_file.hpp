@@ -17,7 +17,8 @@ inline void require_new_file(const std::filesystem::path& file) {
 
 /// \throws UserError  when two options name one place: the second would be written over the first
 inline void require_different_places(const char* option, const std::string& place, const char* other_option, const std::string& other) {
-    if (std::filesystem::weakly_canonical(place) == std::filesystem::weakly_canonical(other))
+    namespace fs = std::filesystem;
+    if (fs::weakly_canonical(fs::absolute(place)) == fs::weakly_canonical(fs::absolute(other)))
         throw UserError(fmt::format("{} and {} both name {}", option, other_option, place), "One would be written over the other",
                         "Give them different names");
 }
