@@ -99,7 +99,7 @@ void require_begun_well(const RunOptions& options, const std::string& until) {
     cases::require_usable_run_directory(run_folder(options));
     cases::require_machine(options.ranks, programs_for(options, until));
     if (!options.start_from.empty()) cases::require_start_donor(options.start_from);
-    cases::require_cutter_file(cases::read_study(options.study), fs::path(options.study).parent_path());
+    cases::require_study_file(options.study);
 }
 
 void mesh(const RunOptions& options) {

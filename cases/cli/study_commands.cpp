@@ -7,6 +7,7 @@
 
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
+#include "cases/runner/disk_space.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/prediction.hpp"
 #include "cases/scenes/cutter/feed.hpp"
@@ -76,15 +77,8 @@ nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
 
 void check_study_file(const CheckOptions& options) {
     cases::require_machine(options.ranks, {});
-    const ParameterValues values = cases::read_study(options.study);
-    const fs::path folder = fs::path(options.study).parent_path();
-    const geometry::GeometryInspection inspection = cases::import_study_cutter(values, folder);
-    const cases::HeadSize size = cases::head_size(*inspection.head);
-    const ParameterValues resolved = cases::resolve_study(values, size);
-    const std::vector<Mistake> mistakes = cases::check_study(resolved, size);
-    if (!mistakes.empty()) throw UserError(mistakes);
-
-    const cases::Study study = cases::make_study(resolved, folder);
+    const auto [resolved, inspection, size] = cases::read_checked_study(options.study);
+    const cases::Study study = cases::make_study(resolved, fs::path(options.study).parent_path());
     const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface, {options.ranks, cases::machine_slowness()});
     const geometry::Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
@@ -94,6 +88,8 @@ void check_study_file(const CheckOptions& options) {
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
     for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface)))
         warnings.push_back(warning);
+    const fs::path run = fs::path("runs") / fs::path(options.study).stem();  // where it goes without -o
+    if (const auto missing = cases::missing_space(run, prediction.mesh_disk + prediction.run_disk)) warnings.push_back(*missing);
     if (options.json) {
         std::cout << nlohmann::json{{"cutter", geometry::to_json(inspection)},
                                     {"prediction", to_json(prediction)},

@@ -36,12 +36,16 @@ double free_bytes(const fs::path& folder) {
     return static_cast<double>(fs::space(there).available);
 }
 
-void require_free_bytes(const fs::path& folder, double needed) {
+std::optional<Mistake> missing_space(const fs::path& folder, double needed) {
     const double free = free_bytes(folder);
-    if (free >= needed) return;
-    throw UserError(fmt::format("the disk of {} has {} free", folder.string(), size_text(free)),
-                    fmt::format("The run is predicted to write about {}", size_text(needed)),
-                    "Free space, choose a folder on another disk with -o, or write less (run.write_interval_s)");
+    if (free >= needed) return std::nullopt;
+    return Mistake{"", fmt::format("the disk of {} has {} free", folder.string(), size_text(free)),
+                   fmt::format("The run is predicted to write about {}", size_text(needed)),
+                   "Free space, choose a folder on another disk with -o, or write less (run.write_interval_s)"};
+}
+
+void require_free_bytes(const fs::path& folder, double needed) {
+    if (const std::optional<Mistake> missing = missing_space(folder, needed)) throw UserError(std::vector<Mistake>{*missing});
 }
 
 bool is_disk_full(const fs::path& folder) {

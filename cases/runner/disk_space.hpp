@@ -1,6 +1,7 @@
 #pragma once
 /// \file Room on the disk for a run directory.
 #include <filesystem>
+#include <optional>
 
 #include "geometry/base/error.hpp"
 
@@ -8,6 +9,9 @@ namespace cutterflow::cases {
 
 /// Bytes that the disk of a folder, or of the nearest one above it that is there, still takes.
 double free_bytes(const std::filesystem::path& folder);
+
+/// What to tell when the disk does not have the bytes that a run is predicted to write.
+std::optional<Mistake> missing_space(const std::filesystem::path& folder, double needed);
 
 /// \param needed  bytes that a run is predicted to write \throws UserError  when the disk does not have them
 void require_free_bytes(const std::filesystem::path& folder, double needed);

@@ -323,6 +323,34 @@ TEST_F(Cli, repairs_a_cutter_that_a_study_has_refused) {
     EXPECT_EQ(call({"check", "study.toml"}).code, 0);
 }
 
+TEST_F(Cli, writes_no_file_over_another_of_the_same_command) {
+    study();
+    expect_refused(call({"repair", "cutter.stl", "-o", "a.stl", "--report", "./a.stl"}), 2, "--output and --report both name a.stl");
+    EXPECT_FALSE(fs::exists(folder_ / "a.stl"));
+    expect_refused(call({"inspect", "cutter.stl", "-o", "a", "--contour", "a"}), 2, "--output and --contour both name a");
+}
+
+TEST_F(Cli, names_the_option_or_key_that_is_empty) {
+    expect_refused(call({"run", "study.toml", "-o", ""}), 2, "--output: \"\" is empty");
+    expect_refused(call({"new", ""}), 2, "study: \"\" is empty");
+    write_file(folder_ / "study.toml", "cutter.file = \"\"\nrotor.speed_rpm = 60\nsuction.discharge_m3_s = 0.12\n");
+    expect_refused(call({"check", "study.toml"}), 2, "study.toml:1: cutter.file = \"\" is empty");
+}
+
+TEST_F(Cli, check_names_mistakes_of_files_rules_and_sizes_together) {
+    const std::string feed = "[[feed]]\ncount = 2\nmass_kg = 1\n[[feed.class]]\ndiameter_m = 0.02\n";
+    const Outcome sizes = call({"check", study("mouth_radius_m = 0.19\n[report]\nadv_points = \"absent.csv\"\n" + feed)});
+    expect_refused(sizes, 2, "both count and mass_kg");
+    expect_contains(sizes.text, "absent.csv");
+    expect_contains(sizes.text, "The mouth must lie inside the ring");
+    study("[report]\nadv_points = \"absent.csv\"\n" + feed);
+    fs::remove(folder_ / "cutter.stl");
+    const Outcome files = call({"check", "study.toml"});
+    expect_refused(files, 2, "both count and mass_kg");
+    expect_contains(files.text, "absent.csv");
+    expect_contains(files.text, "cutter.file = \"cutter.stl\"");
+}
+
 TEST_F(Cli, repair_says_where_it_cannot_and_shows_the_faces) {
     geometry::TriangleSurface half{crown().points, {}};
     for (const geometry::Triangle& t : crown().triangles)
@@ -410,7 +438,7 @@ TEST_F(Cli, reports_all_mistakes_of_a_study_at_once) {
     expect_refused(outcome, 2, "study.toml:4: rotor.speed_rpm");
     expect_contains(outcome.text, "study.toml:5: key rotor.direktion is unknown");
     expect_contains(outcome.text, "Did you mean rotor.direction?");
-    expect_contains(outcome.text, "study.toml:7: suction.discharge_m3_s = 0 is too low. It must be above 0 m3/s");
+    expect_contains(outcome.text, "study.toml:7: suction.discharge_m3_s = 0 is too low. It must be 1e-06 to 100 m3/s");
     expect_refused(call({"check", "nowhere.toml"}), 2, "cannot read nowhere.toml");
 }
 

@@ -37,6 +37,8 @@ protected:
 TEST_F(SmallDisk, is_refused_before_a_run_that_does_not_fit) {
     EXPECT_NEAR(free_bytes(folder_ / "not/there/yet"), 1048576.0, 20000.0);
     EXPECT_NO_THROW(require_free_bytes(folder_, 5e5));
+    EXPECT_FALSE(missing_space(folder_, 5e5));
+    EXPECT_THAT(missing_space(folder_, 5e6)->text(), HasSubstr("about 5 MB"));
     try {
         require_free_bytes(folder_ / "run", 2.5e9);
         FAIL() << "accepted";

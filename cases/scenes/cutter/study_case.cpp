@@ -27,15 +27,60 @@ CaseInputs::Rock rock_of(const Study& study) {
     return rock;
 }
 
+/// That the file which a key names is missing.
+std::optional<Mistake> missing_file(const ParameterValues& values, const char* key, const std::filesystem::path& study_folder) {
+    if (!values.has(key)) return std::nullopt;
+    const std::filesystem::path file = study_folder / values.text(key);
+    if (std::filesystem::exists(file)) return std::nullopt;
+    return Mistake{values.where(key), fmt::format("{} = \"{}\"", key, values.text(key)),
+                   fmt::format("There is no file {}", std::filesystem::absolute(file).lexically_normal().string()),
+                   "Check the name; the path is relative to the study file"};
+}
+
+void append(std::vector<Mistake>& all, const std::vector<Mistake>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Values of a study whose text is right; mistakes of its rules and files are added.
+ParameterValues read_with_mistakes(const std::filesystem::path& file, std::vector<Mistake>& mistakes) {
+    ParameterValues values = read_parameters(study_table(), file);
+    try {
+        read_study(file);
+    } catch (const UserError& error) {
+        append(mistakes, error.mistakes());
+    }
+    for (const char* key : {"cutter.file", "report.adv_points"})
+        if (const auto missing = missing_file(values, key, file.parent_path())) mistakes.push_back(*missing);
+    return values;
+}
+
 }  // namespace
 
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder) {
-    const std::filesystem::path file = study_folder / values.text("cutter.file");
-    if (!std::filesystem::exists(file))
-        throw UserError(
-            std::vector<Mistake>{{values.where("cutter.file"), fmt::format("cutter.file = \"{}\"", values.text("cutter.file")),
-                                  fmt::format("There is no file {}", std::filesystem::absolute(file).lexically_normal().string()),
-                                  "Check the name; the path is relative to the study file"}});
+    if (const auto missing = missing_file(values, "cutter.file", study_folder)) throw UserError(std::vector<Mistake>{*missing});
+}
+
+void require_study_file(const std::filesystem::path& file) {
+    std::vector<Mistake> mistakes;
+    read_with_mistakes(file, mistakes);
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
+CheckedStudy read_checked_study(const std::filesystem::path& file) {
+    std::vector<Mistake> mistakes;
+    const ParameterValues values = read_with_mistakes(file, mistakes);
+    if (missing_file(values, "cutter.file", file.parent_path())) throw UserError(std::move(mistakes));
+    CheckedStudy study;
+    try {
+        study.inspection = import_study_cutter(values, file.parent_path());
+        study.size = head_size(*study.inspection.head);
+        study.resolved = resolve_study(values, study.size);
+        append(mistakes, check_study(study.resolved, study.size));
+    } catch (const UserError& error) {
+        append(mistakes, error.mistakes());
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    return study;
 }
 
 geometry::GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder) {

@@ -14,6 +14,20 @@ namespace cutterflow::cases {
 /// \throws UserError  with the line of the study that names a missing cutter file
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder);
 
+/// \throws UserError  with every mistake of a study that can be seen without reading its cutter: those of its text, else of its rules and
+/// of the files that it names
+void require_study_file(const std::filesystem::path& file);
+
+/// A study without a mistake, and its cutter.
+struct CheckedStudy {
+    ParameterValues resolved;
+    geometry::GeometryInspection inspection;
+    HeadSize size;
+};
+
+/// \throws UserError  as require_study_file, and with what is wrong with the cutter or with the study's sizes beside the head's
+CheckedStudy read_checked_study(const std::filesystem::path& file);
+
 /// The study's cutter, read and understood.
 /// \throws UserError  when the file is no surface, its size implausible, the surface no sound solid, or no head
 geometry::GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder);
