@@ -191,9 +191,9 @@ TEST_F(Cli, check_refuses_rock_too_fine_or_too_many_and_discharges_that_boil) {
     const auto feed = [](const std::string& amount, const std::string& diameter) {
         return "[[feed]]\n" + amount + "\n[[feed.class]]\ndiameter_m = " + diameter + "\n";
     };
-    // 1 kg of 2650 kg/m3 in spheres of 1e-6 m: 6 / (pi 1e-18 2650) = 7.21e14.
-    expect_refused(call({"check", study(feed("mass_kg = 1", "1e-6"))}), 2, "feed.mass_kg = 1. It makes 7.21e+14 rocks");
-    expect_refused(call({"check", study(feed("count = 20", "1e-6"))}), 2, "places 1.5e-06 m apart");
+    // 1 kg of 2650 kg/m3 in spheres of 1e-5 m: 6 / (pi 1e-15 2650) = 7.21e11.
+    expect_refused(call({"check", study(feed("mass_kg = 1", "1e-5"))}), 2, "feed.mass_kg = 1. It makes 7.21e+11 rocks");
+    expect_refused(call({"check", study(feed("count = 20", "1e-5"))}), 2, "places 1.5e-05 m apart");
     expect_refused(call({"check", study(feed("count = 2000000", "0.02"))}), 2, "feed.count = 2e+06. It makes 2e+06 rocks");
     // A mouth of 0.1 m radius: 30 m/s are 0.942 m3/s.
     const auto with_discharge = [&](const std::string& value) {
