@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -82,7 +83,8 @@ FeedRequest make_feed(const ParameterValues& feed, double period) {
 /// Collects broken rules; each names the key's value and line.
 class Rules {
 public:
-    explicit Rules(const ParameterValues& values) : values_(values) {}
+    /// \param file  in front of mistakes that no line of the study is known for
+    explicit Rules(const ParameterValues& values, const std::string& file = {}) : values_(values), mistakes_(file) {}
 
     void require(bool kept, const std::string& key, const std::string& rule, const std::string& remedy) {
         require(kept, values_, key, rule, remedy);
@@ -283,12 +285,10 @@ double bank_azimuth_deg(const std::string& swing_direction, const std::string& r
 
 ParameterValues read_study(const std::filesystem::path& file) {
     ParameterValues values = read_parameters(study_table(), file);
-    Rules rules(values);
+    Rules rules(values, file.string());
     check_file_rules(values, rules);
     std::vector<Mistake> mistakes = rules.take();
-    for (Mistake& mistake : mistakes)
-        if (mistake.where.empty()) mistake.where = file.string();
-    if (!mistakes.empty()) throw UserError(mistakes);
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return values;
 }
 

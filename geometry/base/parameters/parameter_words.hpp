@@ -1,5 +1,5 @@
 #pragma once
-/// \file Descriptions of parameters shared by reading and listing. Only for parameter_reading.cpp and parameter_text.cpp.
+/// \file Keys and descriptions of parameters, shared by what reads and lists them.
 #include <string>
 #include <vector>
 

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/parameters/parameter.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 
 #include "ITstream.H"
 #include "Switch.H"
@@ -29,12 +30,6 @@ std::vector<std::string> words_of(const std::string& text) {
     return words;
 }
 
-/// The section of a key; empty when it has none.
-std::string section_of(const std::string& key) {
-    const auto dot = key.rfind('.');
-    return dot == std::string::npos ? std::string() : key.substr(0, dot);
-}
-
 }  // namespace
 
 void Findings::add(const std::string& key, Mistake mistake) {
@@ -43,7 +38,7 @@ void Findings::add(const std::string& key, Mistake mistake) {
 }
 
 bool Findings::has_mistake(const std::string& key) const {
-    for (std::string part = key; !part.empty(); part = section_of(part))
+    for (std::string part = key; !part.empty(); part = parameter_words::section_of(part))
         if (mistaken_.count(part) > 0) return true;
     return false;
 }
