@@ -12,6 +12,7 @@
 #include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
+#include "solver/coupling/feed/rock_feed.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
 #include "solver/foam/session/case_errors.hpp"
@@ -31,6 +32,13 @@ void print_models(const std::vector<coupling::ModelNote>& models) {
     std::cout << std::endl;
 }
 
+/// The feed alone does not know the domain, which ends what can be placed.
+void require_feed_in_domain(const foam::CouplingDictionary& dictionary) {
+    if (!dictionary.dem) return;
+    coupling::read_rock_feed(dictionary.coupling.rock_feed,
+                             [&](const Vec3& place) { return coupling::contains(dictionary.dem->domain, place); });
+}
+
 /// Of the rank that writes.
 std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& session, const foam::CouplingDictionary& dictionary,
                                                      const foam::FoamFluidEngine& fluid) {
@@ -47,6 +55,7 @@ void run(int argc, char** argv) {
     foam::FoamSession session(argc, argv);
     foam::PstreamCommunicator communicator;
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
+    require_feed_in_domain(dictionary);
 
     foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches);
     std::unique_ptr<liggghts::LiggghtsEngine> dem;

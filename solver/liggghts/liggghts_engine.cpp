@@ -144,7 +144,6 @@ private:
     void set_up();
     void gather();
     void require_all_rocks(const std::vector<int>& before) const;
-    bool in_domain(const Vec3& position) const;
     bool overlaps_wall(const Vec3& centre, double radius, double angle) const;
     bool overlaps_rock(const Rocks& others, const Vec3& centre, double radius) const;
     void create_rock(const Rocks& rocks, std::size_t k);
@@ -421,13 +420,6 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
     return contact.time_step_fraction * shortest;
 }
 
-bool LiggghtsEngine::Implementation::in_domain(const Vec3& position) const {
-    const coupling::DomainSettings& domain = settings_.domain;
-    if (position.z() < domain.lower.z() || position.z() > domain.upper.z()) return false;
-    if (domain.shape == coupling::DomainShape::cylinder) return (position - domain.axis_point).head<2>().norm() <= domain.radius;
-    return (position.array() >= domain.lower.array()).all() && (position.array() <= domain.upper.array()).all();
-}
-
 bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double radius, double angle) const {
     const coupling::DomainSettings& domain = settings_.domain;
     for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
@@ -460,7 +452,7 @@ std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates)
         if (std::binary_search(rocks_.id.begin(), rocks_.id.end(), candidates.id[k]) ||
             std::find(accepted.id.begin(), accepted.id.end(), candidates.id[k]) != accepted.id.end())
             throw std::invalid_argument(fmt::format("rock id {} is in the run already", candidates.id[k]));
-        if (!in_domain(centre) || overlaps_rock(rocks_, centre, radius) || overlaps_rock(accepted, centre, radius) ||
+        if (!contains(settings_.domain, centre) || overlaps_rock(rocks_, centre, radius) || overlaps_rock(accepted, centre, radius) ||
             overlaps_wall(centre, radius, angle))
             continue;
         accepted.append(candidates, k);
@@ -551,7 +543,7 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     done.max_overlap_ratio = context_.tally.overlap_ratio;
     MPI_Allreduce(MPI_IN_PLACE, &done.max_overlap_ratio, 1, MPI_DOUBLE, MPI_MAX, communicator_);
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
-        if (in_domain(rocks_.position[k])) {
+        if (contains(settings_.domain, rocks_.position[k])) {
             done.impulse.push_back(impulse[k]);
             done.contact_impulse.push_back(contact_impulse[k]);
         } else {

@@ -62,6 +62,12 @@ void check_fluid(Mistakes& mistakes, const DemSettings& settings) {
 
 }  // namespace
 
+bool contains(const DomainSettings& domain, const Vec3& centre) {
+    const auto between = [&](Eigen::Index i) { return centre[i] >= domain.lower[i] && centre[i] <= domain.upper[i]; };
+    if (domain.shape == DomainShape::box) return between(0) && between(1) && between(2);
+    return between(2) && (centre - domain.axis_point).head<2>().norm() <= domain.radius;
+}
+
 std::vector<Mistake> check_settings(const DemSettings& settings, const std::string& where) {
     Mistakes mistakes(where);
     if (settings.law == ContactLaw::linear)

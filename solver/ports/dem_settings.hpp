@@ -69,6 +69,9 @@ struct DomainSettings {
     double position_of(std::size_t side) const { return (side % 2 == 0 ? lower : upper)[static_cast<Eigen::Index>(side / 2)]; }
 };
 
+/// Whether rock with its centre there [m] belongs to the run.
+bool contains(const DomainSettings& domain, const Vec3& centre);
+
 /// A cylinder about the z axis.
 inline DomainSettings cylinder_domain(double radius, double z_min, double z_max) {
     DomainSettings domain;

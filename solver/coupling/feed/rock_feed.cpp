@@ -30,11 +30,25 @@ void check_row(const CsvTable& table, std::size_t row, std::map<double, std::str
         mistakes.push_back({where, fmt::format("time_s = {}", table.at(row, "time_s")), "It must not be negative", "Correct the field"});
 }
 
+Vec3 place_of(const CsvTable& table, std::size_t row) {
+    return {table.at(row, "x_m"), table.at(row, "y_m"), table.at(row, "z_m")};
+}
+
+void check_place(const CsvTable& table, std::size_t row, const std::function<bool(const Vec3&)>& in_domain,
+                 std::vector<Mistake>& mistakes) {
+    const Vec3 place = place_of(table, row);
+    if (in_domain(place)) return;
+    mistakes.push_back(
+        {table.where(row),
+         fmt::format("rock {} at ({:.6g} {:.6g} {:.6g}) m lies outside rock.domain", table.at(row, "id"), place[0], place[1], place[2]),
+         "Rock leaves the run outside its domain", "Correct the place, or enlarge rock.domain within the mesh"});
+}
+
 FeedRock rock_of(const CsvTable& table, std::size_t row, bool with_velocity) {
     FeedRock rock;
     rock.id = static_cast<int>(table.at(row, "id"));
     rock.time = table.at(row, "time_s");
-    rock.position = Vec3(table.at(row, "x_m"), table.at(row, "y_m"), table.at(row, "z_m"));
+    rock.position = place_of(table, row);
     rock.diameter = table.at(row, "diameter_m");
     rock.density = table.at(row, "density_kg_m3");
     if (with_velocity) rock.velocity = Vec3(table.at(row, "vx_m_s"), table.at(row, "vy_m_s"), table.at(row, "vz_m_s"));
@@ -43,17 +57,21 @@ FeedRock rock_of(const CsvTable& table, std::size_t row, bool with_velocity) {
 
 }  // namespace
 
-std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file) {
+std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const std::function<bool(const Vec3&)>& in_domain) {
     std::vector<Mistake> mistakes;
     const CsvTable table(file, k_required, k_velocity, mistakes);
     const auto velocities = std::count_if(k_velocity.begin(), k_velocity.end(), [&](const std::string& name) { return table.has(name); });
     if (velocities != 0 && velocities != 3)
         mistakes.push_back({file.string() + ":1", fmt::format("{} of the 3 velocity columns are there", velocities),
                             "Velocity is vx_m_s, vy_m_s and vz_m_s, or none of them (the local fluid velocity)", "Add or remove columns"});
-    if (!mistakes.empty()) throw UserError(mistakes);
+    const bool complete = std::all_of(k_required.begin(), k_required.end(), [&](const std::string& name) { return table.has(name); });
+    if (!complete) throw UserError(mistakes);
 
     std::map<double, std::string> seen;
-    for (std::size_t row = 0; row < table.rows(); ++row) check_row(table, row, seen, mistakes);
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        check_row(table, row, seen, mistakes);
+        if (in_domain) check_place(table, row, in_domain, mistakes);
+    }
     if (!mistakes.empty()) throw UserError(mistakes);
 
     std::vector<FeedRock> rocks;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file The rocks that enter a run, from constant/rockFeed.csv.
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct FeedRock {
 };
 
 /// Reads `id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3[,vx_m_s,vy_m_s,vz_m_s]`, sorted by time, then id.
+/// \param in_domain  whether a rock may be placed there; without it, anywhere
 /// \throws UserError  with every mistake of the file: missing column, not a number, id repeated or not positive, diameter or density not
-/// positive
-std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file);
+/// positive, place outside the domain
+std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const std::function<bool(const Vec3&)>& in_domain = {});
 
 }  // namespace cutterflow::coupling

@@ -55,6 +55,27 @@ TEST(RockFeed, names_every_mistake_with_its_line) {
     }
 }
 
+TEST(RockFeed, names_wrong_values_beside_incomplete_lines_and_places_outside_the_domain) {
+    const testing::TemporaryFolder folder;
+    const auto file = folder.write("feed.csv",
+                                   "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n"
+                                   "1,0,0,0,0,0.02\n"
+                                   "2,0,0,0,0,-0.02,2650\n"
+                                   "3,0,0,0,0,0.02,2650\n"
+                                   "3,0,0,0,0,0.02,2650\n"
+                                   "4,0,0,0,2.5,0.02,2650\n");
+    try {
+        read_rock_feed(file, [](const Vec3& place) { return place.z() < 1.0; });
+        FAIL();
+    } catch (const UserError& error) {
+        ASSERT_EQ(error.mistakes().size(), 4u) << error.what();
+        const std::vector<std::string> expected{":2: 6 fields instead of 7", ":3: diameter_m = -0.02", ":5: id = 3 stands in",
+                                                ":6: rock 4 at (0 0 2.5) m lies outside rock.domain"};
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_EQ(error.mistakes()[i].text().find(file.string() + expected[i]), 0u) << error.mistakes()[i].text();
+    }
+}
+
 TEST(RockFeed, names_missing_and_unknown_columns_and_bad_fields) {
     const testing::TemporaryFolder folder;
     try {
