@@ -56,8 +56,8 @@ struct Ended {
 };
 
 /// Runs a command in the case, with everything that it said.
-Ended run_as_user(const fs::path& folder, const std::vector<std::string>& arguments) {
-    const ChildCommand command = meshing::foam_command(folder, arguments.front(), {arguments.begin() + 1, arguments.end()});
+Ended run_as_user(const fs::path& folder, const std::vector<std::string>& arguments, int ranks = 1) {
+    const ChildCommand command = meshing::foam_command(folder, arguments.front(), {arguments.begin() + 1, arguments.end()}, ranks);
     const int code = run_child(command).exit_code;
     return {code, read_file(command.log)};
 }
@@ -147,6 +147,64 @@ TEST(HandWrittenCase, with_a_rotating_reference_frame_is_refused_by_name) {
     EXPECT_THAT(ended.said, HasSubstr("spinning"));
     EXPECT_THAT(ended.said, ::testing::Not(HasSubstr("asleep")));
     EXPECT_THAT(ended.said, ::testing::Not(HasSubstr("Time = 0.002")));
+}
+
+/// One step of one rock in a closed box of 0.1 m, in two parts.
+fs::path box(const std::string& name, BoxCase box = {}) {
+    box.lower = Vec3::Zero();
+    box.upper = Vec3::Constant(0.1);
+    box.cells = {4, 4, 4};
+    box.end_time = box.time_step;
+    box.rocks = {{1, 0.0, Vec3::Constant(0.05), 0.01}};
+    const fs::path folder = scratch_folder(name);
+    write_box_case(folder, box);
+    decompose(folder, {1, 1, 2});
+    return folder;
+}
+
+void expect_exit(const fs::path& folder, int code, const std::vector<std::string>& parts) {
+    for (const int ranks : {1, 2}) {
+        const Ended ended = run_as_user(folder, {cutter_foam()}, ranks);
+        EXPECT_EQ(ended.code, code) << ranks << " rank(s): " << ended.said;
+        for (const std::string& part : parts) EXPECT_THAT(ended.said, HasSubstr(part)) << ranks << " rank(s)";
+    }
+}
+
+TEST(ExitCodes, is_0_of_a_run_that_ends) {
+    expect_exit(box("exit_done"), 0, {"Time = 0.001"});
+}
+
+TEST(ExitCodes, is_2_of_wrong_values_which_are_all_named) {
+    BoxCase wrong;
+    wrong.kernel = "gamma 0.3; minWidthInCells 9;";
+    wrong.closures = "drag brown;";
+    expect_exit(box("exit_values", wrong), 2, {"gamma = 0.3", "minWidthInCells = 9", "drag"});
+}
+
+TEST(ExitCodes, is_2_of_a_broken_feed_whose_lines_are_all_named) {
+    const fs::path folder = box("exit_feed");
+    const fs::path feed = folder / "constant/rockFeed.csv";
+    std::ofstream(feed) << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n"
+                           "1,0,0.05,0.05,0.05,0.01\n2,0,0.05,0.05,0.05,-0.01,2650\n3,0,0.05,0.05,0.5,0.01,2650\n";
+    expect_exit(folder, 2,
+                {feed.string() + ":2: 6 fields instead of 7", feed.string() + ":3: diameter_m = -0.01",
+                 feed.string() + ":4: rock 3 at (0.05 0.05 0.5) m lies outside rock.domain"});
+}
+
+TEST(ExitCodes, is_4_of_rock_outside_the_mesh_within_its_domain) {
+    const fs::path folder = box("exit_check");
+    const fs::path file = folder / names::coupling_properties;
+    std::string text = read_file(file);
+    const std::size_t begin = text.find("upper"), end = text.find(';', begin);
+    text.replace(begin, end - begin, "upper (0.1 0.1 0.9)");
+    std::ofstream(file) << text;
+    std::ofstream(folder / "constant/rockFeed.csv") << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,0,0.05,0.05,0.5,0.01,2650\n";
+    expect_exit(folder, 4, {"rock 1"});
+}
+
+TEST(ExitCodes, is_1_of_options_that_openfoam_refuses) {
+    const Ended ended = run_as_user(box("exit_options"), {cutter_foam(), "-nonsense"});
+    EXPECT_EQ(ended.code, 1) << ended.said;
 }
 
 }  // namespace
