@@ -37,7 +37,23 @@ public:
         require(std::isfinite(value) && value >= 0.0, key, value, "It must not be negative", "Correct the value");
     }
 
+    /// Adds what `work()` refuses. \return whether it refused nothing
+    template <class Work>
+    bool gather(Work work) {
+        try {
+            work();
+            return true;
+        } catch (const UserError& error) {
+            add(error.mistakes());
+            return false;
+        }
+    }
+    bool empty() const { return mistakes_.empty(); }
     std::vector<Mistake> take() { return std::move(mistakes_); }
+    /// \throws UserError  with all mistakes, when there are any
+    void refuse() {
+        if (!mistakes_.empty()) throw UserError(take());
+    }
 
 private:
     std::string where_;

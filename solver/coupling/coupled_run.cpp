@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 
 namespace cutterflow::coupling {
@@ -36,10 +37,6 @@ private:
     Clock::time_point start_;
 };
 
-void append(std::vector<Mistake>& all, const std::vector<Mistake>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
-
 /// The head's contour, bins and azimuths are about the z axis.
 std::vector<Mistake> check_axis(const ZoneMotion& zone) {
     const RotationAxis& axis = zone.axis;
@@ -57,34 +54,20 @@ std::vector<Mistake> check_axis(const ZoneMotion& zone) {
 CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine* dem,
                        Communicator& communicator, RunRecorder& recorder, const fs::path& case_folder)
     : settings_(settings), fluid_(fluid), dem_(dem), communicator_(communicator), recorder_(recorder), case_folder_(case_folder) {
-    std::vector<Mistake> mistakes = check_settings(settings, properties, names::coupling_properties);
+    Mistakes mistakes;
+    mistakes.add(check_settings(settings, properties, names::coupling_properties));
     if (settings.fates || settings.outflow)
-        for (const ZoneMotion& zone : fluid.moving_zones()) append(mistakes, check_axis(zone));
-    if (settings.has_rock && !settings.rock_feed.empty()) {
-        try {
-            feed_ = read_rock_feed(settings.rock_feed);
-        } catch (const UserError& error) {
-            append(mistakes, error.mistakes());
-        }
-    }
-    if (settings.fates && mistakes.empty()) {
-        try {
+        for (const ZoneMotion& zone : fluid.moving_zones()) mistakes.add(check_axis(zone));
+    if (settings.has_rock && !settings.rock_feed.empty()) mistakes.gather([&] { feed_ = read_rock_feed(settings.rock_feed); });
+    if (settings.fates && mistakes.empty())
+        mistakes.gather([&] {
             const geometry::Contour contour = read_contour(*settings.fates);
             const FateTracker tracker(*settings.fates, contour);
             if (settings.outflow) outflow_.emplace(contour, tracker.bins(), settings.outflow->offset);
             if (settings.has_rock) fates_ = tracker;
-        } catch (const UserError& error) {
-            append(mistakes, error.mistakes());
-        }
-    }
-    if (settings.velocity && mistakes.empty()) {
-        try {
-            velocity_.emplace(*settings.velocity, fluid);
-        } catch (const UserError& error) {
-            append(mistakes, error.mistakes());
-        }
-    }
-    if (!mistakes.empty()) throw UserError(mistakes);
+        });
+    if (settings.velocity && mistakes.empty()) mistakes.gather([&] { velocity_.emplace(*settings.velocity, fluid); });
+    mistakes.refuse();
     if (settings.has_rock) {
         rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
         momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
