@@ -30,7 +30,7 @@ void require_known_command(const CLI::App& app, const std::string& word) {
 }
 
 /// The command whose words were being read, or the program itself.
-const CLI::App& command_of(const CLI::App& app) {
+CLI::App& command_of(CLI::App& app) {
     const std::vector<CLI::App*> commands = app.get_subcommands();
     return commands.empty() ? app : *commands.front();
 }
@@ -39,8 +39,8 @@ std::string name_of(const CLI::App& command) {
     return command.get_parent() == nullptr ? command.get_name() : command.get_parent()->get_name() + " " + command.get_name();
 }
 
-/// Words that start with "--" and belong to no option.
-std::vector<Mistake> unknown_options(const CLI::App& command) {
+/// Words that belong to no option.
+std::vector<Mistake> unknown_words(const CLI::App& command) {
     std::vector<std::string> known;
     for (const CLI::Option* option : command.get_options({}))
         if (!option->get_positional()) known.push_back(option->get_name());
@@ -59,19 +59,42 @@ std::vector<Mistake> unknown_options(const CLI::App& command) {
     return mistakes;
 }
 
-/// What the option parser did not take, with the rule and what to do.
-UserError refusal(const CLI::ParseError& error, const CLI::App& app) {
-    const CLI::App& command = command_of(app);
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-        const std::vector<Mistake> mistakes = unknown_options(command);
-        if (!mistakes.empty()) return UserError(mistakes);
+void add_once(std::vector<std::string>& texts, const std::string& text) {
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+}
+
+/// Every value that its option does not take, and every required one that is not there. The parser stops at the first.
+void add_wrong_values(CLI::App& command, std::vector<std::string>& texts) {
+    for (CLI::Option* option : command.get_options({})) {
+        if (option->get_required() && option->count() == 0) add_once(texts, option->get_name() + " is required");
+        const std::vector<std::string> values = option->results();
+        for (const std::string& value : values) {
+            option->clear();
+            option->add_result(value);
+            try {
+                option->run_callback();
+            } catch (const CLI::ParseError& error) {
+                if (error.get_exit_code() != 0) add_once(texts, error.what());
+            }
+        }
     }
+}
+
+/// What the option parser did not take, with the rule and what to do.
+UserError refusal(const CLI::ParseError& error, CLI::App& app) {
+    CLI::App& command = command_of(app);
+    std::vector<Mistake> mistakes = unknown_words(command);
+    std::vector<std::string> texts;
+    if (mistakes.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) texts.emplace_back(error.what());
+    add_wrong_values(command, texts);
     std::string usage = name_of(command);
     if (command.get_parent() == nullptr) usage += " COMMAND";
     for (const CLI::Option* option : command.get_options({}))
         if (option->get_positional()) usage += fmt::format(option->get_required() ? " {}" : " [{}]", option->get_name());
-    return {error.what(), fmt::format("The command is written as: {} [options]", usage),
-            fmt::format("{} --help names each option and what it takes", name_of(command))};
+    for (const std::string& text : texts)
+        mistakes.push_back({"", text, fmt::format("The command is written as: {} [options]", usage),
+                            fmt::format("{} --help names each option and what it takes", name_of(command))});
+    return UserError(std::move(mistakes));
 }
 
 void refuse_empty_words(CLI::App& app) {

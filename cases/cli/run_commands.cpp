@@ -13,6 +13,7 @@
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/shell_word.hpp"
 #include "geometry/base/progress.hpp"
@@ -96,10 +97,13 @@ void go_through_stages(const RunOptions& options, const cases::RunDirectory& dir
 
 /// Refuses what can be refused before the run directory is made.
 void require_begun_well(const RunOptions& options, const std::string& until) {
-    cases::require_usable_run_directory(run_folder(options));
-    cases::require_machine(options.ranks, programs_for(options, until));
-    if (!options.start_from.empty()) cases::require_start_donor(options.start_from);
-    cases::require_study_file(options.study);
+    Mistakes mistakes;
+    mistakes.gather([&] { cases::require_usable_run_directory(run_folder(options)); });
+    mistakes.gather([&] { cases::require_machine(options.ranks); });
+    if (!options.start_from.empty()) mistakes.gather([&] { cases::require_start_donor(options.start_from); });
+    mistakes.gather([&] { cases::require_study_file(options.study); });
+    mistakes.refuse();
+    require_programs(programs_for(options, until));
 }
 
 void mesh(const RunOptions& options) {

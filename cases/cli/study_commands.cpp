@@ -15,6 +15,7 @@
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/shell_word.hpp"
 #include "geometry/io/length_unit.hpp"
 
@@ -76,8 +77,12 @@ nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
 }
 
 void check_study_file(const CheckOptions& options) {
-    cases::require_machine(options.ranks, {});
-    const auto [resolved, inspection, size] = cases::read_checked_study(options.study);
+    Mistakes mistakes;
+    cases::CheckedStudy checked;
+    mistakes.gather([&] { cases::require_machine(options.ranks); });
+    mistakes.gather([&] { checked = cases::read_checked_study(options.study); });
+    mistakes.refuse();
+    const auto& [resolved, inspection, size] = checked;
     const cases::Study study = cases::make_study(resolved, fs::path(options.study).parent_path());
     const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface, {options.ranks, cases::machine_slowness()});
     const geometry::Contour contour = cases::head_contour(*inspection.head, study.suction.gap);

@@ -12,10 +12,9 @@
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/runner/machine.hpp"
-#include "cases/runner/run_directory.hpp"
 #include "cases/sweep/sweep.hpp"
-#include "geometry/base/error.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/shell_word.hpp"
@@ -58,14 +57,19 @@ void require_known_axes(const std::vector<std::string>& words) {
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-void sweep(const SweepOptions& options) {
-    // Slurm's nodes may have more cores than the submitting machine.
+/// \param words  that belong to no option
+void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     const bool local = options.launcher == "local" && !options.emit;
-    cases::require_machine(local ? options.ranks : std::min(options.ranks, 1), {});
     const fs::path folder =
         options.output ? fs::path(*options.output) : fs::path("runs") / (fs::path(options.study).stem().string() + "_sweep");
-    cases::require_openfoam_path(fs::absolute(folder));
-    const std::vector<cases::SweepPoint> points = cases::sweep_points(options.study, options.axes, folder);
+    Mistakes mistakes;
+    std::vector<cases::SweepPoint> points;
+    mistakes.gather([&] { require_known_axes(words); });
+    // Slurm's nodes may have more cores than the submitting machine.
+    mistakes.gather([&] { cases::require_machine(local ? options.ranks : std::min(options.ranks, 1)); });
+    mistakes.gather([&] { cases::require_sweep_folder(folder, options.resume); });
+    mistakes.gather([&] { points = cases::sweep_points(options.study, options.axes, folder); });
+    mistakes.refuse();
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
     const cases::SweepSettings settings{folder,         installation().programs / "cutterflow",
                                         options.ranks,  jobs,
@@ -146,10 +150,7 @@ void add_sweep(CLI::App& app) {
             "Only write the job array (slurm) of the points that have no report yet")
         ->check(CLI::IsMember({"slurm"}));
     command->allow_extras();
-    command->callback([options, command] {
-        require_known_axes(command->remaining());
-        sweep(*options);
-    });
+    command->callback([options, command] { sweep(*options, command->remaining()); });
 }
 
 void add_compare(CLI::App& app) {

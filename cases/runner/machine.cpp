@@ -4,13 +4,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <thread>
 
 #include <fmt/format.h>
 
-#include "geometry/base/error.hpp"
-#include "geometry/base/process/child_process.hpp"
+#include "geometry/base/mistakes.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -92,10 +90,11 @@ int available_cores() {
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-void require_machine(int ranks, const std::vector<std::string>& programs) {
-    require_ranks(ranks);
-    require_openfoam_environment();
-    require_programs(programs);
+void require_machine(int ranks) {
+    Mistakes mistakes;
+    mistakes.gather([&] { require_ranks(ranks); });
+    mistakes.gather(require_openfoam_environment);
+    mistakes.refuse();
 }
 
 }  // namespace cutterflow::cases

@@ -1,7 +1,5 @@
 #pragma once
-/// \file What of the machine a run needs: cores, programs, an OpenFOAM environment that fits.
-#include <string>
-#include <vector>
+/// \file What of the machine a run needs: cores, an OpenFOAM environment that fits.
 
 namespace cutterflow::cases {
 
@@ -14,9 +12,7 @@ int available_cores();
 double machine_slowness();
 
 /// Refuses what would fail later.
-/// \param programs  names, or paths, of what will be started
 /// \throws UserError  for more ranks than cores, and when the environment of an OpenFOAM other than v1912 is loaded
-/// \throws ToolError  naming every missing program
-void require_machine(int ranks, const std::vector<std::string>& programs);
+void require_machine(int ranks);
 
 }  // namespace cutterflow::cases

@@ -17,8 +17,8 @@
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/study.hpp"
 #include "cases/sweep/slurm.hpp"
-#include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
@@ -130,20 +130,8 @@ void check_names(const std::vector<SweepPoint>& points) {
 
 /// Writes the studies, or finds them as they are.
 void write_studies(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    require_sweep_folder(settings.folder, settings.resume);
     const fs::path studies = settings.folder / k_studies;
-    if (!fs::exists(studies)) {
-        if (settings.resume)
-            throw UserError(fmt::format("{} holds no sweep", settings.folder.string()), "--resume goes on with a sweep that was begun",
-                            "Correct the folder given with -o, or leave --resume out");
-        if (fs::exists(settings.folder) && !fs::is_empty(settings.folder))
-            throw UserError(fmt::format("{} already contains something else", settings.folder.string()), "Nothing is overwritten",
-                            "Name another folder with -o");
-        for (const SweepPoint& point : points) write_file(studies / (point.name + ".toml"), point.text);
-        return;
-    }
-    if (!settings.resume)
-        throw UserError(fmt::format("{} already contains a sweep", settings.folder.string()), "Its runs are kept",
-                        "Add --resume to continue it, or name another folder with -o");
     std::vector<Mistake> mistakes;
     std::vector<const SweepPoint*> added;
     for (const SweepPoint& point : points) {
@@ -428,18 +416,32 @@ private:
 
 }  // namespace
 
+void require_sweep_folder(const fs::path& folder, bool resume) {
+    require_openfoam_path(fs::absolute(folder));
+    const bool begun = fs::exists(folder / k_studies);
+    if (resume && !begun)
+        throw UserError(fmt::format("{} holds no sweep", folder.string()), "--resume goes on with a sweep that was begun",
+                        "Correct the folder given with -o, or leave --resume out");
+    if (begun && !resume)
+        throw UserError(fmt::format("{} already contains a sweep", folder.string()), "Its runs are kept",
+                        "Add --resume to continue it, or name another folder with -o");
+    if (!begun && fs::exists(folder) && !fs::is_empty(folder))
+        throw UserError(fmt::format("{} already contains something else", folder.string()), "Nothing is overwritten",
+                        "Name another folder with -o");
+}
+
 std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axes, const fs::path& folder) {
-    const ParameterValues base = read_study(study);
+    Mistakes early;
+    for (const std::string& design : axes.designs)
+        early.require(fs::exists(design), fmt::format("--design {} does not exist", design), "Its path is relative to the current folder",
+                      "Check the path");
+    ParameterValues base;
+    if (!early.gather([&] { base = read_study(study); })) early.refuse();
+    std::vector<Mistake> mistakes = early.take();
     std::vector<SweepPoint> points;
-    std::vector<Mistake> mistakes;
     Designs designs;
     for (const Combination& combination : combinations_of(axes)) {
-        if (combination.design && !fs::exists(*combination.design)) {
-            add_once({"", fmt::format("--design {} does not exist", *combination.design), "Its path is relative to the current folder",
-                      "Check the path"},
-                     mistakes);
-            continue;
-        }
+        if (combination.design && !fs::exists(*combination.design)) continue;
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
         std::string name = setting_name(combination, study.stem().string());
         ParameterValues values = values_of(combination, base, name);

@@ -23,6 +23,10 @@ struct SweepPoint {
     std::string start_donor{};  ///< of a repeat: the first one of its setting, whose frozen-rotor flow it takes if that is done; else empty
 };
 
+/// \throws UserError  for a path that OpenFOAM does not take; when the folder holds something else, a sweep and `resume` is false, or
+/// none and `resume` is true
+void require_sweep_folder(const std::filesystem::path& folder, bool resume);
+
 /// The points of a sweep. Repeats differ in the seed of the placement and in the rotor's angle at the release, both the same for the same
 /// repeat of all points, so that designs are compared in pairs.
 /// \param folder  of the sweep
@@ -47,7 +51,7 @@ struct SweepOutcome {
 };
 
 /// Runs every point to its report. A failed point is reported; the others continue. Lines for the user go to `say`.
-/// \throws UserError    when the folder holds another sweep, this one and `resume` is false, or none and `resume` is true
+/// \throws UserError    as require_sweep_folder, and when the folder holds another sweep
 /// \throws Interrupted  when the user stops it; finished work is kept, submitted Slurm jobs continue
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say);
