@@ -131,15 +131,6 @@ void check_feed_quantities(const ParameterValues& study, Rules& rules) {
     }
 }
 
-void check_file_rules(const ParameterValues& study, Rules& rules) {
-    check_feed_quantities(study, rules);
-    if (!study.tables("feed").empty())
-        rules.require(
-            study.number("run.flow_revolutions") < study.number("run.max_revolutions"), "run.flow_revolutions",
-            fmt::format("It must be less than run.max_revolutions = {}, or no rock is ever released", study.number("run.max_revolutions")),
-            "Raise run.max_revolutions");
-}
-
 void check_suction(const ParameterValues& study, const HeadSize& head, Rules& rules) {
     const double offset = study.number("suction.mouth_offset_m");
     const double radius = study.number("suction.mouth_radius_m");
@@ -283,11 +274,20 @@ double bank_azimuth_deg(const std::string& swing_direction, const std::string& r
     return swing_direction == "under_cut" ? rising : -rising;
 }
 
+std::vector<Mistake> check_file_rules(const ParameterValues& study, const std::filesystem::path& file) {
+    Rules rules(study, file.string());
+    check_feed_quantities(study, rules);
+    if (!study.tables("feed").empty())
+        rules.require(
+            study.number("run.flow_revolutions") < study.number("run.max_revolutions"), "run.flow_revolutions",
+            fmt::format("It must be less than run.max_revolutions = {}, or no rock is ever released", study.number("run.max_revolutions")),
+            "Raise run.max_revolutions");
+    return rules.take();
+}
+
 ParameterValues read_study(const std::filesystem::path& file) {
     ParameterValues values = read_parameters(study_table(), file);
-    Rules rules(values, file.string());
-    check_file_rules(values, rules);
-    std::vector<Mistake> mistakes = rules.take();
+    std::vector<Mistake> mistakes = check_file_rules(values, file);
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return values;
 }

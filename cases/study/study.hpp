@@ -101,6 +101,9 @@ struct Study {
 /// Every key of a study, each with its stage.
 const ParameterTable& study_table();
 
+/// Rules that values broke which a study's file gives, as far as they can be seen without the cutter. \param file  the study's
+std::vector<Mistake> check_file_rules(const ParameterValues& values, const std::filesystem::path& file);
+
 /// Reads a study file; values as the file gives them, plain defaults filled in, derived ones still absent.
 /// \throws UserError  with every mistake of the file that can be seen without the cutter
 ParameterValues read_study(const std::filesystem::path& file);

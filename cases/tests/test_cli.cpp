@@ -430,7 +430,6 @@ TEST_F(Cli, refuses_millimetres_taken_as_metres_and_tells_them_when_not_said) {
 }
 
 TEST_F(Cli, reports_all_mistakes_of_a_study_at_once) {
-    study();
     write_file(
         folder_ / "study.toml",
         "[cutter]\nfile = \"cutter.stl\"\n[rotor]\nspeed_rpm = \"fast\"\ndirektion = \"left_handed\"\n[suction]\ndischarge_m3_s = 0\n");
@@ -439,7 +438,16 @@ TEST_F(Cli, reports_all_mistakes_of_a_study_at_once) {
     expect_contains(outcome.text, "study.toml:5: key rotor.direktion is unknown");
     expect_contains(outcome.text, "Did you mean rotor.direction?");
     expect_contains(outcome.text, "study.toml:7: suction.discharge_m3_s = 0 is too low. It must be 1e-06 to 100 m3/s");
-    expect_refused(call({"check", "nowhere.toml"}), 2, "cannot read nowhere.toml");
+    expect_contains(outcome.text, "cutter.file = \"cutter.stl\". There is no file");
+    expect_refused(call({"check", "nowhere.toml", "--ranks", "0"}), 2, "cannot read nowhere.toml");
+    expect_contains(call({"check", "nowhere.toml", "--ranks", "0"}).text, "--ranks 0");
+}
+
+TEST_F(Cli, names_unknown_keys_beside_mistakes_of_rules_and_sizes) {
+    const Outcome outcome = call({"check", study("mouth_radius_m = 0.3\nmouth_radios_m = 0.1\n[[feed]]\ncount = 2\n")});
+    expect_refused(outcome, 2, "Did you mean suction.mouth_radius_m?");
+    expect_contains(outcome.text, "feed 1 has no class of rock");
+    expect_contains(outcome.text, "must lie inside the ring");
 }
 
 TEST_F(Cli, refuses_sizes_that_cannot_be_meshed) {
@@ -514,10 +522,26 @@ TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
 TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
     const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
     expect_refused(outcome, 2, "x is not a number above 0");
+    expect_contains(outcome.text, "-3 is not a number above 0");
     EXPECT_EQ(call({"sweep", study(), "--discharge", "nan"}).code, 2);
     expect_refused(call({"sweep", study(), "--design", "a.stl,b.stl"}), 2, "--design b.stl does not exist");
     expect_refused(call({"sweep", study(), "--rpm", "30", "--emit", "slurm", "--ranks", "0"}), 2, "--ranks 0");
     expect_refused(call({"sweep", study(), "--rpm", "30", "--emit", "slurm", "-o", "my sweep"}), 2, "OpenFOAM");
+}
+
+TEST_F(Cli, names_all_wrong_options_of_a_sweep_at_once) {
+    study();
+    const Outcome words = call({"sweep", "--rpm", "x", "--discharge", "-1", "--repeats", "0", "--launcher", "pbs", "--sped=3"});
+    expect_refused(words, 2, "study is required");
+    for (const char* part : {"x is not a number above 0", "-1 is not a number above 0", "--repeats", "pbs", "no option --sped"})
+        expect_contains(words.text, part);
+    write_file(folder_ / "study.toml", "cutter.file = \"cutter.stl\"\nrotor.speed_rpm = -1\nsuction.discharge_m3_s = 0.12\n");
+    const Outcome values =
+        call({"sweep", "study.toml", "--ranks", "0", "-o", "my sweep", "--design", "absent.stl", "--speed", "3", "--resume"});
+    expect_refused(values, 2, "--ranks 0");
+    for (const char* part : {"OpenFOAM", "--design absent.stl does not exist", "a sweep over --speed", "rotor.speed_rpm = -1"})
+        expect_contains(values.text, part);
+    EXPECT_FALSE(fs::exists(folder_ / "my sweep"));
 }
 
 TEST_F(Cli, refuses_a_sweep_over_what_it_does_not_vary) {
@@ -536,6 +560,9 @@ TEST_F(Cli, refuses_machines_that_cannot_run_it) {
     const Outcome bare = call({"mesh", "study.toml"}, {{"PATH", folder_.string()}});
     expect_refused(bare, 3, "snappyHexMesh was not found");
     expect_contains(bare.text, "package openfoam");
+    const Outcome both = call({"run", study(k_feed), "--start-from", "no_run", "--ranks", "0"}, {{"PATH", folder_.string()}});
+    expect_refused(both, 2, "no_run");
+    expect_contains(both.text, "--ranks 0");
     expect_contains(bare.text, "./bootstrap");
     EXPECT_FALSE(fs::exists(folder_ / "runs"));
 }

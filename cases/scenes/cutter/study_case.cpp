@@ -7,6 +7,9 @@
 
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/io/read_surface.hpp"
 
 namespace cutterflow::cases {
@@ -37,21 +40,14 @@ std::optional<Mistake> missing_file(const ParameterValues& values, const char* k
                    "Check the name; the path is relative to the study file"};
 }
 
-void append(std::vector<Mistake>& all, const std::vector<Mistake>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-}
-
-/// Values of a study whose text is right; mistakes of its rules and files are added.
-ParameterValues read_with_mistakes(const std::filesystem::path& file, std::vector<Mistake>& mistakes) {
-    ParameterValues values = read_parameters(study_table(), file);
-    try {
-        read_study(file);
-    } catch (const UserError& error) {
-        append(mistakes, error.mistakes());
-    }
+/// What can be read of a study; mistakes of its text, rules and files are added. Rules are checked when no value is wrong or missing.
+ReadParameters read_with_mistakes(const std::filesystem::path& file, Mistakes& mistakes) {
+    ReadParameters read = parse_with_mistakes(study_table(), read_file(file), file.string());
+    mistakes.add(read.mistakes);
+    if (read.complete) mistakes.add(check_file_rules(read.values, file));
     for (const char* key : {"cutter.file", "report.adv_points"})
-        if (const auto missing = missing_file(values, key, file.parent_path())) mistakes.push_back(*missing);
-    return values;
+        if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
+    return read;
 }
 
 }  // namespace
@@ -61,25 +57,23 @@ void require_cutter_file(const ParameterValues& values, const std::filesystem::p
 }
 
 void require_study_file(const std::filesystem::path& file) {
-    std::vector<Mistake> mistakes;
+    Mistakes mistakes;
     read_with_mistakes(file, mistakes);
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    mistakes.refuse();
 }
 
 CheckedStudy read_checked_study(const std::filesystem::path& file) {
-    std::vector<Mistake> mistakes;
-    const ParameterValues values = read_with_mistakes(file, mistakes);
-    if (missing_file(values, "cutter.file", file.parent_path())) throw UserError(std::move(mistakes));
+    Mistakes mistakes;
+    const auto [values, text_mistakes, complete] = read_with_mistakes(file, mistakes);
+    if (!complete || missing_file(values, "cutter.file", file.parent_path())) mistakes.refuse();
     CheckedStudy study;
-    try {
+    mistakes.gather([&, &values = values] {
         study.inspection = import_study_cutter(values, file.parent_path());
         study.size = head_size(*study.inspection.head);
         study.resolved = resolve_study(values, study.size);
-        append(mistakes, check_study(study.resolved, study.size));
-    } catch (const UserError& error) {
-        append(mistakes, error.mistakes());
-    }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+        mistakes.add(check_study(study.resolved, study.size));
+    });
+    mistakes.refuse();
     return study;
 }
 

@@ -14,8 +14,8 @@ namespace cutterflow::cases {
 /// \throws UserError  with the line of the study that names a missing cutter file
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder);
 
-/// \throws UserError  with every mistake of a study that can be seen without reading its cutter: those of its text, else of its rules and
-/// of the files that it names
+/// \throws UserError  with every mistake of a study that can be seen without reading its cutter: those of its text, of the files
+/// that it names, and of its rules unless a value is wrong or missing
 void require_study_file(const std::filesystem::path& file);
 
 /// A study without a mistake, and its cutter.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <numeric>
 #include <sstream>
@@ -10,7 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/parameters/parameter.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/parameters/parameter_words.hpp"
 #include "geometry/base/toml.hpp"
 
@@ -118,11 +119,13 @@ public:
     }
 
     const std::vector<Mistake>& mistakes() const { return mistakes_; }
+    bool complete() const { return complete_; }
 
 private:
     std::string where(const toml::node& node) const { return fmt::format("{}:{}", name_, node.source().begin.line); }
 
     void add(std::string where, std::string what, std::string rule, std::string remedy) {
+        complete_ = false;
         mistakes_.push_back({std::move(where), std::move(what), std::move(rule), std::move(remedy)});
     }
 
@@ -166,9 +169,7 @@ private:
             return add(where(node), fmt::format("{} = {} has the wrong type", parameter.key, node_text(node)),
                        fmt::format("It must be {}", kind_with_unit(parameter)), "Correct the value");
         if (std::optional<Mistake> mistake = value_mistake(parameter, *value)) {
-            mistake->where = where(node);
-            mistakes_.push_back(std::move(*mistake));
-            return;
+            return add(where(node), mistake->what, mistake->rule, mistake->remedy);
         }
         values.set(parameter.key, *value);
     }
@@ -176,8 +177,8 @@ private:
     void report_unknown(const std::string& key, const toml::node& node) {
         const bool section = node.is_table() || node.is_array_of_tables();
         const std::string nearest = section ? nearest_word(key, sections_of(table_)) : nearest_key(key);
-        add(where(node), fmt::format("{} {} is unknown", section ? "section" : "key", key), known_neighbours(key),
-            nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest));
+        mistakes_.push_back({where(node), fmt::format("{} {} is unknown", section ? "section" : "key", key), known_neighbours(key),
+                             nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
     }
 
     /// A key of nearly this name in the same place, else one of this very name in another section.
@@ -226,6 +227,7 @@ private:
     const ParameterTable& table_;
     std::string name_;
     std::vector<Mistake> mistakes_;
+    bool complete_ = true;
 };
 
 constexpr const char* k_toml_rule = "The file must be TOML: [section], key = value, text in quotes";
@@ -269,20 +271,20 @@ std::optional<Mistake> value_mistake(const Parameter& parameter, const Parameter
     return std::nullopt;
 }
 
-ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name) {
+ReadParameters parse_with_mistakes(const ParameterTable& table, const std::string& toml, const std::string& name) {
     Reader reader(table, name);
     ParameterValues values = reader.read(parse_toml(toml, name));
-    if (!reader.mistakes().empty()) throw UserError(reader.mistakes());
-    return values;
+    return {std::move(values), reader.mistakes(), reader.complete()};
+}
+
+ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name) {
+    ReadParameters read = parse_with_mistakes(table, toml, name);
+    if (!read.mistakes.empty()) throw UserError(std::move(read.mistakes));
+    return std::move(read.values);
 }
 
 ParameterValues read_parameters(const ParameterTable& table, const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file))
-        throw UserError(fmt::format("cannot read {}", file.string()), "It must be a readable TOML file",
-                        "Check the path and its permissions");
-    const std::string toml{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    return parse_parameters(table, toml, file.string());
+    return parse_parameters(table, read_file(file), file.string());
 }
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
