@@ -1,13 +1,13 @@
 #include "geometry/base/json_document.hpp"
 
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow {
 namespace {
@@ -113,11 +113,10 @@ private:
 
 json read_json_document(const std::filesystem::path& file, const std::vector<JsonField>& fields, const std::string& remedy) {
     const auto refuse = [&](const std::string& what, const std::string& rule) { throw UserError({{file.string(), what, rule, remedy}}); };
-    std::ifstream stream(file);
-    if (!stream || !std::filesystem::is_regular_file(file)) refuse("the file cannot be read", "It must be there and readable");
+    if (!std::filesystem::is_regular_file(file)) refuse("the file cannot be read", "It must be there and readable");
     bool too_deep = false;
     json document = json::parse(
-        stream,
+        read_file(file),
         [&](int depth, json::parse_event_t, const json&) {
             too_deep = too_deep || depth > k_deepest;
             return !too_deep;

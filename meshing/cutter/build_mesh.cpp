@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "meshing/cutter/background_mesh.hpp"
@@ -34,12 +33,6 @@ struct Step {
     double weight;
     int ranks = 1;
 };
-
-std::string read_text(const fs::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
 
 std::string foam_list(const std::vector<double>& numbers) {
     return fmt::format("({})", fmt::join(numbers, " "));
@@ -170,8 +163,8 @@ MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const
     MeshReport report;
     report.preset = plan.input.resolution.preset;
     report.prediction = plan.prediction;
-    report.quality = parse_check_mesh(read_text(mesh_case / "log.checkMesh"), (mesh_case / "log.checkMesh").string());
-    report.figures = parse_probe(json::parse(read_text(mesh_case / k_probe_report)), json::parse(read_text(mesh_case / k_restore_report)));
+    report.quality = parse_check_mesh(read_file(mesh_case / "log.checkMesh"), (mesh_case / "log.checkMesh").string());
+    report.figures = parse_probe(json::parse(read_file(mesh_case / k_probe_report)), json::parse(read_file(mesh_case / k_restore_report)));
     report.gates = check_mesh_gates(plan, report.quality, report.figures);
     report.wall_s = runner.wall_s;
     report.core_s = runner.core_s;
@@ -179,7 +172,7 @@ MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const
     report.program_core_s = runner.program_core_s;
     report.retries = retries;
     move_mesh(mesh_case, run_directory);
-    std::ofstream(run_directory / names::mesh_report) << to_json(report).dump(2) << '\n';
+    write_file(run_directory / names::mesh_report, to_json(report).dump(2) + "\n");
     return report;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -38,7 +37,8 @@ void write_start_case(const fs::path& run_directory, const fs::path& start, cons
 
 /// Column of a function object's table: numbers only, brackets around vectors dropped.
 std::vector<double> read_column(const fs::path& path, std::size_t column) {
-    std::ifstream file(path);
+    if (!fs::exists(path)) return {};
+    std::istringstream file(read_file(path));
     std::vector<double> values;
     for (std::string line; std::getline(file, line);) {
         if (line.empty() || line.front() == '#') continue;
