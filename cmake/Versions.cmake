@@ -7,7 +7,8 @@ if(CUTTERFLOW_WITH_SOLVER)
   find_library(LIGGGHTS_LIBRARY liggghts REQUIRED)
 endif()
 
-# The version in a shared library's file name; their headers name none.
+# The version in a shared library's file name; their headers name none. The library of assimp's release 5.2.5 (Debian bookworm's) says 5.2.4,
+# in its file name and by aiGetVersionPatch: that release kept the number of the one before.
 function(cutterflow_library_version variable library)
   file(REAL_PATH "${library}" file)
   if(file MATCHES "\\.so\\.([0-9.]+)$")
