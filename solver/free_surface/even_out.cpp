@@ -16,7 +16,7 @@ constexpr double k_largest_way = 0.1;  // of a cell
 EvenOut::EvenOut(const StaggeredGrid& grid)
     : grid_(grid), system_(grid), potential_(grid.cell_field()), displacement_(grid.face_field()), values_(grid.size()) {}
 
-SolveReport EvenOut::apply(const CutCells& cells, const WaterFraction& water, WaterParticles& particles) {
+SolveReport EvenOut::apply(const CutCells& cells, const SlipWalls& walls, const WaterFraction& water, WaterParticles& particles) {
     system_.assemble(water, cells, {}, 0.0);
     set_right_side(cells, water);
     psi_.resize(system_.unknowns());
@@ -25,7 +25,7 @@ SolveReport EvenOut::apply(const CutCells& cells, const WaterFraction& water, Wa
     std::fill(potential_.begin(), potential_.end(), 0.0);
     for (std::size_t r = 0; r < psi_.size(); ++r) potential_[system_.cell(r)] = psi_[r];
     set_displacement(cells, water);
-    displace_particles(grid_, displacement_, k_largest_way * grid_.spacing(), particles);
+    displace_particles(grid_, walls, displacement_, k_largest_way * grid_.spacing(), particles);
     return report;
 }
 

@@ -15,7 +15,7 @@ public:
     explicit EvenOut(const StaggeredGrid& grid);
 
     /// Moves particles, each component at most a tenth of a cell.
-    SolveReport apply(const CutCells& cells, const WaterFraction& water, WaterParticles& particles);
+    SolveReport apply(const CutCells& cells, const SlipWalls& walls, const WaterFraction& water, WaterParticles& particles);
 
     /// psi of the last step, where the next one begins.
     const CellField& potential() const { return potential_; }

@@ -18,8 +18,14 @@ inline KernelWeights quadratic_weights(double s) {
     return {nearest - 1, {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)}};
 }
 
-/// Share of the kernel of a node in a cell's centre that falls on the cell below, on its own cell and on the one above: integrals of the
-/// B-spline, so that evenly spread particles beside a closed cell read the same fraction as in the open.
-inline constexpr std::array<double, 3> k_cell_share{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
+/// Quarters of a cell, by which the room that solids take of a kernel is summed.
+inline constexpr int k_parts = 4;
+
+/// Mean weights of a quarter of a cell, 0 the lowest, for the nodes in the centres of the cell below, of its own cell and of the one above.
+/// The four together give the integrals 1/6, 2/3, 1/6 of the B-spline.
+inline KernelWeights part_weights(int part) {
+    const double t = (part + 0.5) / k_parts - 0.5, square = t * t + 1.0 / (12.0 * k_parts * k_parts);
+    return {-1, {0.125 - 0.5 * t + 0.5 * square, 0.75 - square, 0.125 + 0.5 * t + 0.5 * square}};
+}
 
 }  // namespace cutterflow::free_surface

@@ -138,15 +138,31 @@ void PressureSystem::factorise() {
         if (value < k_smallest_pivot * pivot[r]) value = pivot[r];
         factor_[r] = value > 0.0 ? 1.0 / std::sqrt(value) : 0.0;
     }
+    for (int d = 0; d < directions_; ++d) {
+        factor_below_[d].resize(count);
+        factor_above_[d].resize(count);
+        for (std::size_t r = 0; r < count; ++r) {
+            const int b = below_[d][r];
+            factor_below_[d][r] = upper_[d][b] * factor_[b] * factor_[r];
+            factor_above_[d][r] = upper_[d][r] * factor_[r] * factor_[r];
+        }
+    }
 }
 
 void PressureSystem::apply(gsl::span<const double> q, gsl::span<double> y) const {
+    std::vector<double> padded(q.begin(), q.end());
+    padded.push_back(0.0);
+    multiply(padded.data(), y);
+}
+
+/// \param q  unknowns() long and a 0 behind: the neighbour that is none
+void PressureSystem::multiply(const double* q, gsl::span<double> y) const {
     const int count = static_cast<int>(cell_.size());
-    const auto at = [&](int r) { return r < count ? q[r] : 0.0; };
-    for (int r = 0; r < count; ++r) {
-        double sum = diagonal_[r] * q[r];
-        for (int d = 0; d < directions_; ++d) sum += upper_[d][r] * at(above_[d][r]) + upper_[d][below_[d][r]] * at(below_[d][r]);
-        y[r] = sum;
+    for (int r = 0; r < count; ++r) y[r] = diagonal_[r] * q[r];
+    for (int d = 0; d < directions_; ++d) {
+        const double* upper = upper_[d].data();
+        const int *above = above_[d].data(), *below = below_[d].data();
+        for (int r = 0; r < count; ++r) y[r] += upper[r] * q[above[r]] + upper[below[r]] * q[below[r]];
     }
     for (const auto& body : bodies_) {
         Vec3 push = Vec3::Zero();
@@ -160,20 +176,18 @@ void PressureSystem::precondition(gsl::span<const double> residual, gsl::span<do
     const int count = static_cast<int>(cell_.size());
     work_.resize(count + 1);
     work_[count] = 0.0;
+    double* work = work_.data();
     for (int r = 0; r < count; ++r) {
-        double value = residual[r];
-        for (int d = 0; d < directions_; ++d) {
-            const int b = below_[d][r];
-            value -= upper_[d][b] * factor_[b] * work_[b];
-        }
-        work_[r] = value * factor_[r];
+        double value = residual[r] * factor_[r];
+        for (int d = directions_ - 1; d >= 0; --d) value -= factor_below_[d][r] * work[below_[d][r]];
+        work[r] = value;
     }
     for (int r = count - 1; r >= 0; --r) {
-        double value = work_[r];
-        for (int d = 0; d < directions_; ++d) value -= upper_[d][r] * factor_[r] * work_[above_[d][r]];
-        work_[r] = value * factor_[r];
+        double value = work[r] * factor_[r];
+        for (int d = directions_ - 1; d >= 0; --d) value -= factor_above_[d][r] * work[above_[d][r]];
+        work[r] = value;
     }
-    std::copy_n(work_.begin(), count, z.begin());
+    std::copy_n(work, count, z.begin());
 }
 
 void PressureSystem::remove_means(gsl::span<double> values) const {
@@ -195,7 +209,8 @@ SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tol
         return report;
     }
     product_.resize(count);
-    direction_.resize(count);
+    direction_.resize(count + 1);
+    direction_[count] = 0.0;
     std::vector<double> z(count);
     apply(q, product_);
     for (std::size_t n = 0; n < count; ++n) residual_[n] -= product_[n];
@@ -204,8 +219,8 @@ SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tol
     double sigma = dot(residual_, z);
     report.residual = largest(residual_) / scale;
     while (report.residual > tolerance && report.iterations < k_most_iterations) {
-        apply(direction_, product_);
-        const double step = sigma / dot(direction_, product_);
+        multiply(direction_.data(), product_);
+        const double step = sigma / dot(product_, direction_);
         for (std::size_t n = 0; n < count; ++n) {
             q[n] += step * direction_[n];
             residual_[n] -= step * product_[n];

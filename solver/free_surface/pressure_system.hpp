@@ -53,6 +53,7 @@ private:
     void set_bodies(const CutCells& cells, gsl::span<const Body> bodies, double cell_mass);
     void find_enclosed(const WaterFraction& water, const CutCells& cells);
     void factorise();
+    void multiply(const double* padded, gsl::span<double> y) const;
     void precondition(gsl::span<const double> residual, gsl::span<double> z) const;
     void remove_means(gsl::span<double> values) const;
 
@@ -61,9 +62,10 @@ private:
     std::vector<int> row_;   // of each cell
     std::vector<int> cell_;  // of each row
     std::vector<double> diagonal_;
-    std::array<std::vector<double>, 3> upper_;       // coefficient to the neighbour above in each direction, 0: none; <= 0
-    std::array<std::vector<int>, 3> above_, below_;  // rows of the neighbours; unknowns(): none
-    std::vector<double> factor_;                     // 1/sqrt of the factor's diagonal
+    std::array<std::vector<double>, 3> upper_;                        // coefficient to the neighbour above in each direction, 0: none; <= 0
+    std::array<std::vector<int>, 3> above_, below_;                   // rows of the neighbours; unknowns(): none
+    std::vector<double> factor_;                                      // 1/sqrt of the factor's diagonal
+    std::array<std::vector<double>, 3> factor_below_, factor_above_;  // the factor's entries beside the diagonal, times factor_ of the row
     std::vector<BodyPart> bodies_;
     std::vector<std::vector<int>> enclosed_;  // rows of each
     mutable std::vector<double> work_, residual_, direction_, product_;

@@ -159,7 +159,7 @@ const StepReport& SurfaceRun::step(double longest) {
     book_walls(step);
     extend_velocity(step);
     const double kept = 1.0 - (mixing_time_ > 0.0 ? std::min(1.0, step / mixing_time_) : 1.0);
-    move_particles(grid_, {velocity_, increment_, step, kept}, particles_);
+    move_particles(grid_, cutter_.slip_walls(), {velocity_, increment_, step, kept}, particles_);
     move_bodies(step);
     if (settings_.damping.remaining < 1.0)
         report_.gap_impulse = damp_gaps(settings_.damping, grid_, bodies_, step, settings_.water.density, particles_);
@@ -167,7 +167,7 @@ const StepReport& SurfaceRun::step(double longest) {
     push_out();
     find_surface();
     if (settings_.run.even_out) {
-        report_.even_out = even_out_.apply(cells_, water_, particles_);
+        report_.even_out = even_out_.apply(cells_, cutter_.slip_walls(), water_, particles_);
         push_out();
     }
     report_.occupied_volume = occupied_volume(grid_, cells_, water_);
@@ -409,6 +409,7 @@ void SurfaceRun::push_out() {
         for (const Body& body : bodies_) {
             Vec3 arm = place - body.position;
             if (!body.sphere) arm.y() = 0.0;
+            if (arm.squaredNorm() >= body.radius * body.radius) continue;
             const double distance = arm.norm();
             if (distance >= body.radius || distance == 0.0) continue;
             inside = true;

@@ -24,7 +24,8 @@ struct NodeBlock {
 
 class Kernels {
 public:
-    explicit Kernels(const StaggeredGrid& grid) : grid_(grid), inverse_(1.0 / grid.spacing()) {
+    explicit Kernels(const StaggeredGrid& grid, const SlipWalls* walls = nullptr)
+        : grid_(grid), walls_(walls && !walls->empty() ? walls : nullptr), inverse_(1.0 / grid.spacing()) {
         for (int d = 0; d < 3; ++d) largest_[d] = grid.cells(d) - k_wall_distance;
     }
 
@@ -92,7 +93,11 @@ public:
 
     Vec3 gather(const PointKernel& kernel, const FaceField& field) const {
         Vec3 value = Vec3::Zero();
-        for (const int d : grid_.directions()) value[d] = gather(nodes(kernel, d), field[d]);
+        if (walls_ && walls_->near[nodes(kernel, 3).first + middle(3)]) {
+            for (const int d : grid_.directions()) value[d] = gather_beside_walls(nodes(kernel, d), d, field[d]);
+        } else {
+            for (const int d : grid_.directions()) value[d] = gather(nodes(kernel, d), field[d]);
+        }
         return value;
     }
 
@@ -105,7 +110,32 @@ public:
 private:
     static constexpr double k_one = 1.0;
 
+    /// From the lowest node of a block to the middle one in all directions but `along` (3: in all).
+    int middle(int along) const {
+        int way = 0;
+        for (const int d : grid_.directions()) way += d == along ? 0 : grid_.stride(d);
+        return way;
+    }
+
+    double gather_beside_walls(const NodeBlock& block, int direction, const std::vector<double>& field) const {
+        const std::vector<std::uint8_t>& closed = walls_->closed[direction];
+        const int own_row = block.first + middle(direction);
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            for (int j = 0; j < block.across; ++j) {
+                for (int i = 0; i < 3; ++i) {
+                    const int node = block.first + i + j * grid_.stride(1) + k * grid_.stride(2);
+                    const int place[3] = {i, j, k};
+                    const int own = own_row + place[direction] * grid_.stride(direction);
+                    sum += block.weight[2][k] * block.weight[1][j] * block.weight[0][i] * field[closed[node] ? own : node];
+                }
+            }
+        }
+        return sum;
+    }
+
     const StaggeredGrid& grid_;
+    const SlipWalls* walls_;
     double inverse_;
     std::array<double, 3> largest_{};
 };
@@ -176,7 +206,7 @@ void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, Map
             mapped.share[d][f] *= volume;
         }
     }
-    fold(grid, 3, 1.0, mapped.fraction);
+    fold_cells(grid, mapped.fraction);
     for (double& fraction : mapped.fraction) fraction *= volume;
 }
 
@@ -188,9 +218,13 @@ void map_fraction(const StaggeredGrid& grid, const WaterParticles& particles, Ce
         kernels.set(particles.place(p), kernel);
         kernels.scatter(kernels.nodes(kernel, 3), fraction);
     }
-    fold(grid, 3, 1.0, fraction);
+    fold_cells(grid, fraction);
     const double volume = particles.volume / grid.cell_volume();
     for (double& share : fraction) share *= volume;
+}
+
+void fold_cells(const StaggeredGrid& grid, CellField& field) {
+    fold(grid, 3, 1.0, field);
 }
 
 void mirror_faces(const StaggeredGrid& grid, FaceField& field) {
@@ -235,8 +269,8 @@ void extrapolate(const StaggeredGrid& grid, int layers, std::vector<FaceValue>& 
     }
 }
 
-void move_particles(const StaggeredGrid& grid, const WaterMotion& motion, WaterParticles& particles) {
-    const Kernels kernels(grid);
+void move_particles(const StaggeredGrid& grid, const SlipWalls& walls, const WaterMotion& motion, WaterParticles& particles) {
+    const Kernels kernels(grid, &walls);
     PointKernel kernel;
     for (std::size_t p = 0; p < particles.size(); ++p) {
         const Vec3 start = particles.place(p);
@@ -258,8 +292,9 @@ void move_particles(const StaggeredGrid& grid, const WaterMotion& motion, WaterP
     }
 }
 
-void displace_particles(const StaggeredGrid& grid, const FaceField& displacement, double largest, WaterParticles& particles) {
-    const Kernels kernels(grid);
+void displace_particles(const StaggeredGrid& grid, const SlipWalls& walls, const FaceField& displacement, double largest,
+                        WaterParticles& particles) {
+    const Kernels kernels(grid, &walls);
     for (std::size_t p = 0; p < particles.size(); ++p) {
         Vec3 place = particles.place(p);
         const Vec3 way = kernels.gather(place, displacement);
@@ -269,8 +304,8 @@ void displace_particles(const StaggeredGrid& grid, const FaceField& displacement
     }
 }
 
-Vec3 value_at(const StaggeredGrid& grid, const FaceField& field, const Vec3& place) {
-    return Kernels(grid).gather(place, field);
+Vec3 value_at(const StaggeredGrid& grid, const SlipWalls& walls, const FaceField& field, const Vec3& place) {
+    return Kernels(grid, &walls).gather(place, field);
 }
 
 void keep_in_tank(const StaggeredGrid& grid, Vec3& place) {

@@ -22,6 +22,9 @@ void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, Map
 /// The cells' part of map_to_grid alone.
 void map_fraction(const StaggeredGrid& grid, const WaterParticles& particles, CellField& fraction);
 
+/// Adds what was put on ghosts to the cells that they mirror.
+void fold_cells(const StaggeredGrid& grid, CellField& field);
+
 /// Fills the ghosts of a face field that is 0 on walls, for gathering.
 void mirror_faces(const StaggeredGrid& grid, FaceField& field);
 
@@ -40,6 +43,17 @@ using FaceValues = std::array<std::vector<FaceValue>, 3>;
 void extrapolate(const StaggeredGrid& grid, int layers, std::vector<FaceValue>& values, std::vector<int>& front,
                  std::initializer_list<std::vector<double>*> fields);
 
+/// Faces within the tank that what stands still closes, for particles beside it. Water slips along still solids as along the tank's walls:
+/// the layer that sticks to them is thinner than a cell, and a kernel that reads their velocity 0 beside the flow would carry two thirds of
+/// the flux through a hole of one cell. So a particle reads a closed face only in the row of cells in which it is itself, where the face is
+/// in its way; a closed face of a row beside it counts as the face of its own row: the same mirror as at the tank's walls.
+struct SlipWalls {
+    std::array<std::vector<std::uint8_t>, 3> closed;  ///< of each face of a direction; empty: no solids
+    std::vector<std::uint8_t> near;                   ///< 1 for cells whose particles' kernels reach a closed face
+
+    bool empty() const { return near.empty(); }
+};
+
 /// How velocity on the grid moves particles in one step.
 struct WaterMotion {
     const FaceField& velocity;   ///< at the step's end [m/s], ghosts filled
@@ -50,13 +64,14 @@ struct WaterMotion {
 
 /// v <- lambda (v + sum W du) + (1 - lambda) sum W u, then Ralston's third-order Runge-Kutta in the grid's velocity. Particles stay within
 /// the tank. [BrackbillRuppel1986] [Ralston1962]
-void move_particles(const StaggeredGrid& grid, const WaterMotion& motion, WaterParticles& particles);
+void move_particles(const StaggeredGrid& grid, const SlipWalls& walls, const WaterMotion& motion, WaterParticles& particles);
 
 /// Moves particles by a displacement on faces (ghosts filled), each component at most `largest` [m]; velocities stay.
-void displace_particles(const StaggeredGrid& grid, const FaceField& displacement, double largest, WaterParticles& particles);
+void displace_particles(const StaggeredGrid& grid, const SlipWalls& walls, const FaceField& displacement, double largest,
+                        WaterParticles& particles);
 
 /// Value of a face field with filled ghosts at a place [m].
-Vec3 value_at(const StaggeredGrid& grid, const FaceField& field, const Vec3& place);
+Vec3 value_at(const StaggeredGrid& grid, const SlipWalls& walls, const FaceField& field, const Vec3& place);
 
 /// Puts a place back into the tank: at least 1e-6 of a cell from its walls.
 void keep_in_tank(const StaggeredGrid& grid, Vec3& place);

@@ -2,27 +2,12 @@
 
 #include <algorithm>
 
-#include "solver/free_surface/kernel.hpp"
-
 namespace cutterflow::free_surface {
 
 namespace {
 
 constexpr double k_cut_cell = 0.7;  // open volume below which a cell has no fraction of its own
 constexpr int k_sliver_passes = 4;
-
-/// Room that the kernel of a cell sees.
-double room(const StaggeredGrid& grid, const CellField& open_volume, int cell) {
-    double sum = 0.0;
-    for (int k = -1; k <= 1; ++k) {
-        for (int j = grid.is_plane() ? 0 : -1; j <= (grid.is_plane() ? 0 : 1); ++j) {
-            const double weight = k_cell_share[k + 1] * (grid.is_plane() ? 1.0 : k_cell_share[j + 1]);
-            const double* row = open_volume.data() + cell + j * grid.stride(1) + k * grid.stride(2);
-            sum += weight * (k_cell_share[0] * row[-1] + k_cell_share[1] * row[0] + k_cell_share[2] * row[1]);
-        }
-    }
-    return sum;
-}
 
 /// Calls visit(neighbour, open share) for every open face of a cell.
 template <typename Visit>
@@ -69,20 +54,9 @@ void fill_slivers(const StaggeredGrid& grid, const CutCells& cells, CellField& f
 
 void find_water(const StaggeredGrid& grid, const CellField& particle_share, const CutCells& cells, WaterFraction& water) {
     water.fraction = particle_share;
-    std::vector<std::uint8_t> near_solid(cells.cut.empty() ? 0 : grid.size(), 0);
-    for (const int cell : cells.cut) {
-        for (int k = -1; k <= 1; ++k) {
-            for (int j = grid.is_plane() ? 0 : -1; j <= (grid.is_plane() ? 0 : 1); ++j) {
-                for (int i = -1; i <= 1; ++i) near_solid[cell + i + j * grid.stride(1) + k * grid.stride(2)] = 1;
-            }
-        }
-    }
-    if (!cells.cut.empty()) {
-        grid.for_each_cell([&](int cell, int, int, int) {
-            if (!near_solid[cell] || cells.closed[cell]) return;
-            water.fraction[cell] /= room(grid, cells.open_volume, cell);
-        });
-    }
+    grid.for_each_cell([&](int cell, int, int, int) {
+        if (cells.room[cell] > 0.0) water.fraction[cell] /= cells.room[cell];
+    });
     fill_slivers(grid, cells, water.fraction);
 
     water.kind.assign(grid.size(), CellKind::closed);

@@ -13,8 +13,9 @@ struct WaterFraction {
     std::vector<int> water;      ///< the water cells in storage order
 };
 
-/// alpha_c = sum V_p W(x_c - x_p) / sum B_cc' phi_c' V. The surface is where alpha is 1/2: of particles that fill a half space exactly so.
-/// A cell of which solids leave less than 0.7 takes the mean of its neighbours through its open faces: no particle may be in its sliver.
+/// alpha_c = sum V_p W(x_c - x_p) / (V room_c), room_c the integral of W over what solids leave, summed by quarters of cells. The surface
+/// is where alpha is 1/2: of particles that fill a half space exactly so. A cell of which solids leave less than 0.7 takes the mean of its
+/// neighbours through its open faces: no particle may be in its sliver.
 void find_water(const StaggeredGrid& grid, const CellField& particle_share, const CutCells& cells, WaterFraction& water);
 
 /// Share theta of the way from a water cell's centre to the air cell's at which the surface stands, at least 0.1.

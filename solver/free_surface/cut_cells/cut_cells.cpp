@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/base/axis_frame.hpp"
+#include "solver/free_surface/kernel.hpp"
 
 namespace cutterflow::free_surface {
 
@@ -74,6 +75,56 @@ void for_each_in(const CellRange& range, const Visit& visit) {
     }
 }
 
+/// Covered shares of the parts of a cell: k_parts in each direction of the grid.
+using PartShares = std::array<double, k_parts * k_parts * k_parts>;
+
+struct Parts {
+    int across = 1;  ///< in y
+    int count() const { return k_parts * k_parts * across; }
+};
+
+Parts parts_of(const StaggeredGrid& grid) {
+    return {grid.is_plane() ? 1 : k_parts};
+}
+
+/// Calls visit(number, centre, size) for the parts of the cell from a corner on.
+template <typename Visit>
+void for_each_part(const StaggeredGrid& grid, const Vec3& from, const Visit& visit) {
+    const Parts parts = parts_of(grid);
+    const Vec3 size(grid.width(0) / k_parts, grid.width(1) / parts.across, grid.width(2) / k_parts);
+    int number = 0;
+    for (int k = 0; k < k_parts; ++k) {
+        for (int j = 0; j < parts.across; ++j) {
+            for (int i = 0; i < k_parts; ++i) visit(number++, Vec3(from + Vec3(i + 0.5, j + 0.5, k + 0.5).cwiseProduct(size)), size);
+        }
+    }
+}
+
+/// Takes the covered parts of a cell from the room of the kernels around it, ghosts too.
+void take_room(const StaggeredGrid& grid, int cell, const PartShares& shares, CellField& room) {
+    static const std::array<KernelWeights, k_parts> weights{part_weights(0), part_weights(1), part_weights(2), part_weights(3)};
+    static const KernelWeights whole{-1, {0.0, 1.0, 0.0}};
+    const Parts parts = parts_of(grid);
+    int number = 0;
+    for (int k = 0; k < k_parts; ++k) {
+        for (int j = 0; j < parts.across; ++j) {
+            const KernelWeights& y = grid.is_plane() ? whole : weights[j];
+            for (int i = 0; i < k_parts; ++i) {
+                const double share = shares[number++] / parts.count();
+                if (share <= 0.0) continue;
+                for (int c = 0; c < 3; ++c) {
+                    for (int b = 0; b < 3; ++b) {
+                        const double weight = share * weights[k].weight[c] * y.weight[b];
+                        if (weight <= 0.0) continue;
+                        double* row = room.data() + cell + (b - 1) * grid.stride(1) + (c - 1) * grid.stride(2);
+                        for (int a = 0; a < 3; ++a) row[a - 1] -= weight * weights[i].weight[a];
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Ghosts repeat the cell next to them.
 void repeat_in_ghosts(const StaggeredGrid& grid, CellField& field) {
     const auto nearest = [&](int n, int d) { return std::clamp(n, 0, grid.cells(d) - 1); };
@@ -108,11 +159,14 @@ CellCutter::CellCutter(const StaggeredGrid& grid, const std::vector<StillSolid>&
 void CellCutter::set_solids(const std::vector<StillSolid>& solids) {
     still_.open = grid_.face_field();
     still_.open_volume = grid_.cell_field();
+    still_.room = grid_.cell_field();
+    grid_.for_each_cell([&](int cell, int, int, int) { still_.room[cell] = 1.0; });
     still_.closed.assign(grid_.size(), 1);
     for (auto& owner : still_.owner) owner.assign(grid_.size(), k_no_body);
     cover_still_faces(solids);
     cover_still_volumes(solids);
     close_around_closed_cells();
+    find_slip_walls();
     repeat_in_ghosts(grid_, still_.open_volume);
 }
 
@@ -138,7 +192,37 @@ void CellCutter::cover_still_volumes(const std::vector<StillSolid>& solids) {
         const std::array<int, 3> lines{k_lines, grid_.is_plane() ? 1 : k_lines, 1};
         const double open = solids.empty() ? 1.0 : 1.0 - covered_share(solids, 2, from, to, lines);
         still_.open_volume[cell] = open < k_smallest_open_share ? 0.0 : open;
+        if (open < 1.0) cover_still_room(solids, cell, from);
     });
+}
+
+void CellCutter::cover_still_room(const std::vector<StillSolid>& solids, int cell, const Vec3& from) {
+    PartShares shares;
+    shares.fill(1.0);
+    const std::array<int, 3> lines{k_lines / k_parts, grid_.is_plane() ? 1 : k_lines / k_parts, 1};
+    if (still_.open_volume[cell] > 0.0)
+        for_each_part(grid_, from, [&](int number, const Vec3& centre, const Vec3& size) {
+            shares[number] = covered_share(solids, 2, centre - 0.5 * size, centre + 0.5 * size, lines);
+        });
+    take_room(grid_, cell, shares, still_.room);
+}
+
+/// A part is covered in proportion to its depth under the surface; together the parts cover what the cell is covered.
+void CellCutter::cover_room(const Body& body, int cell, const Vec3& from, double covered, CutCells& cells) const {
+    PartShares shares{};
+    double sum = 0.0;
+    for_each_part(grid_, from, [&](int number, const Vec3& centre, const Vec3& size) {
+        Vec3 arm = centre - body.position;
+        if (!body.sphere) arm.y() = 0.0;
+        shares[number] = std::clamp(0.5 + (body.radius - arm.norm()) / size.x(), 0.0, 1.0);
+        sum += shares[number];
+    });
+    if (sum <= 0.0) {
+        shares.fill(1.0);  // a corner too small to reach the middle of a part
+        sum = parts_of(grid_).count();
+    }
+    for (double& share : shares) share *= covered * parts_of(grid_).count() / sum;
+    take_room(grid_, cell, shares, cells.room);
 }
 
 /// Water must not end in a cell that has no room, whatever the sixteen lines and the edges of solids make of its faces.
@@ -154,6 +238,30 @@ void CellCutter::close_around_closed_cells() {
             still_.open[d][cell + grid_.stride(d)] = 0.0;
         }
     });
+}
+
+void CellCutter::find_slip_walls() {
+    slip_walls_ = {};
+    if (still_.cut.empty()) return;
+    slip_walls_.near.assign(grid_.size(), 0);
+    for (auto& closed : slip_walls_.closed) closed.assign(grid_.size(), 0);
+    for (const int d : grid_.directions()) {
+        grid_.for_each_face(d, [&](int face, int i, int j, int k) {
+            const std::array<int, 3> place{i, j, k};
+            if (place[d] == 0 || place[d] == grid_.cells(d) || still_.open[d][face] > 0.0) return;
+            slip_walls_.closed[d][face] = 1;
+            std::array<int, 3> from = place, to = place;
+            for (const int e : grid_.directions()) {
+                from[e] = std::max(0, place[e] - (e == d ? 2 : 1));
+                to[e] = std::min(grid_.cells(e) - 1, place[e] + 1);
+            }
+            for (int c = from[2]; c <= to[2]; ++c) {
+                for (int b = from[1]; b <= to[1]; ++b) {
+                    for (int a = from[0]; a <= to[0]; ++a) slip_walls_.near[grid_.at(a, b, c)] = 1;
+                }
+            }
+        });
+    }
 }
 
 void CellCutter::add_to_cell(std::vector<BodyCell>& list, int cell, int direction, double flux) {
@@ -192,10 +300,11 @@ void CellCutter::cover_volumes(const Body& body, CutCells& cells) const {
         const int cell = grid_.at(i, j, k);
         double& open = cells.open_volume[cell];
         if (open <= 0.0) return;
-        const auto [low, high] = corners(grid_, i, j, k);
-        const double covered = covered_volume(body, low, high) / grid_.cell_volume();
+        const auto [low_corner, high] = corners(grid_, i, j, k);
+        const double covered = covered_volume(body, low_corner, high) / grid_.cell_volume();
         if (covered <= 0.0) return;
         if (open >= 1.0) cells.cut.push_back(cell);
+        cover_room(body, cell, low_corner, std::min(open, covered), cells);
         open = std::max(0.0, open - covered);
     });
 }
@@ -233,6 +342,7 @@ void CellCutter::cut(gsl::span<const Body> bodies, CutCells& cells) {
     for (auto& list : lists) list.clear();
     cells.bodies = std::move(lists);
     for (std::size_t b = 0; b < bodies.size(); ++b) add_body(static_cast<int>(b), bodies[b], cells);
+    fold_cells(grid_, cells.room);
     if (bodies.empty()) return;
     repeat_in_ghosts(grid_, cells.open_volume);
     for (const int cell : cells.cut) cells.closed[cell] = !has_open_face(cells, cell);

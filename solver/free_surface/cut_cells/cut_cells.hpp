@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "solver/free_surface/cut_cells/still_solids.hpp"
-#include "solver/free_surface/grid.hpp"
+#include "solver/free_surface/transfer.hpp"
 
 namespace cutterflow::free_surface {
 
@@ -36,6 +36,7 @@ inline constexpr int k_no_body = -1;
 struct CutCells {
     FaceField open;                                  ///< open share of each face, 0 on the tank's walls and beyond
     CellField open_volume;                           ///< open share of each cell; ghosts repeat the cell next to them
+    CellField room;                                  ///< share of a cell's kernel that solids leave: what water at rest fills
     std::vector<std::uint8_t> closed;                ///< 1 for cells without open volume or face, and for ghosts
     std::vector<int> cut;                            ///< cells that solids cover in part or in whole
     std::array<std::vector<std::int16_t>, 3> owner;  ///< body that covers most of a face; k_no_body: none or what stands still
@@ -56,6 +57,7 @@ public:
 
     /// Cells without bodies.
     const CutCells& still() const { return still_; }
+    const SlipWalls& slip_walls() const { return slip_walls_; }
     /// \param cells  is written over; the sum of k over the cells of a body away from the tank's walls is 0 (a closed body)
     void cut(gsl::span<const Body> bodies, CutCells& cells);
     /// What stands still moved: covers anew.
@@ -65,15 +67,19 @@ private:
     void cover_still_faces(const std::vector<StillSolid>& solids);
     void cover_still_volumes(const std::vector<StillSolid>& solids);
     void close_around_closed_cells();
+    void find_slip_walls();
     void add_body(int index, const Body& body, CutCells& cells);
     void cover_faces(int index, const Body& body, int direction, CutCells& cells);
     void cover_volumes(const Body& body, CutCells& cells) const;
+    void cover_still_room(const std::vector<StillSolid>& solids, int cell, const Vec3& from);
+    void cover_room(const Body& body, int cell, const Vec3& from, double covered, CutCells& cells) const;
     bool has_open_face(const CutCells& cells, int cell) const;
     void hand_on_flux_of_closed_cells(const CutCells& cells, std::vector<BodyCell>& list) const;
     void add_to_cell(std::vector<BodyCell>& list, int cell, int direction, double flux);
 
     const StaggeredGrid& grid_;
     CutCells still_;
+    SlipWalls slip_walls_;
     std::vector<int> entry_;  // of a cell in the list of the body at hand, -1: none
 };
 

@@ -112,6 +112,47 @@ TEST_P(BodyIncidence, is_a_closed_body_of_exact_volume) {
 
 INSTANTIATE_TEST_SUITE_P(cylinder_and_sphere, BodyIncidence, ::testing::Bool());
 
+TEST_P(BodyIncidence, leaves_kernels_the_room_that_dense_particles_fill) {
+    const bool sphere = GetParam();
+    const StaggeredGrid grid = sphere ? StaggeredGrid::space(12, 12, 12, 0.1) : StaggeredGrid::plane(12, 12, 0.1, 0.3);
+    Body body;
+    body.sphere = sphere;
+    body.radius = 0.33;
+    body.position = Vec3(0.41, sphere ? 0.52 : 0.15, 0.36);  // its kernels reach the tank's walls
+    const SolidBox box{Vec3(0.83, -1, 0.2), Vec3(1.07, 2, 0.55)};
+    CellCutter cutter(grid, {box});
+    CutCells cells;
+    cutter.cut(gsl::span<const Body>(&body, 1), cells);
+    WaterParticles particles;
+    const int fine = sphere ? 10 : 20;
+    const double step = grid.spacing() / fine;
+    const int rows = sphere ? 12 * fine : 1;
+    for (int k = 0; k < 12 * fine; ++k) {
+        for (int j = 0; j < rows; ++j) {
+            for (int i = 0; i < 12 * fine; ++i) {
+                const Vec3 place((i + 0.5) * step, sphere ? (j + 0.5) * step : 0.15, (k + 0.5) * step);
+                if ((place - body.position).norm() > body.radius && !is_inside(box, place)) particles.add(place, 0);
+            }
+        }
+    }
+    particles.volume = grid.cell_volume() / std::pow(fine, sphere ? 3 : 2);
+    CellField filled;
+    map_fraction(grid, particles, filled);
+    grid.for_each_cell([&](int cell, int, int, int) { EXPECT_NEAR(cells.room[cell], filled[cell], sphere ? 0.015 : 0.012); });
+}
+
+TEST(SlipWalls, let_particles_pass_a_hole_of_one_cell_at_the_speed_of_its_faces) {
+    const StaggeredGrid grid = StaggeredGrid::plane(10, 10, 0.1, 1.0);
+    const CellCutter cutter(grid, {SolidBox{Vec3(0.4, -1, 0.0), Vec3(0.6, 2, 0.5)}, SolidBox{Vec3(0.4, -1, 0.6), Vec3(0.6, 2, 1.0)}});
+    FaceField velocity = grid.face_field();
+    grid.for_each_face(0, [&](int face, int, int, int) { velocity[0][face] = cutter.still().open[0][face] > 0.0 ? 2.0 : 0.0; });
+    mirror_faces(grid, velocity);
+    for (const double z : {0.501, 0.55, 0.599})
+        EXPECT_NEAR(value_at(grid, cutter.slip_walls(), velocity, Vec3(0.5, 0.5, z)).x(), 2.0, 1e-12) << z;
+    EXPECT_LT(value_at(grid, cutter.slip_walls(), velocity, Vec3(0.399, 0.5, 0.25)).x(), 0.3);  // a wall stays in the way
+    EXPECT_NEAR(value_at(grid, {}, velocity, Vec3(0.5, 0.5, 0.55)).x(), 1.5, 1e-12);            // without the rule: three quarters
+}
+
 TEST(CellCutter, gives_a_wall_on_the_grid_no_open_face_and_no_room) {
     const StaggeredGrid grid = StaggeredGrid::plane(10, 10, 0.1, 1.0);
     const CellCutter cutter(grid, {SolidBox{Vec3(0.4, -1, 0.0), Vec3(0.6, 2, 0.5)}});

@@ -36,8 +36,9 @@ coupling::DemSettings column_dem(const CylinderColumn& column) {
     settings.shape = coupling::RockShape::cylinder;
     settings.cylinder_length = k_cylinder_length;
     settings.contact_gap = column.gap;
-    settings.domain.lower = Vec3::Zero();
-    settings.domain.upper = Vec3(column.tank_width, k_cylinder_length, k_column_tank_height);
+    const double inset = 0.5 * column.gap;  // bodies are larger by half a gap: with it they stand off walls by a whole one
+    settings.domain.lower = Vec3(inset, 0, inset);
+    settings.domain.upper = Vec3(column.tank_width - inset, k_cylinder_length, k_column_tank_height);
     for (const auto side :
          {coupling::DomainSide::x_min, coupling::DomainSide::x_max, coupling::DomainSide::z_min, coupling::DomainSide::z_max})
         settings.domain.make_wall(side);
@@ -61,7 +62,7 @@ Vec3 mean_place(const coupling::Rocks& rocks) {
 }
 
 bool has_arrived(const coupling::Rocks& rocks, const CylinderColumn& column) {
-    const double reach = column.tank_width - 0.5 * (k_cylinder_diameter + column.gap);
+    const double reach = column.tank_width - 0.5 * k_cylinder_diameter - column.gap;
     return std::any_of(rocks.position.begin(), rocks.position.end(), [&](const Vec3& place) { return place.x() >= reach; });
 }
 

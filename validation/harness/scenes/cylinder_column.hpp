@@ -9,7 +9,7 @@ namespace cutterflow::validation {
 /// Layers of six and five cylinders of 10 mm and 2,700 kg/m3 against the left wall of a tank 0.286 m wide and 0.26 m high, 99 mm across.
 struct CylinderColumn {
     int layers = 6;
-    double gap = 1e-3;    ///< between surfaces that touch [m]
+    double gap = 1e-3;    ///< between surfaces that touch, walls too [m]
     double jitter = 0.0;  ///< of the places [m]
     unsigned seed = 1;
     double friction = 0.3;
