@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/free_surface/kernel.hpp"
+#include "solver/free_surface/mirror.hpp"
 
 namespace cutterflow::free_surface {
 
@@ -140,42 +141,10 @@ private:
     std::array<double, 3> largest_{};
 };
 
-/// Calls visit(inside, ghost) for the nodes next to the tank's two walls in direction e: of cells, or of faces normal to e, whose own node
-/// stands on the wall.
-template <typename Visit>
-void for_each_mirror(const StaggeredGrid& grid, int e, bool on_wall, const Visit& visit) {
-    const std::array<int, 2> others{(e + 1) % 3, (e + 2) % 3};
-    const int lower = on_wall ? 1 : 0, upper = grid.cells(e) - 1;
-    const int lower_ghost = -1, upper_ghost = grid.cells(e) + (on_wall ? 1 : 0);
-    std::array<int, 3> place{};
-    const auto range = [&](int d) {
-        return grid.is_plane() && d == 1 ? std::array<int, 2>{0, 1} : std::array<int, 2>{-1, grid.cells(d) + 2};
-    };
-    const std::array<int, 2> a = range(others[0]), b = range(others[1]);
-    const auto index = [&](int n) {
-        place[e] = n;
-        return grid.at(place[0], place[1], place[2]);
-    };
-    for (place[others[0]] = a[0]; place[others[0]] < a[1]; ++place[others[0]]) {
-        for (place[others[1]] = b[0]; place[others[1]] < b[1]; ++place[others[1]]) {
-            visit(index(lower), index(lower_ghost));
-            visit(index(upper), index(upper_ghost));
-        }
-    }
-}
-
 /// The faces on the tank's two walls normal to d: of the first cell and of the ghost after the last.
 template <typename Visit>
 void for_each_wall_face(const StaggeredGrid& grid, int d, const Visit& visit) {
     for_each_mirror(grid, d, false, [&](int inside, int ghost) { visit(std::max(inside, ghost)); });
-}
-
-/// Adds what particles put on ghosts to the nodes that they mirror.
-void fold(const StaggeredGrid& grid, int direction, double sign_normal, std::vector<double>& field) {
-    for (const int e : grid.directions()) {
-        const double sign = e == direction ? sign_normal : 1.0;
-        for_each_mirror(grid, e, e == direction, [&](int inside, int ghost) { field[inside] += sign * field[ghost]; });
-    }
 }
 
 }  // namespace
@@ -206,7 +175,7 @@ void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, Map
             mapped.share[d][f] *= volume;
         }
     }
-    fold_cells(grid, mapped.fraction);
+    fold(grid, k_centres, 1.0, mapped.fraction);
     for (double& fraction : mapped.fraction) fraction *= volume;
 }
 
@@ -218,13 +187,9 @@ void map_fraction(const StaggeredGrid& grid, const WaterParticles& particles, Ce
         kernels.set(particles.place(p), kernel);
         kernels.scatter(kernels.nodes(kernel, 3), fraction);
     }
-    fold_cells(grid, fraction);
+    fold(grid, k_centres, 1.0, fraction);
     const double volume = particles.volume / grid.cell_volume();
     for (double& share : fraction) share *= volume;
-}
-
-void fold_cells(const StaggeredGrid& grid, CellField& field) {
-    fold(grid, 3, 1.0, field);
 }
 
 void mirror_faces(const StaggeredGrid& grid, FaceField& field) {

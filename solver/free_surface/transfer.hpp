@@ -2,6 +2,7 @@
 /// \file Between particles and grid: kernels mirrored at the tank's walls, extrapolation beyond the surface, motion of the particles.
 #include <initializer_list>
 
+#include "solver/free_surface/cut_cells/slip_walls.hpp"
 #include "solver/free_surface/water_particles.hpp"
 
 namespace cutterflow::free_surface {
@@ -22,9 +23,6 @@ void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, Map
 /// The cells' part of map_to_grid alone.
 void map_fraction(const StaggeredGrid& grid, const WaterParticles& particles, CellField& fraction);
 
-/// Adds what was put on ghosts to the cells that they mirror.
-void fold_cells(const StaggeredGrid& grid, CellField& field);
-
 /// Fills the ghosts of a face field that is 0 on walls, for gathering.
 void mirror_faces(const StaggeredGrid& grid, FaceField& field);
 
@@ -42,17 +40,6 @@ using FaceValues = std::array<std::vector<FaceValue>, 3>;
 /// \param fields  of that direction, all treated alike
 void extrapolate(const StaggeredGrid& grid, int layers, std::vector<FaceValue>& values, std::vector<int>& front,
                  std::initializer_list<std::vector<double>*> fields);
-
-/// Faces within the tank that what stands still closes, for particles beside it. Water slips along still solids as along the tank's walls:
-/// the layer that sticks to them is thinner than a cell, and a kernel that reads their velocity 0 beside the flow would carry two thirds of
-/// the flux through a hole of one cell. So a particle reads a closed face only in the row of cells in which it is itself, where the face is
-/// in its way; a closed face of a row beside it counts as the face of its own row: the same mirror as at the tank's walls.
-struct SlipWalls {
-    std::array<std::vector<std::uint8_t>, 3> closed;  ///< of each face of a direction; empty: no solids
-    std::vector<std::uint8_t> near;                   ///< 1 for cells whose particles' kernels reach a closed face
-
-    bool empty() const { return near.empty(); }
-};
 
 /// How velocity on the grid moves particles in one step.
 struct WaterMotion {

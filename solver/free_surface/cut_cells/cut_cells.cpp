@@ -5,6 +5,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/free_surface/kernel.hpp"
+#include "solver/free_surface/mirror.hpp"
 
 namespace cutterflow::free_surface {
 
@@ -342,7 +343,7 @@ void CellCutter::cut(gsl::span<const Body> bodies, CutCells& cells) {
     for (auto& list : lists) list.clear();
     cells.bodies = std::move(lists);
     for (std::size_t b = 0; b < bodies.size(); ++b) add_body(static_cast<int>(b), bodies[b], cells);
-    fold_cells(grid_, cells.room);
+    fold(grid_, k_centres, 1.0, cells.room);
     if (bodies.empty()) return;
     repeat_in_ghosts(grid_, cells.open_volume);
     for (const int cell : cells.cut) cells.closed[cell] = !has_open_face(cells, cell);

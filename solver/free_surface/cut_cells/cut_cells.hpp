@@ -2,8 +2,8 @@
 /// \file Open areas and volumes of the grid's cells, and how moving bodies push water: the incidence of body motion on cells.
 #include <Eigen/Geometry>
 
+#include "solver/free_surface/cut_cells/slip_walls.hpp"
 #include "solver/free_surface/cut_cells/still_solids.hpp"
-#include "solver/free_surface/transfer.hpp"
 
 namespace cutterflow::free_surface {
 

@@ -8,6 +8,7 @@
 #include "solver/free_surface/cut_cells/covered_area.hpp"
 #include "solver/free_surface/cut_cells/cut_cells.hpp"
 #include "solver/free_surface/cut_cells/still_solids.hpp"
+#include "solver/free_surface/transfer.hpp"
 
 namespace cutterflow::free_surface {
 namespace {
