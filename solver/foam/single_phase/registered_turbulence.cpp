@@ -23,9 +23,8 @@ bool RegisteredTurbulence::read() {
     return Foam::turbulenceModel::read() && model_.read();
 }
 
-/// Wall functions take the distance of the wall from here.
+/// Wall functions take the distance of the wall from here. It is that of the start: zones turn as rigid bodies.
 void RegisteredTurbulence::correct() {
-    Foam::turbulenceModel::correct();
     model_.correct();
 }
 

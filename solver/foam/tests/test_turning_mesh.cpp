@@ -10,6 +10,7 @@
 
 #include "dynamicFvMesh.H"
 #include "fvc.H"
+#include "nearWallDist.H"
 
 namespace cutterflow::foam {
 namespace {
@@ -26,6 +27,32 @@ testing::TinyCase cylinder(const std::string& name, const testing::TurningCylind
     tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", u, "\".*\" { type fixedValue; value $internalField; }");
     tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type fixedFluxPressure; value $internalField; }");
     return tiny;
+}
+
+/// Distances of the wall, which wall functions ask the registered model for, are computed once.
+TEST(TurningMesh, KeepsTheDistancesOfTheWall) {
+    testing::TurningAnnulus shape;
+    shape.cells_around_quarter = shape.stator_cells_around_quarter = 4;
+    testing::TinyCase tiny = testing::laminar_case("wall_distance", testing::block_mesh(shape), 0.01, 0.1);
+    tiny.files["constant/dynamicMeshDict"] = testing::turning(k_omega);
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)", "\".*\" { type slip; }");
+    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type zeroGradient; }");
+    FluidRun run(testing::build_case(tiny), false);
+    while (run.engine().running()) {
+        run.begin();
+        run.end({}, {});
+    }
+    const Foam::fvMesh& mesh = run.session().mesh();
+    const auto& kept = mesh.lookupObject<Foam::turbulenceModel>(Foam::turbulenceModel::propertiesName).y();
+    const Foam::nearWallDist computed(mesh);
+    double worst = 0.0, largest = 0.0;
+    for (const char* wall : {"hub", "rim"}) {
+        const Foam::label patch = mesh.boundaryMesh().findPatchID(wall);
+        worst = std::max(worst, Foam::max(Foam::scalarField(Foam::mag(kept[patch] - computed[patch]))));
+        largest = std::max(largest, Foam::max(computed[patch]));
+    }
+    EXPECT_GT(run.largest(largest), 1e-3);
+    EXPECT_LE(run.largest(worst), 1e-12);
 }
 
 double blob(const Vec3& point, const Vec3& centre, double depth, double sigma) {
