@@ -442,19 +442,34 @@ TEST(Checkpoint, takes_precedence_over_later_times) {
     EXPECT_TRUE(times_after_checkpoint(folder.path()).empty());
 }
 
-TEST(Checkpoint, of_another_time_or_mesh_is_refused) {
+/// A run of one rock up to its first checkpoint.
+struct RunWithCheckpoint {
+    RunWithCheckpoint() {
+        settings.checkpoint = CheckpointSettings{0.01, 2};
+        Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+        while (newest_checkpoint(folder.path()).empty()) rig.run->step();
+        checkpoint = newest_checkpoint(folder.path());
+        time = rig.fluid.time();
+    }
+    void resume_at(double start) {
+        Rig fresh(settings, folder.path(), recorder, Vec3::Zero());
+        fresh.fluid.restart_at(start);
+        fresh.run->resume(checkpoint);
+    }
+
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
-    settings.checkpoint = CheckpointSettings{0.01, 2};
     MemoryRecorder recorder;
-    Rig rig(settings, folder.path(), recorder, Vec3::Zero());
-    while (newest_checkpoint(folder.path()).empty()) rig.run->step();
-    const auto checkpoint = newest_checkpoint(folder.path());
-    Rig fresh(settings, folder.path(), recorder, Vec3::Zero());
-    EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
-    fresh.fluid.restart_at(rig.fluid.time());
-    std::filesystem::resize_file(checkpoint / "carry.0", 100);
-    EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
+    std::filesystem::path checkpoint;
+    double time = 0.0;
+};
+
+TEST(Checkpoint, of_another_time_or_mesh_is_refused) {
+    RunWithCheckpoint run;
+    EXPECT_THROW(run.resume_at(0.0), UserError);
+    EXPECT_NO_THROW(run.resume_at(run.time));
+    std::filesystem::resize_file(run.checkpoint / "carry.0", 100);
+    EXPECT_THROW(run.resume_at(run.time), UserError);
 }
 
 TEST(Checkpoint, whose_carry_counts_more_cells_than_it_holds_is_refused) {
@@ -500,24 +515,14 @@ TEST(Checkpoint, whose_state_holds_numbers_that_int_cannot_is_refused_with_all_o
 }
 
 TEST(Checkpoint, whose_rock_left_through_a_bin_that_the_head_has_not_is_refused) {
-    const TemporaryFolder folder;
-    CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
-    settings.checkpoint = CheckpointSettings{0.01, 2};
-    MemoryRecorder recorder;
-    Rig rig(settings, folder.path(), recorder, Vec3::Zero());
-    while (newest_checkpoint(folder.path()).empty()) rig.run->step();
-    const auto checkpoint = newest_checkpoint(folder.path());
-    RunState state = read_state(checkpoint);
-    for (const std::size_t bin : {std::size_t{0}, std::size_t{100000}}) {
-        state.rocks.at(1).last_exit_bin = bin;
-        write_state(checkpoint, state);
-        Rig fresh(settings, folder.path(), recorder, Vec3::Zero());
-        fresh.fluid.restart_at(rig.fluid.time());
-        if (bin == 0)
-            EXPECT_NO_THROW(fresh.run->resume(checkpoint));
-        else
-            EXPECT_THROW(fresh.run->resume(checkpoint), UserError);
-    }
+    RunWithCheckpoint run;
+    RunState state = read_state(run.checkpoint);
+    state.rocks.at(1).last_exit_bin = 0;
+    write_state(run.checkpoint, state);
+    EXPECT_NO_THROW(run.resume_at(run.time));
+    state.rocks.at(1).last_exit_bin = 100000;
+    write_state(run.checkpoint, state);
+    EXPECT_THROW(run.resume_at(run.time), UserError);
 }
 
 TEST(Checkpoint, is_written_and_read_by_every_rank) {

@@ -3,66 +3,26 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
-#include "solver/coupling/kernel/kernel_coupling.hpp"
-#include "solver/observe/momentum_balance.hpp"
+#include "solver/coupling/tests/coupling_rig.hpp"
 #include "solver/physics/lift.hpp"
 #include "solver/physics/testing/fall_from_rest.hpp"
-#include "solver/ports/testing/fake_engines.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
 
 namespace cutterflow::coupling {
 namespace {
 
+using testing::box;
 using testing::FakeDem;
 using testing::FakeFluid;
+using testing::k_water;
+using testing::settings_with_rock;
 using testing::SyntheticMesh;
-
-const FluidProperties k_water{998.2, 1.0034e-6};
-
-CouplingSettings settings_with_rock() {
-    CouplingSettings settings;
-    settings.has_rock = true;
-    return settings;
-}
-
-SyntheticMesh box(double half, double dx) {
-    SyntheticMesh mesh;
-    mesh.add_box(Vec3::Constant(-half), Vec3::Constant(half), dx, false);
-    return mesh;
-}
 
 FeedRock rock(int id, const Vec3& x, double d, std::optional<Vec3> v = std::nullopt) {
     return {id, 0.0, x, d, 2650.0, v};
 }
 
-/// Engines and coupling on one rank.
-struct Rig {
-    Rig(SyntheticMesh mesh, ZoneMotion motion, double step, const CouplingSettings& settings = settings_with_rock(),
-        const FluidProperties& properties = k_water)
-        : fluid(std::move(mesh), motion, step),
-          dem(motion, 0.5, properties.density),
-          coupling(settings, properties, fluid, dem, serial),
-          momentum(properties, fluid, dem, serial) {}
-    FakeFluid fluid;
-    FakeDem dem;
-    SerialCommunicator serial;
-    KernelCoupling coupling;
-    MomentumBalance momentum;
-
-    ExchangeBalance step() {
-        coupling.sample();
-        momentum.begin(coupling.carry());
-        fluid.begin_step(coupling.travel_limit(), std::numeric_limits<double>::infinity());
-        const DemStep moved = coupling.move();
-        coupling.map();
-        fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
-        const ExchangeBalance balance = coupling.book();
-        momentum_errors = momentum.end(coupling.carry(), moved, fluid.loads());
-        return balance;
-    }
-
-    MomentumErrors momentum_errors;
-};
+using Rig = testing::CouplingRig<>;
 
 TEST(Exchange, balances_rock_fluid_and_carry_in_every_step) {
     Rig rig(box(0.15, 0.01), {}, 2e-3);

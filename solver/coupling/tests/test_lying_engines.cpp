@@ -5,26 +5,16 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
-#include "solver/coupling/kernel/kernel_coupling.hpp"
-#include "solver/observe/momentum_balance.hpp"
-#include "solver/ports/testing/fake_engines.hpp"
+#include "solver/coupling/tests/coupling_rig.hpp"
 
 namespace cutterflow::coupling {
 namespace {
 
 using testing::FakeDem;
 using testing::FakeFluid;
-using testing::SyntheticMesh;
 
-const FluidProperties k_water{998.2, 1.0034e-6};
 constexpr double k_half = 0.15, k_cell = 0.01;
 constexpr int k_steps = 40;
-
-SyntheticMesh box() {
-    SyntheticMesh mesh;
-    mesh.add_box(Vec3::Constant(-k_half), Vec3::Constant(k_half), k_cell, false);
-    return mesh;
-}
 
 /// Takes nothing and keeps its velocity, whatever it says.
 class DeafFluid : public FakeFluid {
@@ -115,29 +105,17 @@ struct Worst {
 /// Twenty rocks that fall and fly through water at rest.
 template <class Fluid, class Dem>
 Worst run_with() {
-    Fluid fluid(box(), {}, 2e-3);
-    Dem dem({}, 0.5, k_water.density);
-    SerialCommunicator serial;
-    CouplingSettings settings;
-    settings.has_rock = true;
-    KernelCoupling coupling(settings, k_water, fluid, dem, serial);
-    MomentumBalance momentum(k_water, fluid, dem, serial);
-    dem.gravity = Vec3(3.0, -1.0, -9.0);
+    testing::CouplingRig<Fluid, Dem> rig(testing::box(k_half, k_cell), {}, 2e-3);
+    rig.dem.gravity = Vec3(3.0, -1.0, -9.0);
     std::vector<FeedRock> due;
     for (int i = 0; i < 20; ++i)
         due.push_back(
             {i + 1, 0.0, Vec3(0.022 * (i % 5) - 0.1, 0.03 * (i / 5) - 0.04, 0.008 * i - 0.06), 0.02, 2650.0, Vec3(0.6, 0.1, -0.2)});
-    coupling.insert(due);
+    rig.coupling.insert(due);
     Worst worst;
     for (int n = 0; n < k_steps; ++n) {
-        coupling.sample();
-        momentum.begin(coupling.carry());
-        fluid.begin_step(coupling.travel_limit(), std::numeric_limits<double>::infinity());
-        const DemStep moved = coupling.move();
-        coupling.map();
-        fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
-        const ExchangeBalance exchange = coupling.book();
-        const MomentumErrors errors = momentum.end(coupling.carry(), moved, fluid.loads());
+        const ExchangeBalance exchange = rig.step();
+        const MomentumErrors& errors = rig.momentum_errors;
         worst.exchange.solid_volume_error = std::max(worst.exchange.solid_volume_error, exchange.solid_volume_error);
         worst.exchange.deposit_error = std::max(worst.exchange.deposit_error, exchange.deposit_error);
         worst.momentum.error = std::max(worst.momentum.error, errors.error);

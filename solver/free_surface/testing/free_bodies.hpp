@@ -1,5 +1,5 @@
 #pragma once
-/// \file A DEM without contacts, for tests and verification: bodies under their weight and the water alone.
+/// \file A DEM without contacts, for tests and verification.
 #include <algorithm>
 
 #include "solver/free_surface/surface_run.hpp"
@@ -7,15 +7,27 @@
 
 namespace cutterflow::free_surface {
 
-class FreeBodies final : public coupling::DemEngine {
+/// Bodies that are there from the start to the end; what they do in a step is left open.
+class BodiesWithoutContacts : public coupling::DemEngine {
+public:
+    explicit BodiesWithoutContacts(coupling::Rocks rocks) : rocks_(std::move(rocks)) {}
+    const coupling::Rocks& rocks() const final { return rocks_; }
+    double largest_time_step() const final { return 1.0; }
+    std::vector<int> insert(const coupling::Rocks&) final { return {}; }
+    void remove(gsl::span<const int>) final {}
+    std::vector<double> zone_angles() const final { return {}; }
+    void write_checkpoint(const std::filesystem::path&) final {}
+    void read_checkpoint(const std::filesystem::path&) final {}
+
+protected:
+    coupling::Rocks rocks_;
+};
+
+/// Bodies under their weight and the water alone.
+class FreeBodies : public BodiesWithoutContacts {
 public:
     FreeBodies(coupling::Rocks rocks, const SceneSettings& scene)
-        : rocks_(std::move(rocks)), gravity_(scene.gravity), depth_(scene.tank.depth), spheres_(scene.spheres) {}
-
-    const coupling::Rocks& rocks() const override { return rocks_; }
-    double largest_time_step() const override { return 1.0; }
-    std::vector<int> insert(const coupling::Rocks&) override { return {}; }
-    void remove(gsl::span<const int>) override {}
+        : BodiesWithoutContacts(std::move(rocks)), gravity_(scene.gravity), depth_(scene.tank.depth), spheres_(scene.spheres) {}
 
     /// One step of constant acceleration, exact for the constant forces of the free-surface flow.
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override {
@@ -31,37 +43,23 @@ public:
         }
         return step;
     }
-    std::vector<double> zone_angles() const override { return {}; }
-    void write_checkpoint(const std::filesystem::path&) override {}
-    void read_checkpoint(const std::filesystem::path&) override {}
 
 private:
-    coupling::Rocks rocks_;
     Vec3 gravity_;
     double depth_;
     bool spheres_;
 };
 
 /// Bodies that stay where they are, whatever the water does.
-class HeldBodies final : public coupling::DemEngine {
+class HeldBodies final : public BodiesWithoutContacts {
 public:
-    explicit HeldBodies(coupling::Rocks rocks) : rocks_(std::move(rocks)) {}
-    const coupling::Rocks& rocks() const override { return rocks_; }
-    double largest_time_step() const override { return 1.0; }
-    std::vector<int> insert(const coupling::Rocks&) override { return {}; }
-    void remove(gsl::span<const int>) override {}
+    using BodiesWithoutContacts::BodiesWithoutContacts;
     coupling::DemStep advance(double, const coupling::HydrodynamicForce&) override {
         coupling::DemStep step;
         step.impulse.assign(rocks_.size(), Vec3::Zero());
         step.contact_impulse.assign(rocks_.size(), Vec3::Zero());
         return step;
     }
-    std::vector<double> zone_angles() const override { return {}; }
-    void write_checkpoint(const std::filesystem::path&) override {}
-    void read_checkpoint(const std::filesystem::path&) override {}
-
-private:
-    coupling::Rocks rocks_;
 };
 
 /// One resting rock of id 1.

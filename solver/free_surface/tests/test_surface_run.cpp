@@ -130,22 +130,12 @@ TEST(SurfaceRun, pressure_takes_from_the_water_what_it_gives_to_bodies_and_walls
 }
 
 /// Takes nine tenths of the water's force.
-class LyingBodies final : public coupling::DemEngine {
+class LyingBodies final : public FreeBodies {
 public:
-    LyingBodies(coupling::Rocks rocks, const SceneSettings& scene) : honest_(std::move(rocks), scene) {}
-    const coupling::Rocks& rocks() const override { return honest_.rocks(); }
-    double largest_time_step() const override { return 1.0; }
-    std::vector<int> insert(const coupling::Rocks&) override { return {}; }
-    void remove(gsl::span<const int>) override {}
+    using FreeBodies::FreeBodies;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override {
-        return honest_.advance(duration, [&](std::size_t n, const Vec3& v) { return Vec3(0.9 * force(n, v)); });
+        return FreeBodies::advance(duration, [&](std::size_t n, const Vec3& v) { return Vec3(0.9 * force(n, v)); });
     }
-    std::vector<double> zone_angles() const override { return {}; }
-    void write_checkpoint(const std::filesystem::path&) override {}
-    void read_checkpoint(const std::filesystem::path&) override {}
-
-private:
-    FreeBodies honest_;
 };
 
 TEST(SurfaceRun, a_dem_that_takes_another_force_than_the_waters_is_caught) {
