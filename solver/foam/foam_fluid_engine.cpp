@@ -89,7 +89,7 @@ struct FoamFluidEngine::Parts {
         : time(session.time()),
           zones(read_moving_zones(session.mesh())),
           roles(find_patch_roles(session.mesh(), patches)),
-          fluid(session.mesh(), with_rock ? RockPresence::present : RockPresence::absent),
+          fluid(session.mesh(), zones, with_rock ? RockPresence::present : RockPresence::absent),
           centres(centres_in_zone_frame(session.mesh(), zones)),
           volumes(session.mesh().V().begin(), session.mesh().V().end()),
           sizes(smooth_cell_sizes(session.mesh())),

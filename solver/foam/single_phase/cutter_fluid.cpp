@@ -53,8 +53,9 @@ std::vector<label> interface_patches(const fvMesh& mesh) {
     return patches;
 }
 
-CutterFluid::CutterFluid(dynamicFvMesh& mesh, RockPresence rock)
+CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock)
     : mesh_(mesh),
+      zones_(zones),
       time_(const_cast<Time&>(mesh.time())),
       rock_(rock),
       pimple_(mesh),
@@ -78,6 +79,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, RockPresence rock)
       drag_rate_(unregistered("dragRate", mesh), mesh, dimensionedScalar(dimless / dimTime, Zero)),
       inertia_(unregistered("inertia", mesh), mesh, dimensionedScalar(dimless, Zero), zeroGradientFvPatchScalarField::typeName),
       received_(rock == RockPresence::present ? mesh.nCells() : 0, Zero),
+      half_turn_(zones.motion.empty() || word(mesh.ddtScheme("ddt(U)")) != "Euler" ? 0 : mesh.nCells(), Zero),
       state_(IOobject("fluidState", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)) {
     require_supported_case();
     if (rock_ == RockPresence::present) require_case_for_rock();
@@ -134,6 +136,7 @@ void CutterFluid::begin_step(double travel_limit, double stop_time) {
     ++time_;
     Info << "Time = " << time_.timeName() << nl << endl;
     move_mesh();
+    update_half_turns();
 }
 
 void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,

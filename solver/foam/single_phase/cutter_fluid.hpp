@@ -6,6 +6,7 @@
 
 #include <gsl/span>
 
+#include "solver/foam/single_phase/moving_zones.hpp"
 #include "solver/foam/single_phase/registered_turbulence.hpp"
 #include "solver/ports/fluid_engine.hpp"
 
@@ -48,7 +49,8 @@ std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 /// stays uniform, rock at rest in the turning zone causes no flow, and transport equations of turbulence have no source.
 class CutterFluid {
 public:
-    CutterFluid(Foam::dynamicFvMesh& mesh, RockPresence rock);
+    /// \param zones  must outlive the fluid
+    CutterFluid(Foam::dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock);
 
     bool running();
 
@@ -96,6 +98,10 @@ private:
     double next_write_time() const;
     void warn_of_long_step(double travel_limit);
     void move_mesh();
+    void update_half_turns();
+    Foam::vectorField turning_rate() const;
+    Foam::vectorField turning_force() const;
+    Foam::vectorField wall_acceleration(Foam::label patch) const;
     void take_void_fraction(gsl::span<const double> old_values, gsl::span<const double> new_values);
     void take_exchange(const coupling::MomentumExchange& exchange);
     Foam::tmp<Foam::fvVectorMatrix> momentum_matrix(const Foam::fvVectorMatrix& stress);
@@ -117,6 +123,7 @@ private:
     void save_state();
 
     Foam::dynamicFvMesh& mesh_;
+    const MovingZones& zones_;
     Foam::Time& time_;
     const RockPresence rock_;
     Foam::pimpleControl pimple_;
@@ -144,6 +151,7 @@ private:
     Foam::volScalarField inertia_;
     Foam::vectorField received_;
     OutsideMomentum outside_;
+    Foam::vectorField half_turn_;  // tan(omega dt/2) n of each cell; empty unless an Euler step turns cells
 
     Foam::IOdictionary state_;
     Foam::label p_ref_cell_ = 0;

@@ -6,17 +6,16 @@ namespace cutterflow::foam {
 
 using namespace Foam;
 
-/// Cells carry their velocity along, faces theirs: the flux is that of the old face velocity through the turned face, except where the
-/// boundary condition states it.
+/// Faces carry their flux relative to the mesh along, as what turns with the mesh does, except where the boundary condition states the
+/// velocity.
 void CutterFluid::move_mesh() {
     mesh_.update();
     if (!mesh_.moving()) return;
-    phi_ = mesh_.Sf() & Uf_();
     forAll(phi_.boundaryField(), patch) {
         if (!U_.boundaryField()[patch].fixesValue()) continue;
-        phi_.boundaryFieldRef()[patch] = mesh_.Sf().boundaryField()[patch] & U_.boundaryField()[patch];
+        phi_.boundaryFieldRef()[patch] =
+            (mesh_.Sf().boundaryField()[patch] & U_.boundaryField()[patch]) - mesh_.phi().boundaryField()[patch];
     }
-    fvc::makeRelative(phi_, U_);
 }
 
 }  // namespace cutterflow::foam

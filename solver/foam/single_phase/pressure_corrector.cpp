@@ -14,7 +14,12 @@ using namespace Foam;
 
 void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     const volScalarField rAU(1.0 / momentum.A());
-    volVectorField HbyA(constrainHbyA(rAU * momentum.H(), U_, p_));
+    volVectorField H(momentum.H());
+    if (!half_turn_.empty()) {
+        H.primitiveFieldRef() -= turning_force();
+        H.correctBoundaryConditions();
+    }
+    volVectorField HbyA(constrainHbyA(rAU * H, U_, p_));
     surfaceScalarField phiHbyA("phiHbyA", predicted_flux(HbyA, rAU));
     close_domain(phiHbyA);
     const dimensionedScalar surplus(domain_surplus(phiHbyA));
@@ -25,7 +30,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
         phiHbyA += fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
         HbyA -= (rAU - rAtU()) * fvc::grad(p_);
     }
-    if (rock_ == RockPresence::present) add_wall_forces(phiHbyA, rAtU());
+    add_wall_forces(phiHbyA, rAtU());
     constrainPressure(p_, U_, phiHbyA, rAtU());
 
     const surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
@@ -53,11 +58,13 @@ tmp<surfaceScalarField> CutterFluid::predicted_flux(const volVectorField& HbyA, 
     return fvc::flux(HbyA) + fvc::interpolate(rAU * (alpha_.oldTime() + inertia_)) * fvc::ddtCorr(U_, phi_, Uf_);
 }
 
-/// Where the pressure's gradient at a wall follows from the predicted flux it must balance what rock beside the wall puts on the fluid.
+/// Where the pressure's gradient at a wall follows from the predicted flux, it must balance what rock beside the wall puts on the fluid, and
+/// turn the fluid with the wall.
 void CutterFluid::add_wall_forces(surfaceScalarField& flux, const volScalarField& rAU) const {
     forAll(p_.boundaryField(), patch) {
         if (!isA<fixedFluxPressureFvPatchScalarField>(p_.boundaryField()[patch])) continue;
-        const vectorField force(mesh_.boundary()[patch].patchInternalField(explicit_source_.field()));
+        vectorField force(-alpha_.boundaryField()[patch] * wall_acceleration(patch));
+        if (rock_ == RockPresence::present) force += mesh_.boundary()[patch].patchInternalField(explicit_source_.field());
         flux.boundaryFieldRef()[patch] += rAU.boundaryField()[patch] * (force & mesh_.Sf().boundaryField()[patch]);
     }
 }

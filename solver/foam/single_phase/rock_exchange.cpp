@@ -65,6 +65,7 @@ void CutterFluid::take_exchange(const coupling::MomentumExchange& exchange) {
 void CutterFluid::update_material_acceleration() {
     const volScalarField::Internal divergence(growth_rate(mesh_) + fvc::div(phi_)().internalField());
     DuDt_.ref() = fvc::ddt(U_)().internalField() + fvc::div(phi_, U_)().internalField() - divergence * U_.internalField();
+    if (!half_turn_.empty()) DuDt_.primitiveFieldRef() += turning_rate();
     DuDt_.correctBoundaryConditions();
 }
 

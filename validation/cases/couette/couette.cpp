@@ -1,6 +1,7 @@
 /// Circular Couette flow through a sliding interface that is at rest, turns with the inner wall or against the flow.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -72,12 +73,14 @@ double wall_torque(const AnnulusCase& s, const AnnulusCells& cells, const std::v
     return -s.density * s.viscosity * radius * (slope - k_speed) * area;
 }
 
-Result run_couette(const Verification& verification, const Mode& mode, int refinement, int ranks, double end_time) {
+Result run_couette(const Verification& verification, const Mode& mode, int refinement, int ranks, double end_time,
+                   std::optional<cases::ConvectionScheme> study = {}) {
     AnnulusCase annulus = annulus_of(mode, refinement, end_time);
+    annulus.study = study;
     const Exact exact(annulus);
     annulus.start = [&](double radius) { return exact.velocity(radius); };
-    const auto folder =
-        verification.folder(fmt::format("rotor_{:+.0f}_cells_{}_ranks_{}_until_{:g}", mode.rotor_speed, 8 * refinement, ranks, end_time));
+    const auto folder = verification.folder(fmt::format("{}rotor_{:+.0f}_cells_{}_ranks_{}_until_{:g}", study ? "study_" : "",
+                                                        mode.rotor_speed, 8 * refinement, ranks, end_time));
     write_annulus_case(folder, annulus);
     run_annulus_case(folder, ranks);
     const AnnulusCells cells = annulus_cells(annulus, annulus.end_time);
@@ -113,6 +116,10 @@ void check_mode(Verification& verification, const Mode& mode) {
     const AnnulusCase annulus = annulus_of(mode, 4, k_settled);
     verification.relative(fmt::format("{}: torque on the inner wall", mode.name), "N m", results[2].torque, Exact(annulus).torque(annulus),
                           0.005, about);
+    const Result shipped = run_couette(verification, mode, 4, 1, k_settled, cases::ConvectionScheme::limited_linear);
+    verification.at_most(fmt::format("{}: L2 error of velocity over the wall's speed, schemes and correctors of a study", mode.name), "-",
+                         shipped.velocity_error, 0.01,
+                         {"NieuwboerVanRheeKeetels2023", "Euler, one outer corrector, limitedLinearV; 32 cells across the gap", {}});
 }
 
 /// Largest difference of velocity between two runs, over the wall's speed.

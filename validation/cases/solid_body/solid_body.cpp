@@ -47,7 +47,7 @@ struct Outcome {
     double velocity_error = 0.0;  ///< L2 over the L2 norm
 };
 
-Outcome turn(const Verification& verification, int stator_cells_around, int turns) {
+AnnulusCase room(int stator_cells_around, int turns) {
     AnnulusCase annulus;
     annulus.radial_cells = 10;
     annulus.rotor_cells_around = 24;
@@ -57,12 +57,16 @@ Outcome turn(const Verification& verification, int stator_cells_around, int turn
     annulus.time_step = 1.0 / 160.0;
     annulus.end_time = turns;
     annulus.start = [](double radius) { return k_speed * radius; };
-    const auto folder = verification.folder(fmt::format("stator_{}_turns_{}", stator_cells_around, turns));
+    return annulus;
+}
+
+Outcome turn(const Verification& verification, const std::string& name, const AnnulusCase& annulus) {
+    const auto folder = verification.folder(name);
     write_annulus_case(folder, annulus);
     run_annulus_case(folder);
 
     const AnnulusCells cells = annulus_cells(annulus, annulus.end_time);
-    const std::vector<Vec3> velocity = read_vector_field(folder / fmt::format("{}/U", turns), annulus.cell_count());
+    const std::vector<Vec3> velocity = read_vector_field(folder / fmt::format("{:g}/U", annulus.end_time), annulus.cell_count());
     double square = 0.0, reference = 0.0;
     for (std::size_t i = 0; i < velocity.size(); ++i) {
         const Vec3 exact = k_speed * Vec3(-cells.centre[i].y(), cells.centre[i].x(), 0.0);
@@ -72,19 +76,44 @@ Outcome turn(const Verification& verification, int stator_cells_around, int turn
     return {read_continuity(folder / "log.cutterFoam"), std::sqrt(square / reference)};
 }
 
+/// With the schemes, solvers, correctors, viscosity and step of a study at 60 rpm.
+double error_in_study(const Verification& verification, cases::ConvectionScheme convection, double time_step, int turns) {
+    AnnulusCase annulus = room(24, turns);
+    annulus.study = convection;
+    annulus.viscosity = 1e-6;
+    annulus.time_step = time_step;
+    const char* const scheme = convection == cases::ConvectionScheme::upwind ? "upwind" : "limited_linear";
+    return turn(verification, fmt::format("study_{}_step_{:g}_turns_{}", scheme, time_step, turns), annulus).velocity_error;
+}
+
+void check_study_settings(Verification& verification) {
+    const About about{"exact", "Euler, one outer corrector, water; 96 faces around; the step of the draft study at 60 rpm is 1.25 ms", {}};
+    const std::string quantity = "L2 error of velocity over its L2 norm, settings of a study";
+    using cases::ConvectionScheme;
+    verification.at_most(quantity + ", 2 turns", "-", error_in_study(verification, ConvectionScheme::limited_linear, 1.25e-3, 2), 0.01,
+                         about);
+    verification.at_most(quantity + ", 20 turns", "-", error_in_study(verification, ConvectionScheme::limited_linear, 1.25e-3, 20), 0.03,
+                         about);
+    verification.at_most(quantity + ", 2 turns, step five times longer", "-",
+                         error_in_study(verification, ConvectionScheme::limited_linear, 6.25e-3, 2), 0.01, about);
+    verification.at_most(quantity + " with rock (upwind), 2 turns", "-", error_in_study(verification, ConvectionScheme::upwind, 1.25e-3, 2),
+                         0.01, about);
+}
+
 void run(Verification& verification) {
     const About about{
         "exact",
-        "96 faces around on both sides of the interface, 160 steps a turn; zeroGradient pressure at turning walls lacks omega^2 r",
+        "second order in space and time, two outer correctors; 96 faces around on both sides of the interface, 160 steps a turn",
         {}};
-    const Outcome equal = turn(verification, 24, k_turns);
+    const Outcome equal = turn(verification, "second_order", room(24, k_turns));
     verification.at_most("volume made or lost in 20 turns, over the room's", "-", std::abs(equal.continuity.cumulative), 1e-6, about);
     verification.at_most("largest sum over cells of |volume made or lost| in a step, over the room's", "-", equal.continuity.largest_local,
                          1e-6, about);
     verification.at_most("L2 error of velocity after 20 turns, over its L2 norm", "-", equal.velocity_error, 0.01, about);
-    const Outcome unequal = turn(verification, 30, 5);
+    const Outcome unequal = turn(verification, "unequal", room(30, 5));
     verification.report("volume made or lost in 5 turns, over the room's, 120 faces on 96", "-", std::abs(unequal.continuity.cumulative),
                         {}, {"exact", "polygons of unequal number; the product's meshes have equal numbers", {}});
+    check_study_settings(verification);
 }
 
 }  // namespace

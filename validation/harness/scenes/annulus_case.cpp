@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 
@@ -122,7 +123,7 @@ void write_fields(const fs::path& folder, const AnnulusCase& annulus) {
     write_foam_dictionary(
         folder, "0/p", "volScalarField",
         fmt::format("dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\nboundaryField\n{{\n{}    \"(hub|rim)\" {{ type "
-                    "zeroGradient; }}\n}}",
+                    "fixedFluxPressure; value uniform 0; }}\n}}",
                     constraints));
 }
 
@@ -140,30 +141,47 @@ void write_constant(const fs::path& folder, const AnnulusCase& annulus) {
                           annulus.rotor_speed));
 }
 
+/// The pressure's reference is a place, because cell 0 is another cell on each number of ranks.
+std::string pressure_reference(const AnnulusCase& annulus) {
+    const double radius = 0.3 * annulus.interface + 0.7 * annulus.outer;
+    return fmt::format("pRefPoint ({:.17g} {:.17g} 0); pRefValue 0;", radius * std::cos(0.01), radius * std::sin(0.01));
+}
+
+void write_study_schemes(const fs::path& folder, const AnnulusCase& annulus) {
+    cases::CaseInputs inputs(geometry::Contour({0.0, annulus.height}, {annulus.inner, annulus.inner}, annulus.inner, annulus.height));
+    inputs.numerics.convection = annulus.study;
+    inputs.rotor.speed = annulus.rotor_speed;
+    for (const cases::FoamFile& file : cases::run_system_files(inputs))
+        if (file.path != "system/controlDict") meshing::write_foam_file(folder / file.path, file.foam_class, file.contents);
+    std::ofstream(folder / "system/fvSolution", std::ios::app) << "PIMPLE { " << pressure_reference(annulus) << " }\n";
+}
+
+/// Euler would be of first order. Two outer correctors: the first one convects by the flux before the step.
+void write_second_order_schemes(const fs::path& folder, const AnnulusCase& annulus) {
+    write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
+                          "ddtSchemes { default backward; }\ngradSchemes { default Gauss linear; }\ndivSchemes\n{\n    default none;\n"
+                          "    div(phi,U) Gauss linear;\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n}\n"
+                          "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\n"
+                          "snGradSchemes { default corrected; }");
+    write_foam_dictionary(folder, "system/fvSolution", "dictionary",
+                          "solvers\n{\n    \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }\n"
+                          "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }\n}\n"
+                          "PIMPLE { nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; " +
+                              pressure_reference(annulus) + " }");
+}
+
 void write_system(const fs::path& folder, const AnnulusCase& annulus) {
     write_foam_dictionary(folder, "system/blockMeshDict", "dictionary", block_mesh(annulus));
+    if (annulus.study)
+        write_study_schemes(folder, annulus);
+    else
+        write_second_order_schemes(folder, annulus);
     write_foam_dictionary(
         folder, "system/controlDict", "dictionary",
         fmt::format("application cutterFoam;\nstartFrom latestTime;\nstartTime 0;\nstopAt endTime;\nendTime {:.17g};\ndeltaT {:.17g};\n"
                     "adjustTimeStep no;\nwriteControl adjustable;\nwriteInterval {:.17g};\nwriteFormat ascii;\nwritePrecision 17;\n"
                     "timePrecision 12;\nrunTimeModifiable no;",
                     annulus.end_time, annulus.time_step, std::min(annulus.write_interval, annulus.end_time)));
-    // Second order in space and time: Euler would damp a flow that turns with the mesh.
-    write_foam_dictionary(folder, "system/fvSchemes", "dictionary",
-                          "ddtSchemes { default backward; }\ngradSchemes { default Gauss linear; }\ndivSchemes\n{\n    default none;\n"
-                          "    div(phi,U) Gauss linear;\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n}\n"
-                          "laplacianSchemes { default Gauss linear corrected; }\ninterpolationSchemes { default linear; }\n"
-                          "snGradSchemes { default corrected; }");
-    // Two outer correctors: the first one convects by the flux of the turned faces, which lags by a step. The pressure's reference is a
-    // place, because cell 0 is another cell on each number of ranks.
-    const double reference = 0.3 * annulus.interface + 0.7 * annulus.outer;
-    write_foam_dictionary(
-        folder, "system/fvSolution", "dictionary",
-        fmt::format(
-            "solvers\n{{\n    \"p.*\" {{ solver PBiCGStab; preconditioner DIC; tolerance 1e-11; relTol 0; }}\n"
-            "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; maxIter 200; }}\n}}\n"
-            "PIMPLE {{ nOuterCorrectors 2; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefPoint ({:.17g} {:.17g} 0); pRefValue 0; }}",
-            reference * std::cos(0.01), reference * std::sin(0.01)));
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include <cmath>
+
+#include "solver/foam/session/foam_conversions.hpp"
+#include "solver/foam/single_phase/cutter_fluid.hpp"
+
+#include "movingWallVelocityFvPatchVectorField.H"
+#include "rotatingWallVelocityFvPatchVectorField.H"
+
+namespace cutterflow::foam {
+
+using namespace Foam;
+
+/// An Euler step takes all forces as they point at the step's end, while a turning cell's velocity changes with the force that turns during
+/// the step: what turns with the mesh would lose omega^2 dt/2 of its speed a second. With h = tan(omega dt/2) n and
+///
+///   (1 + h x) (u - u_old)/dt                                                                           [m/s2]
+///
+/// for (u - u_old)/dt, solid-body rotation is a solution at any step and a uniform velocity stays uniform: with R the cell's rotation in
+/// the step, (1 + h x)(1 - R^-1) = 2 h x, and 2 h x (omega x r)/dt is a gradient, which the pressure balances.
+void CutterFluid::update_half_turns() {
+    if (half_turn_.empty()) return;
+    std::vector<vector> of_zones(1, Zero);
+    for (const coupling::ZoneMotion& motion : zones_.motion)
+        of_zones.push_back(std::tan(0.5 * motion.speed * time_.deltaTValue()) * to_foam(motion.axis.direction));
+    forAll(half_turn_, cell) half_turn_[cell] = of_zones[zones_.of_cells[static_cast<std::size_t>(cell)]];
+}
+
+/// h x (u - u_old)/dt [m/s2]; no cells where Euler is left as it is.
+vectorField CutterFluid::turning_rate() const {
+    if (half_turn_.empty()) return {};
+    return half_turn_ ^ ((U_.primitiveField() - U_.oldTime().primitiveField()) / time_.deltaTValue());
+}
+
+/// What the momentum matrix lacks [m/s2]. The rock's part is a mean over the step that does not turn with the mesh.
+vectorField CutterFluid::turning_force() const {
+    const scalarField& old_fraction = alpha_.oldTime().primitiveField();
+    const scalarField& old_volume = mesh_.moving() ? mesh_.V0().field() : mesh_.V().field();
+    vectorField force(old_fraction * old_volume / mesh_.V().field() * turning_rate());
+    if (rock_ == RockPresence::absent) return force;
+    const vectorField change(U_.primitiveField() - U_.oldTime().primitiveField());
+    const scalarField rate(drag_rate_.field() + inertia_.primitiveField() / time_.deltaTValue());
+    const vectorField source(explicit_source_.field() + inertia_.primitiveField() * DuDt_.oldTime().primitiveField());
+    return force + (half_turn_ ^ (rate * change - source));
+}
+
+/// Centripetal acceleration -|u|^2 r/r^2 of the faces of a wall that turns, with r normal to its axis; 0 elsewhere [m/s2]. Walls turn with
+/// the mesh, or round in the mesh with rotatingWallVelocity.
+vectorField CutterFluid::wall_acceleration(label patch) const {
+    const fvPatchVectorField& u = U_.boundaryField()[patch];
+    const auto* round =
+        isA<rotatingWallVelocityFvPatchVectorField>(u) ? &refCast<const rotatingWallVelocityFvPatchVectorField>(u) : nullptr;
+    const bool with_mesh = isA<movingWallVelocityFvPatchVectorField>(u);
+    vectorField acceleration(u.size(), Zero);
+    forAll(acceleration, i) {
+        RotationAxis axis;
+        const std::uint8_t zone = zones_.of_cells[static_cast<std::size_t>(u.patch().faceCells()[i])];
+        if (round != nullptr)
+            axis = {to_vec3(round->origin()), to_vec3(round->axis()).normalized()};
+        else if (with_mesh && zone != 0)
+            axis = zones_.motion[zone - 1u].axis;
+        else
+            continue;
+        const Vec3 arm = to_vec3(u.patch().Cf()[i]) - axis.origin;
+        const Vec3 radius = arm - axis.direction.dot(arm) * axis.direction;
+        acceleration[i] = to_foam(-magSqr(u[i]) / (radius.squaredNorm() + VSMALL) * radius);
+    }
+    return acceleration;
+}
+
+}  // namespace cutterflow::foam
