@@ -58,8 +58,8 @@ tmp<surfaceScalarField> CutterFluid::predicted_flux(const volVectorField& HbyA, 
     return fvc::flux(HbyA) + fvc::interpolate(rAU * (alpha_.oldTime() + inertia_)) * fvc::ddtCorr(U_, phi_, Uf_);
 }
 
-/// Where the pressure's gradient at a wall follows from the predicted flux, it must balance what rock beside the wall puts on the fluid, and
-/// turn the fluid with the wall.
+/// Where the pressure's gradient at a wall follows from the predicted flux, it must balance what rock beside the wall puts on the fluid,
+/// and turn the fluid with the wall.
 void CutterFluid::add_wall_forces(surfaceScalarField& flux, const volScalarField& rAU) const {
     forAll(p_.boundaryField(), patch) {
         if (!isA<fixedFluxPressureFvPatchScalarField>(p_.boundaryField()[patch])) continue;
