@@ -231,6 +231,7 @@ TableRules balance_rules() {
                                         "momentum_error",
                                         "momentum_interface_error",
                                         "momentum_replaced",
+                                        "momentum_turned",
                                         "momentum_carried",
                                         "solid_fraction_max",
                                         "overlap_ratio_max",

@@ -33,7 +33,8 @@ constexpr const char* k_fates_header =
 constexpr const char* k_final_header =
     "id,fate,last_exit_bin,first_exit_time_s,first_exit_azimuth_rad,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
 constexpr const char* k_balance_header =
-    "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_carried,flow_balance_error,"
+    "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_turned,momentum_carried,"
+    "flow_balance_error,"
     "interface_imbalance,continuity_error,outlet_flow_m3_s,"
     "outlet_pressure_m2_s2,solid_fraction_max,courant_max,overlap_ratio_max,dem_substeps,rocks,contacts\n";
 constexpr const char* k_loads_header = "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w\n";

@@ -41,7 +41,7 @@ void MomentumBalance::begin(gsl::span<const Vec3> carry) {
 }
 
 MomentumErrors MomentumBalance::end(gsl::span<const Vec3> carry, const DemStep& rock, const FluidLoads& loads) {
-    Vec3 outside = loads.boundary_impulse + loads.interface_impulse + loads.replaced_momentum;
+    Vec3 outside = loads.boundary_impulse + loads.interface_impulse + loads.replaced_momentum + loads.turned_momentum;
     double turnover = 0.0;
     const auto add = [&](const Rocks& rocks, const std::vector<Vec3>& impulse, const std::vector<Vec3>& contact_impulse) {
         for (std::size_t p = 0; p < rocks.size(); ++p) {
@@ -61,7 +61,7 @@ MomentumErrors MomentumBalance::end(gsl::span<const Vec3> carry, const DemStep& 
     if (turnover == 0.0) return {};
     const Vec3 gain = momentum_of(dem_.rocks()) + momentum_of(rock.left) - rock_before_ + sums.head<3>();
     return {(gain - outside).norm() / turnover, loads.interface_impulse.norm() / turnover, loads.replaced_momentum.norm() / turnover,
-            sums.tail<3>().norm() / turnover};
+            loads.turned_momentum.norm() / turnover, sums.tail<3>().norm() / turnover};
 }
 
 }  // namespace cutterflow::coupling

@@ -11,9 +11,10 @@ namespace cutterflow::coupling {
 
 /// What a step did to momentum, over its turnover: the sum over all rocks of |impulse of the fluid| + |impulse of weight less buoyancy|.
 struct MomentumErrors {
-    double error = 0.0;            ///< |gain of rock, fluid and carry - impulses from outside - interface - replaced|
+    double error = 0.0;            ///< |gain of rock, fluid and carry - impulses from outside - interface - replaced - turned|
     double interface_error = 0.0;  ///< |FluidLoads::interface_impulse|
     double replaced = 0.0;         ///< |FluidLoads::replaced_momentum|
+    double turned = 0.0;           ///< |FluidLoads::turned_momentum|
     double carried = 0.0;          ///< |sum of what the fluid has yet to receive|: it grows without end where the fluid takes nothing
 };
 

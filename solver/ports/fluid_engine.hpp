@@ -80,6 +80,8 @@ struct FluidLoads {
     Vec3 interface_impulse = Vec3::Zero();  ///< the same of both sides of all sliding interfaces: 0 where they conserve [N s]
     Vec3 replaced_momentum = Vec3::Zero();  ///< [N s] of fluid that took the place of rock that left, less that of fluid it pushed aside
                                             ///< (also below rock where the mesh turns), without a source in the equations
+    Vec3 turned_momentum =
+        Vec3::Zero();  ///< [N s] by which pressure, stress and convection in turning cells act half a turn of the step ahead
 };
 
 class FluidEngine {

@@ -27,6 +27,7 @@ struct OutsideMomentum {
     Foam::vector boundary = Foam::Zero;   ///< pressure, stress and through-flow of all patches that are no interface
     Foam::vector interface = Foam::Zero;  ///< the same of both sides of all sliding interfaces
     Foam::vector replaced = Foam::Zero;   ///< of fluid that the step's old void fraction has more than the field before it
+    Foam::vector turned = Foam::Zero;     ///< by pressure, stress and convection in turning cells, which the step turns by half its angle
 };
 
 /// Patches on both sides of sliding interfaces; none on a mesh without one.
@@ -99,8 +100,10 @@ private:
     void warn_of_long_step(double travel_limit);
     void move_mesh();
     void update_half_turns();
+    Foam::scalarField old_fluid_share() const;
     Foam::vectorField turning_rate() const;
     Foam::vectorField turning_force() const;
+    void turn_received();
     Foam::vectorField wall_acceleration(Foam::label patch) const;
     void take_void_fraction(gsl::span<const double> old_values, gsl::span<const double> new_values);
     void take_exchange(const coupling::MomentumExchange& exchange);

@@ -108,6 +108,7 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);
     loads.interface_impulse = fluid.density() * to_vec3(fluid.outside_momentum().interface);
     loads.replaced_momentum = fluid.density() * to_vec3(fluid.outside_momentum().replaced);
+    loads.turned_momentum = fluid.density() * to_vec3(fluid.outside_momentum().turned);
     return loads;
 }
 

@@ -77,6 +77,7 @@ void CutterFluid::update_received(const fvVectorMatrix& stress) {
                 continuity_residual() / mesh_.V().field() * U_.primitiveField() + fvc::grad(p_)().primitiveField() +
                 (stress & U_)().primitiveField();
     update_outside_momentum(stress, through);
+    turn_received();
 }
 
 /// Sums over boundary faces, but for the explicit part of the stress: a sum over cells, in which the faces between them cancel.

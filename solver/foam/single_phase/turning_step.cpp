@@ -31,16 +31,38 @@ vectorField CutterFluid::turning_rate() const {
     return half_turn_ ^ ((U_.primitiveField() - U_.oldTime().primitiveField()) / time_.deltaTValue());
 }
 
+/// Volume of fluid before the step over the cell's volume after it [-].
+scalarField CutterFluid::old_fluid_share() const {
+    const scalarField& old_volume = mesh_.moving() ? mesh_.V0().field() : mesh_.V().field();
+    return alpha_.oldTime().primitiveField() * old_volume / mesh_.V().field();
+}
+
 /// What the momentum matrix lacks [m/s2]. The rock's part is a mean over the step that does not turn with the mesh.
 vectorField CutterFluid::turning_force() const {
-    const scalarField& old_fraction = alpha_.oldTime().primitiveField();
-    const scalarField& old_volume = mesh_.moving() ? mesh_.V0().field() : mesh_.V().field();
-    vectorField force(old_fraction * old_volume / mesh_.V().field() * turning_rate());
+    vectorField force(old_fluid_share() * turning_rate());
     if (rock_ == RockPresence::absent) return force;
     const vectorField change(U_.primitiveField() - U_.oldTime().primitiveField());
     const scalarField rate(drag_rate_.field() + inertia_.primitiveField() / time_.deltaTValue());
     const vectorField source(explicit_source_.field() + inertia_.primitiveField() * DuDt_.oldTime().primitiveField());
     return force + (half_turn_ ^ (rate * change - source));
+}
+
+/// In turning cells the matrix solves a + N = (1 + h x) r - h x a, with a the gain of the velocity, N convection, pressure and stress and r
+/// what rock gives. update_received has left a + N in received_; r = (1 + h x)^-1 (a + N + h x a) is to stand there, and h x (r - a) came
+/// from N.
+void CutterFluid::turn_received() {
+    outside_.turned = Zero;
+    if (half_turn_.empty()) return;
+    const vectorField gain(old_fluid_share() * turning_rate());
+    const vectorField sum(received_ + gain);
+    forAll(received_, cell) {
+        const vector& h = half_turn_[cell];
+        const vector turned((sum[cell] - (h ^ sum[cell]) + h * (h & sum[cell])) / (1.0 + magSqr(h)));
+        outside_.turned += mesh_.V()[cell] * (received_[cell] - turned);
+        received_[cell] = turned;
+    }
+    reduce(outside_.turned, sumOp<vector>());
+    outside_.turned *= time_.deltaTValue();
 }
 
 /// Centripetal acceleration -|u|^2 r/r^2 of the faces of a wall that turns, with r normal to its axis; 0 elsewhere [m/s2]. Walls turn with

@@ -56,7 +56,7 @@ double worst_balance(FluidRun& run, double density) {
         }
         run.end(void_fraction(cloud(run, before)), void_fraction(solid));
         const coupling::FluidLoads loads = run.engine().loads();
-        const Vec3 outside = (loads.boundary_impulse + loads.interface_impulse + loads.replaced_momentum) / density;
+        const Vec3 outside = (loads.boundary_impulse + loads.interface_impulse + loads.replaced_momentum + loads.turned_momentum) / density;
         const Vec3 received = run.engine().time_step() * total(run, everywhere, run.engine().received());
         // The cloud appears in the first step.
         if (!first) worst = std::max(worst, (momentum(run) - old_momentum - outside - received).norm() / received.norm());
