@@ -93,6 +93,7 @@ Conservation worst_balance(const Table& balance, bool with_rock) {
     Conservation worst;
     worst.flow_balance = largest_magnitude(balance.number("flow_balance_error"));
     worst.interface_imbalance = largest_magnitude(balance.number("interface_imbalance"));
+    worst.interface_mismatch = largest_magnitude(balance.number("interface_mismatch"));
     if (!with_rock) return worst;
     worst.solid_volume = largest_magnitude(balance.number("solid_volume_error"));
     worst.momentum = largest_magnitude(balance.number("momentum_error"));
@@ -308,7 +309,8 @@ json results_json(const Results& results, const RunData& run) {
                                 {"momentum_max_error", or_null(results.conservation.momentum)},
                                 {"momentum_interface_max_error", or_null(results.conservation.momentum_interface)},
                                 {"flow_balance_max_error", or_null(results.conservation.flow_balance)},
-                                {"interface_imbalance_max", or_null(results.conservation.interface_imbalance)}};
+                                {"interface_imbalance_max", or_null(results.conservation.interface_imbalance)},
+                                {"interface_mismatch_max", or_null(results.conservation.interface_mismatch)}};
     document["rotor"] = rotor_json(results, run);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},

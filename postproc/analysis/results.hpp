@@ -50,7 +50,7 @@ struct ScaleNumbers {
 
 /// Largest magnitude over all steps, relative. Absent where a run without rock has none.
 struct Conservation {
-    std::optional<double> solid_volume, momentum, momentum_interface, flow_balance, interface_imbalance;
+    std::optional<double> solid_volume, momentum, momentum_interface, flow_balance, interface_imbalance, interface_mismatch;
 };
 
 /// What was predicted before the run, for the time that it ran.

@@ -436,6 +436,7 @@ Figure balances(const Table& balance, double revolution, bool with_rock) {
     };
     add("flow_balance_error", "flow balance", palette::flow_load);
     add("interface_imbalance", "rotor interface", palette::outflow);
+    add("interface_mismatch", "rotor interface, by face", palette::in_cutter);
     if (with_rock) {
         add("solid_volume_error", "solid volume", palette::spilled);
         add("momentum_error", "momentum", palette::rock_load);

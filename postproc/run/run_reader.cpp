@@ -238,7 +238,7 @@ TableRules balance_rules() {
                                         "dem_substeps",
                                         "rocks",
                                         "contacts"};
-    TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "continuity_error", "outlet_flow_m3_s",
+    TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "interface_mismatch", "continuity_error", "outlet_flow_m3_s",
                       "outlet_pressure_m2_s2", "courant_max"},
                      {},
                      rock,

@@ -223,6 +223,7 @@ void CoupledRun::report_loads_and_balance() {
     balance.deposit_error = balance_.deposit_error;
     balance.flow_balance_error = loads.through_flow > 0.0 ? (std::abs(loads.boundary_flow) + loads.wall_flow) / loads.through_flow : 0.0;
     balance.interface_imbalance = loads.interface_imbalance;
+    balance.interface_mismatch = loads.interface_mismatch;
     balance.continuity_error = loads.continuity_error;
     balance.outlet_flow = loads.outlet_flow;
     balance.outlet_pressure = loads.outlet_pressure;

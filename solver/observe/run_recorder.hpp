@@ -93,6 +93,7 @@ struct BalanceRow {
     MomentumErrors momentum;
     double flow_balance_error = 0.0;  ///< (|net flow of open patches and interfaces| + flow through walls) / flow through open patches
     double interface_imbalance = 0.0;
+    double interface_mismatch = 0.0;
     double continuity_error = 0.0;
     std::optional<double> outlet_flow, outlet_pressure;  ///< of the named outlet [m3/s], [m2/s2]
     double solid_fraction_max = 0.0;

@@ -72,7 +72,8 @@ struct FluidLoads {
     double boundary_flow = 0.0;  ///< net volume flow out through open patches and interfaces: 0 when cells close and walls hold [m3/s]
     double wall_flow = 0.0;      ///< sum of |flow| over the faces of all walls [m3/s]
     double through_flow = 0.0;   ///< half of the sum of |flow| over the faces of all open patches; of a closed domain volume / step [m3/s]
-    double interface_imbalance = 0.0;  ///< |flow out of one side - flow into the other side| / gross flow through interfaces [-]
+    double interface_imbalance = 0.0;  ///< sum over interfaces of |flow out of one side - flow into the other| / gross flow [-]
+    double interface_mismatch = 0.0;   ///< the same face by face, against the other side's overlapping parts / gross flow [-]
     double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / (2 through_flow) [-]
     double courant_max = 0.0;
     // With rock only, over the last step:

@@ -8,7 +8,6 @@
 #include "geometry/base/error.hpp"
 #include "solver/foam/single_phase/fields.hpp"
 
-#include "cyclicAMIFvPatch.H"
 #include "directionMixedFvPatchFields.H"
 #include "findRefCell.H"
 #include "fvc.H"
@@ -46,12 +45,6 @@ double read_density(const dictionary& transport, RockPresence rock) {
 }
 
 }  // namespace
-
-std::vector<label> interface_patches(const fvMesh& mesh) {
-    std::vector<label> patches;
-    forAll(mesh.boundary(), patch) if (isA<cyclicAMIFvPatch>(mesh.boundary()[patch])) patches.push_back(patch);
-    return patches;
-}
 
 CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock)
     : mesh_(mesh),

@@ -8,6 +8,7 @@
 
 #include "solver/foam/single_phase/moving_zones.hpp"
 #include "solver/foam/single_phase/registered_turbulence.hpp"
+#include "solver/foam/single_phase/sliding_interface.hpp"
 #include "solver/ports/fluid_engine.hpp"
 
 #include "dynamicFvMesh.H"
@@ -29,9 +30,6 @@ struct OutsideMomentum {
     Foam::vector replaced = Foam::Zero;   ///< of fluid that the step's old void fraction has more than the field before it
     Foam::vector turned = Foam::Zero;     ///< by pressure, stress and convection in turning cells, which the step turns by half its angle
 };
-
-/// Patches on both sides of sliding interfaces; none on a mesh without one.
-std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
 
 /// Solves, for the interstitial velocity u and p* = p/rho - g.x,
 ///
@@ -115,7 +113,7 @@ private:
     Foam::tmp<Foam::surfaceScalarField> predicted_flux(const Foam::volVectorField& HbyA, const Foam::volScalarField& rAU) const;
     void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
     void close_domain(Foam::surfaceScalarField& flux);
-    void close_interface(Foam::surfaceScalarField& flux, const Foam::surfaceScalarField& alpha_rAtUf) const;
+    void close_interfaces(Foam::surfaceScalarField& flux, const Foam::surfaceScalarField& alpha_rAtUf) const;
     Foam::dimensionedScalar domain_surplus(const Foam::surfaceScalarField& flux) const;
     void report_continuity();
     void correct_turbulence();

@@ -4,7 +4,6 @@
 
 #include "solver/foam/session/foam_conversions.hpp"
 
-#include "cyclicAMIFvPatch.H"
 #include "wallFvPatch.H"
 
 namespace cutterflow::foam {
@@ -55,13 +54,11 @@ void add_torque(const CutterFluid& fluid, const MovingZones& zones, coupling::Fl
     reduce(loads.torque_viscous, sumOp<scalar>());
 }
 
-/// Net and gross flow through open patches, walls and through the two sides of sliding interfaces.
+/// Net and gross flow through open patches and walls.
 struct BoundaryFlows {
     double open_net = 0.0;
     double open_gross = 0.0;
     double wall_gross = 0.0;
-    double interface_net = 0.0;
-    double interface_gross = 0.0;  // both sides
 };
 
 BoundaryFlows sum_boundary_flows(const surfaceScalarField& flux) {
@@ -70,18 +67,14 @@ BoundaryFlows sum_boundary_flows(const surfaceScalarField& flux) {
         const fvsPatchScalarField& of_patch = flux.boundaryField()[patch];
         const double net = sum(of_patch);
         const double gross = sum(mag(of_patch));
-        if (isA<cyclicAMIFvPatch>(of_patch.patch())) {
-            flows.interface_net += net;
-            flows.interface_gross += gross;
-        } else if (isA<wallFvPatch>(of_patch.patch())) {
+        if (isA<wallFvPatch>(of_patch.patch())) {
             flows.wall_gross += gross;
         } else if (!of_patch.coupled()) {
             flows.open_net += net;
             flows.open_gross += gross;
         }
     }
-    for (double* value : {&flows.open_net, &flows.open_gross, &flows.wall_gross, &flows.interface_net, &flows.interface_gross})
-        reduce(*value, sumOp<scalar>());
+    for (double* value : {&flows.open_net, &flows.open_gross, &flows.wall_gross}) reduce(*value, sumOp<scalar>());
     return flows;
 }
 
@@ -98,11 +91,13 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     add_torque(fluid, zones, loads);
     if (outlet) add_outlet(fluid, *outlet, loads);
     const BoundaryFlows flows = sum_boundary_flows(fluid.relative_fluid_flux());
-    loads.boundary_flow = flows.open_net + flows.interface_net;
+    const InterfaceFlow interfaces = interface_flow(fluid.relative_fluid_flux());
+    loads.boundary_flow = flows.open_net + interfaces.net;
     loads.wall_flow = flows.wall_gross;
     const fvMesh& mesh = fluid.mesh();
     loads.through_flow = flows.open_gross > 0.0 ? 0.5 * flows.open_gross : gSum(mesh.V().field()) / mesh.time().deltaTValue();
-    loads.interface_imbalance = std::abs(flows.interface_net) / (0.5 * flows.interface_gross + VSMALL);
+    loads.interface_imbalance = interfaces.imbalance / (0.5 * interfaces.gross + VSMALL);
+    loads.interface_mismatch = interfaces.mismatch / (0.5 * interfaces.gross + VSMALL);
     loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (2.0 * loads.through_flow);
     loads.courant_max = fluid.courant_max();
     loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);

@@ -34,7 +34,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     constrainPressure(p_, U_, phiHbyA, rAtU());
 
     const surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
-    close_interface(phiHbyA, alpha_rAtUf);
+    close_interfaces(phiHbyA, alpha_rAtUf);
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * phiHbyA)().internalField() - surplus);
     while (pimple_.correctNonOrthogonal()) {
         fvScalarMatrix pressure(fvm::laplacian(alpha_rAtUf, p_));
@@ -79,22 +79,23 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
     fvc::makeAbsolute(flux, U_);
 }
 
-/// The two sides of the sliding interface are different polygons, so that their fluxes differ slightly. Half of
-/// the difference, shared out by area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last
-/// pressure.
-void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
-    scalar difference = 0.0, area = 0.0;
-    for (const label patch : interface_patches(mesh_)) {
-        const scalarField& size = mesh_.magSf().boundaryField()[patch];
-        const scalarField gradient(p_.boundaryField()[patch].snGrad(mesh_.nonOrthDeltaCoeffs().boundaryField()[patch]));
-        difference +=
-            sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
-        area += sum(size);
+/// The two sides of a sliding interface are different polygons, so that their fluxes differ slightly. Half of the difference, shared out by
+/// area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last pressure.
+void CutterFluid::close_interfaces(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
+    for (const InterfacePair& pair : interface_pairs(mesh_)) {
+        scalar difference = 0.0, area = 0.0;
+        for (const label patch : {pair.owner, pair.neighbour}) {
+            const scalarField& size = mesh_.magSf().boundaryField()[patch];
+            const scalarField gradient(p_.boundaryField()[patch].snGrad(mesh_.nonOrthDeltaCoeffs().boundaryField()[patch]));
+            difference +=
+                sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
+            area += sum(size);
+        }
+        reduce(difference, sumOp<scalar>());
+        reduce(area, sumOp<scalar>());
+        for (const label patch : {pair.owner, pair.neighbour})
+            flux.boundaryFieldRef()[patch] -= difference / area * mesh_.magSf().boundaryField()[patch] / alphaf_.boundaryField()[patch];
     }
-    reduce(difference, sumOp<scalar>());
-    reduce(area, sumOp<scalar>());
-    for (const label patch : interface_patches(mesh_))
-        flux.boundaryFieldRef()[patch] -= difference / area * mesh_.magSf().boundaryField()[patch] / alphaf_.boundaryField()[patch];
 }
 
 /// What is left in a closed domain's sum of continuity [1/s] (rounding), which would all go to the pressure's reference cell; 0 in an open
@@ -102,7 +103,7 @@ void CutterFluid::close_interface(surfaceScalarField& flux, const surfaceScalarF
 dimensionedScalar CutterFluid::domain_surplus(const surfaceScalarField& flux) const {
     if (!p_.needReference()) return dimensionedScalar(dimless / dimTime, Zero);
     surfaceScalarField through(alphaf_ * flux);
-    for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interface handles it
+    for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interfaces handles it
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(through)().internalField());
     return outflow.weightedAverage(mesh_.V());
 }

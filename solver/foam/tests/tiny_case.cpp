@@ -85,10 +85,10 @@ std::string patch(const std::string& name, const std::string& type, const std::s
     return fmt::format("{} {{ type {}; faces ( {} ); }}\n", name, type, faces);
 }
 
-std::string interface_patches(int rotor_first, int stator_first, int level) {
+std::string interface_patches(const std::string& inner, int inner_first, const std::string& outer, int outer_first, int level) {
     const char* text = "{} {{ type cyclicAMI; neighbourPatch {}; transform noOrdering; faces ( {} ); }}\n";
-    return fmt::format(text, "rotor_interface", "stator_interface", cylinder_faces(rotor_first, level)) +
-           fmt::format(text, "stator_interface", "rotor_interface", cylinder_faces(stator_first, level));
+    return fmt::format(text, inner, outer, cylinder_faces(inner_first, level)) +
+           fmt::format(text, outer, inner, cylinder_faces(outer_first, level));
 }
 
 std::string dictionary(const std::string& vertices, const std::string& edges, const std::string& blocks, const std::string& patches) {
@@ -114,7 +114,8 @@ std::string block_mesh(const TurningCylinder& s) {
     const std::string blocks = fmt::format("hex (0 1 2 3 16 17 18 19) rotor ({} {} {}) simpleGrading (1 1 1)\n", n, n, s.cells_high) +
                                ring_blocks(core, rotor, level, "rotor", s.cells_in_rotor_ring, n, s.cells_high) +
                                ring_blocks(stator, rim, level, "stator", s.cells_in_stator, s.stator_cells_around_quarter, s.cells_high);
-    const std::string patches = interface_patches(rotor, stator, level) + patch("rim", "patch", cylinder_faces(rim, level)) +
+    const std::string patches = interface_patches("rotor_interface", rotor, "stator_interface", stator, level) +
+                                patch("rim", "patch", cylinder_faces(rim, level)) +
                                 patch("rotor_ends", "patch", "(0 1 2 3) (16 17 18 19) " + ring_end_faces(core, rotor, level)) +
                                 patch("stator_ends", "patch", ring_end_faces(stator, rim, level));
     return dictionary(vertices, edges, blocks, patches);
@@ -132,8 +133,8 @@ std::string block_mesh(const TurningAnnulus& s) {
     const std::string blocks = ring_blocks(hub, inner, level, "rotor", s.cells_in_rotor, s.cells_around_quarter, s.cells_high) +
                                ring_blocks(outer, rim, level, "stator", s.cells_in_stator, s.stator_cells_around_quarter, s.cells_high);
     const std::string ends = s.plane ? "empty" : "patch";
-    const std::string patches = interface_patches(inner, outer, level) + patch("hub", "wall", cylinder_faces(hub, level)) +
-                                patch("rim", "wall", cylinder_faces(rim, level)) +
+    const std::string patches = interface_patches("rotor_interface", inner, "stator_interface", outer, level) +
+                                patch("hub", "wall", cylinder_faces(hub, level)) + patch("rim", "wall", cylinder_faces(rim, level)) +
                                 patch("rotor_ends", ends, ring_end_faces(hub, inner, level)) +
                                 patch("stator_ends", ends, ring_end_faces(outer, rim, level));
     return dictionary(vertices, edges, blocks, patches);
@@ -153,6 +154,24 @@ std::string block_mesh(const Box& b) {
     const std::string patches = x_faces + patch("y_min", "wall", "(0 1 5 4)") + patch("y_max", "wall", "(3 7 6 2)") +
                                 patch("z_min", "wall", "(0 3 2 1)") + patch("z_max", "wall", "(4 5 6 7)");
     return dictionary(vertices, "", blocks, patches);
+}
+
+std::string block_mesh(const ThreeRings& s) {
+    constexpr int level = 24;
+    const double radii[] = {0.05, 0.1, 0.1, 0.15, 0.15, 0.2};
+    std::string vertices, edges, blocks, ends;
+    for (const double z : {0.0, s.height})
+        for (const double radius : radii) vertices += corners(radius, z);
+    for (int ring = 0; ring < 6; ++ring) edges += arcs(4 * ring, radii[ring], 0.0) + arcs(4 * ring + level, radii[ring], s.height);
+    for (int part = 0; part < 3; ++part) {
+        const int inner = 8 * part, outer = inner + 4;
+        blocks += ring_blocks(inner, outer, level, "", 5, s.cells_around_quarter[part], 1);
+        ends += ring_end_faces(inner, outer, level);
+    }
+    const std::string patches = interface_patches("near_1", 4, "far_1", 8, level) + interface_patches("near_2", 12, "far_2", 16, level) +
+                                patch("hub", "patch", cylinder_faces(0, level)) + patch("rim", "patch", cylinder_faces(20, level)) +
+                                patch("ends", "patch", ends);
+    return dictionary(vertices, edges, blocks, patches);
 }
 
 std::string turning(double omega) {

@@ -52,6 +52,14 @@ struct Box {
 };
 std::string block_mesh(const Box& shape);
 
+/// Three rings about z from 0.05 to 0.2 m that slide on each other at 0.1 and 0.15 m; nothing turns. Patches: hub, rim, ends, and the
+/// interfaces near_1, far_1, near_2, far_2.
+struct ThreeRings {
+    double height = 0.05;
+    int cells_around_quarter[3] = {4, 7, 5};  ///< of each ring
+};
+std::string block_mesh(const ThreeRings& shape);
+
 /// constant/dynamicMeshDict of a rotor about z [rad/s].
 std::string turning(double omega);
 

@@ -1,0 +1,35 @@
+#pragma once
+/// \file Sliding interfaces (cyclicAMI) and the flows through their two sides. Only for .cpp files of this folder.
+#include <vector>
+
+#include "fvMesh.H"
+#include "surfaceFields.H"
+
+namespace cutterflow::foam {
+
+/// The patches on the two sides of one interface.
+struct InterfacePair {
+    Foam::label owner;
+    Foam::label neighbour;
+};
+
+/// Empty on a mesh without sliding interface.
+std::vector<InterfacePair> interface_pairs(const Foam::fvMesh& mesh);
+
+/// The patches of all interfaces.
+std::vector<Foam::label> interface_patches(const Foam::fvMesh& mesh);
+
+/// Flows through all interfaces [m3/s], phi_f the flow through face f, positive out of its cell.
+struct InterfaceFlow {
+    double gross = 0.0;      ///< sum |phi_f| over the faces of both sides
+    double net = 0.0;        ///< sum phi_f
+    double imbalance = 0.0;  ///< sum over interfaces of |sum phi_f over both sides|: one interface does not make up for another
+    /// sum |phi_f + sum_g A_fg phi_g / A_g| / 2 over the faces f of both sides, g the other side's faces, A_fg the area that overlaps: what
+    /// the two sides disagree by face by face, also where the disagreements add up to nothing
+    double mismatch = 0.0;
+};
+
+/// Collective.
+InterfaceFlow interface_flow(const Foam::surfaceScalarField& flux);
+
+}  // namespace cutterflow::foam

@@ -1,0 +1,96 @@
+// What the two sides of sliding interfaces disagree by, in sum and face by face.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "solver/foam/single_phase/sliding_interface.hpp"
+#include "solver/foam/tests/fluid_run.hpp"
+
+#include "dynamicFvMesh.H"
+
+namespace cutterflow::foam {
+namespace {
+
+using testing::FluidRun;
+
+constexpr int k_around = 32;  // faces on either side
+constexpr double k_omega = 2.0 * k_pi;
+
+/// A cylinder that turns by half a face of its interface, with a uniform flow.
+testing::TinyCase turning_by_half_a_face(const std::string& name) {
+    const double time = k_pi / k_around / k_omega;
+    testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(testing::TurningCylinder()), time / 8, time);
+    tiny.files["constant/dynamicMeshDict"] = testing::turning(k_omega);
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0.7 -0.3 0.2)", "\".*\" { type fixedValue; value $internalField; }");
+    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type fixedFluxPressure; value $internalField; }");
+    return tiny;
+}
+
+/// Through face f of a regular polygon a uniform flow is proportional to cos(a_f - a_u). Half a face further two faces overlap it in equal
+/// parts, and carry [cos(a_f - a_u + h/2) + cos(a_f - a_u - h/2)]/2 = cos(a_f - a_u) cos(h/2) with h = 2 pi/N.
+TEST(InterfaceMismatch, is_that_of_two_polygons) {
+    FluidRun run(testing::build_case(turning_by_half_a_face("mismatch_of_polygons")), false);
+    const Foam::fvMesh& mesh = run.session().mesh();
+    const auto mismatch = [&] {
+        const InterfaceFlow flow = interface_flow(
+            Foam::surfaceScalarField(mesh.Sf() & Foam::dimensionedVector("u", Foam::dimVelocity, Foam::vector(0.7, -0.3, 0.2))));
+        EXPECT_LE(flow.imbalance, 1e-12 * flow.gross);
+        return flow.mismatch / (0.5 * flow.gross);
+    };
+    EXPECT_LE(mismatch(), 1e-9);
+    while (run.engine().running()) {
+        run.begin();
+        run.end({}, {});
+    }
+    const double expected = 1.0 - std::cos(k_pi / k_around);
+    EXPECT_NEAR(mismatch(), expected, 0.01 * expected);
+    EXPECT_NEAR(run.engine().loads().interface_mismatch, expected, 0.02 * expected);
+}
+
+/// What one side adds and takes away in turn is nothing in sum.
+TEST(InterfaceMismatch, shows_a_lie_that_the_sum_does_not) {
+    FluidRun run(testing::build_case(turning_by_half_a_face("mismatch_of_a_lie")), false);
+    const Foam::fvMesh& mesh = run.session().mesh();
+    const InterfacePair pair = interface_pairs(mesh).at(0);
+    Foam::surfaceScalarField flux("flux", mesh.magSf());
+    flux.boundaryFieldRef()[pair.neighbour] *= -1.0;
+    const InterfaceFlow honest = interface_flow(flux);
+    EXPECT_LE(honest.mismatch, 1e-6 * honest.gross);
+    const Foam::vectorField normal(mesh.boundary()[pair.owner].nf());
+    forAll(normal, i) {
+        const bool odd = std::fmod(std::floor((std::atan2(normal[i].y(), normal[i].x()) + k_pi) * k_around / (2.0 * k_pi)), 2.0) == 1.0;
+        flux.boundaryFieldRef()[pair.owner][i] *= odd ? 1.1 : 0.9;
+    }
+    const InterfaceFlow lie = interface_flow(flux);
+    EXPECT_LE(lie.imbalance, 1e-6 * lie.gross);
+    EXPECT_NEAR(lie.gross, honest.gross, 1e-6 * honest.gross);
+    EXPECT_NEAR(lie.mismatch / (0.5 * lie.gross), 0.1, 1e-3);
+}
+
+/// Water that is thrown from a hub against a rim, through two interfaces: what the first lacks is not put into the second.
+TEST(SlidingInterfaces, are_each_closed_on_their_own) {
+    testing::TinyCase tiny = testing::laminar_case("two_interfaces", testing::block_mesh(testing::ThreeRings()), 1e-3, 0.02);
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0.7 -0.3 0)",
+                                              "hub { type fixedValue; value uniform (0.5 0.2 0); } rim { type noSlip; }\n"
+                                              "ends { type slip; }");
+    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type zeroGradient; }");
+    FluidRun run(testing::build_case(tiny), false);
+    const Foam::fvMesh& mesh = run.session().mesh();
+    ASSERT_EQ(interface_pairs(mesh).size(), 2u);
+    double worst = 0.0;
+    while (run.engine().running()) {
+        run.begin();
+        run.end({}, {});
+        const auto& flux = mesh.lookupObject<Foam::surfaceScalarField>("phi").boundaryField();
+        if (run.engine().time() < 0.01) continue;
+        for (const InterfacePair& pair : interface_pairs(mesh)) {
+            const double net = Foam::gSum(flux[pair.owner]) + Foam::gSum(flux[pair.neighbour]);
+            worst = std::max(worst, std::abs(net) / Foam::gSum(Foam::mag(flux[pair.owner])));
+        }
+    }
+    EXPECT_LE(worst, 1e-5);  // what the pressure changes in a step is left; 2e-4 with one difference for both
+    EXPECT_LE(run.engine().loads().interface_imbalance, 1e-5);
+}
+
+}  // namespace
+}  // namespace cutterflow::foam
