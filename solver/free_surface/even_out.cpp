@@ -8,20 +8,19 @@ namespace {
 
 constexpr double k_strength = 0.5;        // kappa: from 0.1 to 1 volumes differ by 0.15 %
 constexpr double k_largest_excess = 0.5;  // |e|
-constexpr double k_tolerance = 1e-3;
 constexpr double k_largest_way = 0.1;  // of a cell
 
 }  // namespace
 
-EvenOut::EvenOut(const StaggeredGrid& grid)
-    : grid_(grid), system_(grid), potential_(grid.cell_field()), displacement_(grid.face_field()), values_(grid.size()) {}
+EvenOut::EvenOut(const StaggeredGrid& grid, double tolerance)
+    : grid_(grid), tolerance_(tolerance), system_(grid), potential_(grid.cell_field()), displacement_(grid.face_field()), values_(grid.size()) {}
 
 SolveReport EvenOut::apply(const CutCells& cells, const SlipWalls& walls, const WaterFraction& water, WaterParticles& particles) {
     system_.assemble(water, cells, {}, 0.0);
     set_right_side(cells, water);
     psi_.resize(system_.unknowns());
     for (std::size_t r = 0; r < psi_.size(); ++r) psi_[r] = potential_[system_.cell(r)];
-    const SolveReport report = system_.solve(right_side_, k_tolerance, psi_);
+    const SolveReport report = system_.solve(right_side_, tolerance_, psi_);
     std::fill(potential_.begin(), potential_.end(), 0.0);
     for (std::size_t r = 0; r < psi_.size(); ++r) potential_[system_.cell(r)] = psi_[r];
     set_displacement(cells, water);

@@ -12,7 +12,8 @@ namespace cutterflow::free_surface {
 /// same correction feeds energy. [Kugelstadt2019]
 class EvenOut {
 public:
-    explicit EvenOut(const StaggeredGrid& grid);
+    /// \param tolerance  of the largest residual over the largest of the right side
+    EvenOut(const StaggeredGrid& grid, double tolerance);
 
     /// Moves particles, each component at most a tenth of a cell.
     SolveReport apply(const CutCells& cells, const SlipWalls& walls, const WaterFraction& water, WaterParticles& particles);
@@ -26,6 +27,7 @@ private:
     void set_displacement(const CutCells& cells, const WaterFraction& water);
 
     const StaggeredGrid& grid_;
+    double tolerance_;
     PressureSystem system_;
     CellField potential_;
     std::vector<double> right_side_, psi_;

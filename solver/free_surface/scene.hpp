@@ -42,6 +42,7 @@ struct RunSettings {
     bool even_out = true;        ///< off only to show what it does
     double volume_limit = 0.02;  ///< of the occupied volume that may be lost or won before the run ends
     double pressure_tolerance = 1e-8;
+    double even_out_tolerance = 1e-3;
 };
 
 struct SceneSettings {

@@ -19,6 +19,7 @@ constexpr double k_gravity_courant = 0.7;  // dt <= 0.7 sqrt(h/g)
 constexpr double k_body_travel = 0.25;     // cells a step
 constexpr double k_fastest_water = 50.0;   // sqrt(g H)
 constexpr int k_extended_layers = 2;
+constexpr double k_off_walls = 1e-6;        // cells: particles put out of a wall belong to the cell before it
 constexpr double k_first_tolerance = 1e-4;  // of the tolerance: water that rests from the start stays at rest
 
 /// Height of the water over its lowest particle [m], at least a cell.
@@ -82,7 +83,7 @@ SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodie
       grid_(settings.tank.grid()),
       engine_(bodies),
       cutter_(grid_, settings.solids),
-      even_out_(grid_),
+      even_out_(grid_, settings.run.even_out_tolerance),
       system_(grid_),
       particles_(std::move(water)),
       mapped_(grid_),
@@ -402,8 +403,9 @@ void SurfaceRun::push_out() {
         for (const StillSolid& solid : settings_.solids) {
             if (const auto way = way_out(solid, place)) {
                 inside = true;
-                report_.deepest = std::max(report_.deepest, (*way - place).norm());
-                place = *way;
+                const double depth = (*way - place).norm();
+                report_.deepest = std::max(report_.deepest, depth);
+                place += (*way - place) * (1.0 + k_off_walls * grid_.spacing() / depth);
             }
         }
         for (const Body& body : bodies_) {

@@ -262,6 +262,11 @@ void CellCutter::find_slip_walls() {
                 }
             }
         });
+        for (const int e : grid_.directions()) {
+            if (e != d)
+                for_each_mirror(grid_, e, false,
+                                [&](int inside, int ghost) { slip_walls_.closed[d][ghost] = slip_walls_.closed[d][inside]; });
+        }
     }
 }
 

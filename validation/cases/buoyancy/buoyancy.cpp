@@ -8,6 +8,8 @@
 #include "geometry/base/axis_frame.hpp"
 #include "solver/free_surface/cut_cells/covered_area.hpp"
 #include "solver/free_surface/testing/free_bodies.hpp"
+#include "validation/harness/scenes/contact_bench.hpp"
+#include "validation/harness/scenes/cylinder_column.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -85,8 +87,39 @@ void check_floating(Verification& verification, double ratio) {
                          momentum, 1e-6, {"exact", "every step of 2 s", {}});
 }
 
+/// A heavy cylinder rests on the floor, a gap off, in the middle of the tank: nothing may roll it. The DEM takes weight and water's force
+/// in each of its own steps.
+void check_resting(Verification& verification, double gap_cells, double step) {
+    SceneSettings scene = pool(20, 0.4, 0.2);
+    const double gap = gap_cells * scene.tank.cell, ratio = 2.7;
+    scene.run.longest_step = step;
+    validation::CylinderColumn column;
+    column.gap = gap;
+    coupling::DemSettings dem = validation::column_dem(column);
+    dem.cylinder_length = k_depth;
+    dem.domain.upper = Vec3(0.4 - 0.5 * gap, k_depth, 0.4 - 0.5 * gap);
+    liggghts::LiggghtsEngine engine(dem, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
+    engine.insert(one_rock(Vec3(0.2, 0.5 * k_depth, 0.5 * k_diameter + gap), k_diameter, ratio * k_density));
+    SurfaceRun run(scene, &engine);
+    double speed = 0.0;
+    while (run.time() < 0.6) {
+        run.step();
+        if (run.time() > 0.4) speed = std::max(speed, engine.rocks().velocity[0].norm());
+    }
+    const double displaced = k_density * k_gravity * disc_volume(), water = run.last().body_force[0].z();
+    const std::string about = fmt::format(", gap {:g} cells, step {:g} s", gap_cells, step);
+    verification.relative("force on a disc on the floor" + about, "N", water, displaced, 0.02, {"exact", "rho g V", {}});
+    verification.relative("contact force of the floor" + about, "N", run.last().contact_force[0].z(), ratio * displaced - water, 0.005,
+                          {"exact", "weight less the water's force", {}});
+    verification.at_most("speed of the disc at rest" + about, "m/s", speed, 1e-6, {"exact", "largest of the last 0.2 of 0.6 s", {}});
+}
+
 void run(Verification& verification) {
+    const validation::SingleProcess mpi;
     for (const int cells : {10, 20}) check_held(verification, cells);
+    for (const double gap_cells : {0.25, 1.0, 2.0}) {
+        for (const double step : {1e-3, 1e-2}) check_resting(verification, gap_cells, step);
+    }
     for (const double ratio : {0.1, 0.5}) check_floating(verification, ratio);
 }
 
