@@ -6,7 +6,7 @@ namespace cutterflow::free_surface {
 
 namespace {
 
-constexpr double k_cut_cell = 0.7;  // open volume below which a cell has no fraction of its own
+constexpr double k_smallest_room = 0.35;  // of a kernel: below, too few particles are in its reach for a fraction of its own
 constexpr int k_sliver_passes = 4;
 
 /// Calls visit(neighbour, open share) for every open face of a cell.
@@ -23,7 +23,7 @@ void for_each_open_face(const StaggeredGrid& grid, const CutCells& cells, int ce
 void fill_slivers(const StaggeredGrid& grid, const CutCells& cells, CellField& fraction) {
     std::vector<int> slivers;
     for (const int cell : cells.cut) {
-        if (cells.open_volume[cell] < k_cut_cell && !cells.closed[cell]) slivers.push_back(cell);
+        if (cells.room[cell] < k_smallest_room && !cells.closed[cell]) slivers.push_back(cell);
     }
     constexpr double unknown = -1.0;
     for (const int cell : slivers) fraction[cell] = unknown;
