@@ -10,7 +10,9 @@
 #include "cases/cli/commands.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/pipeline.hpp"
+#include "cases/runner/surface_stages.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/scenes/free_surface/surface_study.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -21,6 +23,7 @@
 #include "geometry/base/versions.hpp"
 #include "postproc/pages/adv_page.hpp"
 #include "postproc/pages/report.hpp"
+#include "postproc/pages/surface_page.hpp"
 
 namespace cutterflow::cli {
 namespace {
@@ -106,7 +109,41 @@ void require_begun_well(const RunOptions& options, const std::string& until) {
     require_programs(programs_for(options, until));
 }
 
+bool is_surface(const RunOptions& options) {
+    return fs::exists(options.study) && cases::is_surface_study(options.study);
+}
+
+void run_surface(const RunOptions& options) {
+    const fs::path solver = installation().programs / "cutterSurface";
+    Mistakes mistakes;
+    if (options.ranks != 1)
+        mistakes.add({"", fmt::format("--ranks {}", options.ranks), "A scene with a free surface runs on one core",
+                      "Leave it out; run several studies side by side"});
+    if (!options.start_from.empty())
+        mistakes.add({"", "--start-from with a scene with a free surface", "It has no frozen-rotor flow", "Leave it out"});
+    mistakes.gather([&] { cases::require_usable_run_directory(run_folder(options)); });
+    mistakes.gather([&] { cases::check_surface_study(options.study); });
+    mistakes.refuse();
+    require_programs({solver.string()});
+    const cases::RunDirectory directory(run_folder(options));
+    cases::Manifest manifest(directory.file(names::manifest));
+    const auto versions = build_versions();
+    manifest.set_versions({versions.begin(), versions.end()});
+    try {
+        cases::run_stages(directory, manifest, cases::surface_stages(directory, options.study, solver), "report", options.resume,
+                          stage_lines(3));
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {} --resume", interrupted.what(),
+                                      directory.path().string(), shell_word(options.study), shell_word(run_folder(options).string())));
+    }
+    std::cout << (options.json ? read_file(directory.file(names::results_json))
+                               : fmt::format("the report: {}\n", directory.file(names::report_page).string()))
+              << std::flush;
+}
+
 void mesh(const RunOptions& options) {
+    if (is_surface(options))
+        throw UserError(fmt::format("mesh of {}", options.study), "A scene with a free surface needs no mesh", "Use cutterflow run");
     require_begun_well(options, "mesh");
     const cases::RunDirectory directory(run_folder(options));
     go_through_stages(options, directory, "mesh", 2);
@@ -115,6 +152,7 @@ void mesh(const RunOptions& options) {
 }
 
 void run(const RunOptions& options) {
+    if (is_surface(options)) return run_surface(options);
     require_begun_well(options, "report");
     const cases::RunDirectory directory(run_folder(options));
     go_through_stages(options, directory, "report", 6);
@@ -142,6 +180,14 @@ void adv_report(const ReportOptions& options) {
               << std::flush;
 }
 
+void surface_report(const ReportOptions& options) {
+    if (options.adv_points || options.still_folder)
+        throw UserError("--adv or --static with a scene with a free surface", "They belong to cutters", "Leave them out");
+    const fs::path page = postproc::write_surface_report(options.folder);
+    std::cout << (options.json ? read_file(fs::path(options.folder) / names::results_json) : fmt::format("the report: {}\n", page.string()))
+              << std::flush;
+}
+
 void report(const ReportOptions& options) {
     if (options.adv_template) {
         std::cout << postproc::adv_template() << std::flush;
@@ -149,6 +195,7 @@ void report(const ReportOptions& options) {
     }
     if (options.folder.empty())
         throw UserError("report without a run directory", "A report needs a run", "Give the directory: cutterflow report DIR");
+    if (postproc::is_surface_run(options.folder)) return surface_report(options);
     if (options.adv_points) return adv_report(options);
     const postproc::ReportSummary summary =
         options.still_folder ? postproc::publish_report(options.folder, *options.still_folder) : postproc::write_report(options.folder);

@@ -13,6 +13,7 @@
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
+#include "cases/scenes/free_surface/surface_study.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -24,14 +25,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *k_cutter = "cutter", *k_free_surface = "free_surface";
+
 struct NewOptions {
     std::string study = "study.toml";
     std::string cutter;
     std::optional<std::string> unit;
+    std::string kind = k_cutter;
 };
 
 void write_new_study(const NewOptions& options) {
     require_new_file(options.study);
+    if (options.kind == k_free_surface) {
+        if (!options.cutter.empty() || options.unit)
+            throw UserError("--cutter and --unit with --kind free_surface", "Such a study has no cutter", "Leave them out");
+        write_file(options.study, cases::surface_study_template(fs::path(options.study).stem().string()));
+        std::cout << fmt::format("wrote {}\nnext: edit it, then cutterflow check {}\n", options.study, shell_word(options.study));
+        return;
+    }
     if (!options.cutter.empty() && !fs::exists(options.cutter))
         throw UserError(fmt::format("--cutter {} does not exist", options.cutter), "The study names a surface of a cutter",
                         "Check the path");
@@ -54,13 +65,19 @@ nlohmann::json parameter_json(const Parameter& parameter) {
     return row;
 }
 
-void print_parameters(bool json) {
-    if (!json) {
-        std::cout << parameters_text(cases::study_table());
+struct ParamsOptions {
+    std::string kind = k_cutter;
+    bool json = false;
+};
+
+void print_parameters(const ParamsOptions& options) {
+    const ParameterTable& table = options.kind == k_free_surface ? cases::surface_study_table() : cases::study_table();
+    if (!options.json) {
+        std::cout << parameters_text(table);
         return;
     }
     nlohmann::json rows = nlohmann::json::array();
-    for (const Parameter& parameter : cases::study_table()) rows.push_back(parameter_json(parameter));
+    for (const Parameter& parameter : table) rows.push_back(parameter_json(parameter));
     std::cout << rows.dump(2) << std::endl;
 }
 
@@ -76,7 +93,18 @@ nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
     return list;
 }
 
+void check_surface_file(const CheckOptions& options) {
+    const cases::SurfaceCheck check = cases::check_surface_study(options.study);
+    if (options.json) {
+        std::cout << nlohmann::json{{"scene", check.scene}, {"prediction", check.prediction}, {"warnings", check.notes}}.dump(2)
+                  << std::endl;
+        return;
+    }
+    std::cout << to_text(check) << fmt::format("{} is valid; next: cutterflow run {}\n", options.study, shell_word(options.study));
+}
+
 void check_study_file(const CheckOptions& options) {
+    if (fs::exists(options.study) && cases::is_surface_study(options.study)) return check_surface_file(options);
     Mistakes mistakes;
     cases::CheckedStudy checked;
     mistakes.gather([&] { cases::require_machine(options.ranks); });
@@ -118,14 +146,20 @@ void add_new(CLI::App& app) {
     command->add_option("study", options->study, "File to write")->capture_default_str();
     command->add_option("--cutter", options->cutter, "Surface of the cutter (STL, OBJ or PLY)");
     command->add_option("--unit", options->unit, "Its unit of length: m, mm, cm, inch, ft");
+    command->add_option("--kind", options->kind, "What is studied: a cutter, or a scene with a free surface")
+        ->check(CLI::IsMember({k_cutter, k_free_surface}))
+        ->capture_default_str();
     command->callback([options] { write_new_study(*options); });
 }
 
 void add_params(CLI::App& app) {
     auto* command = app.add_subcommand("params", "Print every key of a study: unit, bounds, default, meaning.");
-    const auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "Print JSON");
-    command->callback([json] { print_parameters(*json); });
+    const auto options = std::make_shared<ParamsOptions>();
+    command->add_option("--kind", options->kind, "Kind of the study")
+        ->check(CLI::IsMember({k_cutter, k_free_surface}))
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options] { print_parameters(*options); });
 }
 
 void add_check(CLI::App& app) {

@@ -17,9 +17,9 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
+#include "solver/free_surface/output/surface_checkpoint.hpp"
+#include "solver/free_surface/output/surface_recorder.hpp"
 #include "solver/free_surface/scene_file.hpp"
-#include "solver/free_surface/surface_checkpoint.hpp"
-#include "solver/free_surface/surface_recorder.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 
 namespace {
@@ -125,11 +125,14 @@ void run_scene(const Arguments& arguments) {
     SurfaceRecorder recorder(arguments.folder, run.time());
     if (run.time() == 0.0) recorder.output(run, engine.get());
     Progress progress(scene.name);
+    double end = scene.end;
     double checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval),
            output_due = next_multiple(run.time(), scene.write_interval);
-    while (run.time() < scene.end * (1.0 - 1e-12)) {
-        run.step(std::min({output_due, checkpoint_due, scene.end}) - run.time());
-        recorder.step(run, core_seconds());
+    while (run.time() < end * (1.0 - 1e-12)) {
+        run.step(std::min({output_due, checkpoint_due, end}) - run.time());
+        const SceneReading reading = read_gauges(run, scene.pipe);
+        recorder.step(run, reading, core_seconds());
+        if (end > run.time() + scene.settle && stops(scene, reading)) end = run.time() + scene.settle;
         if (run.time() >= output_due * (1.0 - 1e-12)) {
             recorder.output(run, engine.get());
             output_due = next_multiple(run.time(), scene.write_interval);
@@ -138,7 +141,7 @@ void run_scene(const Arguments& arguments) {
             write_checkpoint(arguments.folder, run.state(), engine.get());
             checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval);
         }
-        progress.update(run.time() / scene.end, fmt::format("{:.4f} of {:g} s", run.time(), scene.end));
+        progress.update(run.time() / end, fmt::format("{:.4f} of {:g} s", run.time(), end));
     }
     write_checkpoint(arguments.folder, run.state(), engine.get());
     progress.finish(fmt::format("{:.1f} core s", core_seconds()));

@@ -8,12 +8,17 @@ namespace {
 
 constexpr double k_strength = 0.5;        // kappa: from 0.1 to 1 volumes differ by 0.15 %
 constexpr double k_largest_excess = 0.5;  // |e|
-constexpr double k_largest_way = 0.1;  // of a cell
+constexpr double k_largest_way = 0.1;     // of a cell
 
 }  // namespace
 
 EvenOut::EvenOut(const StaggeredGrid& grid, double tolerance)
-    : grid_(grid), tolerance_(tolerance), system_(grid), potential_(grid.cell_field()), displacement_(grid.face_field()), values_(grid.size()) {}
+    : grid_(grid),
+      tolerance_(tolerance),
+      system_(grid),
+      potential_(grid.cell_field()),
+      displacement_(grid.face_field()),
+      values_(grid.size()) {}
 
 SolveReport EvenOut::apply(const CutCells& cells, const SlipWalls& walls, const WaterFraction& water, WaterParticles& particles) {
     system_.assemble(water, cells, {}, 0.0);

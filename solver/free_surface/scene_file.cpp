@@ -21,8 +21,10 @@ constexpr double k_enough_cells = 8.0;   // a diameter
 constexpr double k_thinnest_wall = 2.0;  // cells
 constexpr double k_smallest_gap = 0.25;  // cells
 constexpr double k_tolerance = 1e-9;
+constexpr int k_rim_points = 90;  // at which a body is looked for in solids
 constexpr double k_gravity = 9.81;
 constexpr double k_seconds_per_particle = 1.2e-6;  // and step, all parts of it
+constexpr double k_bytes_per_particle = 100.0, k_bytes_per_cell = 600.0, k_bytes_of_program = 5e7;
 constexpr const char* k_reference = "Chen2019";
 
 Parameter number(const std::string& key, const std::string& unit, std::optional<double> value, double minimum, const std::string& help) {
@@ -177,6 +179,7 @@ private:
             refuse(solid.where("solid.hole_m"), fmt::format("solid.hole_m = {:g} m", hole),
                    fmt::format("A hole narrower than a cell ({:g} m) would close", cell()), fmt::format("Use cells of {:g} m", hole));
         if (top <= bottom) refuse(solid.where("solid.top_m"), "solid.top_m lies below solid.bottom_m", "The top is above", "Exchange them");
+        if (!scene_.pipe) scene_.pipe = PipeGauge{axis, 2.0 * half, wall, bottom, top};
         if (!mistakes_.empty()) return;
         const double spacing = hole > 0.0 ? required(solid, "solid.hole_spacing_m") : k_far;
         for (const double side : {-1.0, 1.0}) {
@@ -243,6 +246,17 @@ private:
                 refuse(where, fmt::format("Bodies {} and {} overlap by {:.3g} m", rocks.id[n], id, -between), "Bodies must not overlap",
                        "Give more clearance or less jitter");
         }
+        const auto reaches_into = [&](const StillSolid& solid) {
+            if (is_inside(solid, place)) return true;
+            for (int n = 0; n < k_rim_points; ++n) {
+                const double angle = 2.0 * k_pi * n / k_rim_points;
+                if (is_inside(solid, place + radius * Vec3(std::cos(angle), 0.0, std::sin(angle)))) return true;
+            }
+            return false;
+        };
+        if (std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), reaches_into))
+            refuse(where, fmt::format("Body {} at ({:g}, {:g}) m stands in a solid", id, place.x(), place.z()), "Bodies start free",
+                   "Move the stack");
         rocks.id.push_back(id);
         rocks.position.push_back(place);
         rocks.velocity.emplace_back(Vec3::Zero());
@@ -291,6 +305,15 @@ private:
 
     void read_run() {
         scene_.end = values_.number("run.end_s");
+        const std::string& stop = values_.text("run.stop_when");
+        scene_.stop = stop == "pipe_empty" ? StopRule::pipe_empty : stop == "arrival" ? StopRule::arrival : StopRule::none;
+        scene_.settle = values_.number("run.settle_s");
+        if (scene_.stop == StopRule::pipe_empty && !scene_.pipe)
+            refuse(values_.where("run.stop_when"), "run.stop_when = \"pipe_empty\" without a pipe", "The rule watches a pipe",
+                   "Add a [[solid]] of kind pipe, or take another rule");
+        if (scene_.stop != StopRule::none && scene_.bodies.size() == 0)
+            refuse(values_.where("run.stop_when"), fmt::format("run.stop_when = \"{}\" without bodies", stop), "The rule watches bodies",
+                   "Add [[bodies]], or take none");
         scene_.write_interval = values_.number("run.write_interval_s");
         scene_.checkpoint_interval = values_.number("run.checkpoint_interval_s");
         scene_.settings.run.max_courant = values_.number("run.max_courant");
@@ -373,6 +396,9 @@ const ParameterTable& scene_table() {
             1.0));
         keys.push_back(derived(positive("contact.gap_damping_time_s", "s", {}, "Time of the gap damping."), "needed with gap damping"));
         keys.push_back(positive("run.end_s", "s", {}, "End of the run."));
+        keys.push_back(choice("run.stop_when", "none", {"none", "pipe_empty", "arrival"},
+                              "What ends the run earlier: no body higher than the pipe's mouth, or a body at the right wall."));
+        keys.push_back(number("run.settle_s", "s", 0.1, 0.0, "The run goes on for so long after that."));
         keys.push_back(bounded(positive("run.max_courant", "-", 0.5, "Courant number of the fastest water."), 1.0));
         keys.push_back(positive("run.write_interval_s", "s", 0.02, "Between pictures and rows of the bodies."));
         keys.push_back(positive("run.checkpoint_interval_s", "s", 0.2, "Between checkpoints."));
@@ -410,6 +436,11 @@ std::string wall_surface_stl(const Scene& scene) {
     return text + "endsolid walls\n";
 }
 
+bool stops(const Scene& scene, const SceneReading& reading) {
+    if (scene.stop == StopRule::pipe_empty) return reading.bodies_in_pipe == 0;
+    return scene.stop == StopRule::arrival && reading.farthest + scene.dem.contact_gap >= scene.dem.domain.upper.x();
+}
+
 ScenePrediction predict(const Scene& scene) {
     const TankSettings& tank = scene.settings.tank;
     ScenePrediction result;
@@ -424,6 +455,7 @@ ScenePrediction predict(const Scene& scene) {
     const double speed = std::sqrt(2.0 * k_gravity * std::max(height, tank.cell));
     result.step = std::min(scene.settings.run.max_courant * tank.cell / speed, 0.7 * std::sqrt(tank.cell / k_gravity));
     result.steps = scene.end / result.step;
+    result.memory = k_bytes_per_particle * result.particles + k_bytes_per_cell * result.cells + k_bytes_of_program;
     result.core_seconds = result.steps * result.particles * k_seconds_per_particle;
     if (scene.bodies.size() > 0)
         result.dem_step = physics::linear_contact_step(scene.dem.linear.theta, scene.dem.linear.reference_length, k_gravity,

@@ -3,21 +3,28 @@
 #include <filesystem>
 
 #include "geometry/base/parameters/parameter.hpp"
+#include "solver/free_surface/output/scene_gauges.hpp"
 #include "solver/free_surface/scene.hpp"
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/dem_settings.hpp"
 
 namespace cutterflow::free_surface {
 
+/// What ends a run before its end time.
+enum class StopRule { none, pipe_empty, arrival };
+
 /// Everything that a run of a scene needs.
 struct Scene {
     std::string name;
     SceneSettings settings;
-    coupling::DemSettings dem;         ///< its wall files are written by write_wall_surface
-    coupling::Rocks bodies;            ///< at the start
-    double end = 0.0;                  ///< [s]
+    coupling::DemSettings dem;  ///< its wall files are written by write_wall_surface
+    coupling::Rocks bodies;     ///< at the start
+    double end = 0.0;           ///< [s]
+    StopRule stop = StopRule::none;
+    double settle = 0.0;               ///< the run goes on for so long after its stop rule holds [s]
     double write_interval = 0.0;       ///< [s]
     double checkpoint_interval = 0.0;  ///< [s]
+    std::optional<PipeGauge> pipe;     ///< the first one
     std::vector<std::string> notes;    ///< what the user should know: rounded sizes, coarse bodies
 };
 
@@ -32,6 +39,9 @@ Scene parse_scene(const std::string& toml, const std::string& name);
 /// The still solids as one closed surface each, extruded across the tank, as text of an STL file [m].
 std::string wall_surface_stl(const Scene& scene);
 
+/// Whether a reading meets the stop rule of a scene: no body higher than the pipe's mouth, or a body at the right wall.
+bool stops(const Scene& scene, const SceneReading& reading);
+
 /// What a run will take, from counts measured on scenes of these kinds.
 struct ScenePrediction {
     double cells = 0.0, water_cells = 0.0, particles = 0.0;
@@ -39,6 +49,7 @@ struct ScenePrediction {
     double steps = 0.0;
     double core_seconds = 0.0;
     double dem_step = 0.0;  ///< [s]; 0 without bodies
+    double memory = 0.0;    ///< [bytes]
 };
 ScenePrediction predict(const Scene& scene);
 

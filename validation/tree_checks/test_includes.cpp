@@ -76,6 +76,7 @@ const std::vector<Layer> k_layers = {
      {k_base, "geometry/head/", "meshing/cutter/mesh_plan.hpp", "solver/physics/", "solver/ports/", "postproc/run/adv_points.hpp",
       "cases/study/"}},
     {"cases/scenes/cutter/", {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "cases/study/", "cases/scenes/cutter/"}},
+    {"cases/scenes/free_surface/", {k_base, "solver/free_surface/", "cases/scenes/free_surface/"}},
     {"cases/runner/", {"geometry/", "meshing/", "solver/ports/", "postproc/pages/", "cases/study/", "cases/scenes/", "cases/runner/"}},
     {"cases/sweep/", {k_base, "cases/study/", "cases/scenes/", "cases/runner/", "cases/sweep/"}},
     {"cases/testing/", {k_base, k_head_names, "meshing/dictionary/", "cases/scenes/cutter/", "cases/testing/"}},

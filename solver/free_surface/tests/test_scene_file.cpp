@@ -4,7 +4,7 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/free_surface/scene_file.hpp"
-#include "solver/free_surface/surface_checkpoint.hpp"
+#include "solver/free_surface/output/surface_checkpoint.hpp"
 
 namespace cutterflow::free_surface {
 namespace {

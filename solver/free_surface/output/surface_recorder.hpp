@@ -3,17 +3,17 @@
 #include <filesystem>
 #include <fstream>
 
-#include "solver/free_surface/surface_run.hpp"
+#include "solver/free_surface/output/scene_gauges.hpp"
 
 namespace cutterflow::free_surface {
 
-/// Writes below <folder>/postProcessing: balance/<t0>/balance.csv (every step), bodies/<t0>/bodies.csv, water/vtk/*.vti and
-/// bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run opens rows of its own start time t0.
+/// Writes below <folder>/postProcessing: balance/<t0>/balance.csv and levels/<t0>/levels.csv (every step), bodies/<t0>/bodies.csv,
+/// water/vtk/*.vti and bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run opens rows of its own start time t0.
 class SurfaceRecorder {
 public:
     SurfaceRecorder(const std::filesystem::path& folder, double start_time);
 
-    void step(const SurfaceRun& run, double core_seconds);
+    void step(const SurfaceRun& run, const SceneReading& reading, double core_seconds);
     void output(const SurfaceRun& run, const coupling::DemEngine* bodies);
 
 private:
@@ -22,7 +22,7 @@ private:
     void write_series(const std::string& what, const std::string& extension) const;
 
     std::filesystem::path folder_;
-    std::ofstream balance_, rows_;
+    std::ofstream balance_, levels_, rows_;
 };
 
 }  // namespace cutterflow::free_surface

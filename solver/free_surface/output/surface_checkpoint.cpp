@@ -1,4 +1,4 @@
-#include "solver/free_surface/surface_checkpoint.hpp"
+#include "solver/free_surface/output/surface_checkpoint.hpp"
 
 #include <fstream>
 

@@ -1,0 +1,55 @@
+#include "cases/runner/surface_stages.hpp"
+
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "cases/runner/run_progress.hpp"
+#include "cases/scenes/free_surface/surface_study.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
+#include "geometry/base/run_files.hpp"
+#include "postproc/pages/surface_page.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_scene = "scene.toml";
+
+StageOutcome write_case(const RunDirectory& directory, const std::string& study, const SurfaceCheck& check) {
+    write_file(directory.file(k_scene), study);
+    write_file(directory.file(postproc::k_surface_scene), check.scene.dump(2) + "\n");
+    write_file(directory.file(names::prediction), check.prediction.dump(2) + "\n");
+    return {{k_scene, postproc::k_surface_scene}, 0.0};
+}
+
+/// Lines of progress go on to the user; everything is in the log.
+StageOutcome run_solver(const RunDirectory& directory, const fs::path& solver, bool resume) {
+    ChildCommand command{{solver.string(), directory.path().string()}, {}, directory.file("log.cutterSurface"), {}};
+    if (resume && fs::exists(directory.file("scene.started.toml"))) command.arguments.emplace_back("--resume");
+    keep_older_log(command.log);
+    const ChildResult result = run_child(command, [](const std::string& line) { std::cerr << "  " << line << std::endl; });
+    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
+    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    return {{}, result.core_s};
+}
+
+}  // namespace
+
+std::vector<Stage> surface_stages(const RunDirectory& directory, const fs::path& study_file, const fs::path& solver) {
+    const SurfaceCheck check = check_surface_study(study_file);
+    const std::string study = read_file(study_file);
+    const std::map<std::string, std::string> none;
+    return {{"case", {{"study", study}}, {}, false, [&directory, study, check](bool) { return write_case(directory, study, check); }},
+            {"run", none, {}, true, [&directory, solver](bool resume) { return run_solver(directory, solver, resume); }},
+            {"report", none, {}, false, [&directory](bool) {
+                 postproc::write_surface_report(directory.path());
+                 return StageOutcome{};
+             }}};
+}
+
+}  // namespace cutterflow::cases

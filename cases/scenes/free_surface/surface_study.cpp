@@ -1,0 +1,124 @@
+#include "cases/scenes/free_surface/surface_study.hpp"
+
+#include <unistd.h>
+
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/progress.hpp"
+#include "solver/free_surface/scene_file.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+constexpr const char* k_kind = "free_surface";
+
+/// Text in quotes of the key `kind` above the first section of a TOML file; empty without it.
+std::string kind_of(const std::string& toml) {
+    std::istringstream lines(toml);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (first == std::string::npos || line[first] == '#') continue;
+        if (line[first] == '[') break;
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos) continue;
+        const std::size_t last = line.find_last_not_of(" \t", equals - 1);
+        if (line.substr(first, last - first + 1) != "kind") continue;
+        const std::size_t quote = line.find_first_of("\"'", equals);
+        if (quote == std::string::npos) return line.substr(equals + 1);
+        return line.substr(quote + 1, line.find(line[quote], quote + 1) - quote - 1);
+    }
+    return "";
+}
+
+double memory_of_machine() {
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+nlohmann::json scene_json(const free_surface::Scene& scene) {
+    const free_surface::TankSettings& tank = scene.settings.tank;
+    nlohmann::json json{{"name", scene.name},
+                        {"width_m", tank.cells[0] * tank.cell},
+                        {"height_m", tank.cells[2] * tank.cell},
+                        {"length_m", tank.depth},
+                        {"cell_m", tank.cell},
+                        {"columns", tank.cells[0]},
+                        {"rows", tank.cells[2]},
+                        {"end_s", scene.end},
+                        {"bodies", scene.bodies.size()},
+                        {"diameter_m", scene.bodies.size() > 0 ? scene.bodies.diameter[0] : 0.0},
+                        {"contact_gap_m", scene.dem.contact_gap},
+                        {"gap_damping", scene.settings.damping.remaining},
+                        {"pipe", nullptr}};
+    if (scene.pipe)
+        json["pipe"] = {{"bottom_m", scene.pipe->bottom}, {"top_m", scene.pipe->top}, {"inner_width_m", scene.pipe->inner_width}};
+    return json;
+}
+
+}  // namespace
+
+bool is_surface_study(const std::filesystem::path& file) {
+    const std::string kind = kind_of(read_file(file));
+    if (kind.empty()) return false;
+    if (kind == k_kind) return true;
+    throw UserError(fmt::format("{}: kind = \"{}\"", file.string(), kind),
+                    fmt::format("A study is of kind \"{}\", or has no kind: a cutter", k_kind), "Correct or remove the key");
+}
+
+const ParameterTable& surface_study_table() {
+    return free_surface::scene_table();
+}
+
+std::string surface_study_template(const std::string& name) {
+    return fmt::format(
+        "# A water dam with cylinders in it; plane: x to the right, z up.\n"
+        "# All keys: cutterflow params --kind free_surface\n"
+        "kind = \"free_surface\"\n"
+        "name = {}\n\n"
+        "[domain]\nwidth_m = 0.286\nheight_m = 0.26\nlength_m = 0.099    # across, and of the cylinders\n"
+        "cell_m = 0.001      # a body needs at least 5 cells across, better 10\n\n"
+        "[[fill]]            # water at rest; what solids and bodies take is left out\n"
+        "from_x_m = 0.0\nfrom_z_m = 0.0\nto_x_m = 0.066\nto_z_m = 0.12\n\n"
+        "[[bodies]]\ndiameter_m = 0.01\ndensity_kg_m3 = 2700.0\nlayers = 6\nwidest = 6\ncentre_x_m = 0.0335\nlowest_m = 0.001\n"
+        "clearance_m = 0.001\njitter_m = 1e-5\nseed = 1            # repeats differ in it\n\n"
+        "[contact]\nfriction = 0.3\ngap_m = 0.001       # at least a quarter of a cell\n\n"
+        "[run]\nend_s = 0.5\nwrite_interval_s = 0.02\ncheckpoint_interval_s = 0.1\n",
+        toml_text(ParameterValue(name)));
+}
+
+SurfaceCheck check_surface_study(const std::filesystem::path& file) {
+    const free_surface::Scene scene = free_surface::read_scene(file);
+    const free_surface::ScenePrediction found = free_surface::predict(scene);
+    if (found.memory > memory_of_machine())
+        throw UserError(fmt::format("{}: the run needs {:.1f} GB of memory", file.string(), found.memory / 1e9),
+                        fmt::format("The machine has {:.1f} GB", memory_of_machine() / 1e9),
+                        fmt::format("Use cells of {:.2g} m", scene.settings.tank.cell * std::sqrt(found.memory / memory_of_machine())));
+    return {scene_json(scene),
+            {{"cells", found.cells},
+             {"water_cells", found.water_cells},
+             {"particles", found.particles},
+             {"step_s", found.step},
+             {"steps", found.steps},
+             {"core_s", found.core_seconds},
+             {"memory_bytes", found.memory},
+             {"contact_step_s", found.dem_step}},
+            scene.notes};
+}
+
+std::string to_text(const SurfaceCheck& check) {
+    const auto number = [&](const char* key) { return check.prediction.at(key).get<double>(); };
+    std::string text =
+        fmt::format("{}: {:.0f} cells, {:.0f} of water, {:.0f} particles, {} bodies\n", check.scene.at("name").get<std::string>(),
+                    number("cells"), number("water_cells"), number("particles"), check.scene.at("bodies").get<int>());
+    text += fmt::format("about {:.0f} steps of {:.2g} s, {} on one core, {:.0f} MB\n", number("steps"), number("step_s"),
+                        duration_text(number("core_s")), number("memory_bytes") / 1e6);
+    if (number("contact_step_s") > 0.0) text += fmt::format("contact step {:.4g} s\n", number("contact_step_s"));
+    for (const std::string& note : check.notes) text += "note: " + note + "\n";
+    return text;
+}
+
+}  // namespace cutterflow::cases

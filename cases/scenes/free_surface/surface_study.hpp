@@ -1,0 +1,35 @@
+#pragma once
+/// \file A study of kind "free_surface": water with a free surface and the solids that it carries, solved by cutterSurface.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/parameters/parameter.hpp"
+
+namespace cutterflow::cases {
+
+/// Whether a study file is one of a scene with a free surface: its key `kind`, before the first section, says so. A cutter study has none.
+/// \throws UserError  when the file cannot be read, or is of no known kind
+bool is_surface_study(const std::filesystem::path& file);
+
+/// Every key of such a study.
+const ParameterTable& surface_study_table();
+
+/// A study that runs as it is: a small water dam with cylinders in it.
+std::string surface_study_template(const std::string& name);
+
+/// What a study asks for and what its run will take.
+struct SurfaceCheck {
+    nlohmann::json scene;            ///< name, width_m, height_m, cell_m, bodies, diameter_m, pipe {bottom_m, ...} or null
+    nlohmann::json prediction;       ///< cells, water_cells, particles, step_s, steps, core_s, memory_bytes, contact_step_s
+    std::vector<std::string> notes;  ///< rounded sizes, coarse bodies
+};
+
+/// \throws UserError  with every mistake of the file, or when the run needs more memory than the machine has
+SurfaceCheck check_surface_study(const std::filesystem::path& file);
+
+std::string to_text(const SurfaceCheck& check);
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,129 @@
+/// Studies of scenes with a free surface: kind, template, prediction, results from rows.
+#include <unistd.h>
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cases/scenes/free_surface/surface_study.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "postproc/analysis/surface_results.hpp"
+#include "postproc/pages/surface_page.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class SurfaceStudy : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("cutterflow_surface_" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    fs::path write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        write_file(folder_ / name, text);
+        return folder_ / name;
+    }
+    std::string mistakes_of(const fs::path& study) const {
+        try {
+            check_surface_study(study);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return {};
+    }
+    static std::string replaced(std::string text, const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+        return text;
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(SurfaceStudy, is_told_by_its_kind_alone) {
+    EXPECT_TRUE(is_surface_study(write("a.toml", "# kind = \"other\"\n\n  kind = \"free_surface\"\n[domain]\n")));
+    EXPECT_FALSE(is_surface_study(write("b.toml", "name = \"x\"\n[solid]\nkind = \"free_surface\"\n")));
+    EXPECT_THROW(is_surface_study(write("c.toml", "kind = \"free_surfaces\"\n")), UserError);
+}
+
+TEST_F(SurfaceStudy, template_is_valid_and_predicts_its_cost) {
+    const SurfaceCheck check = check_surface_study(write("dam.toml", surface_study_template("dam \"1\"")));
+    EXPECT_EQ(check.scene.at("name"), "dam \"1\"");
+    EXPECT_EQ(check.scene.at("bodies"), 33);
+    EXPECT_NEAR(check.prediction.at("water_cells").get<double>(), 66.0 * 120.0, 1.0);
+    EXPECT_NEAR(check.prediction.at("particles").get<double>(), 4 * 66.0 * 120.0, 4.0);
+    EXPECT_NEAR(check.prediction.at("contact_step_s").get<double>(), 2.9905e-5, 1e-9);
+    EXPECT_THAT(to_text(check), HasSubstr("33 bodies"));
+}
+
+TEST_F(SurfaceStudy, names_mistakes_of_all_sections_at_once) {
+    std::string text = surface_study_template("dam");
+    text = replaced(text, "gap_m = 0.001 ", "gap_m = 0.0001 ");
+    text = replaced(text, "write_interval_s = 0.02", "write_interval_s = 2\nstop_when = \"pipe_empty\"");
+    text += "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.0\nfrom_z_m = 0.0\nto_x_m = 0.02\nto_z_m = 0.02\n";
+    const std::string mistakes = mistakes_of(write("dam.toml", text));
+    EXPECT_THAT(mistakes, HasSubstr("Body 1 at"));
+    EXPECT_THAT(mistakes, HasSubstr("stands in a solid"));
+    EXPECT_THAT(mistakes, HasSubstr("a quarter of a cell"));
+    EXPECT_THAT(mistakes, HasSubstr("pipe_empty"));
+    EXPECT_THAT(mistakes, HasSubstr("run.write_interval_s"));
+}
+
+TEST_F(SurfaceStudy, refuses_what_the_memory_does_not_hold) {
+    const std::string text = replaced(surface_study_template("dam"), "cell_m = 0.001 ", "cell_m = 0.0000001 ");
+    EXPECT_THAT(mistakes_of(write("dam.toml", text)), HasSubstr("GB of memory"));
+}
+
+/// A pipe with four bodies: rows of two processes, the later from 0.2 s on.
+void write_rows(const fs::path& run) {
+    const auto put = [&](const std::string& name, const std::string& text) {
+        fs::create_directories((run / name).parent_path());
+        write_file(run / name, text);
+    };
+    put("scene.json", R"({"name": "pipe", "width_m": 0.3, "height_m": 0.2, "cell_m": 0.1, "columns": 3, "rows": 2, "end_s": 0.4,
+        "bodies": 4, "diameter_m": 0.01, "contact_gap_m": 0.001, "pipe": {"bottom_m": 0.04}})");
+    const std::string levels =
+        "time_s,level_m,level_in_pipe_m,mouth_flow_m3_s,hole_flow_m3_s,volume_in_pipe_m3,bodies_in_pipe,rise_in_pipe_m_s,mean_x_m,"
+        "mean_z_m,farthest_x_m\n";
+    put("postProcessing/levels/0/levels.csv",
+        levels +
+            "0.1,0.12,0.12,-1e-4,0,1e-4,4,-0.1,0.1,0.1,0.15\n0.2,0.14,0.08,-1e-4,0,1e-4,2,-0.2,0.1,0.1,0.15\n0.3,9,0,0,0,0,0,0,0,0,0\n");
+    put("postProcessing/levels/0.2/levels.csv",
+        levels + "0.3,0.15,0.05,1e-4,0,1e-4,1,0.05,0.1,0.1,0.299\n0.4,0.14,0.1,1e-4,0,1e-4,0,0,0.1,0.1,0.28\n");
+    const std::string balance = "time_s,volume_error,energy_j,pushed_out,pressure_iterations,core_s\n";
+    put("postProcessing/balance/0/balance.csv", balance + "0.1,0.001,5,1,20,1\n0.2,-0.004,4,2,22,3\n");
+    put("postProcessing/balance/0.2/balance.csv", balance + "0.3,0.002,3,1,20,1.5\n0.4,0,3,1,20,2.5\n");
+    put("postProcessing/bodies/0/bodies.csv", "time_s,id,x_m,z_m\n0,1,0.1,0.1\n");
+}
+
+TEST_F(SurfaceStudy, results_join_restarts_and_find_the_events_of_a_pipe) {
+    write_rows(folder_);
+    const postproc::SurfaceResults results = postproc::surface_results(postproc::read_surface_rows(folder_));
+    EXPECT_DOUBLE_EQ(results.half_out_s, 0.2);
+    EXPECT_DOUBLE_EQ(results.all_out_s, 0.4);
+    EXPECT_DOUBLE_EQ(results.arrival_s, 0.3);
+    EXPECT_DOUBLE_EQ(results.volume_error, -0.004);
+    EXPECT_NEAR(results.greatest_drop_m, 0.1, 1e-12);
+    EXPECT_DOUBLE_EQ(results.drop_at_s, 0.3);
+    EXPECT_DOUBLE_EQ(results.reversal_s, 0.3);
+    EXPECT_TRUE(results.rises_with_bodies);
+    EXPECT_DOUBLE_EQ(results.core_s, 5.5);
+}
+
+TEST_F(SurfaceStudy, page_shows_the_answers_without_any_picture_written) {
+    write_rows(folder_);
+    const std::string page = read_file(postproc::write_surface_report(folder_));
+    EXPECT_THAT(page, HasSubstr("all bodies out of the pipe"));
+    EXPECT_THAT(page, HasSubstr("0.400 s"));
+    EXPECT_THAT(page, HasSubstr("-0.40 %"));
+    EXPECT_THAT(read_file(folder_ / "report/results.json"), HasSubstr("\"half_out_s\": 0.2"));
+}
+
+}  // namespace
+}  // namespace cutterflow::cases

@@ -1,0 +1,95 @@
+#include "postproc/analysis/surface_results.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::postproc {
+
+namespace {
+
+constexpr const char* k_remedy = "Take a run directory of cutterflow run with a study of kind free_surface";
+
+void read_pipe(const SurfaceRows& rows, SurfaceResults& results) {
+    const Table& levels = rows.levels;
+    const double bodies = rows.scene.at("bodies").get<double>();
+    bool went_down = false;
+    for (std::size_t n = 0; n < levels.rows(); ++n) {
+        const double time = levels.number("time_s")[n], left = levels.number("bodies_in_pipe")[n];
+        if (bodies > 0.0 && left <= 0.5 * bodies && time < results.half_out_s) results.half_out_s = time;
+        if (bodies > 0.0 && left == 0.0 && time < results.all_out_s) results.all_out_s = time;
+        const double drop = levels.number("level_m")[n] - levels.number("level_in_pipe_m")[n];
+        if (drop > results.greatest_drop_m) {
+            results.greatest_drop_m = drop;
+            results.drop_at_s = time;
+        }
+        const double flow = levels.number("mouth_flow_m3_s")[n];
+        went_down = went_down || flow < 0.0;
+        if (went_down && drop > 0.0 && flow > 0.0 && time < results.reversal_s) results.reversal_s = time;
+        if (time >= results.reversal_s && levels.number("rise_in_pipe_m_s")[n] > 0.0) results.rises_with_bodies = true;
+    }
+}
+
+}  // namespace
+
+SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
+    if (!std::filesystem::exists(run_directory / "scene.json"))
+        throw UserError(fmt::format("{} has no scene.json", run_directory.string()), "It is written when a free-surface run is set up",
+                        k_remedy);
+    SurfaceRows rows;
+    rows.scene = nlohmann::json::parse(read_file(run_directory / "scene.json"));
+    rows.balance =
+        read_joined_table(run_directory, "balance", "balance.csv",
+                          {{"time_s", "volume_error", "energy_j", "pushed_out", "pressure_iterations", "core_s"}, {}, {}, k_remedy});
+    rows.levels = read_joined_table(run_directory, "levels", "levels.csv",
+                                    {{"time_s", "level_m", "level_in_pipe_m", "mouth_flow_m3_s", "hole_flow_m3_s", "bodies_in_pipe",
+                                      "rise_in_pipe_m_s", "mean_x_m", "mean_z_m", "farthest_x_m"},
+                                     {},
+                                     {},
+                                     k_remedy});
+    if (rows.has_bodies())
+        rows.bodies = read_joined_table(run_directory, "bodies", "bodies.csv", {{"time_s", "id", "x_m", "z_m"}, {}, {}, k_remedy}, {"id"});
+    if (rows.levels.empty())
+        throw UserError(fmt::format("{} has no rows yet", run_directory.string()), "A report needs at least one step", "Let the run go on");
+    return rows;
+}
+
+SurfaceResults surface_results(const SurfaceRows& rows) {
+    SurfaceResults results;
+    results.end_s = rows.levels.number("time_s").back();
+    for (std::size_t n = 0; n < rows.balance.rows(); ++n) {
+        const double error = rows.balance.number("volume_error")[n];
+        if (std::abs(error) > std::abs(results.volume_error)) results.volume_error = error;
+        // Each process counts its own core seconds.
+        if (n + 1 == rows.balance.rows() || rows.balance.number("core_s")[n + 1] < rows.balance.number("core_s")[n])
+            results.core_s += rows.balance.number("core_s")[n];
+    }
+    const double wall = rows.scene.at("width_m").get<double>() - rows.scene.at("contact_gap_m").get<double>();
+    for (std::size_t n = 0; rows.has_bodies() && n < rows.levels.rows(); ++n) {
+        if (rows.levels.number("farthest_x_m")[n] < wall) continue;
+        results.arrival_s = rows.levels.number("time_s")[n];
+        break;
+    }
+    if (rows.has_pipe()) read_pipe(rows, results);
+    return results;
+}
+
+nlohmann::json to_json(const SurfaceResults& results) {
+    const auto time = [](double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); };
+    return {{"schema", "cutterflow.surface/1"},
+            {"end_s", results.end_s},
+            {"core_s", results.core_s},
+            {"volume_error", results.volume_error},
+            {"arrival_s", time(results.arrival_s)},
+            {"half_out_s", time(results.half_out_s)},
+            {"all_out_s", time(results.all_out_s)},
+            {"greatest_drop_m", results.greatest_drop_m},
+            {"drop_at_s", results.drop_at_s},
+            {"reversal_s", time(results.reversal_s)},
+            {"rises_with_bodies", results.rises_with_bodies}};
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,32 @@
+#pragma once
+/// \file What is read off a scene in every step: levels, flows through a pipe's mouth and holes, where the bodies are.
+#include <optional>
+
+#include "solver/free_surface/surface_run.hpp"
+
+namespace cutterflow::free_surface {
+
+/// An upright pipe of a plane scene. Its inside reaches from its bottom up; holes are open places of its walls.
+struct PipeGauge {
+    double axis = 0.0, inner_width = 0.0, wall = 0.0;  ///< [m]
+    double bottom = 0.0, top = 0.0;                    ///< [m]
+    bool is_inside(double x) const { return std::abs(x - axis) < 0.5 * inner_width; }
+    bool is_outside(double x) const { return std::abs(x - axis) > 0.5 * inner_width + wall; }
+};
+
+struct SceneReading {
+    double level = 0.0;              ///< mean over the tank, or outside the pipe [m]
+    double level_in_pipe = 0.0;      ///< [m]
+    double mouth_flow = 0.0;         ///< of water up into the pipe [m3/s]
+    double hole_flow = 0.0;          ///< of water through the holes into the pipe [m3/s]
+    double volume_in_pipe = 0.0;     ///< of the particles in it, between bottom and top [m3]
+    int bodies_in_pipe = 0;          ///< centres higher than its bottom; without a pipe all
+    double rise_in_pipe = 0.0;       ///< mean upward speed of those [m/s]
+    Vec3 mean_place = Vec3::Zero();  ///< of the bodies [m]
+    double farthest = 0.0;           ///< largest x that a body's surface reaches [m]
+};
+
+/// The level of a column of cells is where air first stands over water, going up; solids and bodies do not count as air.
+SceneReading read_gauges(const SurfaceRun& run, const std::optional<PipeGauge>& pipe);
+
+}  // namespace cutterflow::free_surface
