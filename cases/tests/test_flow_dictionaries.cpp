@@ -89,6 +89,8 @@ TEST(Run, takes_times_courant_number_and_convection_from_the_inputs) {
     EXPECT_EQ(text_of(control, "writeInterval"), "0.25");
     EXPECT_EQ(text_of(control, "maxCo"), "0.5");
     EXPECT_TRUE(contains(text_of(file_of(files, "system/fvSolution"), "PIMPLE"), "nOuterCorrectors 3;"));
+    // A factor of 1 is no relaxation, but makes OpenFOAM add to diagonals, as inertia that no fluid has.
+    EXPECT_EQ(text_of(file_of(files, "system/fvSolution"), "relaxationFactors"), "(missing relaxationFactors)");
 }
 
 TEST(Run, convects_momentum_upwind_with_rock_and_in_second_order_without) {

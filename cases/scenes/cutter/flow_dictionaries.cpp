@@ -225,10 +225,8 @@ std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
         .add("correctPhi", false)
         .add("checkMeshCourantNo", false)
         .add("turbOnFinalIterOnly", true);
-    meshing::FoamDictionary relaxation;
-    relaxation.add("equations", meshing::FoamDictionary().add_pattern(".*", 1.0));
     meshing::FoamDictionary solution;
-    solution.add("solvers", solvers).add("PIMPLE", pimple).add("relaxationFactors", relaxation);
+    solution.add("solvers", solvers).add("PIMPLE", pimple);
 
     const RunTimes& times = inputs.times;
     meshing::FoamDictionary control;
