@@ -94,7 +94,9 @@ Conservation worst_balance(const Table& balance, bool with_rock) {
     worst.flow_balance = largest_magnitude(balance.number("flow_balance_error"));
     worst.interface_imbalance = largest_magnitude(balance.number("interface_imbalance"));
     worst.interface_mismatch = largest_magnitude(balance.number("interface_mismatch"));
+    worst.domain_surplus = largest_magnitude(balance.number("domain_surplus"));
     if (!with_rock) return worst;
+    worst.overfull_cells = largest_magnitude(balance.number("overfull_cells"));
     worst.solid_volume = largest_magnitude(balance.number("solid_volume_error"));
     worst.momentum = largest_magnitude(balance.number("momentum_error"));
     worst.momentum_interface = largest_magnitude(balance.number("momentum_interface_error"));
@@ -310,7 +312,9 @@ json results_json(const Results& results, const RunData& run) {
                                 {"momentum_interface_max_error", or_null(results.conservation.momentum_interface)},
                                 {"flow_balance_max_error", or_null(results.conservation.flow_balance)},
                                 {"interface_imbalance_max", or_null(results.conservation.interface_imbalance)},
-                                {"interface_mismatch_max", or_null(results.conservation.interface_mismatch)}};
+                                {"interface_mismatch_max", or_null(results.conservation.interface_mismatch)},
+                                {"domain_surplus_max", or_null(results.conservation.domain_surplus)},
+                                {"overfull_cells_max", or_null(results.conservation.overfull_cells)}};
     document["rotor"] = rotor_json(results, run);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},

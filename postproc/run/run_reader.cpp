@@ -234,12 +234,13 @@ TableRules balance_rules() {
                                         "momentum_turned",
                                         "momentum_carried",
                                         "solid_fraction_max",
+                                        "overfull_cells",
                                         "overlap_ratio_max",
                                         "dem_substeps",
                                         "rocks",
                                         "contacts"};
-    TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "interface_mismatch", "continuity_error", "outlet_flow_m3_s",
-                      "outlet_pressure_m2_s2", "courant_max"},
+    TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "interface_mismatch", "continuity_error", "domain_surplus",
+                      "outlet_flow_m3_s", "outlet_pressure_m2_s2", "courant_max"},
                      {},
                      rock,
                      k_rerun};

@@ -153,6 +153,8 @@ TEST(ResultsJson, conservation_is_the_largest_magnitude_of_all_steps) {
     EXPECT_DOUBLE_EQ(conservation.at("flow_balance_max_error").get<double>(), 3e-8);
     EXPECT_DOUBLE_EQ(conservation.at("interface_imbalance_max").get<double>(), 2e-5);
     EXPECT_DOUBLE_EQ(conservation.at("interface_mismatch_max").get<double>(), 4e-3);
+    EXPECT_DOUBLE_EQ(conservation.at("domain_surplus_max").get<double>(), 3e-16);
+    EXPECT_EQ(conservation.at("overfull_cells_max").get<double>(), 2.0);
 }
 
 TEST(ResultsJson, cost_sums_the_steps) {

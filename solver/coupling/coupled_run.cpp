@@ -20,6 +20,9 @@ constexpr double k_angle_tolerance = 1e-9;
 /// Deviation [m, or of a unit vector] of a rotor's axis from the z axis that is rounding.
 constexpr double k_axis_tolerance = 1e-9;
 
+/// Volume that a step may have too much in a closed domain, over its volume: rounding of sums over many cells.
+constexpr double k_largest_surplus = 1e-10;
+
 /// Tolerance on release times, as a fraction of the step (simulated time accumulates rounding).
 constexpr double k_due_tolerance = 1e-3;
 
@@ -47,6 +50,15 @@ std::vector<Mistake> check_axis(const ZoneMotion& zone) {
              fmt::format("cell zone {} turns about an axis along {} through {}", zone.name, text(axis.direction), text(axis.origin)),
              "Sections fates and outflow of constant/couplingProperties take the z axis for the head's",
              "Place the head on the z axis, or remove the two sections"}};
+}
+
+/// The fluid spreads a closed domain's surplus over all cells, where it would be a source that nobody sees.
+void require_closed_volume(const BalanceRow& balance) {
+    if (!(balance.domain_surplus > k_largest_surplus)) return;
+    throw CheckFailure(
+        {"", fmt::format("at time {:.9g} s the closed domain has {:.3g} of its volume too much", balance.time, balance.domain_surplus),
+         fmt::format("Rock and water fill a closed domain to {:g} of its volume per step", k_largest_surplus),
+         "Check that velocities on the boundary let nothing in or out; else report this as a defect"});
 }
 
 }  // namespace
@@ -225,9 +237,11 @@ void CoupledRun::report_loads_and_balance() {
     balance.interface_imbalance = loads.interface_imbalance;
     balance.interface_mismatch = loads.interface_mismatch;
     balance.continuity_error = loads.continuity_error;
+    balance.domain_surplus = loads.domain_surplus;
     balance.outlet_flow = loads.outlet_flow;
     balance.outlet_pressure = loads.outlet_pressure;
     balance.solid_fraction_max = balance_.solid_fraction_max;
+    balance.overfull_cells = balance_.overfull_cells;
     balance.courant_max = loads.courant_max;
     balance.overlap_ratio_max = moved_.max_overlap_ratio;
     balance.dem_substeps = moved_.substeps;
@@ -239,6 +253,7 @@ void CoupledRun::report_loads_and_balance() {
         balance.exchanged_momentum = rock_->booked().momentum.norm();
     }
     recorder_.balance(balance);
+    require_closed_volume(balance);
 }
 
 void CoupledRun::record_picture() {

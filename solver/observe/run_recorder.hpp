@@ -94,9 +94,11 @@ struct BalanceRow {
     double flow_balance_error = 0.0;  ///< (|net flow of open patches and interfaces| + flow through walls) / flow through open patches
     double interface_imbalance = 0.0;
     double interface_mismatch = 0.0;
+    double domain_surplus = 0.0;
     double continuity_error = 0.0;
     std::optional<double> outlet_flow, outlet_pressure;  ///< of the named outlet [m3/s], [m2/s2]
     double solid_fraction_max = 0.0;
+    int overfull_cells = 0;
     double courant_max = 0.0;
     double overlap_ratio_max = 0.0;
     int dem_substeps = 0, rocks = 0, contacts = 0;

@@ -75,6 +75,7 @@ struct FluidLoads {
     double interface_imbalance = 0.0;  ///< sum over interfaces of |flow out of one side - flow into the other| / gross flow [-]
     double interface_mismatch = 0.0;   ///< the same face by face, against the other side's overlapping parts / gross flow [-]
     double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / (2 through_flow) [-]
+    double domain_surplus = 0.0;       ///< of a closed domain: |volume that a step's continuity has too much| / volume; 0 of an open one
     double courant_max = 0.0;
     // With rock only, over the last step:
     Vec3 boundary_impulse = Vec3::Zero();   ///< on the fluid by pressure, stress and through-flow of patches that are no interface [N s]

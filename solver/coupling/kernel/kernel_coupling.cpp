@@ -41,6 +41,12 @@ double largest_of(const std::vector<double>& solid_fraction, Communicator& commu
     return largest;
 }
 
+int count_above(double limit, const std::vector<double>& solid_fraction, Communicator& communicator) {
+    auto count = static_cast<double>(std::count_if(solid_fraction.begin(), solid_fraction.end(), [&](double f) { return f > limit; }));
+    communicator.sum(gsl::span<double>(&count, 1));
+    return static_cast<int>(count);
+}
+
 /// \throws CheckFailure  when redistribution found no room
 void require_room(double largest_solid_fraction, double limit) {
     if (largest_solid_fraction <= k_solvable_solid_fraction) return;
@@ -265,7 +271,14 @@ void KernelCoupling::map() {
     check_ranges();
     balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
     balance_.solid_fraction_max = std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_));
-    require_room(balance_.solid_fraction_max, settings_.kernel.max_solid_fraction);
+    const double limit = settings_.kernel.max_solid_fraction;
+    require_room(balance_.solid_fraction_max, limit);
+    balance_.overfull_cells = count_above(limit, fractions[1], communicator_);
+    if (balance_.overfull_cells > 0)
+        warn_once("overfull",
+                  fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room; "
+                              "balance.csv counts them",
+                              balance_.overfull_cells, limit, balance_.solid_fraction_max));
 }
 
 /// The part of the target that only moves drag between the cells of a kernel: sum_p w_p D_p (ubar_p - u_old) / rho_f. Velocities are taken

@@ -29,6 +29,7 @@ struct ExchangeBalance {
     double solid_volume_error = 0.0;  ///< |solid volume of mapping and of the fluid's cells - volume of rock| / volume of rock
     double deposit_error = 0.0;  ///< |momentum laid into cells - that of the rocks| / (sum |impulse| + carry); says nothing of the fluid
     double solid_fraction_max = 0.0;
+    int overfull_cells = 0;  ///< of the whole mesh, with more than kernel.maxSolidFraction: no cell in reach had room
 };
 
 /// Fluid displaced at insertion of rock, less fluid that replaced removed rock; no source in the fluid's equations.

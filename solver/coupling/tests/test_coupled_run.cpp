@@ -106,6 +106,17 @@ struct Rig {
     std::optional<CoupledRun> run;
 };
 
+TEST(CoupledRun, ends_when_a_closed_domain_has_water_too_much) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.fluid.given_loads.domain_surplus = 1e-14;
+    rig.run->step();
+    rig.fluid.given_loads.domain_surplus = 1e-9;
+    EXPECT_THROW(rig.run->step(), CheckFailure);
+    EXPECT_EQ(recorder.balance_rows.back().domain_surplus, 1e-9) << "the row that tells why is written";
+}
+
 TEST(CoupledRun, follows_rock_without_a_head) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder,

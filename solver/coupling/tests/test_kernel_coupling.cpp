@@ -320,6 +320,24 @@ TEST(Rotor, takes_the_rock_of_the_space_its_blades_sweep_from_the_old_void_fract
     }
 }
 
+TEST(Exchange, counts_cells_that_hold_more_rock_than_is_allowed) {
+    Rig rig(box(0.02, 0.01), {}, 1e-4);
+    std::vector<FeedRock> due;
+    for (int i = 0; i < 12; ++i) due.push_back(rock(i + 1, Vec3(i % 2 - 0.5, i / 2 % 2 - 0.5, i / 4 - 1.0) * 0.02, 0.02, Vec3::Zero()));
+    for (FeedRock& each : due) each.position.z() *= 0.5;
+    rig.coupling.insert(due);
+    const ExchangeBalance balance = rig.step();
+    EXPECT_NEAR(balance.solid_fraction_max, 12 * sphere_volume(0.02) / std::pow(0.04, 3), 0.02);  // no cell has room for its neighbours'
+    EXPECT_EQ(balance.overfull_cells, 64);
+    const std::vector<std::string> warnings = rig.coupling.take_warnings();
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) { return text.rfind("64 cells hold", 0) == 0; }));
+    rig.step();
+    EXPECT_TRUE(rig.coupling.take_warnings().empty()) << "told once";
+    Rig with_room(box(0.05, 0.01), {}, 1e-4);
+    with_room.coupling.insert(due);
+    EXPECT_EQ(with_room.step().overfull_cells, 0);
+}
+
 TEST(Ranks, exchange_the_same_as_one) {
     const auto due = [] {
         std::vector<FeedRock> rocks;

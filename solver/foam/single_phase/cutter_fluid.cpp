@@ -139,6 +139,7 @@ void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<
         take_exchange(exchange);
     }
     alphaPhi_ = alphaf_ * phi_;
+    domain_surplus_ = 0.0;
     while (pimple_.loop()) {
         const tmp<fvVectorMatrix> stress = viscous_matrix();
         tmp<fvVectorMatrix> momentum = momentum_matrix(stress());

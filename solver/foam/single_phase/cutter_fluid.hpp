@@ -82,6 +82,8 @@ public:
     double density() const { return density_; }      ///< [kg/m3]
     double viscosity() const { return viscosity_; }  ///< of the fluid at the start [m2/s]
     double courant_max() const { return courant_max_; }
+    /// Of a closed domain, largest of the last step's correctors: |volume too much in the sum of continuity| / volume; 0 of an open one.
+    double domain_surplus() const { return domain_surplus_; }
 
     /// Residual of continuity in each cell, times its volume [m3/s].
     Foam::tmp<Foam::scalarField> continuity_residual() const;
@@ -114,7 +116,7 @@ private:
     void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
     void close_domain(Foam::surfaceScalarField& flux);
     void close_interfaces(Foam::surfaceScalarField& flux, const Foam::surfaceScalarField& alpha_rAtUf) const;
-    Foam::dimensionedScalar domain_surplus(const Foam::surfaceScalarField& flux) const;
+    Foam::dimensionedScalar find_surplus(const Foam::surfaceScalarField& flux);
     void report_continuity();
     void correct_turbulence();
     void update_material_acceleration();
@@ -158,6 +160,7 @@ private:
     Foam::label p_ref_cell_ = 0;
     Foam::scalar p_ref_value_ = 0.0;
     double courant_max_ = 0.0;
+    double domain_surplus_ = 0.0;
     bool long_step_warned_ = false;
     double continuity_cumulative_ = 0.0;
 };

@@ -99,6 +99,7 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     loads.interface_imbalance = interfaces.imbalance / (0.5 * interfaces.gross + VSMALL);
     loads.interface_mismatch = interfaces.mismatch / (0.5 * interfaces.gross + VSMALL);
     loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (2.0 * loads.through_flow);
+    loads.domain_surplus = fluid.domain_surplus();
     loads.courant_max = fluid.courant_max();
     loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);
     loads.interface_impulse = fluid.density() * to_vec3(fluid.outside_momentum().interface);

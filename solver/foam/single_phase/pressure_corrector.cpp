@@ -1,5 +1,8 @@
 #include "solver/foam/single_phase/cutter_fluid.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -22,7 +25,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     volVectorField HbyA(constrainHbyA(rAU * H, U_, p_));
     surfaceScalarField phiHbyA("phiHbyA", predicted_flux(HbyA, rAU));
     close_domain(phiHbyA);
-    const dimensionedScalar surplus(domain_surplus(phiHbyA));
+    const dimensionedScalar surplus(find_surplus(phiHbyA));
 
     tmp<volScalarField> rAtU(rAU);
     if (pimple_.consistent()) {
@@ -98,14 +101,17 @@ void CutterFluid::close_interfaces(surfaceScalarField& flux, const surfaceScalar
     }
 }
 
-/// What is left in a closed domain's sum of continuity [1/s] (rounding), which would all go to the pressure's reference cell; 0 in an open
-/// one. Call it before forces at walls enter the flux: pressure balances those there.
-dimensionedScalar CutterFluid::domain_surplus(const surfaceScalarField& flux) const {
+/// What is left in a closed domain's sum of continuity [1/s], which would all go to the pressure's reference cell; 0 in an open one. It is
+/// rounding where void fractions conserve the rock; domain_surplus() shows it. Call it before forces at walls enter the flux: pressure
+/// balances those there.
+dimensionedScalar CutterFluid::find_surplus(const surfaceScalarField& flux) {
     if (!p_.needReference()) return dimensionedScalar(dimless / dimTime, Zero);
     surfaceScalarField through(alphaf_ * flux);
     for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interfaces handles it
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(through)().internalField());
-    return outflow.weightedAverage(mesh_.V());
+    const dimensionedScalar surplus(outflow.weightedAverage(mesh_.V()));
+    domain_surplus_ = std::max(domain_surplus_, std::abs(surplus.value()) * time_.deltaTValue());
+    return surplus;
 }
 
 /// Called while phi_ is absolute.

@@ -125,6 +125,17 @@ TEST(Displacement, OfASinkingLayerRisesPastIt) {
     EXPECT_LE(run.largest(worst), 0.005 * 0.3 * speed);
 }
 
+TEST(ClosedDomain, ShowsTheVolumeThatItHasTooMuch) {
+    FluidRun run(testing::build_case(closed_box("surplus", column(), "slip", 1e-3, 0.01)), true);
+    const std::vector<double> water(run.cells(), 1.0), less(run.cells(), 0.999);
+    run.begin();
+    run.end(water, less);
+    EXPECT_NEAR(run.engine().loads().domain_surplus, 1e-3, 1e-12);
+    run.begin();
+    run.end(less, less);
+    EXPECT_LE(run.engine().loads().domain_surplus, 1e-14);
+}
+
 /// Uniform fluid in a box that is periodic along x: nothing but the exchange acts, alpha du/dt = received.
 class PeriodicBox : public ::testing::Test {
 protected:
