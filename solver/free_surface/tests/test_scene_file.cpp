@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
-#include "solver/free_surface/scene_file.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
+#include "solver/free_surface/scene_file.hpp"
 
 namespace cutterflow::free_surface {
 namespace {
