@@ -21,8 +21,8 @@ BoxCase crossing_box(const CrossingCase& crossing) {
     BoxCase room;
     room.mesh = block_mesh(mesh);
     if (crossing.rpm) room.motion = turning(rpm_to_rad_s(*crossing.rpm));
-    room.lower = Vec3(-mesh.radius, 0.0, -0.5 * mesh.height);
-    room.upper = Vec3(mesh.radius, 0.0, 0.5 * mesh.height);
+    room.lower = Vec3(-mesh.radius, -mesh.radius, -0.5 * mesh.height);
+    room.upper = Vec3(mesh.radius, mesh.radius, 0.5 * mesh.height);
     room.gravity = Vec3(-k_rock.gravity, 0.0, 0.0);
     room.rocks = {{1, 0.0, Vec3(crossing.start, k_aside, k_above), k_rock.diameter, k_rock.density, crossing_velocity(0.0)}};
     room.time_step = crossing.time_step;
