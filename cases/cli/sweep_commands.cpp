@@ -12,13 +12,16 @@
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/runner/machine.hpp"
-#include "cases/sweep/sweep.hpp"
+#include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/shell_word.hpp"
+#include "postproc/analysis/surface_comparison.hpp"
 #include "postproc/pages/comparison_page.hpp"
+#include "postproc/pages/surface_page.hpp"
 
 namespace cutterflow::cli {
 namespace {
@@ -33,6 +36,7 @@ struct SweepOptions {
     std::string study;
     std::optional<std::string> output;
     cases::SweepAxes axes;
+    std::vector<std::string> set;  ///< keys of a free-surface study
     int ranks = 1;
     bool resume = false;
     std::string launcher = "local";
@@ -41,7 +45,7 @@ struct SweepOptions {
 
 /// Options unknown to CLI11: most likely a key that a sweep does not vary.
 void require_known_axes(const std::vector<std::string>& words) {
-    const std::vector<std::string> known{"--rpm", "--discharge", "--design", "--repeats"};
+    const std::vector<std::string> known{"--rpm", "--discharge", "--design", "--set", "--repeats"};
     std::vector<Mistake> mistakes;
     for (const std::string& word : words) {
         if (word.empty() || word.front() != '-') continue;
@@ -57,6 +61,29 @@ void require_known_axes(const std::vector<std::string>& words) {
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
+bool is_surface(const SweepOptions& options) {
+    return fs::exists(options.study) && cases::is_surface_study(options.study);
+}
+
+/// The points of a study, of whichever kind it is.
+std::vector<cases::SweepPoint> points_of(const SweepOptions& options, const fs::path& folder) {
+    if (!is_surface(options)) {
+        if (!options.set.empty())
+            throw UserError("--set in a sweep of a cutter", "It changes keys of free-surface studies",
+                            "Use --rpm, --discharge or --design");
+        return cases::sweep_points(options.study, options.axes, folder);
+    }
+    if (!options.axes.speeds.empty() || !options.axes.discharges.empty() || !options.axes.designs.empty() || options.ranks != 1)
+        throw UserError("--rpm, --discharge, --design or --ranks in a sweep of a free-surface study", "They belong to cutters",
+                        "Use --set KEY=a,b and --repeats");
+    return cases::surface_sweep_points(options.study, cases::surface_axes(options.set), options.axes.repeats);
+}
+
+fs::path write_comparison(const std::vector<fs::path>& runs, bool surface, const fs::path& folder) {
+    return surface ? postproc::write_surface_comparison(postproc::compare_surface_runs(runs), folder)
+                   : postproc::write_comparison(postproc::compare_runs(runs), folder);
+}
+
 /// \param words  that belong to no option
 void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     const bool local = options.launcher == "local" && !options.emit;
@@ -68,7 +95,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     // Slurm's nodes may have more cores than the submitting machine.
     mistakes.gather([&] { cases::require_machine(local ? options.ranks : std::min(options.ranks, 1)); });
     mistakes.gather([&] { cases::require_sweep_folder(folder, options.resume); });
-    mistakes.gather([&] { points = cases::sweep_points(options.study, options.axes, folder); });
+    mistakes.gather([&] { points = points_of(options, folder); });
     mistakes.refuse();
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
     const cases::SweepSettings settings{folder,         installation().programs / "cutterflow",
@@ -97,7 +124,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     }
     if (outcome.done.size() > 1)
         std::cout << fmt::format("the comparison: {}\n",
-                                 postproc::write_comparison(postproc::compare_runs(outcome.done), folder / "comparison").string());
+                                 write_comparison(outcome.done, is_surface(options), folder / "comparison").string());
     if (!outcome.failed.empty()) {
         std::vector<Mistake> failures;
         for (const std::string& text : outcome.failed) failures.push_back({"", text, "", ""});
@@ -111,7 +138,16 @@ struct CompareOptions {
     bool json = false;
 };
 
+void compare_surfaces(const CompareOptions& options) {
+    if (options.still_folder) throw UserError("--static with free-surface runs", "Their page has no script to leave out", "Use --output");
+    const auto settings = postproc::compare_surface_runs({options.runs.begin(), options.runs.end()});
+    std::cout << (options.json ? postproc::surface_comparison_json(settings).dump(2) + "\n" : postproc::surface_comparison_text(settings));
+    if (options.output) say(fmt::format("the page: {}", postproc::write_surface_comparison(settings, *options.output).string()));
+}
+
 void compare(const CompareOptions& options) {
+    if (std::any_of(options.runs.begin(), options.runs.end(), [](const std::string& run) { return postproc::is_surface_run(run); }))
+        return compare_surfaces(options);
     const postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
     if (options.output && options.still_folder) require_different_places("--output", *options.output, "--static", *options.still_folder);
     for (const auto& folder : {options.output, options.still_folder})
@@ -132,6 +168,8 @@ void add_sweep(CLI::App& app) {
     command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(k_positive);
     command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")->delimiter(',')->check(k_positive);
     command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
+    command->add_option("--set", options->set, "Values of a key of a free-surface study, as solid.hole_m=0,0.001; may be given again")
+        ->take_all();
     command
         ->add_option("--repeats", options->axes.repeats,
                      "Repeats that differ by placement and angle of release; three or more give intervals")

@@ -174,7 +174,8 @@ ChildCommand command_of(const SweepSettings& settings, const SweepPoint& point, 
 /// The first point of each design makes the mesh; the others get a copy.
 std::map<std::string, std::string> mesh_donors(const std::vector<SweepPoint>& points) {
     std::map<std::string, std::string> donors;
-    for (const SweepPoint& point : points) donors.emplace(point.design, point.name);
+    for (const SweepPoint& point : points)
+        if (!point.design.empty()) donors.emplace(point.design, point.name);
     return donors;
 }
 
@@ -183,13 +184,15 @@ std::vector<SweepPoint> points_to_mesh(const std::vector<SweepPoint>& points, co
     const auto donors = mesh_donors(points);
     std::vector<SweepPoint> to_mesh;
     for (const SweepPoint& point : points)
-        if (donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name / names::manifest)) to_mesh.push_back(point);
+        if (!point.design.empty() && donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name / names::manifest))
+            to_mesh.push_back(point);
     return to_mesh;
 }
 
 void share_meshes(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
     const auto donors = mesh_donors(points);
     for (const SweepPoint& point : points) {
+        if (point.design.empty()) continue;
         const std::string& donor = donors.at(point.design);
         if (donor != point.name) share_stages(settings.folder / donor, settings.folder / point.name, {"geometry", "mesh"});
     }

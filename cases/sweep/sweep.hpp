@@ -19,7 +19,7 @@ struct SweepAxes {
 struct SweepPoint {
     std::string name;           ///< also of its run directory
     std::string text;           ///< of its study file, which is in the sweep's folder
-    std::string design;         ///< points of one design share geometry and mesh
+    std::string design;         ///< points of one design share geometry and mesh; empty: none is made
     std::string start_donor{};  ///< of a repeat: the first one of its setting, whose frozen-rotor flow it takes if that is done; else empty
 };
 

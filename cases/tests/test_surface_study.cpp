@@ -1,14 +1,18 @@
 /// Studies of scenes with a free surface: kind, template, prediction, results from rows.
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/analysis/surface_comparison.hpp"
 #include "postproc/analysis/surface_results.hpp"
 #include "postproc/pages/surface_page.hpp"
 
@@ -78,6 +82,46 @@ TEST_F(SurfaceStudy, names_mistakes_of_all_sections_at_once) {
 TEST_F(SurfaceStudy, refuses_what_the_memory_does_not_hold) {
     const std::string text = replaced(surface_study_template("dam"), "cell_m = 0.001 ", "cell_m = 0.0000001 ");
     EXPECT_THAT(mistakes_of(write("dam.toml", text)), HasSubstr("GB of memory"));
+}
+
+TEST_F(SurfaceStudy, sweep_sets_the_tables_that_give_a_key_and_pairs_the_seeds) {
+    const fs::path example = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/fall_pipe/perforated.toml";
+    const auto points = surface_sweep_points(example, surface_axes({"solid.hole_m=0,0.002", "contact.friction=0.1"}), 2);
+    ASSERT_EQ(points.size(), 4u);
+    EXPECT_EQ(points[1].name, "perforated_hole_m_0_friction_0.1_repeat2");
+    const auto values = [&](std::size_t n) { return parse_parameters(surface_study_table(), points[n].text, "point"); };
+    EXPECT_EQ(values(2).tables("solid")[0].number("solid.hole_m"), 0.002);
+    EXPECT_EQ(values(2).tables("solid")[1].number("solid.hole_m"), 0.0);  // the funnel does not give it
+    EXPECT_EQ(values(0).tables("bodies")[0].integer("bodies.seed"), 1);
+    EXPECT_EQ(values(1).tables("bodies")[0].integer("bodies.seed"), 2);
+    EXPECT_EQ(values(3).tables("bodies")[0].integer("bodies.seed"), 2);
+    EXPECT_EQ(values(3).number("contact.friction"), 0.1);
+}
+
+TEST_F(SurfaceStudy, sweep_names_wrong_keys_and_values) {
+    const auto text_of = [](const std::function<void()>& act) {
+        try {
+            act();
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string axes = text_of([] { surface_axes({"solid.hole_mm=1", "contact.friction"}); });
+    EXPECT_THAT(axes, HasSubstr("Did you mean solid.hole_m"));
+    EXPECT_THAT(axes, HasSubstr("KEY=a,b"));
+    const fs::path study = write("dam.toml", surface_study_template("dam"));
+    EXPECT_THAT(text_of([&] { surface_sweep_points(study, surface_axes({"solid.hole_m=0"}), 1); }), HasSubstr("no table"));
+    EXPECT_THAT(text_of([&] { surface_sweep_points(study, surface_axes({"contact.friction=much"}), 1); }), HasSubstr("a number"));
+    EXPECT_THAT(text_of([&] { surface_sweep_points(study, surface_axes({"contact.gap_m=0.00001"}), 1); }), HasSubstr("quarter of a cell"));
+}
+
+TEST(RepeatMean, has_students_interval_and_none_for_what_never_came) {
+    const postproc::RepeatMean mean = postproc::repeat_mean({1.0, 2.0, 3.0, 4.0, 5.0});
+    EXPECT_DOUBLE_EQ(mean.mean, 3.0);
+    EXPECT_NEAR(mean.half, 2.776445 * std::sqrt(2.5 / 5.0), 1e-5);
+    EXPECT_TRUE(std::isnan(postproc::repeat_mean({1.0}).half));
+    EXPECT_TRUE(std::isnan(postproc::repeat_mean({1.0, postproc::k_never}).mean));
 }
 
 /// A pipe with four bodies: rows of two processes, the later from 0.2 s on.

@@ -124,7 +124,7 @@ void run_scene(const Arguments& arguments) {
 
     SurfaceRecorder recorder(arguments.folder, run.time());
     if (run.time() == 0.0) recorder.output(run, engine.get());
-    Progress progress(scene.name);
+    Progress progress("run");
     double end = scene.end;
     double checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval),
            output_due = next_multiple(run.time(), scene.write_interval);

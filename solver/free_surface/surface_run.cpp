@@ -99,8 +99,8 @@ SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodie
     contact_force_.assign(bodies_.size(), Vec3::Zero());
     cutter_.cut(bodies_, cells_);
     find_surface();
-    initial_volume_ = occupied_volume(grid_, cells_, water_);
-    report_.occupied_volume = initial_volume_;
+    initial_volume_ = particles_.volume * static_cast<double>(particles_.size());
+    report_.occupied_volume = occupied_volume(grid_, cells_, water_);
 }
 
 SurfaceState SurfaceRun::state() const {

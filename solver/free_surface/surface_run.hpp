@@ -67,8 +67,8 @@ public:
     const MappedWater& mapped() const { return mapped_; }
     const CellField& pressure() const { return pressure_; }  ///< [Pa], over that of the air
     const std::vector<Body>& bodies() const { return bodies_; }
-    double initial_volume() const { return initial_volume_; }
-    double energy() const;  ///< of the water: kinetic and in gravity from the origin on [J]
+    double initial_volume() const { return initial_volume_; }  ///< that the particles are: what the occupied volume is held against [m3]
+    double energy() const;                                     ///< of the water: kinetic and in gravity from the origin on [J]
 
 private:
     double choose_step(double longest) const;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -107,6 +108,10 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
              {"memory_bytes", found.memory},
              {"contact_step_s", found.dem_step}},
             scene.notes};
+}
+
+void require_surface_study(const std::string& toml, const std::string& name) {
+    free_surface::parse_scene(toml, name);
 }
 
 std::string to_text(const SurfaceCheck& check) {

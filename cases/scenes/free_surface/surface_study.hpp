@@ -30,6 +30,9 @@ struct SurfaceCheck {
 /// \throws UserError  with every mistake of the file, or when the run needs more memory than the machine has
 SurfaceCheck check_surface_study(const std::filesystem::path& file);
 
+/// \throws UserError  with every mistake of a study given as text
+void require_surface_study(const std::string& toml, const std::string& name);
+
 std::string to_text(const SurfaceCheck& check);
 
 }  // namespace cutterflow::cases
