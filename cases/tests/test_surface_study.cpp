@@ -66,6 +66,18 @@ TEST_F(SurfaceStudy, template_is_valid_and_predicts_its_cost) {
     EXPECT_THAT(to_text(check), HasSubstr("33 bodies"));
 }
 
+TEST_F(SurfaceStudy, every_example_reads) {
+    int studies = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples")) {
+        const bool scene =
+            entry.path().extension() == ".toml" && read_file(entry.path()).find("kind = \"free_surface\"") != std::string::npos;
+        if (!scene) continue;
+        EXPECT_TRUE(check_surface_study(entry.path()).notes.empty()) << entry.path();
+        ++studies;
+    }
+    EXPECT_EQ(studies, 4);
+}
+
 TEST_F(SurfaceStudy, names_mistakes_of_all_sections_at_once) {
     std::string text = surface_study_template("dam");
     text = replaced(text, "gap_m = 0.001 ", "gap_m = 0.0001 ");
