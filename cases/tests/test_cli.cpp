@@ -546,7 +546,7 @@ TEST_F(Cli, names_all_wrong_options_of_a_sweep_at_once) {
 
 TEST_F(Cli, refuses_a_sweep_over_what_it_does_not_vary) {
     const Outcome outcome = call({"sweep", study(), "--speed", "30,60", "--discharges", "0.1"});
-    expect_refused(outcome, 2, "a sweep over --speed. A sweep varies --rpm, --discharge, --design, --repeats");
+    expect_refused(outcome, 2, "a sweep over --speed. A sweep varies --rpm, --discharge, --design, --set, --repeats");
     expect_contains(outcome.text, "Did you mean --discharge?");
     EXPECT_FALSE(fs::exists(folder_ / "runs"));
 }
