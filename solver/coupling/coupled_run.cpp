@@ -75,7 +75,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         mistakes.gather([&] {
             const geometry::Contour contour = read_contour(*settings.fates);
             const FateTracker tracker(*settings.fates, contour);
-            if (settings.outflow) outflow_.emplace(contour, tracker.bins(), settings.outflow->offset);
+            if (settings.outflow) fluid.watch(outflow_places(contour, tracker.bins(), settings.outflow->offset));
             if (settings.has_rock) fates_ = tracker;
         });
     if (settings.velocity && mistakes.empty()) mistakes.gather([&] { velocity_.emplace(*settings.velocity, fluid); });
@@ -212,7 +212,9 @@ std::vector<RockEvent> CoupledRun::follow_rock() {
 void CoupledRun::report() {
     const Timer timer(cost_.output);
     report_loads_and_balance();
-    if (outflow_) recorder_.outflow(fluid_.time(), outflow_->sample(fluid_));
+    // The row before the start bounds the first interval that is averaged.
+    if (settings_.outflow && fluid_.time() + fluid_.time_step() >= settings_.outflow->start_time)
+        recorder_.outflow(fluid_.time(), fluid_.watched_means());
     if (velocity_) velocity_->sample_if_due(fluid_);
     if (fates_) recorder_.fates(fluid_.time(), fates_->totals());
     if (fluid_.write_if_due() && has_rock()) record_picture();

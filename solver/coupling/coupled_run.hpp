@@ -9,7 +9,7 @@
 #include "solver/coupling/checkpoint.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
-#include "solver/observe/head/outflow_sampler.hpp"
+#include "solver/observe/head/outflow_places.hpp"
 #include "solver/observe/momentum_balance.hpp"
 #include "solver/observe/run_recorder.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
@@ -88,7 +88,6 @@ private:
     std::unique_ptr<KernelCoupling> rock_;
     std::unique_ptr<MomentumBalance> momentum_;
     std::optional<FateTracker> fates_;
-    std::optional<OutflowSampler> outflow_;
     std::optional<VelocitySets> velocity_;
     std::vector<FeedRock> feed_;  // not yet handled, sorted by time
     std::vector<int> handled_feed_;

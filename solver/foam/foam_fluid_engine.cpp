@@ -184,6 +184,14 @@ void FoamFluidEngine::sample_velocity(gsl::span<const Vec3> points, gsl::span<Ve
     parts_->sampler->sample(parts_->fluid.velocity(), time(), parts_->communicator, points, velocity);
 }
 
+void FoamFluidEngine::watch(const coupling::WatchedPlaces& places) {
+    parts_->sampler->watch(places, time(), parts_->communicator);
+}
+
+std::vector<double> FoamFluidEngine::watched_means() {
+    return parts_->sampler->watched_means(parts_->fluid.velocity(), time(), parts_->communicator);
+}
+
 coupling::FluidLoads FoamFluidEngine::loads() {
     return compute_loads(parts_->fluid, parts_->zones, parts_->roles.outlet);
 }

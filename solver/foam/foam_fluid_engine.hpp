@@ -36,6 +36,8 @@ public:
     void reset_void_fraction(gsl::span<const double> void_fraction) override;
     gsl::span<const Vec3> received() const override;
     void sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> velocity) override;
+    void watch(const coupling::WatchedPlaces& places) override;
+    std::vector<double> watched_means() override;
     coupling::FluidLoads loads() override;
     bool write_if_due() override;
     void write_now() override;

@@ -86,6 +86,13 @@ struct FluidLoads {
         Vec3::Zero();  ///< [N s] by which pressure, stress and convection in turning cells act half a turn of the step ahead
 };
 
+/// Places and unit vectors there, in groups of equal size that follow each other.
+struct WatchedPlaces {
+    std::vector<Vec3> points;      ///< [m]
+    std::vector<Vec3> directions;  ///< as many
+    std::size_t groups = 0;
+};
+
 class FluidEngine {
 public:
     virtual ~FluidEngine() = default;
@@ -132,6 +139,12 @@ public:
     /// Fluid velocity at points of the absolute frame (whole mesh; collective): value of the cell that holds or is nearest to the point,
     /// carried to it with the cell's gradient. The same result on every rank.
     virtual void sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> velocity) = 0;
+
+    /// From now on watched_means() is of these places. They are given as they lie at time 0: in a moving zone points and directions turn
+    /// with it, which does not change means over circles about its axis. Collective.
+    virtual void watch(const WatchedPlaces& places) = 0;
+    /// Mean of the velocity along the directions [m/s], per group of watched places; velocities as from sample_velocity. Collective.
+    virtual std::vector<double> watched_means() = 0;
 
     virtual FluidLoads loads() = 0;
 

@@ -250,6 +250,17 @@ TEST(CoupledRun, without_rock_is_the_fluid_alone_with_its_outflow) {
     EXPECT_GT(recorder.outflow_rows[0][5], 0.0);
 }
 
+TEST(CoupledRun, samples_the_outflow_from_the_step_before_its_start) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = case_settings(folder, "");
+    settings.has_rock = false;
+    MemoryRecorder recorder;
+    settings.outflow = OutflowSettings{0.015, 0.01};
+    Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+    for (int i = 0; i < 4; ++i) rig.run->step();
+    EXPECT_EQ(recorder.outflow_rows.size(), 3u);  // at 8, 12 and 16 ms
+}
+
 TEST(CoupledRun, stops_when_little_enough_is_undecided_and_every_feed_is_in) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,0.0,0.02,2650\n2,0.15,0.1,0,0.0,0.02,2650\n");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include <gsl/assert>
 #include <nanoflann.hpp>
 
 #include "solver/foam/session/foam_conversions.hpp"
@@ -70,27 +71,29 @@ private:
 };
 
 VelocitySampler::VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving)
-    : mesh_(mesh), moving_(moving.begin(), moving.end()) {
+    : mesh_(mesh), cells_(cells), moving_(moving.begin(), moving.end()) {
     for (coupling::Zone zone = 0; zone <= moving_.size(); ++zone) trees_.push_back(std::make_unique<ZoneTree>(cells, zone));
 }
 
 VelocitySampler::~VelocitySampler() = default;
 
-VelocitySampler::Candidate VelocitySampler::find_cell(const Vec3& point, double time) const {
-    const Foam::point where = to_foam(point);
+VelocitySampler::Candidate VelocitySampler::find_cell(const Vec3& point, double time, Given given) const {
     Candidate best;
     // Moving zones first: of two cells that are equally near the first counts.
     for (coupling::Zone zone = trees_.size(); zone-- > 0;) {
-        Vec3 there = point;
+        Vec3 there = point, where = point;  // in the zone's frame, at present
         if (zone != coupling::k_still_zone) {
             const coupling::ZoneMotion& motion = moving_[zone - 1];
-            there = rotate_about(motion.axis, -motion.angle(time), point);
+            if (given == Given::at_present)
+                there = rotate_about(motion.axis, -motion.angle(time), point);
+            else
+                where = rotate_about(motion.axis, motion.angle(time), point);
         }
         std::array<Foam::label, k_neighbours> cells;
         std::array<double, k_neighbours> distance;
         const std::size_t found = trees_[zone]->nearest(there, cells, distance);
         for (std::size_t i = 0; i < found; ++i) {
-            const bool inside = mesh_.pointInCell(where, cells[i], Foam::polyMesh::FACE_PLANES);
+            const bool inside = mesh_.pointInCell(to_foam(where), cells[i], Foam::polyMesh::FACE_PLANES);
             const double rank = inside ? distance[i] - k_inside : distance[i];
             if (rank < best.distance) best = {cells[i], rank};
         }
@@ -98,31 +101,71 @@ VelocitySampler::Candidate VelocitySampler::find_cell(const Vec3& point, double 
     return best;
 }
 
-void VelocitySampler::sample(const Foam::volVectorField& velocity, double time, coupling::Communicator& communicator,
-                             gsl::span<const Vec3> points, gsl::span<Vec3> result) const {
-    const Foam::volTensorField gradient(Foam::fvc::grad(velocity));
+/// The cell of each point, -1 where another rank's cell holds it or is nearer. Several ranks may be equally near: the lowest one answers.
+std::vector<Foam::label> VelocitySampler::own_cells(gsl::span<const Vec3> points, double time, Given given,
+                                                    coupling::Communicator& communicator) const {
     std::vector<Candidate> candidates(points.size());
-    std::vector<double> nearest(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        candidates[i] = find_cell(points[i], time);
+    std::vector<double> nearest(points.size()), speaker(points.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        candidates[i] = find_cell(points[i], time, given);
         nearest[i] = -candidates[i].distance;
     }
     communicator.max(nearest);
-
-    // Several ranks may be equally near: the lowest one answers.
-    std::vector<double> speaker(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) speaker[i] = -candidates[i].distance == nearest[i] ? -communicator.rank() : -1e9;
+    for (std::size_t i = 0; i < candidates.size(); ++i) speaker[i] = -candidates[i].distance == nearest[i] ? -communicator.rank() : -1e9;
     communicator.max(speaker);
+    std::vector<Foam::label> cells(points.size(), -1);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (speaker[i] == -communicator.rank()) cells[i] = candidates[i].cell;
+    return cells;
+}
 
+void VelocitySampler::sample(const Foam::volVectorField& velocity, double time, coupling::Communicator& communicator,
+                             gsl::span<const Vec3> points, gsl::span<Vec3> result) const {
+    const Foam::volTensorField gradient(Foam::fvc::grad(velocity));
+    const std::vector<Foam::label> cells = own_cells(points, time, Given::at_present, communicator);
     std::vector<double> values(3 * points.size(), 0.0);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Foam::label cell = candidates[i].cell;
-        if (cell < 0 || speaker[i] != -communicator.rank()) continue;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Foam::label cell = cells[i];
+        if (cell < 0) continue;
         const Foam::vector at_point = velocity[cell] + ((to_foam(points[i]) - mesh_.C()[cell]) & gradient[cell]);
         for (Foam::direction component = 0; component < 3; ++component) values[3 * i + component] = at_point[component];
     }
     communicator.sum(values);
-    for (std::size_t i = 0; i < points.size(); ++i) result[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    for (std::size_t i = 0; i < cells.size(); ++i) result[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+}
+
+void VelocitySampler::watch(const coupling::WatchedPlaces& places, double time, coupling::Communicator& communicator) {
+    Expects(places.groups > 0 && places.points.size() % places.groups == 0 && places.points.size() == places.directions.size());
+    groups_ = places.groups;
+    per_group_ = places.points.size() / places.groups;
+    const std::vector<Foam::label> cells = own_cells(places.points, time, Given::at_start, communicator);
+    places_.clear();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells[i] < 0) continue;
+        const Vec3& centre = cells_.centres[static_cast<std::size_t>(cells[i])];
+        places_.push_back({cells[i], places.points[i] - centre, places.directions[i], i / per_group_});
+    }
+}
+
+std::vector<double> VelocitySampler::watched_means(const Foam::volVectorField& velocity, double time,
+                                                   coupling::Communicator& communicator) const {
+    const Foam::volTensorField gradient(Foam::fvc::grad(velocity));
+    std::vector<double> means(groups_, 0.0);
+    for (const Place& place : places_) {
+        const Vec3 at_centre = to_vec3(velocity[place.cell]);
+        Vec3 offset = place.offset, direction = place.direction;
+        const coupling::Zone zone = cells_.zone[static_cast<std::size_t>(place.cell)];
+        if (zone != coupling::k_still_zone) {
+            const coupling::ZoneMotion& motion = moving_[zone - 1];
+            const RotationAxis turn{Vec3::Zero(), motion.axis.direction};
+            offset = rotate_about(turn, motion.angle(time), offset);
+            direction = rotate_about(turn, motion.angle(time), direction);
+        }
+        const Vec3 carried = to_vec3(to_foam(offset) & gradient[place.cell]);
+        means[place.group] += (at_centre + carried).dot(direction) / static_cast<double>(per_group_);
+    }
+    communicator.sum(means);
+    return means;
 }
 
 }  // namespace cutterflow::foam

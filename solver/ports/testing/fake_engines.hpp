@@ -80,6 +80,16 @@ public:
     void sample_velocity(gsl::span<const Vec3> points, gsl::span<Vec3> values) override {
         for (std::size_t i = 0; i < static_cast<std::size_t>(points.size()); ++i) values[i] = flow ? flow(points[i], time_) : Vec3::Zero();
     }
+    void watch(const WatchedPlaces& places) override { watched = places; }
+    std::vector<double> watched_means() override {
+        std::vector<Vec3> values(watched.points.size());
+        sample_velocity(watched.points, values);
+        const std::size_t per_group = values.size() / watched.groups;
+        std::vector<double> means(watched.groups, 0.0);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            means[i / per_group] += values[i].dot(watched.directions[i]) / static_cast<double>(per_group);
+        return means;
+    }
     FluidLoads loads() override { return given_loads; }
     bool write_if_due() override { return writes_fields; }
     void write_now() override { log += "write "; }
@@ -89,6 +99,7 @@ public:
 
     SyntheticMesh mesh;
     std::vector<ZoneMotion> moving;
+    WatchedPlaces watched;
     double end_time = std::numeric_limits<double>::infinity();
     std::function<Vec3(const Vec3& position, double time)> flow;
     std::vector<Vec3> velocity, acceleration;
