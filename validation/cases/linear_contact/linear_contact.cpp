@@ -21,10 +21,11 @@ struct Trial {
 };
 
 coupling::DemSettings room(const Trial& trial) {
-    coupling::DemSettings settings = column_dem({});
+    CylinderColumn column;
+    column.gap = 0.0;
+    coupling::DemSettings settings = column_dem(column);
     settings.gravity = Vec3::Zero();
     settings.shape = trial.shape;
-    settings.contact_gap = 0.0;
     settings.contact.friction = 0.0;
     settings.linear.may_pull = trial.may_pull;
     settings.linear.steps_per_period = trial.steps;
@@ -76,11 +77,11 @@ void check_closed_forms(Verification& verification) {
 /// Mean acceleration down a slope, measured between 0.1 and 0.3 s; gravity is turned instead of the floor.
 double rolling_acceleration(RockShape shape) {
     CylinderColumn column;
+    column.gap = 0.0;
     coupling::DemSettings settings = column_dem(column);
     settings.shape = shape;
     const double angle = std::atan(0.2);
     settings.gravity = 9.81 * Vec3(std::sin(angle), 0, -std::cos(angle));
-    settings.contact_gap = 0.0;
     liggghts::LiggghtsEngine engine(settings, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
     coupling::Rocks rock;
     rock.append(column_rocks(column), 0);
