@@ -42,8 +42,8 @@ BoxCase tank(double time_step, double from, double to) {
     room.motion = turning(rpm_to_rad_s(60.0));
     room.functions = k_functions;
     room.sides = BoxSides::open_top;  // in a closed room the interface's own imbalance would be spread over all cells
-    room.lower = Vec3(-mesh.radius, 0.0, -0.5 * mesh.height);
-    room.upper = Vec3(mesh.radius, 0.0, 0.5 * mesh.height);
+    room.lower = Vec3(-mesh.radius, -mesh.radius, -0.5 * mesh.height);
+    room.upper = Vec3(mesh.radius, mesh.radius, 0.5 * mesh.height);
     room.gravity = Vec3::Zero();
     room.closures = "drag brown_lawler; hindrance none; addedMass 0; dragModifier 1e-12;";
     room.time_step = time_step;
