@@ -12,4 +12,9 @@ inline Foam::IOobject unregistered(const Foam::word& name, const Foam::fvMesh& m
 /// Rate at which cells grow [1/s]: 0 on a mesh that is still, rounding errors on one that turns.
 Foam::tmp<Foam::volScalarField::Internal> growth_rate(const Foam::fvMesh& mesh);
 
+/// Volumes of the cells before the step [m3].
+inline const Foam::scalarField& old_volumes(const Foam::fvMesh& mesh) {
+    return mesh.moving() ? mesh.V0().field() : mesh.V().field();
+}
+
 }  // namespace cutterflow::foam

@@ -50,8 +50,7 @@ void CutterFluid::take_void_fraction(gsl::span<const double> old_values, gsl::sp
         old_field = (old_field - swept) * mesh_.V().field() / mesh_.V0().field();
     }
     alpha_old.correctBoundaryConditions();
-    const scalarField& volume = mesh_.moving() ? mesh_.V0().field() : mesh_.V().field();
-    outside_.replaced = gSum(((old_field - shown) * volume * U_.primitiveField())());
+    outside_.replaced = gSum(((old_field - shown) * old_volumes(mesh_) * U_.primitiveField())());
 }
 
 void CutterFluid::take_exchange(const coupling::MomentumExchange& exchange) {

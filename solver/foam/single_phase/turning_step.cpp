@@ -1,7 +1,9 @@
 #include <cmath>
+#include <optional>
 
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/single_phase/cutter_fluid.hpp"
+#include "solver/foam/single_phase/fields.hpp"
 
 #include "movingWallVelocityFvPatchVectorField.H"
 #include "rotatingWallVelocityFvPatchVectorField.H"
@@ -25,16 +27,14 @@ void CutterFluid::update_half_turns() {
     forAll(half_turn_, cell) half_turn_[cell] = of_zones[zones_.of_cells[static_cast<std::size_t>(cell)]];
 }
 
-/// h x (u - u_old)/dt [m/s2]; no cells where Euler is left as it is.
+/// h x (u - u_old)/dt [m/s2]. \pre half_turn_ is not empty
 vectorField CutterFluid::turning_rate() const {
-    if (half_turn_.empty()) return {};
     return half_turn_ ^ ((U_.primitiveField() - U_.oldTime().primitiveField()) / time_.deltaTValue());
 }
 
 /// Volume of fluid before the step over the cell's volume after it [-].
 scalarField CutterFluid::old_fluid_share() const {
-    const scalarField& old_volume = mesh_.moving() ? mesh_.V0().field() : mesh_.V().field();
-    return alpha_.oldTime().primitiveField() * old_volume / mesh_.V().field();
+    return alpha_.oldTime().primitiveField() * old_volumes(mesh_) / mesh_.V().field();
 }
 
 /// What the momentum matrix lacks [m/s2]. The rock's part is a mean over the step that does not turn with the mesh.
@@ -53,8 +53,7 @@ vectorField CutterFluid::turning_force() const {
 void CutterFluid::turn_received() {
     outside_.turned = Zero;
     if (half_turn_.empty()) return;
-    const vectorField gain(old_fluid_share() * turning_rate());
-    const vectorField sum(received_ + gain);
+    const vectorField sum(received_ + old_fluid_share() * turning_rate());
     forAll(received_, cell) {
         const vector& h = half_turn_[cell];
         const vector turned((sum[cell] - (h ^ sum[cell]) + h * (h & sum[cell])) / (1.0 + magSqr(h)));
@@ -69,19 +68,18 @@ void CutterFluid::turn_received() {
 /// the mesh, or round in the mesh with rotatingWallVelocity.
 vectorField CutterFluid::wall_acceleration(label patch) const {
     const fvPatchVectorField& u = U_.boundaryField()[patch];
-    const auto* round =
-        isA<rotatingWallVelocityFvPatchVectorField>(u) ? &refCast<const rotatingWallVelocityFvPatchVectorField>(u) : nullptr;
-    const bool with_mesh = isA<movingWallVelocityFvPatchVectorField>(u);
     vectorField acceleration(u.size(), Zero);
+    std::optional<RotationAxis> own_axis;
+    if (isA<rotatingWallVelocityFvPatchVectorField>(u)) {
+        const auto& round = refCast<const rotatingWallVelocityFvPatchVectorField>(u);
+        own_axis = {to_vec3(round.origin()), to_vec3(round.axis()).normalized()};
+    } else if (!isA<movingWallVelocityFvPatchVectorField>(u)) {
+        return acceleration;
+    }
     forAll(acceleration, i) {
-        RotationAxis axis;
-        const std::uint8_t zone = zones_.of_cells[static_cast<std::size_t>(u.patch().faceCells()[i])];
-        if (round != nullptr)
-            axis = {to_vec3(round->origin()), to_vec3(round->axis()).normalized()};
-        else if (with_mesh && zone != 0)
-            axis = zones_.motion[zone - 1u].axis;
-        else
-            continue;
+        const coupling::Zone zone = zones_.of_cells[static_cast<std::size_t>(u.patch().faceCells()[i])];
+        if (!own_axis && zone == coupling::k_still_zone) continue;
+        const RotationAxis& axis = own_axis ? *own_axis : zones_.motion[zone - 1u].axis;
         const Vec3 arm = to_vec3(u.patch().Cf()[i]) - axis.origin;
         const Vec3 radius = arm - axis.direction.dot(arm) * axis.direction;
         acceleration[i] = to_foam(-magSqr(u[i]) / (radius.squaredNorm() + VSMALL) * radius);
