@@ -409,12 +409,13 @@ double KernelCoupling::volume_error(const std::vector<double>& solid_fraction, c
 
 ExchangeBalance KernelCoupling::book() {
     const gsl::span<const Vec3> received = fluid_.received();
+    const gsl::span<const double> void_fraction = fluid_.fields().void_fraction;
     const gsl::span<const double> volumes = mapping_.cells().volumes;
     const double dt = fluid_.time_step();
     Eigen::Vector4d sums = Eigen::Vector4d::Zero();  // deposits of the step and amount of carry, over rho_f
     std::vector<double> solid_fraction(carry_.size());
     for (std::size_t c = 0; c < carry_.size(); ++c) {
-        solid_fraction[c] = 1.0 - fluid_.fields().void_fraction[c];
+        solid_fraction[c] = 1.0 - void_fraction[c];
         sums.head<3>() += (source_[c] * dt - k_carry_share * carry_[c]) * volumes[c];
         sums[3] += carry_[c].norm() * volumes[c];
         carry_[c] += (source_[c] - received[c]) * dt - k_carry_share * carry_[c];
