@@ -7,10 +7,10 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <boost/math/distributions/students_t.hpp>
 
 #include "geometry/base/error.hpp"
 #include "postproc/analysis/not_modelled.hpp"
+#include "postproc/analysis/sample.hpp"
 #include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
@@ -18,33 +18,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_confidence = 0.95;
-
-/// Half the width of the two-sided interval of a mean, in its standard errors.
-double student_factor(double degrees_of_freedom) {
-    return quantile(boost::math::students_t(degrees_of_freedom), 0.5 * (1.0 + k_confidence));
-}
 const double k_normal_factor = 1.959964;
-
-struct Sample {
-    double mean = 0.0;
-    double variance = 0.0;  // of one value
-    std::size_t count = 0;
-};
-
-Sample sample_of(const std::vector<double>& values) {
-    Sample sample;
-    sample.count = values.size();
-    for (const double value : values) sample.mean += value / static_cast<double>(sample.count);
-    for (const double value : values) sample.variance += (value - sample.mean) * (value - sample.mean);
-    if (sample.count > 1) sample.variance /= static_cast<double>(sample.count - 1);
-    return sample;
-}
 
 std::optional<double> half_width_of(const Sample& sample) {
     if (sample.count < k_fewest_repeats) return std::nullopt;
-    const auto n = static_cast<double>(sample.count);
-    return student_factor(n - 1.0) * std::sqrt(sample.variance / n);
+    return half_interval(sample);
 }
 
 Estimate of_average(const std::optional<TimeAverage>& average) {

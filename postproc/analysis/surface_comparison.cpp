@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <boost/math/distributions/students_t.hpp>
 
 #include "geometry/base/file_content.hpp"
+#include "postproc/analysis/sample.hpp"
 #include "postproc/analysis/surface_results.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
@@ -80,14 +80,8 @@ nlohmann::json json_of(const RepeatMean& value) {
 RepeatMean repeat_mean(const std::vector<double>& values) {
     if (values.empty() || !std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         return {k_unknown, k_unknown};
-    const double count = static_cast<double>(values.size());
-    RepeatMean result{0.0, k_unknown};
-    for (const double value : values) result.mean += value / count;
-    if (values.size() < 2) return result;
-    double square = 0.0;
-    for (const double value : values) square += (value - result.mean) * (value - result.mean);
-    result.half = quantile(boost::math::students_t(count - 1.0), 0.975) * std::sqrt(square / (count - 1.0) / count);
-    return result;
+    const Sample sample = sample_of(values);
+    return {sample.mean, sample.count < 2 ? k_unknown : half_interval(sample)};
 }
 
 std::vector<SurfaceSetting> compare_surface_runs(const std::vector<fs::path>& runs) {
