@@ -5,13 +5,19 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 
 namespace cutterflow::postproc {
 
 namespace {
 
 constexpr const char* k_remedy = "Take a run directory of cutterflow run with a study of kind free_surface";
+
+const std::vector<JsonField> k_scene_fields = {{"name", JsonKind::text, true},         {"width_m", JsonKind::number, true},
+                                               {"height_m", JsonKind::number, true},   {"cell_m", JsonKind::number, true},
+                                               {"columns", JsonKind::whole, true},     {"rows", JsonKind::whole, true},
+                                               {"end_s", JsonKind::number, true},      {"bodies", JsonKind::whole, true},
+                                               {"diameter_m", JsonKind::number, true}, {"contact_gap_m", JsonKind::number, true}};
 
 void read_pipe(const SurfaceRows& rows, SurfaceResults& results) {
     const Table& levels = rows.levels;
@@ -40,7 +46,7 @@ SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
         throw UserError(fmt::format("{} has no scene.json", run_directory.string()), "It is written when a free-surface run is set up",
                         k_remedy);
     SurfaceRows rows;
-    rows.scene = nlohmann::json::parse(read_file(run_directory / "scene.json"));
+    rows.scene = read_json_document(run_directory / "scene.json", k_scene_fields, k_remedy);
     rows.balance =
         read_joined_table(run_directory, "balance", "balance.csv",
                           {{"time_s", "volume_error", "energy_j", "pushed_out", "pressure_iterations", "core_s"}, {}, {}, k_remedy});

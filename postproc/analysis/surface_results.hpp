@@ -17,7 +17,7 @@ struct SurfaceRows {
     Table balance, levels;  ///< every step
     Table bodies;           ///< at outputs; empty without bodies
     bool has_bodies() const { return scene.at("bodies").get<int>() > 0; }
-    bool has_pipe() const { return !scene.at("pipe").is_null(); }
+    bool has_pipe() const { return !scene.value("pipe", nlohmann::json()).is_null(); }
 };
 
 /// \throws UserError  when the folder is no run of a free-surface study or has no rows yet

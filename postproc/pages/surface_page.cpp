@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/analysis/surface_results.hpp"
@@ -161,15 +162,14 @@ Image picture(const SurfaceRows& rows, const Snapshot& snapshot, double fastest)
     image.width = k_picture_width;
     image.height = std::max(1, static_cast<int>(std::lround(k_picture_width * number("height_m") / number("width_m"))));
     const std::vector<Disc> discs = bodies_at(rows, snapshot.time);
-    const double radius = 0.5 * number("diameter_m"), pixel = number("width_m") / image.width;
+    const double radius = 0.5 * number("diameter_m"), pixel = number("width_m") / image.width, cell_size = number("cell_m");
     const Colour air = colour_of(palette::field[0]), wall = colour_of(palette::faint), body = colour_of(palette::in_cutter),
                  edge = colour_of(palette::ink);
     const Colour slow = colour_of(palette::field[1]), fast = colour_of(palette::field[4]);
     for (int row = 0; row < image.height; ++row) {
         for (int n = 0; n < image.width; ++n) {
             const double x = (n + 0.5) * pixel, z = (image.height - row - 0.5) * pixel;
-            const int i = std::min(columns - 1, static_cast<int>(x / number("cell_m"))),
-                      k = std::min(lines - 1, static_cast<int>(z / number("cell_m")));
+            const int i = std::min(columns - 1, static_cast<int>(x / cell_size)), k = std::min(lines - 1, static_cast<int>(z / cell_size));
             const std::size_t cell = static_cast<std::size_t>(k) * columns + i;
             Colour colour = air;
             if (cell < fraction.size() && 3 * cell + 2 < velocity.size()) {
@@ -236,7 +236,9 @@ std::string cost_table(const SurfaceRows& rows, const SurfaceResults& results, c
         {"iterations of the pressure, mean of a step", fmt::format("{:.1f}", mean("pressure_iterations"))},
         {"particles put out of solids, mean of a step", fmt::format("{:.1f}", mean("pushed_out"))}};
     if (fs::exists(run_directory / names::prediction)) {
-        const nlohmann::json predicted = nlohmann::json::parse(read_file(run_directory / names::prediction));
+        const nlohmann::json predicted =
+            read_json_document(run_directory / names::prediction, {{"steps", JsonKind::number, true}, {"core_s", JsonKind::number, true}},
+                               "Run it again, or remove the file");
         lines.push_back({"steps predicted", fmt::format("{:.0f}", predicted.at("steps").get<double>())});
         lines.push_back({"core seconds predicted", fmt::format("{:.0f}", predicted.at("core_s").get<double>())});
     }
