@@ -122,7 +122,8 @@ void run_surface(const RunOptions& options) {
     if (!options.start_from.empty())
         mistakes.add({"", "--start-from with a scene with a free surface", "It has no frozen-rotor flow", "Leave it out"});
     mistakes.gather([&] { cases::require_usable_run_directory(run_folder(options)); });
-    mistakes.gather([&] { cases::check_surface_study(options.study); });
+    cases::SurfaceCheck check;
+    mistakes.gather([&] { check = cases::check_surface_study(options.study); });
     mistakes.refuse();
     require_programs({solver.string()});
     const cases::RunDirectory directory(run_folder(options));
@@ -130,7 +131,7 @@ void run_surface(const RunOptions& options) {
     const auto versions = build_versions();
     manifest.set_versions({versions.begin(), versions.end()});
     try {
-        cases::run_stages(directory, manifest, cases::surface_stages(directory, options.study, solver), "report", options.resume,
+        cases::run_stages(directory, manifest, cases::surface_stages(directory, options.study, check, solver), "report", options.resume,
                           stage_lines(3));
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {} --resume", interrupted.what(),

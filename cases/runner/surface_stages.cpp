@@ -40,8 +40,8 @@ StageOutcome run_solver(const RunDirectory& directory, const fs::path& solver, b
 
 }  // namespace
 
-std::vector<Stage> surface_stages(const RunDirectory& directory, const fs::path& study_file, const fs::path& solver) {
-    const SurfaceCheck check = check_surface_study(study_file);
+std::vector<Stage> surface_stages(const RunDirectory& directory, const fs::path& study_file, const SurfaceCheck& check,
+                                  const fs::path& solver) {
     const std::string study = read_file(study_file);
     const std::map<std::string, std::string> none;
     return {{"case", {{"study", study}}, {}, false, [&directory, study, check](bool) { return write_case(directory, study, check); }},
