@@ -28,6 +28,10 @@ Row row(const char* stage, std::string key, ParameterKind kind, const char* unit
 Row number(const char* stage, const char* key, const char* unit, const char* help) {
     return row(stage, key, ParameterKind::number, unit, help);
 }
+/// A length above 0. \param largest  [m]
+Row length(const char* stage, const char* key, double largest, const char* help) {
+    return number(stage, key, "m", help).above(0.0).at_most(largest);
+}
 Row integer(const char* stage, const char* key, const char* help) {
     return row(stage, key, ParameterKind::integer, "-", help);
 }
@@ -61,25 +65,14 @@ ParameterTable head_rows() {
             .at_least(0.0)
             .at_most(k_largest_length)
             .derived("0.55 ring radius"),
-        number(k_geometry_stage, "suction.mouth_radius_m", "m", "Inner radius of mouth and suction pipe.")
-            .above(0.0)
-            .at_most(k_largest_length)
+        length(k_geometry_stage, "suction.mouth_radius_m", k_largest_length, "Inner radius of mouth and suction pipe.")
             .derived("0.25 ring radius"),
-        number(k_geometry_stage, "suction.gap_m", "m", "Gap between ring plane and backplate.")
-            .above(0.0)
-            .at_most(k_largest_length)
-            .derived("0.075 ring radius"),
-        number(k_geometry_stage, "suction.backplate_radius_m", "m", "Radius of the backplate.")
-            .above(0.0)
-            .at_most(k_largest_length)
-            .derived("the ring radius"),
-        number(k_geometry_stage, "suction.backplate_thickness_m", "m", "Thickness of the backplate; at least 0.001 ring radius.")
-            .above(0.0)
-            .at_most(k_largest_length)
+        length(k_geometry_stage, "suction.gap_m", k_largest_length, "Gap between ring plane and backplate.").derived("0.075 ring radius"),
+        length(k_geometry_stage, "suction.backplate_radius_m", k_largest_length, "Radius of the backplate.").derived("the ring radius"),
+        length(k_geometry_stage, "suction.backplate_thickness_m", k_largest_length,
+               "Thickness of the backplate; at least 0.001 ring radius.")
             .derived("0.05 ring radius"),
-        number(k_geometry_stage, "suction.pipe_wall_m", "m", "Wall thickness of the suction pipe; at least 0.001 ring radius.")
-            .above(0.0)
-            .at_most(k_largest_length)
+        length(k_geometry_stage, "suction.pipe_wall_m", k_largest_length, "Wall thickness of the suction pipe; at least 0.001 ring radius.")
             .derived("0.025 ring radius"),
         number(k_case_stage, "ladder.inclination_deg", "deg",
                "Rotor axis below horizontal; gravity stands at 90 degrees minus it from the axis.")
@@ -94,17 +87,12 @@ ParameterTable head_rows() {
 
 ParameterTable water_rows() {
     return {
-        number(k_geometry_stage, "tank.radius_m", "m", "Radius of the water's cylinder about the axis; at most 50 ring radii.")
-            .above(0.0)
-            .at_most(k_largest_tank)
+        length(k_geometry_stage, "tank.radius_m", k_largest_tank, "Radius of the water's cylinder about the axis; at most 50 ring radii.")
             .derived("6.25 ring radius"),
-        number(k_geometry_stage, "tank.bed_clearance_m", "m", "Distance of the head's lowest point from the bed, along the axis.")
-            .above(0.0)
-            .at_most(k_largest_tank)
+        length(k_geometry_stage, "tank.bed_clearance_m", k_largest_tank,
+               "Distance of the head's lowest point from the bed, along the axis.")
             .derived("0.975 ring radius"),
-        number(k_geometry_stage, "tank.height_m", "m", "Height of the water's cylinder along the axis; at most 50 ring radii.")
-            .above(0.0)
-            .at_most(k_largest_tank)
+        length(k_geometry_stage, "tank.height_m", k_largest_tank, "Height of the water's cylinder along the axis; at most 50 ring radii.")
             .derived("bed clearance + the head's height + 1.0875 ring radius"),
         choice(k_mesh_stage, "mesh.preset", meshing::mesh_preset_names(),
                "Resolution: draft has 40,000 to 70,000 cells, paper about 1,000,000 with 0.01 ring radius at the blades.")
@@ -175,9 +163,8 @@ ParameterTable run_rows() {
                "Simulated time between fields and rock positions for ParaView; a run has at most 10,000 of them.")
             .above(0.0)
             .derived("a quarter of a revolution"),
-        number(k_case_stage, "report.bin_width_m", "m", "Width of the axial bins of spillage and outflow; the head has at most 10,000.")
-            .above(0.0)
-            .at_most(k_largest_length)
+        length(k_case_stage, "report.bin_width_m", k_largest_length,
+               "Width of the axial bins of spillage and outflow; the head has at most 10,000.")
             .derived("0.075 ring radius"),
         setting<coupling::OutflowSettings>("report.outflow_offset_m", "offset").derived("0.0375 ring radius"),
         setting<coupling::OutflowSettings>("report.outflow_start_s", "startTime")
@@ -192,9 +179,8 @@ ParameterTable run_rows() {
             .at_most(1.0)
             .derived("0.006 m"),
         number(k_case_stage, "report.adv_probe_length_m", "m", "Length of that volume.").above(0.0).at_most(1.0).derived("0.009 m"),
-        number(k_case_stage, "report.adv_position_error_m", "m", "How far the instrument may have been from where it is said to have been.")
-            .above(0.0)
-            .at_most(k_largest_length)
+        length(k_case_stage, "report.adv_position_error_m", k_largest_length,
+               "How far the instrument may have been from where it is said to have been.")
             .derived("0.025 ring radius"),
     };
 }
@@ -231,9 +217,7 @@ ParameterTable feed_rows() {
             .at_least(0.0)
             .at_most(k_largest_length)
             .by_default(0.0),
-        number(k_case_stage, "feed.depth_to_m", "m", "Lower end of the wedge, below the ring plane.")
-            .above(0.0)
-            .at_most(k_largest_length)
+        length(k_case_stage, "feed.depth_to_m", k_largest_length, "Lower end of the wedge, below the ring plane.")
             .derived("the head's lowest point"),
         number(k_case_stage, "feed.class.diameter_m", "m", "Diameter of the rocks of this class; less than the head's.")
             .at_least(1e-5)
