@@ -16,11 +16,13 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
 #include "solver/foam/session/case_errors.hpp"
+#include "solver/foam/session/case_times.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/openfoam_installation.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 #include "solver/observe/csv_recorder.hpp"
+#include "solver/replay/frozen_fluid.hpp"
 
 namespace {
 
@@ -41,23 +43,22 @@ void require_feed_in_domain(const foam::CouplingDictionary& dictionary) {
 
 /// Of the rank that writes.
 std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& session, const foam::CouplingDictionary& dictionary,
-                                                     const foam::FoamFluidEngine& fluid) {
-    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, fluid.time());
+                                                     const std::vector<coupling::ModelNote>& flow, double start) {
+    auto recorder = std::make_unique<coupling::CsvRecorder>(session.case_folder(), dictionary.coupling, start);
     const auto versions = build_versions();
-    const std::vector<coupling::ModelNote> models = models_in_use(dictionary, fluid);
+    std::vector<coupling::ModelNote> models = flow;
+    const std::vector<coupling::ModelNote> rock = rock_models(dictionary);
+    models.insert(models.end(), rock.begin(), rock.end());
     recorder->describe(models, {versions.begin(), versions.end()});
     print_models(models);
     return recorder;
 }
 
-void run(int argc, char** argv) {
-    foam::require_openfoam_of_build();
-    foam::FoamSession session(argc, argv);
+/// Goes from the newest checkpoint, or the start, to the end of the run.
+/// \param flow  models of the fluid
+void run_coupled(foam::FoamSession& session, foam::CouplingDictionary& dictionary, coupling::FluidEngine& fluid,
+                 const coupling::FluidProperties& properties, const std::vector<coupling::ModelNote>& flow) {
     foam::PstreamCommunicator communicator;
-    foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
-    require_feed_in_domain(dictionary);
-
-    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches);
     std::unique_ptr<liggghts::LiggghtsEngine> dem;
     if (dictionary.dem) {
         dictionary.dem->log = session.case_folder() / "log.liggghts";
@@ -65,15 +66,39 @@ void run(int argc, char** argv) {
         dem = std::make_unique<liggghts::LiggghtsEngine>(*dictionary.dem, std::vector(moving.begin(), moving.end()), MPI_COMM_WORLD);
     }
     std::unique_ptr<coupling::RunRecorder> recorder = std::make_unique<coupling::SilentRecorder>();
-    if (communicator.rank() == 0) recorder = make_recorder(session, dictionary, fluid);
+    if (communicator.rank() == 0) recorder = make_recorder(session, dictionary, flow, fluid.time());
 
-    coupling::CoupledRun coupled(dictionary.coupling, fluid.fluid_properties(), fluid, dem.get(), communicator, *recorder,
-                                 session.case_folder());
+    coupling::CoupledRun coupled(dictionary.coupling, properties, fluid, dem.get(), communicator, *recorder, session.case_folder());
     const auto checkpoint = newest_checkpoint(session.case_folder());
     if (!checkpoint.empty()) coupled.resume(checkpoint);
 
     while (fluid.running() && !coupled.finished()) coupled.step();
     coupled.finish();
+}
+
+/// Rock in a recorded flow. \throws UserError  on several ranks: a replay is cheap, and many of them run side by side
+void replay(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
+    if (foam::PstreamCommunicator().size() > 1)
+        throw UserError("a replay on several ranks", "A recorded flow is played on one", "Start it without -parallel");
+    const foam::CaseTimes times = foam::case_times(session.time());
+    coupling::FrozenFluid fluid(coupling::read_recording(dictionary.coupling.replay), {times.start, times.end, times.write_interval});
+    run_coupled(session, dictionary, fluid, dictionary.dem->fluid, recorded_flow_models(dictionary));
+}
+
+void solve(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
+    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches);
+    run_coupled(session, dictionary, fluid, fluid.fluid_properties(), flow_models(fluid));
+}
+
+void run(int argc, char** argv) {
+    foam::require_openfoam_of_build();
+    foam::FoamSession session(argc, argv);
+    foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
+    require_feed_in_domain(dictionary);
+    if (dictionary.coupling.replay.empty())
+        solve(session, dictionary);
+    else
+        replay(session, dictionary);
 }
 
 /// Reports why the run ends, and ends all ranks with the failure's code. Failures are thrown on every rank and told once; what OpenFOAM

@@ -5,18 +5,12 @@
 namespace cutterflow {
 namespace {
 
-void add_flow_models(const foam::FoamFluidEngine& fluid, std::vector<coupling::ModelNote>& notes) {
-    notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
-    for (const coupling::ZoneMotion& zone : fluid.moving_zones())
-        notes.push_back({fmt::format("sliding mesh: {} at {:.6g} rad/s", zone.name, zone.speed), "constant/dynamicMeshDict turns it"});
-}
-
 void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {
     const coupling::KernelSettings& kernel = settings.kernel;
     notes.push_back({fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma,
                                  kernel.min_width_in_cells),
                      "rock is larger than cells; steel hides what lies behind it"});
-    notes.push_back({"d(void fraction)/dt in the pressure equation", "rock displaces fluid"});
+    if (settings.replay.empty()) notes.push_back({"d(void fraction)/dt in the pressure equation", "rock displaces fluid"});
     const coupling::ClosureSettings& closures = settings.closures;
     notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)),
                      "closures.drag"});
@@ -38,9 +32,20 @@ void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::
 
 }  // namespace
 
-std::vector<coupling::ModelNote> models_in_use(const foam::CouplingDictionary& dictionary, const foam::FoamFluidEngine& fluid) {
+std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid) {
     std::vector<coupling::ModelNote> notes;
-    add_flow_models(fluid, notes);
+    notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
+    for (const coupling::ZoneMotion& zone : fluid.moving_zones())
+        notes.push_back({fmt::format("sliding mesh: {} at {:.6g} rad/s", zone.name, zone.speed), "constant/dynamicMeshDict turns it"});
+    return notes;
+}
+
+std::vector<coupling::ModelNote> recorded_flow_models(const foam::CouplingDictionary& dictionary) {
+    return {{"recorded flow: " + dictionary.coupling.replay.string(), "section replay; rock does not change it"}};
+}
+
+std::vector<coupling::ModelNote> rock_models(const foam::CouplingDictionary& dictionary) {
+    std::vector<coupling::ModelNote> notes;
     if (!dictionary.coupling.has_rock) return notes;
     add_coupling_models(dictionary.coupling, notes);
     add_contact_models(*dictionary.dem, notes);

@@ -8,7 +8,11 @@
 
 namespace cutterflow {
 
-/// One note for every model that is on, in the order of the equations.
-std::vector<coupling::ModelNote> models_in_use(const foam::CouplingDictionary& dictionary, const foam::FoamFluidEngine& fluid);
+/// Of a flow that is solved, and of one that is played.
+std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid);
+std::vector<coupling::ModelNote> recorded_flow_models(const foam::CouplingDictionary& dictionary);
+
+/// Of rock, in the order of the equations; none without rock.
+std::vector<coupling::ModelNote> rock_models(const foam::CouplingDictionary& dictionary);
 
 }  // namespace cutterflow

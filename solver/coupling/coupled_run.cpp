@@ -82,8 +82,9 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     mistakes.refuse();
     if (settings.has_rock) {
         rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
-        momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
+        if (fluid.feels_rock()) momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
     }
+    if (settings.record && !fs::exists(case_folder_ / names::recording)) phases_ = std::make_unique<PhaseRecorder>(*settings.record, fluid);
 
     double cells = static_cast<double>(fluid.cells().centres.size());
     communicator.sum(gsl::span<double>(&cells, 1));
@@ -140,7 +141,7 @@ void CoupledRun::sample_flow() {
     if (!has_rock()) return;
     const Timer timer(cost_.mapping);
     rock_->sample();
-    momentum_->begin(rock_->carry());
+    if (momentum_) momentum_->begin(rock_->carry());
 }
 
 void CoupledRun::begin_fluid_step() {
@@ -211,7 +212,8 @@ std::vector<RockEvent> CoupledRun::follow_rock() {
 
 void CoupledRun::report() {
     const Timer timer(cost_.output);
-    report_loads_and_balance();
+    if (fluid_.feels_rock()) report_loads_and_balance();
+    record_flow();
     // The row before the start bounds the first interval that is averaged.
     if (settings_.outflow && fluid_.time() + fluid_.time_step() >= settings_.outflow->start_time)
         recorder_.outflow(fluid_.time(), fluid_.watched_means());
@@ -293,6 +295,9 @@ bool CoupledRun::finished() const {
 void CoupledRun::finish() {
     if (settings_.checkpoint && fluid_.time() > last_checkpoint_) write_checkpoint();
     if (fates_) recorder_.outcomes(fates_->outcomes());
+    if (phases_)
+        recorder_.warning(fluid_.time(), fmt::format("the flow is not recorded: the run ended before record.endTime = {:g} s",
+                                                     settings_.record->end_time));
     report_velocity();
     recorder_.finished(run_cost_);
     recorder_.flush();
@@ -307,6 +312,32 @@ void CoupledRun::wait_for_all() {
     communicator_.sum(gsl::span<double>(&nothing, 1));
 }
 
+void CoupledRun::record_flow() {
+    if (!phases_) return;
+    phases_->sample(fluid_);
+    if (!phases_->is_over(fluid_.time())) return;
+    if (phases_->is_complete())
+        write_recording_to(case_folder_ / names::recording);
+    else
+        recorder_.warning(fluid_.time(),
+                          "the flow is not recorded: the rotor did not pass all its phases between record.startTime and endTime");
+    phases_.reset();
+}
+
+/// The folder is complete or not there.
+void CoupledRun::write_recording_to(const fs::path& folder) {
+    fs::path part = folder;
+    part += ".part";
+    if (communicator_.rank() == 0) {
+        fs::remove_all(part);
+        fs::create_directories(part);
+    }
+    wait_for_all();
+    phases_->write(part, communicator_);
+    wait_for_all();
+    if (communicator_.rank() == 0) fs::rename(part, folder);
+}
+
 void CoupledRun::write_checkpoint() {
     fluid_.write_now();
     const bool writes = communicator_.rank() == 0;
@@ -319,6 +350,7 @@ void CoupledRun::write_checkpoint() {
     }
     wait_for_all();
     write_state_files(part);
+    if (phases_) write_recording_to(part / names::recording);
     report_velocity();
     recorder_.flush();
     wait_for_all();
@@ -360,6 +392,10 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     last_checkpoint_ = fluid_.time();
     // Every rank holds the same sums and reads the same file.
     if (velocity_) read_velocity(checkpoint, *velocity_);
+    if (phases_ && fs::exists(checkpoint / names::recording))
+        phases_->restore(checkpoint / names::recording);
+    else
+        phases_.reset();
     if (!has_rock()) return;
     const std::set<int> handled(handled_feed_.begin(), handled_feed_.end());
     feed_.erase(std::remove_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return handled.count(rock.id) > 0; }), feed_.end());

@@ -17,6 +17,7 @@
 #include "solver/ports/dem_engine.hpp"
 #include "solver/ports/fluid_engine.hpp"
 #include "solver/ports/settings.hpp"
+#include "solver/replay/phase_recorder.hpp"
 
 namespace cutterflow::coupling {
 
@@ -32,7 +33,7 @@ namespace cutterflow::coupling {
 ///   end_fluid_step    momentum, pressure with d(alpha)/dt, turbulence
 ///   book              impulse of the rocks that the fluid did not receive is carried to the next step; fates, balances
 ///   report            rows, fields, checkpoint
-/// Without rock only the fluid's two stages and their reports remain.
+/// Without rock only the fluid's two stages and their reports remain. A fluid that does not feel rock gets no momentum exchange.
 class CoupledRun {
 public:
     /// \param dem       null without rock
@@ -77,6 +78,8 @@ private:
     void write_state_files(const std::filesystem::path& folder);
     void report_velocity();
     void wait_for_all();
+    void record_flow();
+    void write_recording_to(const std::filesystem::path& folder);
 
     CouplingSettings settings_;
     FluidEngine& fluid_;
@@ -89,7 +92,8 @@ private:
     std::unique_ptr<MomentumBalance> momentum_;
     std::optional<FateTracker> fates_;
     std::optional<VelocitySets> velocity_;
-    std::vector<FeedRock> feed_;  // not yet handled, sorted by time
+    std::unique_ptr<PhaseRecorder> phases_;  // while the flow is recorded
+    std::vector<FeedRock> feed_;             // not yet handled, sorted by time
     std::vector<int> handled_feed_;
 
     RunInstant step_start_;

@@ -97,6 +97,9 @@ class FluidEngine {
 public:
     virtual ~FluidEngine() = default;
 
+    /// False when the flow is given and takes nothing from rock (one-way coupling): received() and loads() are then not asked for.
+    virtual bool feels_rock() const { return true; }
+
     virtual Cells cells() const = 0;
     /// Collective when it is asked for the first time.
     virtual Steel steel() const = 0;

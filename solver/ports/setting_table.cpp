@@ -147,6 +147,22 @@ SettingTable<CheckpointSettings> checkpoint_rows() {
         .take();
 }
 
+SettingTable<RecordSettings> record_rows() {
+    using S = RecordSettings;
+    return Rows<S>()
+        .require(&S::start_time, number("startTime", "s", "Time from which the flow is recorded.").at_least(0.0))
+        .require(&S::end_time,
+                 number("endTime", "s", "Time at which the recording ends: a turn of the rotor after its start, or later.").above(0.0))
+        .add(&S::phases,
+             ParameterRow("phases", ParameterKind::integer, "-",
+                          "Angles at which the flow is kept: over one turn for cells of the rotor, over one passing of a blade for "
+                          "the others.")
+                 .at_least(2.0)
+                 .at_most(720.0))
+        .add(&S::blades, ParameterRow("blades", ParameterKind::integer, "-", "Equal blades of the rotor.").at_least(1.0).at_most(100.0))
+        .take();
+}
+
 }  // namespace
 
 template <class Settings>
@@ -169,6 +185,7 @@ void Setting<Settings>::assign(Settings& settings, const ParameterValue& value) 
 template struct Setting<OutflowSettings>;
 template struct Setting<StopSettings>;
 template struct Setting<CheckpointSettings>;
+template struct Setting<RecordSettings>;
 template struct Setting<KernelSettings>;
 template struct Setting<ClosureSettings>;
 template struct Setting<ContactSettings>;
@@ -188,6 +205,12 @@ const SettingTable<StopSettings>& setting_table<StopSettings>() {
 template <>
 const SettingTable<CheckpointSettings>& setting_table<CheckpointSettings>() {
     static const SettingTable<CheckpointSettings> table = checkpoint_rows();
+    return table;
+}
+
+template <>
+const SettingTable<RecordSettings>& setting_table<RecordSettings>() {
+    static const SettingTable<RecordSettings> table = record_rows();
     return table;
 }
 

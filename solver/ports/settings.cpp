@@ -59,6 +59,30 @@ void check_velocity(Mistakes& mistakes, const VelocitySettings& velocity) {
     }
 }
 
+void check_record(Mistakes& mistakes, const RecordSettings& record, bool has_rock, const std::string& where) {
+    if (!has_rock)
+        mistakes.add("section record without section rock", "A recording holds Du/Dt, which is computed with rock alone",
+                     "Add rock that comes in after record.endTime, or remove record");
+    mistakes.add(setting_mistakes(record, "record", where));
+    mistakes.require(record.end_time > record.start_time, "record.endTime", record.end_time, "It must be later than record.startTime",
+                     "Record a turn of the rotor or more");
+}
+
+/// What a recording does not hold cannot be asked of a replay.
+void check_replay(Mistakes& mistakes, const CouplingSettings& settings) {
+    const auto refuse = [&](bool wrong, const std::string& what) {
+        if (wrong)
+            mistakes.add(what + " with section replay", "A recording holds velocity and its material derivative in cells", "Remove it");
+    };
+    if (!settings.has_rock) mistakes.add("section replay without section rock", "Only rock moves in a recorded flow", "Add rock");
+    refuse(settings.outflow.has_value(), "section outflow");
+    refuse(settings.velocity.has_value(), "section velocity");
+    refuse(settings.checkpoint.has_value(), "section checkpoint");
+    refuse(settings.record.has_value(), "section record");
+    refuse(settings.closures.lift != physics::k_no_closure, "closures.lift = " + settings.closures.lift);
+    refuse(!settings.closures.viscous_force, "closures.viscousForce no");
+}
+
 }  // namespace
 
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where) {
@@ -83,6 +107,8 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
     if (settings.stop && settings.has_rock && !settings.fates)
         mistakes.add("section stop without section fates", "Rock is undecided until it has a fate", "Add fates or remove stop");
     if (settings.checkpoint) mistakes.add(setting_mistakes(*settings.checkpoint, "checkpoint", where));
+    if (settings.record) check_record(mistakes, *settings.record, settings.has_rock, where);
+    if (!settings.replay.empty()) check_replay(mistakes, settings);
     return mistakes.take();
 }
 

@@ -100,6 +100,17 @@ struct CheckpointSettings {
 template <>
 const SettingTable<CheckpointSettings>& setting_table<CheckpointSettings>();
 
+/// The flow is recorded by rotor phase, for replays without a fluid solver.
+struct RecordSettings {
+    double start_time = 0.0;  ///< [s]
+    double end_time = 0.0;    ///< [s]
+    int phases = 48;          ///< over one turn of the rotor for its own cells, over one passing of a blade for those that stand still
+    int blades = 1;           ///< equal ones
+};
+
+template <>
+const SettingTable<RecordSettings>& setting_table<RecordSettings>();
+
 /// Roles of boundary patches, by name.
 struct PatchSettings {
     std::string outlet;              ///< whose flow and pressure are reported; empty: none is
@@ -119,6 +130,8 @@ struct CouplingSettings {
     std::optional<VelocitySettings> velocity;
     std::optional<StopSettings> stop;
     std::optional<CheckpointSettings> checkpoint;
+    std::optional<RecordSettings> record;
+    std::filesystem::path replay;  ///< folder of a recording whose flow is played instead of solved; empty: none
 };
 
 /// Every mistake of the settings (not of the files they name); `where` precedes each, as "constant/couplingProperties".

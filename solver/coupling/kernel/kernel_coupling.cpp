@@ -174,7 +174,8 @@ void KernelCoupling::sample() {
 double KernelCoupling::travel_limit() const {
     const Rocks& rocks = dem_.rocks();
     if (rocks.size() == 0) return std::numeric_limits<double>::infinity();
-    double limit = k_travel_share * interface_passage_time_;
+    const bool feels = fluid_.feels_rock();
+    double limit = feels ? k_travel_share * interface_passage_time_ : std::numeric_limits<double>::infinity();
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         Vec3 cell_velocity = Vec3::Zero();
         if (present_.zone[p] != k_still_zone) {
@@ -182,7 +183,7 @@ double KernelCoupling::travel_limit() const {
             cell_velocity = motion.speed * motion.axis.direction.cross(rocks.position[p] - motion.axis.origin);
         }
         const double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
-        const double length = std::min(present_.width[p], present_.cell_size[p]);
+        const double length = feels ? std::min(present_.width[p], present_.cell_size[p]) : present_.width[p];
         if (speed > 0.0) limit = std::min(limit, k_travel_share * length / speed);
     }
     return limit;
@@ -229,7 +230,31 @@ void KernelCoupling::require_all_rocks() const {
                         "Rock stays in the run or leaves it through the domain's boundary", "Report this as a defect"});
 }
 
+void KernelCoupling::map_one_way() {
+    const std::vector<double> volumes = volumes_of(dem_.rocks());
+    map_present_rock();
+    Stencils* const stencils[] = {&present_};
+    const auto fractions = redistribute(stencils, volumes, mapping_.cells().volumes, settings_.kernel.max_solid_fraction, communicator_);
+    void_fraction_new_ = void_fraction_of(fractions[0]);
+    check_ranges();
+    note_fullness(fractions[0], largest_of(fractions[0], communicator_));
+}
+
+/// \throws CheckFailure  when a cell has no room left
+void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, double largest) {
+    const double limit = settings_.kernel.max_solid_fraction;
+    balance_.solid_fraction_max = largest;
+    require_room(largest, limit);
+    balance_.overfull_cells = count_above(limit, solid_fraction, communicator_);
+    if (balance_.overfull_cells > 0)
+        warn_once("overfull",
+                  fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room; "
+                              "balance.csv counts them",
+                              balance_.overfull_cells, limit, largest));
+}
+
 void KernelCoupling::map() {
+    if (!fluid_.feels_rock()) return map_one_way();
     const Rocks& rocks = dem_.rocks();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
     const double dt = fluid_.time_step();
@@ -270,15 +295,7 @@ void KernelCoupling::map() {
 
     check_ranges();
     balance_.solid_volume_error = std::max(volume_error(fractions[0], volumes), volume_error(fractions[1], volumes));
-    balance_.solid_fraction_max = std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_));
-    const double limit = settings_.kernel.max_solid_fraction;
-    require_room(balance_.solid_fraction_max, limit);
-    balance_.overfull_cells = count_above(limit, fractions[1], communicator_);
-    if (balance_.overfull_cells > 0)
-        warn_once("overfull",
-                  fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room; "
-                              "balance.csv counts them",
-                              balance_.overfull_cells, limit, balance_.solid_fraction_max));
+    note_fullness(fractions[1], std::max(largest_of(fractions[0], communicator_), largest_of(fractions[1], communicator_)));
 }
 
 /// The part of the target that only moves drag between the cells of a kernel: sum_p w_p D_p (ubar_p - u_old) / rho_f. Velocities are taken
@@ -408,6 +425,7 @@ double KernelCoupling::volume_error(const std::vector<double>& solid_fraction, c
 }
 
 ExchangeBalance KernelCoupling::book() {
+    if (!fluid_.feels_rock()) return balance_;
     const gsl::span<const Vec3> received = fluid_.received();
     const gsl::span<const double> void_fraction = fluid_.fields().void_fraction;
     const gsl::span<const double> volumes = mapping_.cells().volumes;

@@ -61,13 +61,15 @@ public:
     void sample();
 
     /// Longest step [s] in which rock travels a quarter of its kernel width and of the cells around it, relative to the cells of either
-    /// zone, and the rotor interface a quarter of a cell; infinity without rock.
+    /// zone, and the rotor interface a quarter of a cell; infinity without rock. In a flow that does not feel rock a quarter of the kernel
+    /// alone: nothing is displaced, and fields that rock samples are smooth on it.
     double travel_limit() const;
 
     /// Moves the rocks over the fluid's time step with the sampled flow.
     const DemStep& move();
 
-    /// Builds both void fractions and the momentum exchange on the moved mesh.
+    /// Builds both void fractions and the momentum exchange on the moved mesh; for a flow that does not feel rock the new void fraction
+    /// alone.
     void map();
 
     gsl::span<const double> void_fraction_old() const { return void_fraction_old_; }
@@ -89,6 +91,8 @@ public:
     void restore(std::vector<Vec3> carry, const BookedExchange& booked);
 
 private:
+    void map_one_way();
+    void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
     void map_present_rock();
     void require_all_rocks() const;

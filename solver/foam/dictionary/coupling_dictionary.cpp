@@ -215,6 +215,9 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
                   [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
     read_optional(file, "stop", settings.stop, read_settings<coupling::StopSettings>);
     read_optional(file, "checkpoint", settings.checkpoint, read_settings<coupling::CheckpointSettings>);
+    read_optional(file, "record", settings.record, read_settings<coupling::RecordSettings>);
+    read_section(file, "replay", k_optional,
+                 [&](DictionarySection& section) { section.read("recording", settings.replay, folder, k_required); });
 }
 
 /// Checks the values, with the same rules as everywhere else.

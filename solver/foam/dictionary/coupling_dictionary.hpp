@@ -37,6 +37,8 @@ struct CouplingDictionary {
 /// velocity   { startTime 1; sets ( { name a; file "constant/a.csv"; } ); }                // optional, needs a turning zone
 /// stop       { undecided 0.05; }                              // optional, needs fates
 /// checkpoint { interval 0.25; keep 2; }                       // optional
+/// record     { startTime 1; endTime 2; blades 6; }            // optional, needs a turning zone
+/// replay     { recording "../flow/recording"; }               // optional, needs rock; the flow is then not solved
 /// \endverbatim
 /// \throws UserError  with every mistake of the file: unknown key (with the nearest known one), wrong type, missing, out of bounds, or that
 /// it is no dictionary

@@ -103,7 +103,6 @@ struct FoamSession::Parts {
     Foam::autoPtr<Foam::dynamicFvMesh> mesh;
 
     void open_mesh() {
-        restore_exact_time(*time);
         Foam::Info << "Create mesh for time = " << time->timeName() << Foam::nl << Foam::endl;
         mesh = Foam::dynamicFvMesh::New(Foam::IOobject(Foam::polyMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));
     }
@@ -116,7 +115,7 @@ FoamSession::FoamSession(int argc, char** argv) : parts_(std::make_unique<Parts>
         require_checkpoint_is_latest(parts_->case_folder);
         Foam::Info << "Create time\n" << Foam::endl;
         parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, arguments);
-        parts_->open_mesh();
+        restore_exact_time(*parts_->time);
     });
 }
 
@@ -129,7 +128,7 @@ FoamSession::FoamSession(const std::filesystem::path& case_folder) : parts_(std:
     if (Foam::UPstream::parRun()) name = name / ("processor" + std::to_string(Foam::UPstream::myProcNo()));
     with_case_errors(ThrownErrors::all, [&] {
         parts_->time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, root, name);
-        parts_->open_mesh();
+        restore_exact_time(*parts_->time);
     });
 }
 
@@ -141,6 +140,7 @@ Foam::Time& FoamSession::time() {
     return *parts_->time;
 }
 Foam::dynamicFvMesh& FoamSession::mesh() {
+    if (!parts_->mesh.valid()) with_case_errors(ThrownErrors::all, [&] { parts_->open_mesh(); });
     return parts_->mesh();
 }
 const std::filesystem::path& FoamSession::case_folder() const {

@@ -28,6 +28,7 @@ public:
     FoamSession& operator=(const FoamSession&) = delete;
 
     Foam::Time& time();
+    /// Read when it is asked for the first time; collective then. \throws CaseFileError  when OpenFOAM cannot read it
     Foam::dynamicFvMesh& mesh();
 
     /// The case's own folder (not a processor's).

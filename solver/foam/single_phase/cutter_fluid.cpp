@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "solver/foam/session/case_times.hpp"
 #include "solver/foam/single_phase/fields.hpp"
 
 #include "directionMixedFvPatchFields.H"
@@ -19,13 +20,6 @@ namespace cutterflow::foam {
 using namespace Foam;
 
 namespace {
-
-/// Interval between fields that are written by simulated time; none when the case counts otherwise.
-std::optional<double> read_write_interval(const dictionary& control) {
-    const word kind(control.lookupOrDefault<word>("writeControl", "timeStep"));
-    if (kind != "adjustable" && kind != "adjustableRunTime") return std::nullopt;
-    return control.get<scalar>("writeInterval");
-}
 
 IOobject registered(const word& name, const fvMesh& mesh, IOobject::readOption read, IOobject::writeOption write) {
     return IOobject(name, mesh.time().timeName(), mesh, read, write);
@@ -52,7 +46,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
       time_(const_cast<Time&>(mesh.time())),
       rock_(rock),
       pimple_(mesh),
-      write_interval_(read_write_interval(time_.controlDict())),
+      write_interval_(case_times(time_).write_interval),
       p_(registered("p", mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh),
       U_(registered("U", mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE), mesh),
       phi_(registered("phi", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), fvc::flux(U_)),

@@ -188,12 +188,17 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         coupling::OutflowSettings outflow;
         coupling::StopSettings stop;
         coupling::CheckpointSettings checkpoint;
+        coupling::RecordSettings record;
         const std::string rock =
             fmt::format("rock {{ feed \"f.csv\"; contact {{ {} }} domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}",
                         section_of(contact, choice));
-        const std::string text = fmt::format("{} kernel {{ {} }} closures {{ {} }} {} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }}",
-                                             rock, section_of(kernel, choice), section_of(closures, choice), k_fates,
-                                             section_of(outflow, choice), section_of(stop, choice), section_of(checkpoint, choice));
+        const std::string record_section = section_of(record, choice);
+        // Any end is later than this start.
+        const std::string text = fmt::format(
+            "{} kernel {{ {} }} closures {{ {} }} {} outflow {{ {} }} stop {{ {} }} checkpoint {{ {} }} record {{ {} startTime 0; }}", rock,
+            section_of(kernel, choice), section_of(closures, choice), k_fates, section_of(outflow, choice), section_of(stop, choice),
+            section_of(checkpoint, choice), record_section);
+        record.start_time = 0.0;
         const CouplingDictionary found = read("dictionary_round_trip_" + std::to_string(choice), text);
         ASSERT_TRUE(found.dem && found.coupling.outflow && found.coupling.stop && found.coupling.checkpoint);
         expect_same(found.dem->contact, contact);
@@ -202,6 +207,8 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         expect_same(*found.coupling.outflow, outflow);
         expect_same(*found.coupling.stop, stop);
         expect_same(*found.coupling.checkpoint, checkpoint);
+        ASSERT_TRUE(found.coupling.record);
+        expect_same(*found.coupling.record, record);
     }
 }
 

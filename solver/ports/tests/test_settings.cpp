@@ -34,6 +34,35 @@ TEST(Settings, of_a_pure_flow_run_need_nothing) {
     EXPECT_TRUE(check_settings(CouplingSettings{}, k_water, "x").empty());
 }
 
+TEST(Settings, of_a_replay_ask_for_nothing_that_a_recording_lacks) {
+    CouplingSettings settings = good_settings();
+    settings.replay = "recording";
+    settings.record = RecordSettings{0.0, 1.0, 48, 6};
+    settings.velocity.emplace();
+    settings.closures.lift = "mei";
+    settings.closures.viscous_force = false;
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 6u);  // outflow, velocity, checkpoint, record, lift, viscous force
+    CouplingSettings plain = good_settings();
+    plain.replay = "recording";
+    plain.outflow.reset();
+    plain.checkpoint.reset();
+    EXPECT_TRUE(check_settings(plain, k_water, "x").empty());
+    plain.has_rock = false;
+    plain.stop.reset();
+    EXPECT_EQ(check_settings(plain, k_water, "x").size(), 1u);
+}
+
+TEST(Settings, of_a_recording_need_rock_and_an_interval) {
+    CouplingSettings settings = good_settings();
+    settings.record = RecordSettings{1.0, 2.0, 48, 6};
+    EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
+    settings.record->end_time = 1.0;
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
+    settings.has_rock = false;
+    settings.stop.reset();
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 2u);
+}
+
 TEST(Settings, name_every_mistake) {
     CouplingSettings settings = good_settings();
     settings.kernel.gamma = 0.0;
