@@ -15,6 +15,7 @@ void add_run(CLI::App& app);
 void add_report(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_compare(CLI::App& app);
+void add_replay(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_params(CLI::App& app);
 

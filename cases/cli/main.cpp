@@ -124,6 +124,7 @@ int run(int argc, char** argv) {
     cli::add_report(app);
     cli::add_sweep(app);
     cli::add_compare(app);
+    cli::add_replay(app);
     cli::add_verify(app);
     refuse_empty_words(app);
     if (argc > 1 && argv[1][0] != '\0') require_known_command(app, argv[1]);

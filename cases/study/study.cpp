@@ -256,6 +256,20 @@ void check_intervals(const ParameterValues& study, Rules& rules) {
     }
 }
 
+/// Recorded phases are those of whole turns, before rock changes the flow.
+void check_recording(const ParameterValues& study, Rules& rules) {
+    const double recorded = study.number("run.record_revolutions");
+    if (recorded == 0.0) return;
+    const char* key = "run.record_revolutions";
+    rules.require(recorded >= 1.0, key, "The rotor passes all its phases in one revolution", "Use 1 or more, or 0 for no recording");
+    rules.require(!study.tables("feed").empty(), key, "A recording is for rock", "Add a feed, or use 0");
+    for (const ParameterValues& feed : study.tables("feed"))
+        rules.require(
+            recorded <= feed.number("feed.start_revolution"), key,
+            fmt::format("It is at most the flow before the rock, feed.start_revolution = {:g}", feed.number("feed.start_revolution")),
+            "Raise run.flow_revolutions");
+}
+
 }  // namespace
 
 double Study::period() const {
@@ -263,6 +277,10 @@ double Study::period() const {
 }
 double Study::end_time() const {
     return run.max_revolutions * period();
+}
+double Study::first_release() const {
+    return std::min_element(feeds.begin(), feeds.end(), [](const FeedRequest& a, const FeedRequest& b) { return a.start < b.start; })
+        ->start;
 }
 AxialCylinder Study::water(const HeadSize& head) const {
     const double bottom = -head.depth - tank.bed_clearance;
@@ -345,8 +363,9 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.closures = k_closure_section.read(resolved);
     study.kernel = k_kernel_section.read(resolved);
     study.length_ratio = number("scale.length_ratio");
-    study.run = {number("run.flow_revolutions"), number("run.max_revolutions"),       {number("run.stop_undecided")},
-                 number("run.max_courant"),      number("run.checkpoint_interval_s"), number("run.write_interval_s")};
+    study.run = {number("run.flow_revolutions"),  number("run.max_revolutions"),       {number("run.stop_undecided")},
+                 number("run.max_courant"),       number("run.checkpoint_interval_s"), number("run.write_interval_s"),
+                 number("run.record_revolutions")};
     study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s"), {}, {}};
     if (resolved.has("report.adv_points")) {
         study.report.adv_points = std::filesystem::absolute(folder / resolved.text("report.adv_points"));
@@ -366,6 +385,7 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
     check_rocks(resolved, head, rules);
     check_report(resolved, head, rules);
     check_intervals(resolved, rules);
+    check_recording(resolved, rules);
     rules.require(!physics::drag_law_holds_void_fraction(resolved.text("closures.drag")) ||
                       resolved.text("closures.hindrance") == physics::k_no_closure,
                   "closures.hindrance",

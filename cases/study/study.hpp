@@ -86,6 +86,7 @@ struct Study {
         coupling::StopSettings stop;
         double max_courant = 0.0;
         double checkpoint_interval = 0.0, write_interval = 0.0;  ///< [s]
+        double record_revolutions = 0.0;                         ///< before the first rock
     } run;
     struct Report {
         double bin_width = 0.0, outflow_offset = 0.0, outflow_start = 0.0;  ///< [m], [m], [s]
@@ -93,8 +94,9 @@ struct Study {
         postproc::AdvProbe adv_probe;
     } report;
 
-    double period() const;    ///< of one revolution [s]
-    double end_time() const;  ///< [s]
+    double period() const;         ///< of one revolution [s]
+    double end_time() const;       ///< [s]
+    double first_release() const;  ///< [s]; of a study with rock
     AxialCylinder water(const HeadSize& head) const;
 };
 

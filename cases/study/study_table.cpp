@@ -154,6 +154,12 @@ ParameterTable run_rows() {
             .at_most(k_most_revolutions)
             .by_default(4.0),
         setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.05),
+        number(
+            k_case_stage, "run.record_revolutions", "-",
+            "Revolutions of the flow before the first rock that are recorded by rotor phase, for `cutterflow replay`; 0 records nothing.")
+            .at_least(0.0)
+            .at_most(k_most_revolutions)
+            .by_default(0.0),
         number(k_case_stage, "run.max_courant", "-", "Largest Courant number of the flow relative to the mesh.")
             .at_least(0.01)
             .at_most(5.0)

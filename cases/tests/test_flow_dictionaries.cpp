@@ -121,6 +121,23 @@ TEST(Coupling, is_the_flow_alone_without_rock) {
     EXPECT_EQ(find(coupling, "stop"), nullptr);
 }
 
+TEST(Coupling, of_a_replay_observes_and_saves_nothing_of_the_flow) {
+    CaseInputs inputs = test::tiny_inputs();
+    inputs.rock.emplace();
+    inputs.rock->contact.youngs_modulus = 1.1e8;
+    inputs.rock->contact.max_speed = 4.0;
+    inputs.rock->walls = standard_walls();
+    inputs.replay = "/runs/demo/recording";
+    const meshing::FoamDictionary replay = coupling_dictionary(inputs);
+    for (const char* section : {"outflow", "velocity", "checkpoint", "record"}) EXPECT_EQ(find(replay, section), nullptr) << section;
+    for (const char* section : {"rock", "fates", "replay"}) EXPECT_NE(find(replay, section), nullptr) << section;
+    inputs.replay.clear();
+    inputs.record = coupling::RecordSettings{1.0, 2.0, 48, 6};
+    const meshing::FoamDictionary run = coupling_dictionary(inputs);
+    EXPECT_NE(find(run, "record"), nullptr);
+    EXPECT_EQ(find(run, "replay"), nullptr);
+}
+
 TEST(Coupling, has_the_keys_of_the_contract) {
     CaseInputs inputs = test::tiny_inputs();
     inputs.rock.emplace();

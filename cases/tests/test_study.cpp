@@ -248,6 +248,15 @@ TEST(Study, refuses_values_that_no_dredger_has) {
     one("cutter.file = \"\"\nrotor.speed_rpm = 60\nsuction.discharge_m3_s = 0.12\n", "cutter.file");
 }
 
+TEST(Study, records_whole_revolutions_before_the_rock) {
+    const auto mistakes = [](const std::string& text) { return check_study(resolve_study(parse(text), k_model), k_model); };
+    const std::string feed = with_feed("count = 3\n");
+    EXPECT_TRUE(mistakes(feed + "[run]\nrecord_revolutions = 1\n").empty());
+    EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 0.5\n"), "all its phases in one revolution"));
+    EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 2\n"), "at most the flow before the rock"));
+    EXPECT_TRUE(any_contains(mistakes(minimal("[run]\nrecord_revolutions = 1\n")), "A recording is for rock"));
+}
+
 TEST(Study, refuses_sizes_out_of_proportion_to_the_head) {
     const auto only = [](const std::string& keys, const std::string& rule) {
         const std::vector<Mistake> mistakes = check_study(resolve_study(parse(minimal(keys)), k_model), k_model);

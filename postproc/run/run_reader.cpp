@@ -269,7 +269,7 @@ Table read_plane(const fs::path& directory, const std::string& file) {
 
 std::optional<RockTables> read_rock(const fs::path& directory) {
     RockTables rock;
-    rock.fates = read_joined_table(directory, "rock", "fates.csv", fate_rules());
+    rock.fates = read_fates(directory);
     if (rock.fates.empty()) return std::nullopt;
     rock.events = read_joined_table(directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
     rock.final_state = read_newest_table(directory, "rock", "final.csv", final_rules());
@@ -310,6 +310,10 @@ std::string cutter_of(const json& manifest) {
 }
 
 }  // namespace
+
+Table read_fates(const fs::path& run_directory) {
+    return read_joined_table(run_directory, "rock", "fates.csv", fate_rules());
+}
 
 RunData read_run(const fs::path& directory) {
     StudyReader study(directory / names::resolved_study);

@@ -127,10 +127,14 @@ meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
         coupling.add("rock", rock_section(settings.rock_feed, dem_settings(inputs)))
             .add("kernel", section_of(settings.kernel))
             .add("closures", section_of(settings.closures));
-    coupling.add("fates", fates_section(*settings.fates)).add("outflow", section_of(*settings.outflow));
+    coupling.add("fates", fates_section(*settings.fates));
+    if (settings.outflow) coupling.add("outflow", section_of(*settings.outflow));
     if (settings.velocity) coupling.add("velocity", velocity_section(*settings.velocity));
     if (settings.stop) coupling.add("stop", section_of(*settings.stop));
-    return coupling.add("checkpoint", section_of(*settings.checkpoint));
+    if (settings.checkpoint) coupling.add("checkpoint", section_of(*settings.checkpoint));
+    if (settings.record) coupling.add("record", section_of(*settings.record));
+    if (!settings.replay.empty()) coupling.add("replay", meshing::FoamDictionary().add("recording", file_name(settings.replay)));
+    return coupling;
 }
 
 std::vector<WallSource> wall_sources() {
@@ -169,6 +173,16 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
     written.emplace_back(fs::weakly_canonical(run_directory).filename().string() + ".foam");
     write_text(run_directory / written.back(), "");
     return written;
+}
+
+void write_replay_case(const fs::path& folder, const CaseInputs& inputs) {
+    const std::vector<Mistake> mistakes = check_case_inputs(inputs);
+    if (!mistakes.empty()) throw UserError(mistakes);
+    std::vector<FoamFile> files = property_files(inputs);
+    for (const FoamFile& file : run_system_files(inputs)) files.push_back(file);
+    files.push_back({names::coupling_properties, "dictionary", coupling_dictionary(inputs)});
+    for (const FoamFile& file : files) meshing::write_foam_file(folder / file.path, file.foam_class, file.contents);
+    write_text(folder / names::contour_for_solver, contour_csv(inputs.contour));
 }
 
 }  // namespace cutterflow::cases

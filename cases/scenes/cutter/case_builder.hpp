@@ -29,4 +29,8 @@ std::vector<coupling::WallSettings> standard_walls();
 /// then
 std::vector<std::filesystem::path> write_case(const std::filesystem::path& run_directory, const CaseInputs& inputs);
 
+/// Writes what cutterFoam needs of a replay: system/, constant/couplingProperties, properties and contour. No mesh, no fields, no surfaces.
+/// \pre inputs.replay and inputs.rock are set; files of walls are absolute \throws UserError  with every rule that the inputs break
+void write_replay_case(const std::filesystem::path& folder, const CaseInputs& inputs);
+
 }  // namespace cutterflow::cases

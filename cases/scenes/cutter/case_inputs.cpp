@@ -96,6 +96,10 @@ coupling::CouplingSettings solver_settings(const CaseInputs& inputs) {
     settings.fates->contour = names::contour_for_solver;
     settings.fates->ring_radius = inputs.contour.ring_radius();
     settings.fates->z_backplate = inputs.contour.z_backplate();
+    settings.stop = inputs.stop;
+    settings.record = inputs.record;
+    settings.replay = inputs.replay;
+    if (!inputs.replay.empty()) return settings;  // nothing of the flow is observed or saved
     settings.outflow = inputs.outflow;
     if (!inputs.velocity_sets.empty()) {
         settings.velocity.emplace();
@@ -105,7 +109,6 @@ coupling::CouplingSettings solver_settings(const CaseInputs& inputs) {
         for (const VelocitySetInput& set : inputs.velocity_sets)
             settings.velocity->sets.push_back({set.name, sample_file(set), set.phases});
     }
-    settings.stop = inputs.stop;
     settings.checkpoint = inputs.checkpoint;
     return settings;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What a case is made of: plain numbers in SI units and in the run's frame (docs/design/001-contracts.md), from which the case
 /// builder writes an OpenFOAM case.
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,6 +70,8 @@ struct CaseInputs {
     coupling::OutflowSettings outflow;
     coupling::CheckpointSettings checkpoint;
     std::optional<coupling::StopSettings> stop;
+    std::optional<coupling::RecordSettings> record;
+    std::filesystem::path replay;  ///< folder of a recording that is played instead of a solved flow; empty: none
     coupling::KernelSettings kernel;
     coupling::ClosureSettings closures;
     int blades = 1;

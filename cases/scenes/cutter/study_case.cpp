@@ -30,6 +30,15 @@ CaseInputs::Rock rock_of(const Study& study) {
     return rock;
 }
 
+std::optional<coupling::RecordSettings> record_of(const Study& study, const HeadSize& head) {
+    if (study.run.record_revolutions == 0.0) return std::nullopt;
+    coupling::RecordSettings record;
+    record.end_time = study.first_release();
+    record.start_time = std::max(0.0, record.end_time - study.run.record_revolutions * study.period());
+    record.blades = head.blades;
+    return record;
+}
+
 /// That the file which a key names is missing.
 std::optional<Mistake> missing_file(const ParameterValues& values, const char* key, const std::filesystem::path& study_folder) {
     if (!values.has(key)) return std::nullopt;
@@ -148,6 +157,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
     if (!study.feeds.empty()) {
         inputs.rock = rock_of(study);
         inputs.stop = study.run.stop;
+        inputs.record = record_of(study, head);
     }
     fill_scaled_defaults(inputs);
     return inputs;

@@ -1,0 +1,69 @@
+/// \file replay: many placements of rock in a recorded flow.
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cases/cli/commands.hpp"
+#include "cases/replay/replay.hpp"
+#include "cases/runner/machine.hpp"
+#include "geometry/base/installation.hpp"
+#include "geometry/base/process/child_process.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReplayOptions {
+    std::vector<std::string> runs;
+    int count = 20;
+    std::string output;
+    bool resume = false;
+};
+
+/// \throws CheckFailure  when rock changes the flow more than replays may leave out
+void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::path& folder) {
+    if (std::abs(estimate.corrections.mean) <= postproc::k_largest_correction) return;
+    throw CheckFailure({folder.string(),
+                        fmt::format("coupled runs spill {:+.1f} points against replays", 100.0 * estimate.corrections.mean),
+                        fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.0f} points",
+                                    100.0 * postproc::k_largest_correction),
+                        "Use coupled runs (cutterflow sweep --repeats), or put in less rock"});
+}
+
+void replay(const ReplayOptions& options) {
+    const cases::ReplaySettings settings{
+        {options.runs.begin(), options.runs.end()}, options.count, options.output, installation().programs / "cutterFoam",
+        std::max(1, cases::available_cores()),      options.resume};
+    try {
+        const cases::ReplayResults results =
+            cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
+        std::cout << postproc::replay_text(results.estimate);
+        require_weak_coupling(results.estimate, settings.folder);
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(fmt::format("{}. Finished replays are kept in {}; repeat the command with --resume", interrupted.what(),
+                                      settings.folder.string()));
+    }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "replay", "Place rock many times in the flow that a run recorded: spillage with its interval, at a fraction of the cost.");
+    const auto options = std::make_shared<ReplayOptions>();
+    command
+        ->add_option("run_directories", options->runs,
+                     "Runs with run.record_revolutions above 0, repeats of one study; the first one's flow is replayed")
+        ->required();
+    command->add_option("-n,--count", options->count, "Placements beside those of the runs")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("-o,--output", options->output, "Folder of the replays")->required();
+    command->add_flag("--resume", options->resume, "Go on with a stopped call, or add placements to it");
+    command->callback([options] { replay(*options); });
+}
+
+}  // namespace cutterflow::cli

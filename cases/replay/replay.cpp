@@ -1,0 +1,273 @@
+#include "cases/replay/replay.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/runner/pipeline.hpp"
+#include "cases/runner/run_directory.hpp"
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/feed.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
+#include "cases/study/study.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/process/child_process.hpp"
+#include "geometry/base/progress.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/head/head_names.hpp"
+#include "geometry/io/read_surface.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "postproc/analysis/spillage.hpp"
+#include "postproc/run/run_reader.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_plan = "plan.json";
+
+/// Replays have other seeds than the repeats of a sweep, which count up from the study's.
+constexpr std::int64_t k_first_seed = 1000;
+
+/// Releases are spread over the passing of a blade; multiples of the golden ratio stay spread when more are added.
+constexpr double k_golden_ratio = 0.6180339887498949;
+
+/// What all replays of one recorded flow share.
+struct RecordedRun {
+    fs::path folder;  ///< absolute
+    ParameterValues values;
+    RunHead head;
+    geometry::TriangleSurface cutter;
+};
+
+RecordedRun open_run(const fs::path& run) {
+    const RunDirectory directory(run);
+    return {fs::absolute(run).lexically_normal(), read_study(directory.file(names::resolved_study)), read_run_head(directory),
+            geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
+}
+
+/// \throws UserError  with every run without a recording
+void require_recordings(const std::vector<fs::path>& runs) {
+    Mistakes mistakes;
+    for (const fs::path& run : runs) {
+        if (fs::exists(run / names::recording)) continue;
+        mistakes.add({run.string(), "there is no recorded flow",
+                      "A run records the flow before the rock when run.record_revolutions is above 0",
+                      "Set run.record_revolutions = 1 in the study and run it in another directory"});
+    }
+    mistakes.refuse();
+}
+
+/// The study of one replay. \param index  from 1 on; 0 is the run's own placement
+ParameterValues values_of(const RecordedRun& run, int index) {
+    ParameterValues values = run.values;
+    if (index == 0) return values;
+    const double turned = index * k_golden_ratio - std::floor(index * k_golden_ratio);
+    for (ParameterValues& feed : values.tables_for_writing("feed")) {
+        feed.set("feed.seed", feed.integer("feed.seed") + k_first_seed + index);
+        feed.set("feed.start_revolution", feed.number("feed.start_revolution") + turned / run.head.size.blades);
+    }
+    return values;
+}
+
+/// The case of a replay: the run's steel and contour, its own rock. It has no mesh. \param folder  of the replay
+void write_replay(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
+    const Study study = make_study(values, run.folder);
+    const geometry::Contour contour = run.head.with_backplate(study.suction.gap);
+    CaseInputs inputs = case_inputs_of(study, run.head.size, contour, 1);
+    // As long after its release as the run.
+    inputs.times.end += (values.tables("feed").front().number("feed.start_revolution") -
+                         run.values.tables("feed").front().number("feed.start_revolution")) *
+                        study.period();
+    inputs.record.reset();
+    inputs.replay = run.folder / names::recording;
+    for (coupling::WallSettings& wall : inputs.rock->walls) wall.file = run.folder / wall.file;
+    write_replay_case(folder, inputs);
+    write_file(folder / names::rock_feed, rock_feed_csv(place_feeds(study, feed_scene(study, run.head.size, contour, run.cutter))));
+}
+
+/// Written when a replay came to its end.
+fs::path cost_file(const fs::path& folder) {
+    return folder / "postProcessing" / "cost" / "0" / "cost.json";
+}
+
+void evaluate(const fs::path& folder, Replay& replay) {
+    const postproc::Table fates = postproc::read_fates(folder);
+    const postproc::SpillageRatios ratios = postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1));
+    if (!ratios.ratio)
+        throw CheckFailure({folder.string(), ratios.reason, "A replay ends when rock has left the head", "Raise run.max_revolutions"});
+    replay.spillage = *ratios.ratio;
+    replay.undecided = *ratios.undecided;
+    replay.core_s =
+        read_json_document(cost_file(folder), {{"core_s", JsonKind::number, true}}, "Start again in another folder").at("core_s");
+}
+
+/// Runs replays on as many cores as there are jobs.
+class Replays {
+public:
+    Replays(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) : settings_(settings), runs_(runs) {
+        for (std::size_t r = 0; r < runs.size(); ++r) add(r, 0);
+        for (int index = 1; index <= settings.count; ++index) add(0, index);
+    }
+
+    std::vector<Replay> take_all() {
+        std::vector<std::thread> workers;
+        for (int job = 0; job < settings_.jobs; ++job) workers.emplace_back([this] { work(); });
+        for (std::thread& worker : workers) worker.join();
+        if (failure_) std::rethrow_exception(failure_);
+        progress_.finish();
+        return replays_;
+    }
+
+private:
+    struct Task {
+        std::size_t run;
+        int index;
+    };
+
+    void add(std::size_t run, int index) {
+        tasks_.push_back({run, index});
+        const ParameterValues feed = values_of(runs_[run], index).tables("feed").front();
+        Replay replay;
+        replay.name = index == 0 ? fmt::format("pair_{}", run + 1) : fmt::format("replay_{:03d}", index);
+        replay.run = runs_[run].folder;
+        replay.is_pair = index == 0;
+        replay.seed = feed.integer("feed.seed");
+        replay.start_revolution = feed.number("feed.start_revolution");
+        replays_.push_back(replay);
+    }
+
+    void work() {
+        for (std::size_t n = next_++; n < tasks_.size(); n = next_++) {
+            try {
+                take(n);
+            } catch (...) {
+                const std::lock_guard<std::mutex> lock(mutex_);
+                if (!failure_) failure_ = std::current_exception();
+                next_ = tasks_.size();
+                return;
+            }
+            const std::lock_guard<std::mutex> lock(mutex_);
+            ++done_;
+            progress_.update(static_cast<double>(done_) / static_cast<double>(tasks_.size()),
+                             fmt::format("{} of {}", done_, tasks_.size()));
+        }
+    }
+
+    void take(std::size_t n) {
+        const fs::path folder = settings_.folder / replays_[n].name;
+        if (!fs::exists(cost_file(folder))) {
+            {
+                const std::lock_guard<std::mutex> lock(mutex_);  // the placement of rock is not made for threads
+                write_replay(runs_[tasks_[n].run], values_of(runs_[tasks_[n].run], tasks_[n].index), folder);
+            }
+            require_child(meshing::foam_command(folder, settings_.solver.string()));
+        }
+        evaluate(folder, replays_[n]);
+    }
+
+    const ReplaySettings& settings_;
+    const std::vector<RecordedRun>& runs_;
+    std::vector<Task> tasks_;
+    std::vector<Replay> replays_;
+    std::atomic<std::size_t> next_{0};
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+    std::size_t done_ = 0;
+    Progress progress_{"replays"};
+};
+
+/// \throws UserError  when the folder holds something else, or an interrupted call and `resume` is false
+void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
+    nlohmann::json plan;
+    for (const RecordedRun& run : runs) plan["runs"].push_back(run.folder.string());
+    const fs::path file = settings.folder / k_plan;
+    const bool is_there = fs::exists(settings.folder) && !fs::is_empty(settings.folder);
+    if (is_there && !fs::exists(file))
+        throw UserError(
+            {{settings.folder.string(), "the folder holds something else", "Nothing is overwritten", "Name a new folder with -o"}});
+    if (is_there && !settings.resume)
+        throw UserError({{settings.folder.string(), "the folder holds replays", "Results are kept",
+                          "Add --resume to go on, or name a new folder with -o"}});
+    if (!is_there && settings.resume)
+        throw UserError(
+            {{settings.folder.string(), "there is nothing to resume", "--resume goes on with a folder of replays", "Leave --resume out"}});
+    if (is_there && read_json_document(file, {{"runs/*", JsonKind::text, true}}, "Name a new folder with -o") != plan)
+        throw UserError(
+            {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", "Name a new folder with -o"}});
+    fs::create_directories(settings.folder);
+    write_file(file, plan.dump(2) + "\n");
+}
+
+/// Spillage of a coupled run by its own rock; none while it has put in none.
+std::optional<double> coupled_spillage(const fs::path& run) {
+    const postproc::Table fates = postproc::read_fates(run);
+    if (fates.empty()) return std::nullopt;
+    return postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1)).ratio;
+}
+
+nlohmann::json optional_json(const std::optional<double>& value) {
+    return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+void write_results(const fs::path& folder, const ReplayResults& results) {
+    std::string csv = "name,run,same_placement_as_run,seed,start_revolution,spillage,undecided,core_s\n";
+    double core_s = 0.0;
+    for (const Replay& replay : results.replays) {
+        csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
+                           replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s);
+        core_s += replay.core_s;
+    }
+    write_file(folder / "replays.csv", csv);
+    const postproc::ReplayEstimate& estimate = results.estimate;
+    const nlohmann::json json{{"schema", "cutterflow.replays/1"},
+                              {"spillage", estimate.spillage},
+                              {"half_interval_95", optional_json(estimate.interval)},
+                              {"replays",
+                               {{"count", estimate.replays.count},
+                                {"mean", estimate.replays.mean},
+                                {"half_interval_95", optional_json(estimate.replay_interval)}}},
+                              {"corrections",
+                               {{"count", estimate.corrections.count},
+                                {"mean", estimate.corrections.mean},
+                                {"half_interval_95", optional_json(estimate.correction_interval)}}},
+                              {"core_s", core_s}};
+    write_file(folder / "replays.json", json.dump(2) + "\n");
+}
+
+}  // namespace
+
+ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say) {
+    require_openfoam_path(settings.folder);
+    require_recordings(settings.runs);
+    std::vector<RecordedRun> runs;
+    for (const fs::path& run : settings.runs) runs.push_back(open_run(run));
+    open_folder(settings, runs);
+
+    ReplayResults results;
+    results.replays = Replays(settings, runs).take_all();
+    std::vector<double> spillage;
+    for (const Replay& replay : results.replays) {
+        if (!replay.is_pair) {
+            spillage.push_back(replay.spillage);
+        } else if (const std::optional<double> coupled = coupled_spillage(replay.run)) {
+            results.pairs.push_back({*coupled, replay.spillage});
+        } else {
+            say(fmt::format("{}: no rock has left its head yet, so it corrects nothing", replay.run.string()));
+        }
+    }
+    results.estimate = postproc::estimate_spillage(spillage, results.pairs);
+    write_results(settings.folder, results);
+    return results;
+}
+
+}  // namespace cutterflow::cases

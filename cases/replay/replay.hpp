@@ -1,0 +1,46 @@
+#pragma once
+/// \file Many placements of rock in the flow that a run recorded.
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "postproc/analysis/replay_estimate.hpp"
+
+namespace cutterflow::cases {
+
+struct ReplaySettings {
+    std::vector<std::filesystem::path> runs;  ///< run directories with a recording, repeats of one study; the first one's flow is replayed
+    int count = 20;                           ///< replays with placements of their own, beside one per run with that run's placement
+    std::filesystem::path folder;             ///< of the results; new, or with `resume` that of an interrupted call
+    std::filesystem::path solver;             ///< cutterFoam
+    int jobs = 1;                             ///< replays in parallel
+    bool resume = false;
+};
+
+/// One replay.
+struct Replay {
+    std::string name;           ///< of its case folder
+    std::filesystem::path run;  ///< whose flow is replayed
+    bool is_pair = false;       ///< has the placement of `run`
+    std::int64_t seed = 0;      ///< of the first feed
+    double start_revolution = 0.0;
+    double spillage = 0.0;   ///< spilled / (spilled + sucked up) [-]
+    double undecided = 0.0;  ///< share of the placed mass
+    double core_s = 0.0;
+};
+
+struct ReplayResults {
+    std::vector<Replay> replays;
+    std::vector<postproc::ReplayPair> pairs;  ///< of the runs that put in rock
+    postproc::ReplayEstimate estimate;
+};
+
+/// Runs every replay and writes replays.csv and replays.json into the folder.
+/// \throws UserError    with every run that has no recording or is of another study, and as RunDirectory
+/// \throws ToolError    when a replay fails
+/// \throws Interrupted  when the user stops it; finished replays are kept
+ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,64 @@
+#include "postproc/analysis/replay_estimate.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gsl/assert>
+
+namespace cutterflow::postproc {
+namespace {
+
+/// Variance of a sample's mean.
+double mean_variance(const Sample& sample) {
+    return sample.variance / static_cast<double>(sample.count);
+}
+
+std::optional<double> interval_of(const Sample& sample) {
+    if (sample.count < 2) return std::nullopt;
+    return half_interval(sample);
+}
+
+double sum_interval(const Sample& a, const Sample& b) {
+    const double of_a = mean_variance(a), of_b = mean_variance(b);
+    if (of_a + of_b == 0.0) return 0.0;
+    const double freedom =
+        (of_a + of_b) * (of_a + of_b) / (of_a * of_a / static_cast<double>(a.count - 1) + of_b * of_b / static_cast<double>(b.count - 1));
+    return student_factor(freedom) * std::sqrt(of_a + of_b);
+}
+
+std::string percent(double share, const std::optional<double>& interval) {
+    return interval ? fmt::format("{:.1f} % +- {:.1f} (95 %)", 100.0 * share, 100.0 * *interval)
+                    : fmt::format("{:.1f} %, no interval", 100.0 * share);
+}
+
+}  // namespace
+
+ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::vector<ReplayPair>& pairs) {
+    Expects(!replays.empty());
+    std::vector<double> corrections;
+    for (const ReplayPair& pair : pairs) corrections.push_back(pair.coupled - pair.replayed);
+    ReplayEstimate estimate;
+    estimate.replays = sample_of(replays);
+    estimate.corrections = sample_of(corrections);
+    estimate.spillage = estimate.replays.mean + estimate.corrections.mean;
+    estimate.replay_interval = interval_of(estimate.replays);
+    estimate.correction_interval = interval_of(estimate.corrections);
+    if (estimate.replay_interval && estimate.correction_interval) estimate.interval = sum_interval(estimate.replays, estimate.corrections);
+    return estimate;
+}
+
+std::string replay_text(const ReplayEstimate& estimate) {
+    std::string text = fmt::format("replayed    {}, {} placements; rock does not change this flow\n",
+                                   percent(estimate.replays.mean, estimate.replay_interval), estimate.replays.count);
+    if (estimate.corrections.count == 0) return text + "coupled     no run: what the recorded flow leaves out is not known\n";
+    text += fmt::format(
+        "coupled     {:+.1f} points{}, {} run(s) with the same placements as their replays\n", 100.0 * estimate.corrections.mean,
+        estimate.correction_interval ? fmt::format(" +- {:.1f} (95 %)", 100.0 * *estimate.correction_interval) : ", no interval",
+        estimate.corrections.count);
+    text += fmt::format("spillage    {}\n", percent(estimate.spillage, estimate.interval));
+    if (!estimate.interval)
+        text += "            two coupled runs or more, with other placements, give an interval: cutterflow sweep --repeats\n";
+    return text;
+}
+
+}  // namespace cutterflow::postproc

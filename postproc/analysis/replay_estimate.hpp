@@ -1,0 +1,38 @@
+#pragma once
+/// \file Spillage from many replays of one recorded flow and a few coupled runs.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "postproc/analysis/sample.hpp"
+
+namespace cutterflow::postproc {
+
+/// A coupled run and the replay of the same rock in the flow that it recorded before the rock came in.
+struct ReplayPair {
+    double coupled = 0.0;  ///< spilled / (spilled + sucked up) [-]
+    double replayed = 0.0;
+};
+
+/// E[S] = E[S_replayed] + E[S_coupled - S_replayed], each mean over its own placements of rock. It is unbiased whatever the recorded flow
+/// leaves out, because the second mean holds just that; its variance is small because both of a pair have the same placement. [Giles2015]
+struct ReplayEstimate {
+    Sample replays;      ///< S_replayed, other placements than those of the pairs
+    Sample corrections;  ///< S_coupled - S_replayed
+    double spillage = 0.0;
+    std::optional<double> replay_interval;      ///< half the 95 % interval of the replays' mean; of two or more
+    std::optional<double> correction_interval;  ///< the same of the corrections
+    std::optional<double> interval;             ///< of `spillage`; with two or more of both
+};
+
+/// Degrees of freedom of the sum after Welch and Satterthwaite.
+/// \pre a replay; without pairs `spillage` is the replays' mean
+ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::vector<ReplayPair>& pairs);
+
+/// Largest mean correction with which replays may stand for coupled runs [-].
+inline constexpr double k_largest_correction = 0.05;
+
+/// Lines for the user.
+std::string replay_text(const ReplayEstimate& estimate);
+
+}  // namespace cutterflow::postproc

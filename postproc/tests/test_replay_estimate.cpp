@@ -1,0 +1,99 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "postproc/analysis/replay_estimate.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+constexpr double k_truth = 0.90;
+constexpr double k_bias = -0.03;   // of replays
+constexpr double k_spread = 0.02;  // of a placement
+constexpr double k_noise = 0.005;  // of a pair
+
+/// Replays that are off by k_bias; a pair shares what its placement does.
+class Synthetic {
+public:
+    explicit Synthetic(unsigned seed) : random_(seed) {}
+    double replay() { return k_truth + k_bias + k_spread * normal_(random_); }
+    ReplayPair pair() {
+        const double of_placement = k_spread * normal_(random_);
+        return {k_truth + of_placement, k_truth + k_bias + of_placement + k_noise * normal_(random_)};
+    }
+    ReplayEstimate estimate(int replays, int pairs) {
+        std::vector<double> values;
+        std::vector<ReplayPair> of_both;
+        for (int i = 0; i < replays; ++i) values.push_back(replay());
+        for (int i = 0; i < pairs; ++i) of_both.push_back(pair());
+        return estimate_spillage(values, of_both);
+    }
+
+private:
+    std::mt19937 random_;
+    std::normal_distribution<double> normal_;
+};
+
+TEST(ReplayEstimate, is_unbiased_although_replays_are_not) {
+    Synthetic synthetic(1);
+    double both = 0.0, replays = 0.0;
+    constexpr int trials = 2000;
+    for (int i = 0; i < trials; ++i) {
+        const ReplayEstimate estimate = synthetic.estimate(20, 3);
+        both += estimate.spillage / trials;
+        replays += estimate.replays.mean / trials;
+    }
+    // Standard error of the mean of all trials.
+    const double error = std::sqrt((k_spread * k_spread / 20.0 + k_noise * k_noise / 3.0) / trials);
+    EXPECT_NEAR(both, k_truth, 4.0 * error);
+    EXPECT_NEAR(replays, k_truth + k_bias, 4.0 * error);
+}
+
+TEST(ReplayEstimate, interval_holds_the_truth_in_19_of_20_trials) {
+    Synthetic synthetic(2);
+    int held = 0;
+    constexpr int trials = 2000;
+    for (int i = 0; i < trials; ++i) {
+        const ReplayEstimate estimate = synthetic.estimate(20, 3);
+        if (std::abs(estimate.spillage - k_truth) <= *estimate.interval) ++held;
+    }
+    // Welch's approximation is a little wide where few pairs rule.
+    EXPECT_GT(held, 0.94 * trials);
+    EXPECT_LT(held, 0.98 * trials);
+}
+
+TEST(ReplayEstimate, interval_of_the_replays_alone_does_not_hold_it) {
+    Synthetic synthetic(3);
+    int held = 0;
+    constexpr int trials = 500;
+    for (int i = 0; i < trials; ++i) {
+        const ReplayEstimate estimate = synthetic.estimate(20, 0);
+        if (std::abs(estimate.spillage - k_truth) <= *estimate.replay_interval) ++held;
+    }
+    EXPECT_LT(held, 0.02 * trials);
+}
+
+TEST(ReplayEstimate, has_no_interval_of_one_pair) {
+    const ReplayEstimate estimate = Synthetic(4).estimate(5, 1);
+    EXPECT_TRUE(estimate.replay_interval);
+    EXPECT_FALSE(estimate.interval);
+    EXPECT_NE(replay_text(estimate).find("two coupled runs"), std::string::npos);
+}
+
+TEST(ReplayEstimate, without_a_coupled_run_says_that_its_bias_is_unknown) {
+    const std::string text = replay_text(Synthetic(5).estimate(5, 0));
+    EXPECT_NE(text.find("is not known"), std::string::npos);
+}
+
+TEST(ReplayEstimate, by_hand) {
+    const ReplayEstimate estimate = estimate_spillage({0.8, 0.9, 1.0}, {{0.85, 0.80}, {0.95, 0.92}});
+    EXPECT_NEAR(estimate.spillage, 0.9 + 0.04, 1e-12);
+    EXPECT_NEAR(estimate.replays.variance, 0.01, 1e-12);
+    EXPECT_NEAR(estimate.corrections.variance, 0.0002, 1e-12);
+    // Welch: (0.01/3 + 0.0002/2)^2 / ((0.01/3)^2/2 + (0.0002/2)^2/1) = 2.1187 degrees of freedom, t = 4.0850
+    EXPECT_NEAR(*estimate.interval, 4.085 * std::sqrt(0.01 / 3.0 + 0.0001), 0.005);
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
