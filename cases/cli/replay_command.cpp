@@ -1,11 +1,14 @@
 /// \file replay: many placements of rock in a recorded flow.
+#include <cmath>
 #include <iostream>
 #include <memory>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/replay_lines.hpp"
 #include "cases/replay/replay.hpp"
 #include "cases/runner/machine.hpp"
 #include "geometry/base/installation.hpp"
@@ -23,9 +26,11 @@ struct ReplayOptions {
     bool resume = false;
 };
 
+/// \param text  the answer, which is shown all the same
 /// \throws CheckFailure  when rock changes the flow more than replays may leave out
-void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::path& folder) {
+void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::string& text, const fs::path& folder) {
     if (std::abs(estimate.corrections.mean) <= postproc::k_largest_correction) return;
+    std::cout << text;
     throw CheckFailure({folder.string(),
                         fmt::format("coupled runs spill {:+.1f} points against replays", 100.0 * estimate.corrections.mean),
                         fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.0f} points",
@@ -33,22 +38,20 @@ void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::p
                         "Use coupled runs (cutterflow sweep --repeats), or put in less rock"});
 }
 
-void replay(const ReplayOptions& options) {
-    const cases::ReplaySettings settings{
-        {options.runs.begin(), options.runs.end()}, options.count, options.output, installation().programs / "cutterFoam",
-        std::max(1, cases::available_cores()),      options.resume};
+}  // namespace
+
+std::string replay_lines(const cases::ReplaySettings& settings) {
     try {
         const cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
-        std::cout << postproc::replay_text(results.estimate);
-        require_weak_coupling(results.estimate, settings.folder);
+        const std::string text = postproc::replay_text(results.estimate);
+        require_weak_coupling(results.estimate, text, settings.folder);
+        return text;
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. Finished replays are kept in {}; repeat the command with --resume", interrupted.what(),
                                       settings.folder.string()));
     }
 }
-
-}  // namespace
 
 void add_replay(CLI::App& app) {
     auto* command = app.add_subcommand(
@@ -63,7 +66,14 @@ void add_replay(CLI::App& app) {
         ->capture_default_str();
     command->add_option("-o,--output", options->output, "Folder of the replays")->required();
     command->add_flag("--resume", options->resume, "Go on with a stopped call, or add placements to it");
-    command->callback([options] { replay(*options); });
+    command->callback([options] {
+        std::cout << replay_lines({{options->runs.begin(), options->runs.end()},
+                                   options->count,
+                                   options->output,
+                                   installation().programs / "cutterFoam",
+                                   std::max(1, cases::available_cores()),
+                                   options->resume});
+    });
 }
 
 }  // namespace cutterflow::cli

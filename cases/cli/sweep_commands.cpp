@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -11,8 +12,11 @@
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
+#include "cases/cli/replay_lines.hpp"
+#include "cases/replay/replay.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/study/study.hpp"
 #include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -41,6 +45,7 @@ struct SweepOptions {
     bool resume = false;
     std::string launcher = "local";
     bool emit = false;
+    int replays = 0;  ///< of every setting; 0: none
 };
 
 /// Options unknown to CLI11: most likely a key that a sweep does not vary.
@@ -63,6 +68,39 @@ void require_known_axes(const std::vector<std::string>& words) {
 
 bool is_surface(const SweepOptions& options) {
     return fs::exists(options.study) && cases::is_surface_study(options.study);
+}
+
+/// \throws UserError  when the points would record no flow, or run elsewhere
+void require_recorded_points(const SweepOptions& options) {
+    if (options.replays == 0) return;
+    if (is_surface(options) || options.launcher != "local" || options.emit)
+        throw UserError("--replay with a free-surface study, --launcher slurm or --emit", "Replays follow cutters that run on this machine",
+                        "Leave it out, and use cutterflow replay on the finished runs");
+    if (cases::read_study(options.study).number("run.record_revolutions") == 0.0)
+        throw UserError({{options.study, "run.record_revolutions = 0 in a sweep with --replay",
+                          "A replay needs the flow that its run recorded before the rock", "Set run.record_revolutions = 1"}});
+}
+
+/// Repeats of one setting, by the name of the first.
+std::map<std::string, std::vector<fs::path>> runs_by_setting(const std::vector<cases::SweepPoint>& points,
+                                                             const std::vector<fs::path>& done) {
+    std::map<std::string, std::vector<fs::path>> settings;
+    for (const cases::SweepPoint& point : points) {
+        const auto run = std::find_if(done.begin(), done.end(), [&](const fs::path& folder) { return folder.filename() == point.name; });
+        if (run != done.end()) settings[point.start_donor.empty() ? point.name : point.start_donor].push_back(*run);
+    }
+    return settings;
+}
+
+void replay_settings(const SweepOptions& options, const std::vector<cases::SweepPoint>& points, const std::vector<fs::path>& done,
+                     const fs::path& folder) {
+    for (const auto& [name, runs] : runs_by_setting(points, done)) {
+        const fs::path replays = folder / ("replays_" + name);
+        say(fmt::format("{}: {} replays in {}", name, options.replays, replays.string()));
+        std::cout << name << '\n'
+                  << replay_lines({runs, options.replays, replays, installation().programs / "cutterFoam",
+                                   std::max(1, cases::available_cores()), fs::exists(replays)});
+    }
 }
 
 /// The points of a study, of whichever kind it is.
@@ -96,6 +134,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     mistakes.gather([&] { cases::require_machine(local ? options.ranks : std::min(options.ranks, 1)); });
     mistakes.gather([&] { cases::require_sweep_folder(folder, options.resume); });
     mistakes.gather([&] { points = points_of(options, folder); });
+    mistakes.gather([&] { require_recorded_points(options); });
     mistakes.refuse();
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
     const cases::SweepSettings settings{folder,         installation().programs / "cutterflow",
@@ -125,6 +164,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     if (outcome.done.size() > 1)
         std::cout << fmt::format("the comparison: {}\n",
                                  write_comparison(outcome.done, is_surface(options), folder / "comparison").string());
+    if (options.replays > 0) replay_settings(options, points, outcome.done, folder);
     if (!outcome.failed.empty()) {
         std::vector<Mistake> failures;
         for (const std::string& text : outcome.failed) failures.push_back({"", text, "", ""});
@@ -175,6 +215,10 @@ void add_sweep(CLI::App& app) {
                      "Repeats that differ by placement and angle of release; three or more give intervals")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
+    command
+        ->add_option("--replay", options->replays,
+                     "Placements of rock in the flow that each setting recorded, after its runs: spillage with its interval")
+        ->check(CLI::Range(1, 1000));
     command->add_option("-o,--output", options->output, "Folder of the sweep; default runs/<name of the study file>_sweep");
     command->add_option("--ranks", options->ranks, "Processes per run; runs execute in parallel up to the available cores")
         ->capture_default_str();
