@@ -78,7 +78,8 @@ double largest_error(const FlowRecording& recording) {
         set_flow(truth);
         for (std::size_t c = 0; c < truth.mesh.size(); ++c) {
             error = std::max(error, (frozen.fields().velocity[c] - truth.velocity[c]).norm());
-            EXPECT_NEAR((frozen.fields().material_acceleration[c] - 10.0 * frozen.fields().velocity[c]).norm(), 0.0, 1e-4);  // floats of about 10
+            EXPECT_NEAR((frozen.fields().material_acceleration[c] - 10.0 * frozen.fields().velocity[c]).norm(), 0.0,
+                        1e-4);  // floats of about 10
         }
     }
     return error;
