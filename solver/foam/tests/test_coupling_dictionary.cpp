@@ -286,7 +286,8 @@ TEST(CaseErrors, OfOpenFoamAreTheUsersAndKeepItsText) {
                                             HasSubstr("Unexpected EOF"))));
     const std::filesystem::path folder = testing::build_case(case_with("case_no_mesh", ""));
     std::filesystem::remove_all(folder / "constant/polyMesh");
-    EXPECT_THAT(mistakes_of([&] { const FoamSession session(folder); }), ElementsAre(AllOf(HasSubstr("blockMesh"), HasSubstr("points"))));
+    FoamSession session(folder);
+    EXPECT_THAT(mistakes_of([&] { session.mesh(); }), ElementsAre(AllOf(HasSubstr("blockMesh"), HasSubstr("points"))));
     EXPECT_FALSE(Foam::FatalError.throwing());
     EXPECT_FALSE(Foam::FatalIOError.throwing());
 }
