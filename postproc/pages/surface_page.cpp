@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 constexpr int k_snapshots = 6;
 constexpr int k_picture_width = 560;  // [px]
 constexpr const char* k_not_modelled =
-    "Not modelled: the third dimension, air and trapped bubbles, surface tension, turbulence, leakage at the ends of the cylinders, a gate "
-    "that takes time to open.";
+    "Not modelled: the third dimension, air and trapped bubbles, surface tension, turbulence, leakage at the ends of the cylinders.";
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     for (double& value : values) value *= factor;

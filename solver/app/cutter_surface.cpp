@@ -70,8 +70,14 @@ void tell(const Scene& scene) {
 std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::path& folder, bool fresh) {
     if (scene.bodies.size() == 0) return nullptr;
     if (!scene.settings.solids.empty()) {
-        write_file(folder / "walls.stl", wall_surface_stl(scene));
-        scene.dem.walls = {{"walls", folder / "walls.stl", false}};
+        write_file(folder / "walls.stl", wall_surface_stl(scene.settings.solids, scene.settings.tank.depth));
+        scene.dem.walls.push_back({"walls", folder / "walls.stl", false});
+    }
+    for (std::size_t n = 0; n < scene.settings.gates.size(); ++n) {
+        const Gate& gate = scene.settings.gates[n];
+        const std::string name = fmt::format("gate_{}", n + 1);
+        write_file(folder / (name + ".stl"), wall_surface_stl({gate.closed}, scene.settings.tank.depth));
+        scene.dem.walls.push_back({name, folder / (name + ".stl"), false, {Vec3(0, 0, gate.speed), gate.start, gate.end}});
     }
     scene.dem.log = folder / "log.liggghts";
     auto engine = std::make_unique<liggghts::LiggghtsEngine>(scene.dem, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);

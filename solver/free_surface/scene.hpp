@@ -4,6 +4,7 @@
 #include <string>
 
 #include "solver/free_surface/cut_cells/cut_cells.hpp"
+#include "solver/free_surface/cut_cells/gate.hpp"
 #include "solver/free_surface/cut_cells/still_solids.hpp"
 
 namespace cutterflow::free_surface {
@@ -35,6 +36,8 @@ struct GapDampingSettings {
     double gap = 0.0;        ///< between touching surfaces [m]
 };
 
+inline constexpr double k_solid_travel = 0.25;  ///< cells that a body or a gate moves in a step, at most
+
 struct RunSettings {
     double max_courant = 0.5;
     double longest_step = std::numeric_limits<double>::infinity();  ///< [s]
@@ -50,6 +53,7 @@ struct SceneSettings {
     Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
     WaterSettings water;
     std::vector<StillSolid> solids;
+    std::vector<Gate> gates;
     bool spheres = false;      ///< bodies are spheres; else cylinders across the tank
     bool bodies_held = false;  ///< the pressure does not move them: they are on given paths
     GapDampingSettings damping;

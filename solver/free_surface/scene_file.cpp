@@ -21,7 +21,8 @@ constexpr double k_enough_cells = 8.0;   // a diameter
 constexpr double k_thinnest_wall = 2.0;  // cells
 constexpr double k_smallest_gap = 0.25;  // cells
 constexpr double k_tolerance = 1e-9;
-constexpr int k_rim_points = 90;  // at which a body is looked for in solids
+constexpr int k_rim_points = 90;     // at which a body is looked for in solids
+constexpr int k_lines_of_gate = 16;  // along which solids are looked for in its way
 constexpr double k_gravity = 9.81;
 constexpr double k_seconds_per_particle = 1.2e-6;  // and step, all parts of it
 constexpr double k_bytes_per_particle = 100.0, k_bytes_per_cell = 600.0, k_bytes_of_program = 5e7;
@@ -81,6 +82,7 @@ public:
         read_domain();
         read_water();
         for (const ParameterValues& solid : values_.tables("solid")) read_solid(solid);
+        for (const ParameterValues& solid : values_.tables("solid")) require_free_way(solid);
         for (const ParameterValues& bodies : values_.tables("bodies")) read_bodies(bodies);
         read_contact();
         read_run();
@@ -165,6 +167,8 @@ private:
             scene_.settings.solids.emplace_back(plate(from, to, wall_of(solid)));
         } else if (kind == "pipe") {
             read_pipe(solid);
+        } else if (kind == "gate") {
+            read_gate(solid);
         } else {
             read_funnel(solid);
         }
@@ -190,6 +194,52 @@ private:
                 from = centre + 0.5 * hole;
             }
             add_box(std::min(near, far), from, std::max(near, far), top);
+        }
+    }
+
+    static Interval thickness_of_gate(const ParameterValues& solid) {
+        const double axis = solid.number("solid.axis_x_m"), half = 0.5 * solid.number("solid.wall_m");
+        return {axis - half, axis + half};
+    }
+
+    /// A wall; one with a speed leaves the tank by its top.
+    void read_gate(const ParameterValues& solid) {
+        const std::size_t before = mistakes_.size();
+        required(solid, "solid.axis_x_m");
+        wall_of(solid);
+        const double bottom = required(solid, "solid.bottom_m"), top = required(solid, "solid.top_m");
+        const double speed = required(solid, "solid.speed_m_s"), start = solid.number("solid.start_s");
+        if (top <= bottom) refuse(solid.where("solid.top_m"), "solid.top_m lies below solid.bottom_m", "The top is above", "Exchange them");
+        if (mistakes_.size() > before) return;
+        const Interval across = thickness_of_gate(solid);
+        if (across.from < 0.0 || across.to > width() || bottom >= height())
+            return refuse(solid.where("solid.axis_x_m"),
+                          fmt::format("A gate from {:g} to {:g} m leaves the domain", across.from, across.to),
+                          fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move the gate");
+        if (speed == 0.0) return add_box(across.from, bottom, across.to, top);
+        const SolidBox box{Vec3(across.from, -k_far, bottom), Vec3(across.to, k_far, top)};
+        scene_.settings.gates.push_back({box, speed, start, start + (height() - bottom) / speed});
+    }
+
+    /// A gate must not meet what stands still, nor another gate, on its way.
+    void require_free_way(const ParameterValues& solid) {
+        if (solid.text("solid.kind") != "gate" || !mistakes_.empty() || solid.number("solid.speed_m_s") == 0.0) return;
+        const Interval across = thickness_of_gate(solid), way{solid.number("solid.bottom_m"), height()};
+        std::vector<StillSolid> others = scene_.settings.solids;
+        for (const Gate& gate : scene_.settings.gates) {
+            if (gate.closed.from.x() != across.from || gate.closed.from.z() != way.from) others.emplace_back(gate.closed);
+        }
+        for (const StillSolid& other : others) {
+            for (int n = 0; n <= k_lines_of_gate; ++n) {
+                const double x = across.from + (k_tolerance + (across.length() - 2.0 * k_tolerance) * n / k_lines_of_gate);
+                for (const Interval& part : covered_parts(other, {2, Vec3(x, 0.5 * scene_.settings.tank.depth, 0.0)})) {
+                    if (common(part, way).length() <= k_tolerance) continue;
+                    return refuse(solid.where("solid.kind"),
+                                  fmt::format("The gate at {:g} m meets a solid at ({:.4g}, {:.4g}) m", solid.number("solid.axis_x_m"), x,
+                                              common(part, way).from),
+                                  "Its way up is free", "Move the gate or the solid");
+                }
+            }
         }
     }
 
@@ -254,7 +304,9 @@ private:
             }
             return false;
         };
-        if (std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), reaches_into))
+        const auto reaches_into_gate = [&](const Gate& gate) { return reaches_into(gate.closed); };
+        if (std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), reaches_into) ||
+            std::any_of(scene_.settings.gates.begin(), scene_.settings.gates.end(), reaches_into_gate))
             refuse(where, fmt::format("Body {} at ({:g}, {:g}) m stands in a solid", id, place.x(), place.z()), "Bodies start free",
                    "Move the stack");
         rocks.id.push_back(id);
@@ -357,17 +409,22 @@ const ParameterTable& scene_table() {
         for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
             keys.push_back(
                 number(std::string("fill.") + key, "m", {}, 0.0, "Corner of a box of water at rest; solids in it are left out."));
-        keys.push_back(choice("solid.kind", {}, {"box", "plate", "pipe", "funnel"}, "What stands in the tank."));
+        keys.push_back(choice("solid.kind", {}, {"box", "plate", "pipe", "funnel", "gate"}, "What stands in the tank."));
         for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
             keys.push_back(derived(number(std::string("solid.") + key, "m", {}, 0.0, "Corners of a box, or ends of a plate's side."),
                                    "box and plate need it"));
-        keys.push_back(derived(positive("solid.wall_m", "m", {}, "Thickness of a plate's, pipe's or funnel's walls, at least two cells."),
-                               "all but boxes need it"));
-        keys.push_back(derived(number("solid.axis_x_m", "m", {}, 0.0, "Place of a pipe's or funnel's middle."), "pipe and funnel need it"));
+        keys.push_back(derived(
+            positive("solid.wall_m", "m", {}, "Thickness of a plate, of a gate, of a pipe's or funnel's walls, at least two cells."),
+            "all but boxes need it"));
+        keys.push_back(derived(number("solid.axis_x_m", "m", {}, 0.0, "Place of a pipe's, funnel's or gate's middle."),
+                               "pipe, funnel and gate need it"));
         keys.push_back(derived(positive("solid.inner_width_m", "m", {}, "Inner width of a pipe, or of a funnel at its bottom."),
                                "pipe and funnel need it"));
-        keys.push_back(derived(number("solid.bottom_m", "m", {}, 0.0, "Height of the lower end."), "pipe and funnel need it"));
-        keys.push_back(derived(positive("solid.top_m", "m", {}, "Height of a pipe's upper end."), "a pipe needs it"));
+        keys.push_back(derived(number("solid.bottom_m", "m", {}, 0.0, "Height of the lower end."), "pipe, funnel and gate need it"));
+        keys.push_back(derived(positive("solid.top_m", "m", {}, "Height of a pipe's or gate's upper end."), "pipe and gate need it"));
+        keys.push_back(derived(bounded(number("solid.speed_m_s", "m/s", {}, 0.0, "Speed at which a gate rises; 0: it is a wall."), 100.0),
+                               "a gate needs it"));
+        keys.push_back(number("solid.start_s", "s", 0.0, 0.0, "Time at which a gate begins to rise."));
         keys.push_back(number("solid.hole_m", "m", 0.0, 0.0, "Height of the holes in a pipe's walls; 0: none, else at least a cell."));
         keys.push_back(
             derived(positive("solid.hole_spacing_m", "m", {}, "Distance of the holes, from the bottom up."), "a pipe with holes needs it"));
@@ -417,10 +474,9 @@ Scene read_scene(const std::filesystem::path& file) {
     return Reader(read_parameters(scene_table(), file)).read();
 }
 
-std::string wall_surface_stl(const Scene& scene) {
+std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth) {
     std::string text = "solid walls\n";
-    const double depth = scene.settings.tank.depth;
-    for (const StillSolid& solid : scene.settings.solids) {
+    for (const StillSolid& solid : solids) {
         const std::vector<Eigen::Vector2d> corners = outline(solid);
         const auto at = [&](std::size_t n, double y) {
             const Eigen::Vector2d& corner = corners[n % corners.size()];
@@ -455,6 +511,10 @@ ScenePrediction predict(const Scene& scene) {
     const double speed = std::sqrt(2.0 * k_gravity * std::max(height, tank.cell));
     result.step = std::min(scene.settings.run.max_courant * tank.cell / speed, 0.7 * std::sqrt(tank.cell / k_gravity));
     result.steps = scene.end / result.step;
+    for (const Gate& gate : scene.settings.gates) {
+        const double lifted = std::max(0.0, std::min(gate.end, scene.end) - gate.start), longest = k_solid_travel * tank.cell / gate.speed;
+        if (longest < result.step) result.steps += lifted * (1.0 / longest - 1.0 / result.step);
+    }
     result.memory = k_bytes_per_particle * result.particles + k_bytes_per_cell * result.cells + k_bytes_of_program;
     result.core_seconds = result.steps * result.particles * k_seconds_per_particle;
     if (scene.bodies.size() > 0)

@@ -17,7 +17,7 @@ enum class StopRule { none, pipe_empty, arrival };
 struct Scene {
     std::string name;
     SceneSettings settings;
-    coupling::DemSettings dem;  ///< its wall files are written by write_wall_surface
+    coupling::DemSettings dem;  ///< without the walls that are given as files: wall_surface_stl writes them
     coupling::Rocks bodies;     ///< at the start
     double end = 0.0;           ///< [s]
     StopRule stop = StopRule::none;
@@ -36,8 +36,8 @@ Scene read_scene(const std::filesystem::path& file);
 /// As read_scene, from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& toml, const std::string& name);
 
-/// The still solids as one closed surface each, extruded across the tank, as text of an STL file [m].
-std::string wall_surface_stl(const Scene& scene);
+/// Solids as one closed surface each, extruded across a tank of that depth, as text of an STL file [m].
+std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth);
 
 /// Whether a reading meets the stop rule of a scene: no body higher than the pipe's mouth, or a body at the right wall.
 bool stops(const Scene& scene, const SceneReading& reading);

@@ -16,7 +16,7 @@ namespace {
 constexpr int k_steps_between_sorts = 20;
 constexpr double k_mixing_cells = 50.0;    // tau_mix = 50 h / sqrt(g H)
 constexpr double k_gravity_courant = 0.7;  // dt <= 0.7 sqrt(h/g)
-constexpr double k_body_travel = 0.25;     // cells a step
+constexpr double k_same_time = 1e-12;      // [s]
 constexpr double k_fastest_water = 50.0;   // sqrt(g H)
 constexpr int k_extended_layers = 2;
 constexpr double k_off_walls = 1e-6;        // cells: particles put out of a wall belong to the cell before it
@@ -63,6 +63,9 @@ WaterParticles fill_water(const SceneSettings& settings, gsl::span<const Body> b
         for (const StillSolid& solid : settings.solids) {
             if (is_inside(solid, place)) return false;
         }
+        for (const Gate& gate : settings.gates) {
+            if (is_inside(gate.at(0.0), place)) return false;
+        }
         for (const Body& body : bodies) {
             Vec3 arm = place - body.position;
             if (!body.sphere) arm.y() = 0.0;
@@ -97,6 +100,7 @@ SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodie
     fastest_allowed_ = k_fastest_water * speed;
     take_over_bodies();
     contact_force_.assign(bodies_.size(), Vec3::Zero());
+    place_gates(0.0);
     cutter_.cut(bodies_, cells_);
     find_surface();
     initial_volume_ = particles_.volume * static_cast<double>(particles_.size());
@@ -118,12 +122,20 @@ void SurfaceRun::restore(SurfaceState state) {
     even_out_.begin_with(std::move(state.spreading));
     contact_force_ = std::move(state.contact_force);
     take_over_bodies();
+    place_gates(time_);
     cutter_.cut(bodies_, cells_);
     find_surface();
 }
 
 void SurfaceRun::take_over_bodies() {
     bodies_ = bodies_of(engine_, settings_);
+}
+
+void SurfaceRun::place_gates(double time) {
+    if (settings_.gates.empty()) return;
+    gates_.clear();
+    for (const Gate& gate : settings_.gates) gates_.push_back(gate.at(time));
+    cutter_.set_gates(gates_);
 }
 
 void SurfaceRun::find_surface() {
@@ -138,7 +150,13 @@ double SurfaceRun::choose_step(double longest) const {
     const double speed = largest_speed(particles_);
     if (speed > 0.0) step = std::min(step, settings_.run.max_courant * h / speed);
     for (const Body& body : bodies_) {
-        if (body.velocity.norm() > 0.0) step = std::min(step, k_body_travel * h / body.velocity.norm());
+        if (body.velocity.norm() > 0.0) step = std::min(step, k_solid_travel * h / body.velocity.norm());
+    }
+    for (const Gate& gate : settings_.gates) {
+        for (const double event : {gate.start, gate.end}) {
+            if (event > time_ + k_same_time) step = std::min(step, event - time_);
+        }
+        if (gate.rise(time_ + step) > gate.rise(time_)) step = std::min(step, k_solid_travel * h / gate.speed);
     }
     const double viscosity = settings_.water.kinematic_viscosity;
     if (viscosity > 0.0) step = std::min(step, h * h / (4.0 * viscosity * static_cast<double>(grid_.directions().size())));
@@ -148,6 +166,9 @@ double SurfaceRun::choose_step(double longest) const {
 const StepReport& SurfaceRun::step(double longest) {
     report_ = StepReport{};
     const double step = choose_step(longest);
+    lift_.clear();
+    for (const Gate& gate : settings_.gates) lift_.push_back((gate.rise(time_ + step) - gate.rise(time_)) / step);
+    const bool gates_move = std::any_of(lift_.begin(), lift_.end(), [](double speed) { return speed > 0.0; });
     if (steps_++ % k_steps_between_sorts == 0) sort_by_cell(grid_, particles_);
     map_to_grid(grid_, particles_, mapped_);
     find_water(grid_, mapped_.fraction, cells_, water_);
@@ -164,7 +185,8 @@ const StepReport& SurfaceRun::step(double longest) {
     move_bodies(step);
     if (settings_.damping.remaining < 1.0)
         report_.gap_impulse = damp_gaps(settings_.damping, grid_, bodies_, step, settings_.water.density, particles_);
-    if (!bodies_.empty()) cutter_.cut(bodies_, cells_);
+    if (gates_move) place_gates(time_ + step);
+    if (gates_move || !bodies_.empty()) cutter_.cut(bodies_, cells_);
     push_out();
     find_surface();
     if (settings_.run.even_out) {
@@ -218,8 +240,10 @@ void SurfaceRun::add_body_forces(double step) {
 void SurfaceRun::add_viscosity(double step, FaceField& change) const {
     const double scale = step * settings_.water.kinematic_viscosity / (grid_.spacing() * grid_.spacing());
     const auto velocity = [&](int d, int face) {
-        const int owner = cells_.open[d][face] > 0.0 ? k_no_body : cells_.owner[d][face];
-        return cells_.open[d][face] > 0.0 ? mapped_.velocity[d][face] : owner == k_no_body ? 0.0 : bodies_[owner].velocity[d];
+        if (cells_.open[d][face] > 0.0) return mapped_.velocity[d][face];
+        const int owner = cells_.owner[d][face];
+        if (owner <= k_first_gate) return d == 2 ? lift_[k_first_gate - owner] : 0.0;
+        return owner == k_no_body ? 0.0 : bodies_[owner].velocity[d];
     };
     const auto is_wet = [&](int cell) { return water_.kind[cell] != CellKind::air; };
     const auto add = [&](int d, int face, double value) {
@@ -279,6 +303,12 @@ void SurfaceRun::solve_pressure(double step) {
             const int row = system_.row(entry.cell);
             if (row < 0) continue;
             right_side_[row] -= h * entry.k.dot(body.velocity);
+        }
+    }
+    for (std::size_t n = 0; n < lift_.size(); ++n) {
+        for (const BodyCell& entry : cells_.gates[n]) {
+            const int row = system_.row(entry.cell);
+            if (row >= 0) right_side_[row] -= h * entry.k.z() * lift_[n];
         }
     }
     const double tolerance = settings_.run.pressure_tolerance * (steps_ == 1 ? k_first_tolerance : 1.0);
@@ -368,11 +398,13 @@ void SurfaceRun::hold_solid_faces(int d) {
     grid_.for_each_face(d, [&](int face, int i, int j, int k) {
         if (cells_.open[d][face] > 0.0) return;
         double held = 0.0;
-        if (const int owner = cells_.owner[d][face]; owner != k_no_body) {
+        if (const int owner = cells_.owner[d][face]; owner >= 0) {
             Vec3 place = grid_.centre(i, j, k);
             place[d] -= 0.5 * grid_.width(d);
             if (!predicted_[owner].sphere) place.y() = predicted_[owner].position.y();
             held = velocity_at(predicted_[owner], place)[d];
+        } else if (owner <= k_first_gate && d == 2) {
+            held = lift_[k_first_gate - owner];
         }
         velocity_[d][face] = held;
         increment_[d][face] = held - mapped_.velocity[d][face];
@@ -400,14 +432,16 @@ void SurfaceRun::push_out() {
         Vec3 place = particles_.place(p);
         if (cells_.open_volume[cell_of(grid_, place)] >= 1.0) continue;
         bool inside = false;
-        for (const StillSolid& solid : settings_.solids) {
+        const auto leave = [&](const StillSolid& solid) {
             if (const auto way = way_out(solid, place)) {
                 inside = true;
                 const double depth = (*way - place).norm();
                 report_.deepest = std::max(report_.deepest, depth);
                 place += (*way - place) * (1.0 + k_off_walls * grid_.spacing() / depth);
             }
-        }
+        };
+        for (const StillSolid& solid : settings_.solids) leave(solid);
+        for (const SolidBox& gate : gates_) leave(gate);
         for (const Body& body : bodies_) {
             Vec3 arm = place - body.position;
             if (!body.sphere) arm.y() = 0.0;

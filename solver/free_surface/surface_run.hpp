@@ -84,6 +84,7 @@ private:
     void hold_solid_faces(int direction);
     void move_bodies(double step);
     void take_over_bodies();
+    void place_gates(double time);
     void push_out();
     void find_surface();
     void check() const;
@@ -98,6 +99,8 @@ private:
     WaterParticles particles_;
     std::vector<Body> bodies_;
     std::vector<Body> predicted_;  // with contacts and weight, then with the pressure
+    std::vector<SolidBox> gates_;  // where they stand
+    std::vector<double> lift_;     // mean upward speed of each gate in the step at hand [m/s]
     std::vector<Vec3> contact_force_;
 
     MappedWater mapped_;

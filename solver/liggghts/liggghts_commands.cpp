@@ -71,6 +71,14 @@ std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const
                        vector_text(direction), 2.0 * k_pi / std::fabs(speed));
 }
 
+std::string move_mesh(const std::string& id, const std::string& mesh_id, const Vec3& velocity) {
+    return fmt::format("fix {} all move/mesh mesh {} linear {}", id, mesh_id, vector_text(velocity));
+}
+
+std::string unfix(const std::string& id) {
+    return "unfix " + id;
+}
+
 std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids) {
     return fmt::format("fix {} all wall/gran {} mesh n_meshes {} meshes {}", id, k_contact_model, mesh_ids.size(),
                        fmt::join(mesh_ids, " "));

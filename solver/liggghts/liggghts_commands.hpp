@@ -31,6 +31,9 @@ std::string rock_property(const std::string& name, int columns);
 std::string mesh(const std::string& id, const std::filesystem::path& stl);
 /// Right-handed rotation; a negative speed turns about the reversed axis.
 std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const RotationAxis& axis, double speed);
+/// A constant velocity [m/s] from now on.
+std::string move_mesh(const std::string& id, const std::string& mesh_id, const Vec3& velocity);
+std::string unfix(const std::string& id);
 std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids);
 /// \param axis  0 x, 1 y, 2 z: normal of the plane
 std::string plane_wall(const std::string& id, int axis, double position);

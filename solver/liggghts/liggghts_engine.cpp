@@ -74,7 +74,10 @@ struct Wall {
     std::string id;
     std::filesystem::path file;
     bool of_rotor = false;
-    WallSurface surface;  ///< at rotor angle 0
+    WallSurface surface;  ///< at rotor angle 0, before it travels
+    coupling::WallTravel travel;
+    bool travels = false;  ///< now, in LIGGGHTS
+    std::string motion() const { return "move_" + id; }
 };
 
 /// One corner of the rotating steel by which its angle is measured: the one farthest from the axis.
@@ -135,6 +138,7 @@ private:
     void declare(const std::optional<std::filesystem::path>& restart);
     void declare_walls();
     void declare_motion();
+    void start_and_stop_walls(double time);
     void command(const std::string& text) { lammps_->input->one(text.c_str()); }
     void commands(const std::vector<std::string>& texts) {
         for (const std::string& text : texts) command(text);
@@ -206,7 +210,8 @@ void LiggghtsEngine::Implementation::read_walls() {
     double farthest = 0.0;
     for (std::size_t w = 0; w < settings_.walls.size(); ++w) {
         const coupling::WallSettings& given = settings_.walls[w];
-        Wall wall{fmt::format("wall_{}", w), std::filesystem::absolute(given.file), given.rotating, WallSurface(read_stl(given.file))};
+        Wall wall{fmt::format("wall_{}", w), std::filesystem::absolute(given.file), given.rotating, WallSurface(read_stl(given.file)),
+                  given.travel};
         for (std::size_t t = 0; wall.of_rotor && turns() && t < wall.surface.triangles().size(); ++t) {
             for (int corner = 0; corner < 3; ++corner) {
                 const Vec3& point = wall.surface.triangles()[t][corner];
@@ -237,6 +242,9 @@ commands::Box LiggghtsEngine::Implementation::box() const {
                     low = rotor_.axis.origin + along - reach;
                     high = rotor_.axis.origin + along + reach;
                 }
+                const Vec3 way = wall.travel.way(wall.travel.end);
+                low += way.cwiseMin(0.0);
+                high += way.cwiseMax(0.0);
                 box.low = box.low.cwiseMin(low);
                 box.high = box.high.cwiseMax(high);
             }
@@ -300,9 +308,10 @@ void LiggghtsEngine::Implementation::declare_walls() {
     wall_contacts_.emplace(lammps_.get(), context_, property(k_wall_contacts, WallContacts::columns));
     context_.wall_contacts = &*wall_contacts_;
     contact_forces_ = property(k_contact_forces, 6);
-    for (const Wall& wall : walls_) {
+    for (Wall& wall : walls_) {
         command(commands::mesh(wall.id, wall.file));
-        if (wall.of_rotor && turns()) command(commands::rotate_mesh("move_" + wall.id, wall.id, rotor_.axis, rotor_.speed));
+        wall.travels = false;
+        if (wall.of_rotor && turns()) command(commands::rotate_mesh(wall.motion(), wall.id, rotor_.axis, rotor_.speed));
     }
     if (!mesh_ids.empty()) command(commands::mesh_walls("steel", mesh_ids));
     commands(planes);
@@ -430,7 +439,7 @@ bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double ra
     const Vec3 in_rotor = rotate_about(rotor_.axis, -angle, centre);
     double turns_of_rotor = 0.0, turns_of_stator = 0.0;
     for (const Wall& wall : walls_) {
-        const Vec3& point = wall.of_rotor ? in_rotor : centre;
+        const Vec3 point = (wall.of_rotor ? in_rotor : centre) - wall.travel.way(time_);
         if (wall.surface.is_within(point, radius)) return true;
         (wall.of_rotor ? turns_of_rotor : turns_of_stator) += wall.surface.winding_number(point);
     }
@@ -522,6 +531,7 @@ void LiggghtsEngine::Implementation::after_change_of_rocks() {
 
 coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const coupling::HydrodynamicForce& force) {
     const int steps = std::max(1, static_cast<int>(std::ceil(duration / largest_time_step() * (1.0 - 1e-12))));
+    start_and_stop_walls(time_ + 0.5 * duration);
     if (set_up_needed_) set_up();
     command(commands::timestep(duration / steps));
     motion_->begin(rocks_, force);
@@ -554,6 +564,18 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     }
     delete_rocks(done.left.id);
     return done;
+}
+
+/// A wall travels in the whole of a call or not at all.
+void LiggghtsEngine::Implementation::start_and_stop_walls(double time) {
+    for (Wall& wall : walls_) {
+        const bool travels = !wall.travel.velocity.isZero(0.0) && time > wall.travel.begin && time < wall.travel.end;
+        if (travels == wall.travels) continue;
+        store_contact_forces();
+        command(travels ? commands::move_mesh(wall.motion(), wall.id, wall.travel.velocity) : commands::unfix(wall.motion()));
+        wall.travels = travels;
+        set_up_needed_ = true;
+    }
 }
 
 /// LIGGGHTS drops a rock outside its box, or at no position, without a word.

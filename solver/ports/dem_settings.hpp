@@ -1,6 +1,7 @@
 #pragma once
 /// \file Settings of the DEM: contact law, walls, domain, fluid. solver/foam fills it from section `rock` of
 /// constant/couplingProperties (and constant/g, constant/transportProperties); solver/liggghts works from it.
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -41,11 +42,20 @@ struct LinearContactSettings {
 enum class ContactLaw { hertz, linear };
 enum class RockShape { sphere, cylinder };
 
-/// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0.
+/// Constant velocity of a wall from one time to another; before and after it stands.
+struct WallTravel {
+    Vec3 velocity = Vec3::Zero();   ///< [m/s]
+    double begin = 0.0, end = 0.0;  ///< [s]
+    Vec3 way(double time) const { return velocity * std::clamp(time - begin, 0.0, end - begin); }
+};
+
+/// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels is given where
+/// it stands at first.
 struct WallSettings {
     std::string name;
     std::filesystem::path file;
     bool rotating = false;
+    WallTravel travel{};
 };
 
 enum class DomainShape { box, cylinder };

@@ -56,15 +56,51 @@ struct CellRange {
     std::array<int, 3> from{}, to{};  ///< to: one beyond
 };
 
-CellRange range_of(const StaggeredGrid& grid, const Body& body) {
+CellRange range_of(const StaggeredGrid& grid, const SolidBox& box) {
     CellRange range;
     for (int d = 0; d < 3; ++d) {
-        const bool across = d == 1 && !body.sphere;
-        const double low = across ? 0.0 : body.position[d] - body.radius, high = across ? grid.extent(1) : body.position[d] + body.radius;
+        const double low = std::clamp(box.from[d], 0.0, grid.extent(d)), high = std::clamp(box.to[d], 0.0, grid.extent(d));
         range.from[d] = std::clamp(static_cast<int>(std::floor(low / grid.width(d))), 0, grid.cells(d));
         range.to[d] = std::clamp(static_cast<int>(std::ceil(high / grid.width(d))), 0, grid.cells(d));
     }
     return range;
+}
+
+CellRange range_of(const StaggeredGrid& grid, const Body& body) {
+    SolidBox around{body.position.array() - body.radius, body.position.array() + body.radius};
+    if (!body.sphere) {
+        around.from.y() = 0.0;
+        around.to.y() = grid.extent(1);
+    }
+    return range_of(grid, around);
+}
+
+/// Faces of a direction within the tank at the cells of a range.
+CellRange faces_of(const StaggeredGrid& grid, CellRange range, int d) {
+    range.to[d] = std::min(range.to[d] + 1, grid.cells(d));
+    range.from[d] = std::max(range.from[d], 1);  // the tank's walls stay walls
+    return range;
+}
+
+/// Share of a box, or of a face of one, that a solid box covers; touching it covers a face.
+double covered_share(const SolidBox& solid, const Vec3& from, const Vec3& to) {
+    constexpr double touching = 1e-9;  // [m]
+    double share = 1.0;
+    for (int d = 0; d < 3; ++d) {
+        if (to[d] <= from[d]) {
+            if (from[d] < solid.from[d] - touching || from[d] > solid.to[d] + touching) return 0.0;
+        } else {
+            share *= common({solid.from[d], solid.to[d]}, {from[d], to[d]}).length() / (to[d] - from[d]);
+        }
+    }
+    return share < touching ? 0.0 : share;
+}
+
+/// The gate with the first sliver of its opening, in the cell where its lower edge is, given to it.
+SolidBox without_sliver(const StaggeredGrid& grid, SolidBox gate) {
+    const double h = grid.spacing(), edge = gate.from.z() / h, floor = std::floor(edge + 1e-9);
+    if (edge - floor < k_smallest_gate_opening) gate.from.z() = floor * h;
+    return gate;
 }
 
 template <typename Visit>
@@ -154,21 +190,67 @@ double covered_volume(const Body& body, const Vec3& from, const Vec3& to) {
 }
 
 CellCutter::CellCutter(const StaggeredGrid& grid, const std::vector<StillSolid>& solids) : grid_(grid), entry_(grid.size(), -1) {
-    set_solids(solids);
-}
-
-void CellCutter::set_solids(const std::vector<StillSolid>& solids) {
-    still_.open = grid_.face_field();
-    still_.open_volume = grid_.cell_field();
-    still_.room = grid_.cell_field();
-    grid_.for_each_cell([&](int cell, int, int, int) { still_.room[cell] = 1.0; });
-    still_.closed.assign(grid_.size(), 1);
-    for (auto& owner : still_.owner) owner.assign(grid_.size(), k_no_body);
+    fixed_.open = grid_.face_field();
+    fixed_.open_volume = grid_.cell_field();
+    fixed_.room = grid_.cell_field();
+    grid_.for_each_cell([&](int cell, int, int, int) { fixed_.room[cell] = 1.0; });
+    fixed_.closed.assign(grid_.size(), 1);
+    for (auto& owner : fixed_.owner) owner.assign(grid_.size(), k_no_body);
     cover_still_faces(solids);
     cover_still_volumes(solids);
+    set_gates({});
+}
+
+void CellCutter::set_gates(gsl::span<const SolidBox> gates) {
+    still_ = fixed_;
+    still_.gates.resize(gates.size());
+    for (std::size_t n = 0; n < gates.size(); ++n) cover_by_gate(static_cast<int>(n), without_sliver(grid_, gates[n]));
     close_around_closed_cells();
+    for (std::size_t n = 0; n < gates.size(); ++n) find_flux_of_gate(static_cast<int>(n), gates[n]);
     find_slip_walls();
     repeat_in_ghosts(grid_, still_.open_volume);
+}
+
+void CellCutter::cover_by_gate(int index, const SolidBox& box) {
+    const CellRange range = range_of(grid_, box);
+    for (const int d : grid_.directions()) {
+        for_each_in(faces_of(grid_, range, d), [&](int i, int j, int k) {
+            const int face = grid_.at(i, j, k);
+            auto [from, to] = corners(grid_, i, j, k);
+            to[d] = from[d];
+            const double covered = covered_share(box, from, to);
+            if (covered <= 0.0) return;
+            const double open = still_.open[d][face] - covered;
+            still_.open[d][face] = open < k_smallest_open_share ? 0.0 : open;
+            still_.owner[d][face] = static_cast<std::int16_t>(k_first_gate - index);
+        });
+    }
+    for_each_in(range, [&](int i, int j, int k) {
+        const int cell = grid_.at(i, j, k);
+        const auto [from, to] = corners(grid_, i, j, k);
+        const double covered = covered_share(box, from, to);
+        if (covered <= 0.0) return;
+        const double open = still_.open_volume[cell] - covered;
+        still_.open_volume[cell] = open < k_smallest_open_share ? 0.0 : open;
+        PartShares shares{};
+        for_each_part(grid_, from, [&](int number, const Vec3& centre, const Vec3& size) {
+            shares[number] = covered_share(box, centre - 0.5 * size, centre + 0.5 * size);
+        });
+        take_room(grid_, cell, shares, still_.room);
+    });
+}
+
+/// What the gate covers of upright faces pushes no water: it moves along them.
+void CellCutter::find_flux_of_gate(int index, const SolidBox& box) {
+    std::vector<BodyCell>& list = still_.gates[index];
+    for_each_in(faces_of(grid_, range_of(grid_, box), 2), [&](int i, int j, int k) {
+        const int face = grid_.at(i, j, k);
+        if (still_.owner[2][face] != k_first_gate - index) return;
+        const double share = fixed_.open[2][face] - still_.open[2][face];
+        add_to_cell(list, face - grid_.stride(2), 2, share);
+        add_to_cell(list, face, 2, -share);
+    });
+    for (const BodyCell& entry : list) entry_[entry.cell] = -1;
 }
 
 void CellCutter::cover_still_faces(const std::vector<StillSolid>& solids) {
@@ -182,7 +264,7 @@ void CellCutter::cover_still_faces(const std::vector<StillSolid>& solids) {
             const int along = d == 2 ? 0 : 2, other = 3 - d - along;
             if (!grid_.is_plane()) lines[other] = k_lines;
             const double open = 1.0 - covered_share(solids, along, from, to, lines);
-            still_.open[d][face] = open < k_smallest_open_share ? 0.0 : open;
+            fixed_.open[d][face] = open < k_smallest_open_share ? 0.0 : open;
         });
     }
 }
@@ -192,7 +274,7 @@ void CellCutter::cover_still_volumes(const std::vector<StillSolid>& solids) {
         const auto [from, to] = corners(grid_, i, j, k);
         const std::array<int, 3> lines{k_lines, grid_.is_plane() ? 1 : k_lines, 1};
         const double open = solids.empty() ? 1.0 : 1.0 - covered_share(solids, 2, from, to, lines);
-        still_.open_volume[cell] = open < k_smallest_open_share ? 0.0 : open;
+        fixed_.open_volume[cell] = open < k_smallest_open_share ? 0.0 : open;
         if (open < 1.0) cover_still_room(solids, cell, from);
     });
 }
@@ -201,11 +283,11 @@ void CellCutter::cover_still_room(const std::vector<StillSolid>& solids, int cel
     PartShares shares;
     shares.fill(1.0);
     const std::array<int, 3> lines{k_lines / k_parts, grid_.is_plane() ? 1 : k_lines / k_parts, 1};
-    if (still_.open_volume[cell] > 0.0)
+    if (fixed_.open_volume[cell] > 0.0)
         for_each_part(grid_, from, [&](int number, const Vec3& centre, const Vec3& size) {
             shares[number] = covered_share(solids, 2, centre - 0.5 * size, centre + 0.5 * size, lines);
         });
-    take_room(grid_, cell, shares, still_.room);
+    take_room(grid_, cell, shares, fixed_.room);
 }
 
 /// A part is covered in proportion to its depth under the surface; together the parts cover what the cell is covered.
@@ -279,10 +361,7 @@ void CellCutter::add_to_cell(std::vector<BodyCell>& list, int cell, int directio
 }
 
 void CellCutter::cover_faces(int index, const Body& body, int d, CutCells& cells) {
-    CellRange range = range_of(grid_, body);
-    range.to[d] = std::min(range.to[d] + 1, grid_.cells(d));
-    range.from[d] = std::max(range.from[d], 1);  // the tank's walls stay walls
-    for_each_in(range, [&](int i, int j, int k) {
+    for_each_in(faces_of(grid_, range_of(grid_, body), d), [&](int i, int j, int k) {
         const int face = grid_.at(i, j, k);
         double& open = cells.open[d][face];
         if (open <= 0.0) return;
@@ -352,7 +431,9 @@ void CellCutter::cut(gsl::span<const Body> bodies, CutCells& cells) {
     if (bodies.empty()) return;
     repeat_in_ghosts(grid_, cells.open_volume);
     for (const int cell : cells.cut) cells.closed[cell] = !has_open_face(cells, cell);
-    for (auto& list : cells.bodies) hand_on_flux_of_closed_cells(cells, list);
+    for (auto* lists_of : {&cells.bodies, &cells.gates}) {
+        for (auto& list : *lists_of) hand_on_flux_of_closed_cells(cells, list);
+    }
 }
 
 }  // namespace cutterflow::free_surface

@@ -32,6 +32,7 @@ struct BodyCell {
 };
 
 inline constexpr int k_no_body = -1;
+inline constexpr int k_first_gate = -2;  ///< gate n owns its faces as k_first_gate - n
 
 struct CutCells {
     FaceField open;                                  ///< open share of each face, 0 on the tank's walls and beyond
@@ -39,14 +40,19 @@ struct CutCells {
     CellField room;                                  ///< share of a cell's kernel that solids leave: what water at rest fills
     std::vector<std::uint8_t> closed;                ///< 1 for cells without open volume or face, and for ghosts
     std::vector<int> cut;                            ///< cells that solids cover in part or in whole
-    std::array<std::vector<std::int16_t>, 3> owner;  ///< body that covers most of a face; k_no_body: none or what stands still
+    std::array<std::vector<std::int16_t>, 3> owner;  ///< body that covers most of a face, or a gate; k_no_body: none or what stands still
     std::vector<std::vector<BodyCell>> bodies;       ///< of each body
+    std::vector<std::vector<BodyCell>> gates;        ///< the same of each gate
 };
 
 /// Smaller remainders of a face's open share are given to the solid: from round-off they would become jets.
 inline constexpr double k_smallest_open_share = 1e-4;
+/// What opens under a gate counts from this share of a cell's height on: it draws in what the gate leaves through the opening alone, at a
+/// speed that grows without bound as the opening closes.
+inline constexpr double k_smallest_gate_opening = 0.25;
 
-/// What stands still is covered once, by the lengths of lines in the faces; bodies are put in at their places in every step. Several solids
+/// What stands still is covered once, by the lengths of lines in the faces; gates are put in when they have moved, exactly, bodies at their
+/// places in every step. Several solids
 /// may share a cell. A body's part A^b of a face is its mean over the cell-wide box around the face (at the tank's walls reaching to the
 /// wall), so that the parts of a direction add up to the body's volume: a body in still water has exactly its buoyancy. The areas in the
 /// faces themselves are a trapezoidal rule for the volume, 0.3 % off at 20 cells a diameter, and their errors are twice these at a light
@@ -55,17 +61,19 @@ class CellCutter {
 public:
     CellCutter(const StaggeredGrid& grid, const std::vector<StillSolid>& solids);
 
-    /// Cells without bodies.
+    /// Cells without bodies; gates are in their places.
     const CutCells& still() const { return still_; }
     const SlipWalls& slip_walls() const { return slip_walls_; }
     /// \param cells  is written over; the sum of k over the cells of a body away from the tank's walls is 0 (a closed body)
     void cut(gsl::span<const Body> bodies, CutCells& cells);
-    /// What stands still moved: covers anew.
-    void set_solids(const std::vector<StillSolid>& solids);
+    /// Puts gates at new places. They overlap nothing that stands still.
+    void set_gates(gsl::span<const SolidBox> gates);
 
 private:
     void cover_still_faces(const std::vector<StillSolid>& solids);
     void cover_still_volumes(const std::vector<StillSolid>& solids);
+    void cover_by_gate(int index, const SolidBox& box);
+    void find_flux_of_gate(int index, const SolidBox& box);
     void close_around_closed_cells();
     void find_slip_walls();
     void add_body(int index, const Body& body, CutCells& cells);
@@ -78,6 +86,7 @@ private:
     void add_to_cell(std::vector<BodyCell>& list, int cell, int direction, double flux);
 
     const StaggeredGrid& grid_;
+    CutCells fixed_;  // without gates
     CutCells still_;
     SlipWalls slip_walls_;
     std::vector<int> entry_;  // of a cell in the list of the body at hand, -1: none

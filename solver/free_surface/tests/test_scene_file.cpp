@@ -50,6 +50,36 @@ hole_spacing_m = 0.02
     EXPECT_NEAR(scene.settings.tank.depth, 0.1, 1e-12);
 }
 
+std::string gate(const std::string& speed, const std::string& bottom = "0.0") {
+    return "[[solid]]\nkind = \"gate\"\naxis_x_m = 0.1\nwall_m = 0.002\nbottom_m = " + bottom + "\ntop_m = 0.12\nspeed_m_s = " + speed +
+           "\nstart_s = 0.1\n";
+}
+
+TEST(SceneFile, reads_a_gate_that_leaves_by_the_top_and_a_wall_without_speed) {
+    const Scene moving = parse_scene(k_tank + k_fill + gate("0.5"), "scene.toml");
+    ASSERT_EQ(moving.settings.gates.size(), 1u);
+    EXPECT_TRUE(moving.settings.solids.empty());
+    const Gate& one = moving.settings.gates[0];
+    EXPECT_NEAR(one.closed.from.x(), 0.099, 1e-12);
+    EXPECT_NEAR(one.closed.to.z(), 0.12, 1e-12);
+    EXPECT_NEAR(one.start, 0.1, 1e-12);
+    EXPECT_NEAR(one.end, 0.1 + 0.2 / 0.5, 1e-12);
+    EXPECT_GT(predict(parse_scene(k_tank + k_fill + gate("5"), "scene.toml")).steps, predict(moving).steps);
+    const Scene still = parse_scene(k_tank + k_fill + gate("0"), "scene.toml");
+    EXPECT_TRUE(still.settings.gates.empty());
+    EXPECT_EQ(still.settings.solids.size(), 1u);
+}
+
+TEST(SceneFile, refuses_gates_whose_way_is_not_free) {
+    const std::string lid = "[[solid]]\nkind = \"plate\"\nfrom_x_m = 0.05\nfrom_z_m = 0.15\nto_x_m = 0.15\nto_z_m = 0.16\nwall_m = 0.003\n";
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + lid + gate("0.5")), ::testing::HasSubstr("meets a solid"));
+    const std::string sill = "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.05\nfrom_z_m = 0.0\nto_x_m = 0.15\nto_z_m = 0.02\n";
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + sill + gate("0.5", "0.02")), "");
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + "[[solid]]\nkind = \"gate\"\n"), ::testing::HasSubstr("solid.speed_m_s is missing"));
+    const std::string body = "[[bodies]]\ndiameter_m = 0.01\ncentre_x_m = 0.104\nlowest_m = 0.05\n";
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + gate("0.5") + body), ::testing::HasSubstr("stands in a solid"));
+}
+
 TEST(SceneFile, stacks_bodies_and_derives_the_gap) {
     const Scene scene = parse_scene(
         k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\nlayers = 6\nwidest = 6\ncentre_x_m = 0.1\nlowest_m = 0.11\nclearance_m = 0.001\n",

@@ -80,6 +80,61 @@ TEST(Walls, the_torque_on_a_paddle_balances_what_it_gives_to_the_rocks) {
     for (const Vec3& velocity : engine.rocks().velocity) EXPECT_GT(velocity.norm(), 0.5);
 }
 
+/// A rock at rest on a plate that travels upwards from 0.05 s to 0.15 s, in uneven calls that meet both times.
+struct Lift {
+    static constexpr double speed = 0.4, begin = 0.05, end = 0.15;
+    std::filesystem::path folder = scratch_folder();
+    coupling::DemSettings settings = still_water();
+
+    Lift() {
+        const auto file = write_stl(folder / "plate.stl", block(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.0), 2));
+        settings.walls = {{"plate", file, false, {Vec3(0, 0, speed), begin, end}}};
+        settings.contact.wet_restitution = false;
+        settings.contact.restitution = 0.3;
+    }
+    /// Height of the rock's lowest point over the plate's first place.
+    static double follow(LiggghtsEngine& engine, double from, double to) {
+        double time = from;
+        for (int call = 0; time < to; ++call) {
+            double next = std::min(to, time + uneven_duration(call));
+            for (const double event : {begin, end})
+                if (time < event && next > event) next = event;
+            engine.advance(next - time, no_force);
+            time = next;
+        }
+        return engine.rocks().position[0].z() - 0.01;
+    }
+};
+
+// The overlap under the own weight is 4.2 micrometres.
+TEST(Walls, a_wall_that_travels_carries_rock_and_stops) {
+    Lift lift;
+    LiggghtsEngine engine(lift.settings, no_zones(), MPI_COMM_WORLD);
+    ASSERT_EQ(engine.insert(one_rock(Vec3(0, 0, 0.01))).size(), 1u);
+    const double rest = Lift::follow(engine, 0.0, 0.05);
+    EXPECT_NEAR(rest, 0.0, 5e-6);
+    EXPECT_GT(Lift::follow(engine, 0.05, 0.10), 0.4 * 0.05 - 5e-6);
+    EXPECT_NEAR(Lift::follow(engine, 0.10, 1.0) - rest, 0.04, 1e-8);  // thrown up when the plate stops, back at rest
+    EXPECT_NEAR(engine.rocks().velocity[0].norm(), 0.0, 1e-3);
+    coupling::Rocks rocks;
+    add_rock(rocks, 2, Vec3(0.05, 0.05, 0.01));   // where the plate is now
+    add_rock(rocks, 3, Vec3(0.05, 0.05, -0.08));  // where it was
+    EXPECT_EQ(engine.insert(rocks), (std::vector<int>{3}));
+}
+
+TEST(Walls, a_wall_that_travels_goes_on_after_a_checkpoint_where_it_stands) {
+    Lift lift;
+    for (const double stop : {0.03, 0.10, 0.18}) {
+        LiggghtsEngine through(lift.settings, no_zones(), MPI_COMM_WORLD);
+        through.insert(one_rock(Vec3(0, 0, 0.01)));
+        Lift::follow(through, 0.0, stop);
+        through.write_checkpoint(lift.folder);
+        LiggghtsEngine resumed(lift.settings, no_zones(), MPI_COMM_WORLD);
+        resumed.read_checkpoint(lift.folder);
+        EXPECT_NEAR(Lift::follow(resumed, stop, 0.3), Lift::follow(through, stop, 0.3), 1e-12) << stop;
+    }
+}
+
 TEST(Walls, contacts_and_overlap_are_reported) {
     coupling::DemSettings settings = still_water();
     settings.domain.lower.z() = 0.0;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/file_content.hpp"
+#include "solver/free_surface/scene_file.hpp"
 #include "solver/free_surface/surface_run.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/cylinder_column.hpp"
@@ -16,6 +18,7 @@ using namespace cutterflow::free_surface;
 using namespace cutterflow::validation;
 
 constexpr double k_cell = 1e-3, k_end = 0.5, k_water_height = 0.12;
+constexpr double k_dam = 0.066, k_gate = 0.067;  // right side of the water, left side of the gate; to the gate with one
 
 struct Trial {
     int layers = 6;
@@ -23,6 +26,7 @@ struct Trial {
     double gap = 1e-3;
     unsigned seed = 1;
     double courant = 0.5;
+    double gate_speed = 0.0;  // 0: released at once [m/s]
 };
 
 struct Outcome {
@@ -30,13 +34,22 @@ struct Outcome {
     int inside = 0;
 };
 
+/// Two cells thick, higher than the water.
+Gate gate_of(const Trial& trial) {
+    return {{Vec3(k_gate, -1, 0.0), Vec3(k_gate + 2.0 * k_cell, 1, k_water_height + 0.01)},
+            trial.gate_speed,
+            0.0,
+            k_column_tank_height / trial.gate_speed};
+}
+
 SceneSettings scene_of(const Trial& trial, const CylinderColumn& column) {
     SceneSettings scene;
     scene.tank.cells = {static_cast<int>(std::lround(column.tank_width / k_cell)), 1,
                         static_cast<int>(std::lround(k_column_tank_height / k_cell))};
     scene.tank.cell = k_cell;
     scene.tank.depth = k_cylinder_length;
-    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(0.066, 1, k_water_height)}};
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(trial.gate_speed > 0.0 ? k_gate : k_dam, 1, k_water_height)}};
+    if (trial.gate_speed > 0.0) scene.gates = {gate_of(trial)};
     const double time = k_cell / (2.0 * std::sqrt(9.81 * k_water_height));
     scene.damping = {trial.remaining, time, trial.gap};
     scene.run.max_courant = trial.courant;
@@ -55,13 +68,21 @@ int particles_in_bodies(const SurfaceRun& run) {
     return inside;
 }
 
-Outcome follow(const Trial& trial) {
+std::vector<coupling::WallSettings> walls_of(const Trial& trial, const std::filesystem::path& folder) {
+    if (trial.gate_speed <= 0.0) return {};
+    const Gate gate = gate_of(trial);
+    const std::filesystem::path file = std::filesystem::absolute(folder / "gate.stl");
+    write_file(file, wall_surface_stl({gate.closed}, k_cylinder_length));
+    return {{"gate", file, false, {Vec3(0, 0, gate.speed), gate.start, gate.end}}};
+}
+
+Outcome follow(const Trial& trial, const std::filesystem::path& folder) {
     CylinderColumn column;
     column.layers = trial.layers;
     column.gap = trial.gap;
     column.jitter = 1e-5;
     column.seed = trial.seed;
-    const auto engine = column_engine(column);
+    const auto engine = column_engine(column, walls_of(trial, folder));
     SurfaceRun run(scene_of(trial, column), engine.get());
     Outcome outcome;
     const std::clock_t began = std::clock();
@@ -82,11 +103,12 @@ Outcome follow(const Trial& trial) {
 }
 
 std::string name_of(const Trial& trial) {
-    return fmt::format("{} layers, gap {:g} mm, beta {:g}, jitter {}", trial.layers, 1e3 * trial.gap, trial.remaining, trial.seed);
+    const std::string gate = trial.gate_speed > 0.0 ? fmt::format(", gate at {:g} m/s", trial.gate_speed) : "";
+    return fmt::format("{} layers, gap {:g} mm, beta {:g}, jitter {}{}", trial.layers, 1e3 * trial.gap, trial.remaining, trial.seed, gate);
 }
 
 Outcome check(Verification& verification, const Trial& trial) {
-    const Outcome outcome = follow(trial);
+    const Outcome outcome = follow(trial, verification.folder("gate"));
     const std::string name = name_of(trial);
     verification.absolute("arrival: " + name, "s", outcome.arrival, 0.35, 0.15,
                           {"Chen2019", "within half a second; the curves are lost", {}});
@@ -129,12 +151,23 @@ void check_pairs(Verification& verification, int layers) {
                          {"Chen2019", "five pairs, 95 %", {}});
 }
 
+/// A gate that takes 0.12 s to leave the water: later than released at once, by less than that time.
+void check_gate(Verification& verification) {
+    const Outcome at_once = check(verification, {6, 1.0});
+    Trial trial;
+    trial.gate_speed = 1.0;
+    const double later = check(verification, trial).arrival - at_once.arrival, lifting = k_water_height / trial.gate_speed;
+    verification.absolute("arrival behind a gate at 1 m/s less that of a release at once, over the time of lifting", "-", later / lifting,
+                          0.5, 0.5, {"exact", "between 0 and 1", {}});
+}
+
 void run(Verification& verification) {
     const SingleProcess mpi;
     const Outcome damped = check(verification, {6, 0.5});
     if (!verification.wants(Effort::standard)) return;
-    const Outcome halved = follow({6, 0.5, 1e-3, 1, 0.25});
+    const Outcome halved = follow({6, 0.5, 1e-3, 1, 0.25}, verification.folder("gate"));
     verification.relative("mean x at 0.3 s at half the step, beta 0.5", "-", halved.mean_at_03, damped.mean_at_03, 0.1, {"exact", "", {}});
+    check_gate(verification);
     check_pairs(verification, 6);
     check_pairs(verification, 12);
     check(verification, {6, 1.0, 0.25e-3});

@@ -48,8 +48,10 @@ coupling::DemSettings column_dem(const CylinderColumn& column) {
     return settings;
 }
 
-std::unique_ptr<liggghts::LiggghtsEngine> column_engine(const CylinderColumn& column) {
-    auto engine = std::make_unique<liggghts::LiggghtsEngine>(column_dem(column), std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
+std::unique_ptr<liggghts::LiggghtsEngine> column_engine(const CylinderColumn& column, std::vector<coupling::WallSettings> walls) {
+    coupling::DemSettings settings = column_dem(column);
+    settings.walls = std::move(walls);
+    auto engine = std::make_unique<liggghts::LiggghtsEngine>(settings, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
     const coupling::Rocks rocks = column_rocks(column);
     if (engine->insert(rocks).size() != rocks.size()) throw std::runtime_error("the DEM did not take all cylinders");
     return engine;

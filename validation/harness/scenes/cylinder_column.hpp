@@ -26,8 +26,8 @@ coupling::Rocks column_rocks(const CylinderColumn& column);
 /// The linear law, cylinders, the tank's four walls; without fluid (the pressure holds buoyancy and added mass).
 coupling::DemSettings column_dem(const CylinderColumn& column);
 
-/// A DEM with the column in it. MPI must have been initialised.
-std::unique_ptr<liggghts::LiggghtsEngine> column_engine(const CylinderColumn& column);
+/// A DEM with the column in it. MPI must have been initialised. \param walls  beside the tank's own
+std::unique_ptr<liggghts::LiggghtsEngine> column_engine(const CylinderColumn& column, std::vector<coupling::WallSettings> walls = {});
 
 /// Mean of the centres [m].
 Vec3 mean_place(const coupling::Rocks& rocks);
