@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_scene = "scene.toml";
 
-StageOutcome write_case(const RunDirectory& directory, const std::string& study, const SurfaceCheck& check) {
-    write_file(directory.file(k_scene), study);
+StageOutcome write_case(const RunDirectory& directory, const SurfaceInputs& inputs, const SurfaceCheck& check) {
+    write_file(directory.file(k_scene), inputs.study);
+    for (const auto& [name, file] : inputs.copies) write_file(directory.file(name), read_file(file));
     write_file(directory.file(postproc::k_surface_scene), check.scene.dump(2) + "\n");
     write_file(directory.file(names::prediction), check.prediction.dump(2) + "\n");
     return {{k_scene, postproc::k_surface_scene}, 0.0};
@@ -42,9 +43,11 @@ StageOutcome run_solver(const RunDirectory& directory, const fs::path& solver, b
 
 std::vector<Stage> surface_stages(const RunDirectory& directory, const fs::path& study_file, const SurfaceCheck& check,
                                   const fs::path& solver) {
-    const std::string study = read_file(study_file);
+    const SurfaceInputs inputs = surface_inputs(study_file);
     const std::map<std::string, std::string> none;
-    return {{"case", {{"study", study}}, {}, false, [&directory, study, check](bool) { return write_case(directory, study, check); }},
+    std::map<std::string, std::string> of_case{{"study", read_file(study_file)}};
+    for (const auto& [name, file] : inputs.copies) of_case[file.string()] = sha256_of_file(file);
+    return {{"case", of_case, {}, false, [&directory, inputs, check](bool) { return write_case(directory, inputs, check); }},
             {"run", none, {}, true, [&directory, solver](bool resume) { return run_solver(directory, solver, resume); }},
             {"report", none, {}, false, [&directory](bool) {
                  postproc::write_surface_report(directory.path());

@@ -113,7 +113,7 @@ std::vector<SurfaceAxis> surface_axes(const std::vector<std::string>& words) {
 }
 
 std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study, const std::vector<SurfaceAxis>& axes, int repeats) {
-    const ParameterValues values = read_parameters(surface_study_table(), study);
+    const ParameterValues values = read_placed_surface_study(study);  // the points lie in other folders
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;
     for (const Setting& setting : settings_of({safe(study.stem().string()), values}, axes)) {

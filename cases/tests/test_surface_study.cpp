@@ -91,6 +91,27 @@ TEST_F(SurfaceStudy, names_mistakes_of_all_sections_at_once) {
     EXPECT_THAT(mistakes, HasSubstr("run.write_interval_s"));
 }
 
+TEST_F(SurfaceStudy, bodies_of_a_file_go_into_the_run_and_into_sweeps) {
+    std::string text = surface_study_template("dam");
+    text =
+        replaced(text, "layers = 6\nwidest = 6\ncentre_x_m = 0.0335\nlowest_m = 0.001\nclearance_m = 0.001\n", "file = \"in/list.csv\"\n");
+    const fs::path study = write("studies/dam.toml", text);
+    EXPECT_THAT(mistakes_of(study), HasSubstr("studies/in/list.csv"));
+    const std::string list = "x_m,z_m,id\n0.02,0.02,7\n0.04,0.02,3\n";
+    write("studies/in/list.csv", list);
+    EXPECT_EQ(check_surface_study(study).scene.at("bodies"), 2);
+
+    const SurfaceInputs inputs = surface_inputs(study);
+    ASSERT_EQ(inputs.copies.size(), 1u);
+    EXPECT_EQ(read_file(inputs.copies.at("bodies_1.csv")), list);
+    write("run/bodies_1.csv", list);
+    EXPECT_EQ(check_surface_study(write("run/scene.toml", inputs.study)).scene.at("bodies"), 2);
+
+    const auto points = surface_sweep_points(study, surface_axes({"contact.friction=0.1,0.2"}), 1);
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(check_surface_study(write("elsewhere/point.toml", points[1].text)).scene.at("bodies"), 2);
+}
+
 TEST_F(SurfaceStudy, refuses_what_the_memory_does_not_hold) {
     const std::string text = replaced(surface_study_template("dam"), "cell_m = 0.001 ", "cell_m = 0.0000001 ");
     EXPECT_THAT(mistakes_of(write("dam.toml", text)), HasSubstr("GB of memory"));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "solver/free_surface/body_list.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::free_surface {
@@ -68,6 +70,13 @@ Parameter choice(const std::string& key, std::optional<std::string> value, std::
     return parameter;
 }
 
+Parameter file_name(const std::string& key, const std::string& help, const std::string& otherwise) {
+    Parameter parameter = derived(number(key, "-", {}, 0.0, help), otherwise);
+    parameter.minimum.reset();
+    parameter.kind = ParameterKind::path;
+    return parameter;
+}
+
 Parameter bounded(Parameter parameter, double maximum) {
     parameter.maximum = maximum;
     return parameter;
@@ -76,7 +85,7 @@ Parameter bounded(Parameter parameter, double maximum) {
 /// Reads one scene; collects what is wrong.
 class Reader {
 public:
-    explicit Reader(const ParameterValues& values) : values_(values) {}
+    Reader(const ParameterValues& values, std::filesystem::path folder) : values_(values), folder_(std::move(folder)) {}
 
     Scene read() {
         read_domain();
@@ -84,6 +93,7 @@ public:
         for (const ParameterValues& solid : values_.tables("solid")) read_solid(solid);
         for (const ParameterValues& solid : values_.tables("solid")) require_free_way(solid);
         for (const ParameterValues& bodies : values_.tables("bodies")) read_bodies(bodies);
+        sort_bodies();
         read_contact();
         read_run();
         if (scene_.settings.water.filled.empty() && scene_.bodies.size() == 0)
@@ -268,9 +278,39 @@ private:
         if (density < 1e-3 * scene_.settings.water.density)
             refuse(bodies.where("bodies.density_kg_m3"), fmt::format("bodies.density_kg_m3 = {:g}", density),
                    "The pressure of water and bodies is verified down to a thousandth of the water's density", "Use a heavier body");
-        const double spacing = diameter + bodies.number("bodies.clearance_m"), jitter = bodies.number("bodies.jitter_m");
+        const double jitter = bodies.number("bodies.jitter_m");
         std::mt19937 random(static_cast<unsigned>(bodies.integer("bodies.seed")));
         std::uniform_real_distribution<double> shift(-jitter, jitter);
+        for (ListedBody& body : bodies.has("bodies.file") ? listed(bodies) : stacked(bodies)) {
+            body.z += shift(random);
+            body.x += shift(random);
+            add_body(body, diameter, density);
+        }
+    }
+
+    std::vector<ListedBody> listed(const ParameterValues& bodies) {
+        for (const char* key : {"bodies.centre_x_m", "bodies.lowest_m"}) {
+            if (bodies.has(key))
+                refuse(bodies.where(key), fmt::format("{} beside bodies.file", key), "Bodies are a stack or listed in a file",
+                       "Remove one of them; a second [[bodies]] may have the other");
+        }
+        std::vector<Mistake> mistakes;
+        std::vector<ListedBody> list = read_body_list(folder_ / bodies.text("bodies.file"), mistakes);
+        for (Mistake& mistake : mistakes) {
+            if (mistake.where.empty()) mistake.where = bodies.where("bodies.file");
+            mistakes_.push_back(std::move(mistake));
+        }
+        return list;
+    }
+
+    std::vector<ListedBody> stacked(const ParameterValues& bodies) {
+        for (const char* key : {"bodies.centre_x_m", "bodies.lowest_m"}) {
+            if (bodies.has(key)) continue;
+            refuse(bodies.where("bodies.diameter_m"), fmt::format("{} is missing", key), "A stack needs it", "Add it, or bodies.file");
+            return {};
+        }
+        std::vector<ListedBody> stack;
+        const double diameter = bodies.number("bodies.diameter_m"), spacing = diameter + bodies.number("bodies.clearance_m");
         const auto widest = bodies.integer("bodies.widest");
         for (std::int64_t layer = 0; layer < bodies.integer("bodies.layers"); ++layer) {
             const auto count = std::max<std::int64_t>(1, layer % 2 == 0 ? widest : widest - 1);
@@ -278,23 +318,33 @@ private:
                 const double x =
                     bodies.number("bodies.centre_x_m") + (static_cast<double>(n) - 0.5 * static_cast<double>(count - 1)) * spacing;
                 const double z = bodies.number("bodies.lowest_m") + 0.5 * diameter + static_cast<double>(layer) * std::sqrt(0.75) * spacing;
-                add_body(Vec3(x + shift(random), 0.5 * scene_.settings.tank.depth, z + shift(random)), diameter, density, where);
+                ListedBody body;
+                body.x = x;
+                body.z = z;
+                body.where = bodies.where("bodies.diameter_m");
+                stack.push_back(std::move(body));
             }
         }
+        return stack;
     }
 
-    void add_body(const Vec3& place, double diameter, double density, const std::string& where) {
+    void add_body(const ListedBody& body, double diameter, double density) {
         coupling::Rocks& rocks = scene_.bodies;
-        const int id = static_cast<int>(rocks.size()) + 1;
+        const Vec3 place(body.x, 0.5 * scene_.settings.tank.depth, body.z);
+        const std::string& where = body.where;
+        const int id = body.id > 0 ? body.id : rocks.id.empty() ? 1 : *std::max_element(rocks.id.begin(), rocks.id.end()) + 1;
         const double radius = 0.5 * diameter;
+        if (std::find(rocks.id.begin(), rocks.id.end(), id) != rocks.id.end())
+            refuse(where, fmt::format("id {} is that of a body of another table", id), "Every body has an id of its own",
+                   "Change the id, or leave the column out");
         if (place.x() < radius || place.x() > width() - radius || place.z() < radius || place.z() > height() - radius)
             refuse(where, fmt::format("Body {} at ({:g}, {:g}) m leaves the domain", id, place.x(), place.z()),
-                   fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move the stack");
+                   fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move it, or the stack");
         for (std::size_t n = 0; n < rocks.size(); ++n) {
             const double between = (rocks.position[n] - place).norm() - 0.5 * rocks.diameter[n] - radius;
             if (between < 0.0)
                 refuse(where, fmt::format("Bodies {} and {} overlap by {:.3g} m", rocks.id[n], id, -between), "Bodies must not overlap",
-                       "Give more clearance or less jitter");
+                       "Move one of them, or give more clearance or less jitter");
         }
         const auto reaches_into = [&](const StillSolid& solid) {
             if (is_inside(solid, place)) return true;
@@ -308,13 +358,23 @@ private:
         if (std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), reaches_into) ||
             std::any_of(scene_.settings.gates.begin(), scene_.settings.gates.end(), reaches_into_gate))
             refuse(where, fmt::format("Body {} at ({:g}, {:g}) m stands in a solid", id, place.x(), place.z()), "Bodies start free",
-                   "Move the stack");
+                   "Move it, or the stack");
         rocks.id.push_back(id);
         rocks.position.push_back(place);
-        rocks.velocity.emplace_back(Vec3::Zero());
-        rocks.angular_velocity.emplace_back(Vec3::Zero());
+        rocks.velocity.push_back(body.velocity);
+        rocks.angular_velocity.emplace_back(0.0, body.spin, 0.0);
         rocks.diameter.push_back(diameter);
         rocks.density.push_back(density);
+    }
+
+    /// The DEM keeps bodies by their ids.
+    void sort_bodies() {
+        const coupling::Rocks given = std::move(scene_.bodies);
+        std::vector<std::size_t> order(given.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return given.id[a] < given.id[b]; });
+        scene_.bodies = {};
+        for (const std::size_t n : order) scene_.bodies.append(given, n);
     }
 
     void read_contact() {
@@ -375,6 +435,7 @@ private:
     }
 
     const ParameterValues& values_;
+    const std::filesystem::path folder_;
     Scene scene_;
     std::vector<Mistake> mistakes_;
 };
@@ -432,10 +493,14 @@ const ParameterTable& scene_table() {
         keys.push_back(derived(positive("solid.wall_length_m", "m", {}, "Length of a funnel's walls."), "a funnel needs it"));
         keys.push_back(positive("bodies.diameter_m", "m", {}, "Diameter of the cylinders."));
         keys.push_back(positive("bodies.density_kg_m3", "kg/m3", 2700.0, "Density of the cylinders."));
+        keys.push_back(file_name("bodies.file",
+                                 "CSV file with the places of their centres: x_m,z_m and, if wanted, vx_m_s,vz_m_s,spin_rad_s,id;"
+                                 " relative to the study file.",
+                                 "a stack"));
         keys.push_back(whole("bodies.layers", 1, 1, "Layers of the stack."));
         keys.push_back(whole("bodies.widest", 1, 1, "Cylinders in the first and every second layer; the others have one less."));
-        keys.push_back(positive("bodies.centre_x_m", "m", {}, "Middle of the stack."));
-        keys.push_back(number("bodies.lowest_m", "m", {}, 0.0, "Lowest point of the stack."));
+        keys.push_back(derived(positive("bodies.centre_x_m", "m", {}, "Middle of the stack."), "a stack needs it"));
+        keys.push_back(derived(number("bodies.lowest_m", "m", {}, 0.0, "Lowest point of the stack."), "a stack needs it"));
         keys.push_back(number("bodies.clearance_m", "m", 0.0, 0.0, "Between neighbours."));
         keys.push_back(number("bodies.jitter_m", "m", 0.0, 0.0, "Largest random shift of a place; repeats differ in it."));
         keys.push_back(whole("bodies.seed", 1, 0, "Seed of the shifts."));
@@ -466,12 +531,12 @@ const ParameterTable& scene_table() {
     return table;
 }
 
-Scene parse_scene(const std::string& toml, const std::string& name) {
-    return Reader(parse_parameters(scene_table(), toml, name)).read();
+Scene parse_scene(const std::string& toml, const std::string& name, const std::filesystem::path& folder) {
+    return Reader(parse_parameters(scene_table(), toml, name), folder).read();
 }
 
 Scene read_scene(const std::filesystem::path& file) {
-    return Reader(read_parameters(scene_table(), file)).read();
+    return Reader(read_parameters(scene_table(), file), file.parent_path()).read();
 }
 
 std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth) {

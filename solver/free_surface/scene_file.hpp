@@ -33,8 +33,8 @@ const ParameterTable& scene_table();
 
 /// \throws UserError  with every mistake of the file
 Scene read_scene(const std::filesystem::path& file);
-/// As read_scene, from text; `name` stands for the file in messages.
-Scene parse_scene(const std::string& toml, const std::string& name);
+/// As read_scene, from text; `name` stands for the file in messages. \param folder  in which the files lie that it names
+Scene parse_scene(const std::string& toml, const std::string& name, const std::filesystem::path& folder = {});
 
 /// Solids as one closed surface each, extruded across a tank of that depth, as text of an STL file [m].
 std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth);

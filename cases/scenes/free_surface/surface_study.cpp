@@ -16,7 +16,7 @@ namespace cutterflow::cases {
 
 namespace {
 
-constexpr const char* k_kind = "free_surface";
+constexpr const char *k_kind = "free_surface", *k_body_file = "bodies.file";
 
 /// Text in quotes of the key `kind` above the first section of a TOML file; empty without it.
 std::string kind_of(const std::string& toml) {
@@ -108,6 +108,28 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
              {"memory_bytes", found.memory},
              {"contact_step_s", found.dem_step}},
             scene.notes};
+}
+
+SurfaceInputs surface_inputs(const std::filesystem::path& study) {
+    SurfaceInputs inputs{read_file(study), {}};
+    ParameterValues values = read_placed_surface_study(study);
+    for (ParameterValues& bodies : values.tables_for_writing("bodies")) {
+        if (!bodies.has(k_body_file)) continue;
+        const std::string name = fmt::format("bodies_{}.csv", inputs.copies.size() + 1);
+        inputs.copies[name] = bodies.text(k_body_file);
+        bodies.set(k_body_file, name);
+    }
+    if (!inputs.copies.empty()) inputs.study = commented_toml(surface_study_table(), &values);
+    return inputs;
+}
+
+ParameterValues read_placed_surface_study(const std::filesystem::path& study) {
+    ParameterValues values = read_parameters(surface_study_table(), study);
+    for (ParameterValues& bodies : values.tables_for_writing("bodies")) {
+        if (bodies.has(k_body_file))
+            bodies.set(k_body_file, std::filesystem::absolute(study.parent_path() / bodies.text(k_body_file)).string());
+    }
+    return values;
 }
 
 void require_surface_study(const std::string& toml, const std::string& name) {

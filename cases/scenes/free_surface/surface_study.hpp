@@ -1,6 +1,7 @@
 #pragma once
 /// \file A study of kind "free_surface": water with a free surface and the solids that it carries, solved by cutterSurface.
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,16 @@ struct SurfaceCheck {
 
 /// \throws UserError  with every mistake of the file, or when the run needs more memory than the machine has
 SurfaceCheck check_surface_study(const std::filesystem::path& file);
+
+/// A study with the files that it names, as a run directory has them: side by side.
+struct SurfaceInputs {
+    std::string study;                                    ///< text that names the copies; that of the file when it names none
+    std::map<std::string, std::filesystem::path> copies;  ///< name in the run directory, and the file to copy
+};
+SurfaceInputs surface_inputs(const std::filesystem::path& study);
+
+/// Values of a study whose files are named by absolute paths.
+ParameterValues read_placed_surface_study(const std::filesystem::path& study);
 
 /// \throws UserError  with every mistake of a study given as text
 void require_surface_study(const std::string& toml, const std::string& name);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
 #include "solver/free_surface/scene_file.hpp"
 
@@ -129,6 +130,57 @@ TEST(SceneFile, refuses_holes_that_close_bodies_that_overlap_and_empty_scenes) {
             "[[bodies]]\ndiameter_m=0.01\ncentre_x_m=0.1\nlowest_m=0.1\n[[bodies]]\ndiameter_m=0.01\ncentre_x_m=0.105\nlowest_m=0.1\n"),
         ::testing::HasSubstr("overlap"));
     EXPECT_THAT(mistakes_of(k_tank), ::testing::HasSubstr("neither water nor bodies"));
+}
+
+class BodyFile : public ::testing::Test {
+protected:
+    const std::filesystem::path folder_ = std::filesystem::path(CUTTERFLOW_BUILD_DIR) / "tests" / "body_file";
+    static inline const std::string k_table = "[[bodies]]\ndiameter_m = 0.01\nfile = \"list.csv\"\n";
+
+    std::string scene_of(const std::string& list, const std::string& more = "") const {
+        std::filesystem::create_directories(folder_);
+        write_file(folder_ / "list.csv", list);
+        return k_tank + k_fill + k_table + more;
+    }
+    std::string mistakes_of(const std::string& list, const std::string& more = "") const {
+        try {
+            parse_scene(scene_of(list, more), "scene.toml", folder_);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return {};
+    }
+};
+
+TEST_F(BodyFile, gives_places_velocities_spins_and_ids_in_their_order) {
+    const Scene scene =
+        parse_scene(scene_of("x_m,z_m,vx_m_s,vz_m_s,spin_rad_s,id\n0.05,0.15,0.1,-0.2,3,9\n0.10,0.12,0,0,0,4\n"), "scene.toml", folder_);
+    EXPECT_EQ(scene.bodies.id, (std::vector<int>{4, 9}));
+    EXPECT_NEAR((scene.bodies.position[1] - Vec3(0.05, 0.05, 0.15)).norm(), 0.0, 1e-15);
+    EXPECT_EQ(scene.bodies.velocity[1], Vec3(0.1, 0.0, -0.2));
+    EXPECT_EQ(scene.bodies.angular_velocity[1], Vec3(0, 3, 0));
+    EXPECT_EQ(scene.bodies.velocity[0], Vec3(0, 0, 0));
+    EXPECT_EQ(parse_scene(scene_of("z_m,x_m\n0.15,0.05\n0.12,0.1\n"), "scene.toml", folder_).bodies.id, (std::vector<int>{1, 2}));
+}
+
+TEST_F(BodyFile, names_file_and_line_of_every_mistake) {
+    EXPECT_THAT(mistakes_of("x_m,y_m\n0.1,0.1\n"), ::testing::AllOf(::testing::HasSubstr("list.csv:1: column 'z_m' is missing"),
+                                                                    ::testing::HasSubstr("column 'y_m' is not known")));
+    EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,nan\n0.1\n"), ::testing::AllOf(::testing::HasSubstr("list.csv:2: z_m = 'nan' is not a number"),
+                                                                         ::testing::HasSubstr("list.csv:3: 1 fields instead of 2")));
+    EXPECT_THAT(mistakes_of("x_m,z_m,id\n0.1,0.1,2\n0.13,0.1,2\n0.16,0.1,1.5\n"),
+                ::testing::AllOf(::testing::HasSubstr("id 2 is also in"), ::testing::HasSubstr("list.csv:4: id = 1.5")));
+    EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,0.1\n0.104,0.1\n0.25,0.1\n"),
+                ::testing::AllOf(::testing::HasSubstr("list.csv:3: Bodies 1 and 2 overlap by 0.006 m"),
+                                 ::testing::HasSubstr("list.csv:4: Body 3 at (0.25, 0.1) m leaves the domain")));
+    EXPECT_THAT(mistakes_of("x_m,z_m\n"), ::testing::HasSubstr("has no bodies"));
+    EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,0.1\n", "lowest_m = 0.1\n"), ::testing::HasSubstr("beside bodies.file"));
+    EXPECT_THAT(mistakes_of("x_m,z_m,id\n0.1,0.1,1\n", "[[bodies]]\ndiameter_m = 0.01\nfile = \"list.csv\"\n"),
+                ::testing::HasSubstr("id 1 is that of a body of another table"));
+}
+
+TEST(SceneFile, a_stack_needs_its_place) {
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\n"), ::testing::HasSubstr("bodies.centre_x_m is missing"));
 }
 
 TEST(Checkpoint, gives_the_same_state_back) {
