@@ -58,6 +58,8 @@ SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
                                      k_remedy});
     if (rows.has_bodies())
         rows.bodies = read_joined_table(run_directory, "bodies", "bodies.csv", {{"time_s", "id", "x_m", "z_m"}, {}, {}, k_remedy}, {"id"});
+    rows.gauges = read_joined_table(run_directory, "gauges", "gauges.csv",
+                                    {{"time_s", "level_m", "pressure_pa"}, {"gauge"}, {"pressure_pa"}, k_remedy}, {"gauge"});
     if (rows.levels.empty())
         throw UserError(fmt::format("{} has no rows yet", run_directory.string()), "A report needs at least one step", "Let the run go on");
     return rows;

@@ -16,6 +16,7 @@ struct SurfaceRows {
     nlohmann::json scene;   ///< scene.json
     Table balance, levels;  ///< every step
     Table bodies;           ///< at outputs; empty without bodies
+    Table gauges;           ///< every step and gauge; empty without gauges
     bool has_bodies() const { return scene.at("bodies").get<int>() > 0; }
     bool has_pipe() const { return !scene.value("pipe", nlohmann::json()).is_null(); }
 };

@@ -49,6 +49,24 @@ Plot plot_over_time(const std::string& name, const std::string& y_title, const s
     return plot;
 }
 
+/// A curve of each gauge; those without a value (NaN) are left out.
+std::vector<Series> gauge_curves(const SurfaceRows& rows, const char* column, double factor) {
+    static const char* const colours[] = {palette::sucked_up, palette::spilled,   palette::outflow,
+                                          palette::rock_load, palette::flow_load, palette::never_entered};
+    const Table& table = rows.gauges;
+    std::vector<Series> curves;
+    for (std::size_t n = 0; n < table.rows(); ++n) {
+        const double value = table.number(column)[n];
+        if (std::isnan(value)) continue;
+        const std::string& name = table.text("gauge")[n];
+        auto curve = std::find_if(curves.begin(), curves.end(), [&](const Series& series) { return series.name == name; });
+        if (curve == curves.end()) curve = curves.insert(curves.end(), line(name, colours[curves.size() % std::size(colours)], {}, {}));
+        curve->x.push_back(table.number("time_s")[n]);
+        curve->y.push_back(factor * value);
+    }
+    return curves;
+}
+
 /// The plots of a page; a row each.
 std::vector<Figure> figures(const SurfaceRows& rows) {
     const Table &levels = rows.levels, &balance = rows.balance;
@@ -78,6 +96,11 @@ std::vector<Figure> figures(const SurfaceRows& rows) {
         add(plot_over_time("levels", "level [mm]", ".1f", {line("mean level", palette::sucked_up, time, column("level_m", 1e3))}),
             "Mean level of the tank: where air first stands over water.");
     }
+    if (auto curves = gauge_curves(rows, "level_m", 1e3); !curves.empty())
+        add(plot_over_time("gauge_levels", "level [mm]", ".1f", std::move(curves)),
+            "Level at the gauges: where air first stands over water.");
+    if (auto curves = gauge_curves(rows, "pressure_pa", 1.0); !curves.empty())
+        add(plot_over_time("gauge_pressures", "pressure [Pa]", ".0f", std::move(curves)), "Pressure at the gauges, over that of the air.");
     if (rows.has_bodies()) {
         const double width = rows.scene.at("width_m").get<double>();
         add(plot_over_time("places", "mean place over the width [-]", ".4f",

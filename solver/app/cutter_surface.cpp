@@ -128,7 +128,7 @@ void run_scene(const Arguments& arguments) {
     SurfaceRun run(scene.settings, engine.get());
     if (state) run.restore(std::move(*state));
 
-    SurfaceRecorder recorder(arguments.folder, run.time());
+    SurfaceRecorder recorder(arguments.folder, run.time(), scene.gauges);
     if (run.time() == 0.0) recorder.output(run, engine.get());
     Progress progress("run");
     double end = scene.end;

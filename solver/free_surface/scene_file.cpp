@@ -37,7 +37,8 @@ Parameter number(const std::string& key, const std::string& unit, std::optional<
     if (value) parameter.default_value = *value;
     parameter.minimum = minimum;
     parameter.help = help;
-    parameter.repeated = key.rfind("fill.", 0) == 0 || key.rfind("solid.", 0) == 0 || key.rfind("bodies.", 0) == 0;
+    const std::string section = key.substr(0, key.find('.'));
+    parameter.repeated = section == "fill" || section == "solid" || section == "bodies" || section == "gauge";
     return parameter;
 }
 
@@ -94,6 +95,7 @@ public:
         for (const ParameterValues& solid : values_.tables("solid")) require_free_way(solid);
         for (const ParameterValues& bodies : values_.tables("bodies")) read_bodies(bodies);
         sort_bodies();
+        for (const ParameterValues& gauge : values_.tables("gauge")) read_gauge(gauge);
         read_contact();
         read_run();
         if (scene_.settings.water.filled.empty() && scene_.bodies.size() == 0)
@@ -377,6 +379,28 @@ private:
         for (const std::size_t n : order) scene_.bodies.append(given, n);
     }
 
+    void read_gauge(const ParameterValues& values) {
+        Gauge gauge{values.text("gauge.name"), values.number("gauge.x_m"), {}};
+        if (values.has("gauge.z_m")) gauge.z = values.number("gauge.z_m");
+        const std::string where = values.where("gauge.name");
+        if (gauge.name.empty() || gauge.name.find_first_of(",\"\n\r") != std::string::npos)
+            refuse(where, fmt::format("gauge.name = \"{}\"", gauge.name), "A name is not empty and has no comma, quote or line break",
+                   "Change it");
+        const auto same = [&](const Gauge& other) { return other.name == gauge.name; };
+        if (std::any_of(scene_.gauges.begin(), scene_.gauges.end(), same))
+            refuse(where, fmt::format("gauge.name = \"{}\" is given twice", gauge.name), "Every gauge has a name of its own", "Change one");
+        const double z = gauge.z.value_or(0.0);
+        if (gauge.x > width() || z > height())
+            refuse(values.where("gauge.x_m"), fmt::format("Gauge {} at ({:g}, {:g}) m lies outside the domain", gauge.name, gauge.x, z),
+                   fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move it");
+        const Vec3 place(gauge.x, 0.5 * scene_.settings.tank.depth, z);
+        const auto holds_it = [&](const StillSolid& solid) { return is_inside(solid, place); };
+        if (gauge.z && std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), holds_it))
+            refuse(values.where("gauge.z_m"), fmt::format("Gauge {} at ({:g}, {:g}) m stands in a solid", gauge.name, gauge.x, z),
+                   "It reads the pressure of water", "Move it");
+        scene_.gauges.push_back(std::move(gauge));
+    }
+
     void read_contact() {
         coupling::DemSettings& dem = scene_.dem;
         dem.law = coupling::ContactLaw::linear;
@@ -504,6 +528,11 @@ const ParameterTable& scene_table() {
         keys.push_back(number("bodies.clearance_m", "m", 0.0, 0.0, "Between neighbours."));
         keys.push_back(number("bodies.jitter_m", "m", 0.0, 0.0, "Largest random shift of a place; repeats differ in it."));
         keys.push_back(whole("bodies.seed", 1, 0, "Seed of the shifts."));
+        Parameter gauge = choice("gauge.name", {}, {}, "Name of a place at which level and pressure are read in every step.");
+        gauge.kind = ParameterKind::text;
+        keys.push_back(gauge);
+        keys.push_back(number("gauge.x_m", "m", {}, 0.0, "Its place along x: the level of the water there."));
+        keys.push_back(derived(number("gauge.z_m", "m", {}, 0.0, "Its height: the pressure there."), "the level alone"));
         keys.push_back(positive("contact.theta", "-", 0.01, "Overlap under the own weight over the reference length."));
         keys.push_back(positive("contact.reference_length_m", "m", 5e-4, "Length of the contact law; not tied to the cells."));
         keys.push_back(number("contact.damping", "-", 0.4, 0.0, "Damping of the contact law, below 0.707."));

@@ -25,7 +25,8 @@ struct Scene {
     double write_interval = 0.0;       ///< [s]
     double checkpoint_interval = 0.0;  ///< [s]
     std::optional<PipeGauge> pipe;     ///< the first one
-    std::vector<std::string> notes;    ///< what the user should know: rounded sizes, coarse bodies
+    std::vector<Gauge> gauges;
+    std::vector<std::string> notes;  ///< what the user should know: rounded sizes, coarse bodies
 };
 
 /// All keys with unit, bounds, default and help.

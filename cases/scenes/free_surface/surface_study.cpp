@@ -55,6 +55,9 @@ nlohmann::json scene_json(const free_surface::Scene& scene) {
                         {"contact_gap_m", scene.dem.contact_gap},
                         {"gap_damping", scene.settings.damping.remaining},
                         {"pipe", nullptr}};
+    json["gauges"] = nlohmann::json::array();
+    for (const free_surface::Gauge& gauge : scene.gauges)
+        json["gauges"].push_back({{"name", gauge.name}, {"x_m", gauge.x}, {"z_m", gauge.z ? nlohmann::json(*gauge.z) : nlohmann::json()}});
     if (scene.pipe)
         json["pipe"] = {{"bottom_m", scene.pipe->bottom}, {"top_m", scene.pipe->top}, {"inner_width_m", scene.pipe->inner_width}};
     return json;

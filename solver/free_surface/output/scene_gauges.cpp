@@ -68,6 +68,29 @@ void read_bodies(const SurfaceRun& run, const std::optional<PipeGauge>& pipe, Sc
 
 }  // namespace
 
+GaugeReading read_gauge(const SurfaceRun& run, const Gauge& gauge) {
+    const StaggeredGrid& grid = run.grid();
+    const auto clamped = [&](int n, int d) { return std::clamp(n, 0, grid.cells(d) - 1); };
+    const double h = grid.spacing();
+    GaugeReading reading;
+    reading.level = column_level(run, clamped(static_cast<int>(std::floor(gauge.x / h)), 0), 0);
+    if (!gauge.z) return reading;
+    const double s = gauge.x / h - 0.5, t = *gauge.z / h - 0.5;
+    const int i = static_cast<int>(std::floor(s)), k = static_cast<int>(std::floor(t));
+    double sum = 0.0, weights = 0.0;
+    for (const int a : {0, 1}) {
+        for (const int c : {0, 1}) {
+            const int cell = grid.at(clamped(i + a, 0), 0, clamped(k + c, 2));
+            if (run.cells().closed[cell]) continue;
+            const double weight = (1.0 - std::abs(s - i - a)) * (1.0 - std::abs(t - k - c));
+            sum += weight * run.pressure()[cell];
+            weights += weight;
+        }
+    }
+    if (weights > 0.0) reading.pressure = sum / weights;
+    return reading;
+}
+
 SceneReading read_gauges(const SurfaceRun& run, const std::optional<PipeGauge>& pipe) {
     SceneReading reading;
     const StaggeredGrid& grid = run.grid();

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What is read off a scene in every step: levels, flows through a pipe's mouth and holes, where the bodies are.
 #include <optional>
+#include <string>
 
 #include "solver/free_surface/surface_run.hpp"
 
@@ -25,6 +26,21 @@ struct SceneReading {
     Vec3 mean_place = Vec3::Zero();  ///< of the bodies [m]
     double farthest = 0.0;           ///< largest x that a body's surface reaches [m]
 };
+
+/// A place at which level and pressure are read.
+struct Gauge {
+    std::string name;
+    double x = 0.0;           ///< [m]
+    std::optional<double> z;  ///< of the pressure; none: the level alone [m]
+};
+
+struct GaugeReading {
+    double level = 0.0;     ///< of the column of cells around x [m]
+    double pressure = 0.0;  ///< at (x, z), over that of the air [Pa]
+};
+
+/// The pressure is interpolated between the centres of cells; in a half cell at a wall or a solid it is that of the nearest centres.
+GaugeReading read_gauge(const SurfaceRun& run, const Gauge& gauge);
 
 /// The level of a column of cells is where air first stands over water, going up; solids and bodies do not count as air.
 SceneReading read_gauges(const SurfaceRun& run, const std::optional<PipeGauge>& pipe);

@@ -38,7 +38,8 @@ std::array<double, 3> three(const Vec3& v) {
 
 }  // namespace
 
-SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double start_time) : folder_(folder / "postProcessing") {
+SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double start_time, std::vector<Gauge> gauges)
+    : folder_(folder / "postProcessing"), gauges_(std::move(gauges)) {
     const std::string start = fmt::format("{:g}", start_time);
     balance_ =
         open_rows(folder_ / "balance" / start / "balance.csv",
@@ -49,6 +50,7 @@ SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double sta
                         "mean_x_m,mean_z_m,farthest_x_m");
     rows_ = open_rows(folder_ / "bodies" / start / "bodies.csv",
                       "time_s,id,x_m,z_m,vx_m_s,vz_m_s,spin_y_rad_s,water_force_x_n,water_force_z_n,contact_force_x_n,contact_force_z_n");
+    if (!gauges_.empty()) gauge_rows_ = open_rows(folder_ / "gauges" / start / "gauges.csv", "time_s,gauge,level_m,pressure_pa");
 }
 
 void SurfaceRecorder::step(const SurfaceRun& run, const SceneReading& reading, double core_seconds) {
@@ -60,6 +62,11 @@ void SurfaceRecorder::step(const SurfaceRun& run, const SceneReading& reading, d
     fmt::print(levels_, "{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.8g},{},{:.6g},{:.7g},{:.7g},{:.7g}\n", report.time, reading.level,
                reading.level_in_pipe, reading.mouth_flow, reading.hole_flow, reading.volume_in_pipe, reading.bodies_in_pipe,
                reading.rise_in_pipe, reading.mean_place.x(), reading.mean_place.z(), reading.farthest);
+    for (const Gauge& gauge : gauges_) {
+        const GaugeReading at = read_gauge(run, gauge);
+        fmt::print(gauge_rows_, "{:.9g},{},{:.6g},{}\n", report.time, gauge.name, at.level,
+                   gauge.z ? fmt::format("{:.6g}", at.pressure) : "");
+    }
 }
 
 void SurfaceRecorder::output(const SurfaceRun& run, const coupling::DemEngine* bodies) {
@@ -82,6 +89,7 @@ void SurfaceRecorder::output(const SurfaceRun& run, const coupling::DemEngine* b
     balance_.flush();
     levels_.flush();
     rows_.flush();
+    if (gauge_rows_.is_open()) gauge_rows_.flush();
 }
 
 void SurfaceRecorder::write_water(const SurfaceRun& run, const std::string& name) const {

@@ -7,11 +7,12 @@
 
 namespace cutterflow::free_surface {
 
-/// Writes below <folder>/postProcessing: balance/<t0>/balance.csv and levels/<t0>/levels.csv (every step), bodies/<t0>/bodies.csv,
-/// water/vtk/*.vti and bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run opens rows of its own start time t0.
+/// Writes below <folder>/postProcessing: balance/<t0>/balance.csv, levels/<t0>/levels.csv and, with gauges, gauges/<t0>/gauges.csv (every
+/// step), bodies/<t0>/bodies.csv, water/vtk/*.vti and bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run opens rows of its own
+/// start time t0.
 class SurfaceRecorder {
 public:
-    SurfaceRecorder(const std::filesystem::path& folder, double start_time);
+    SurfaceRecorder(const std::filesystem::path& folder, double start_time, std::vector<Gauge> gauges);
 
     void step(const SurfaceRun& run, const SceneReading& reading, double core_seconds);
     void output(const SurfaceRun& run, const coupling::DemEngine* bodies);
@@ -22,7 +23,8 @@ private:
     void write_series(const std::string& what, const std::string& extension) const;
 
     std::filesystem::path folder_;
-    std::ofstream balance_, levels_, rows_;
+    std::vector<Gauge> gauges_;
+    std::ofstream balance_, levels_, rows_, gauge_rows_;
 };
 
 }  // namespace cutterflow::free_surface

@@ -179,6 +179,21 @@ TEST_F(BodyFile, names_file_and_line_of_every_mistake) {
                 ::testing::HasSubstr("id 1 is that of a body of another table"));
 }
 
+TEST(SceneFile, reads_gauges_and_refuses_those_that_no_water_reaches) {
+    const auto gauge = [](const std::string& name, const std::string& x, const std::string& z) {
+        return "[[gauge]]\nname = '" + name + "'\nx_m = " + x + "\n" + (z.empty() ? "" : "z_m = " + z + "\n");
+    };
+    const Scene scene = parse_scene(k_tank + k_fill + gauge("far wall", "0.2", "") + gauge("foot", "0.1", "0.003"), "scene.toml");
+    ASSERT_EQ(scene.gauges.size(), 2u);
+    EXPECT_FALSE(scene.gauges[0].z);
+    EXPECT_EQ(scene.gauges[1].z, 0.003);
+    const std::string box = "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.05\nfrom_z_m = 0.0\nto_x_m = 0.15\nto_z_m = 0.02\n";
+    const std::string text = mistakes_of(k_tank + k_fill + box + gauge("a,b", "0.1", "") + gauge("c", "0.3", "") + gauge("c", "0.01", "") +
+                                         gauge("d", "0.1", "0.01"));
+    for (const char* part : {"a,b", "outside the domain", "is given twice", "stands in a solid"})
+        EXPECT_THAT(text, ::testing::HasSubstr(part));
+}
+
 TEST(SceneFile, a_stack_needs_its_place) {
     EXPECT_THAT(mistakes_of(k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\n"), ::testing::HasSubstr("bodies.centre_x_m is missing"));
 }

@@ -1,0 +1,42 @@
+/// What is read off a run: levels and pressures at gauges.
+#include <gtest/gtest.h>
+
+#include "solver/free_surface/output/scene_gauges.hpp"
+
+namespace cutterflow::free_surface {
+namespace {
+
+SceneSettings pool() {
+    SceneSettings scene;
+    scene.tank.cells = {40, 1, 30};
+    scene.tank.cell = 0.01;
+    scene.tank.depth = 0.05;
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(1, 1, 0.15)}};
+    return scene;
+}
+
+TEST(Gauges, read_level_and_hydrostatic_pressure_of_water_at_rest) {
+    SurfaceRun run(pool(), nullptr);
+    run.step();
+    for (const double x : {0.0, 0.034, 0.21, 0.4}) {
+        EXPECT_NEAR(read_gauge(run, {"level", x, {}}).level, 0.15, 1e-9) << x;
+        EXPECT_EQ(read_gauge(run, {"level", x, {}}).pressure, 0.0) << x;
+        for (const double z : {0.0131, 0.05, 0.1}) {
+            const GaugeReading reading = read_gauge(run, {"pressure", x, z});
+            EXPECT_NEAR(reading.pressure, 1000.0 * 9.81 * (0.15 - z), 1e-3) << x << ' ' << z;
+        }
+        EXPECT_NEAR(read_gauge(run, {"floor", x, 0.0}).pressure, 1000.0 * 9.81 * 0.145, 1e-3) << x;  // of the lowest centre
+        EXPECT_NEAR(read_gauge(run, {"air", x, 0.25}).pressure, 0.0, 1e-12) << x;
+    }
+}
+
+TEST(Gauges, tell_a_wave_from_its_trough) {
+    SceneSettings scene = pool();
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(0.2, 1, 0.2)}, {Vec3(0.2, -1, -1), Vec3(1, 1, 0.1)}};
+    SurfaceRun run(scene, nullptr);
+    EXPECT_NEAR(read_gauge(run, {"left", 0.05, {}}).level, 0.2, 1e-9);
+    EXPECT_NEAR(read_gauge(run, {"right", 0.35, {}}).level, 0.1, 1e-9);
+}
+
+}  // namespace
+}  // namespace cutterflow::free_surface
