@@ -112,6 +112,16 @@ TEST_F(SurfaceStudy, bodies_of_a_file_go_into_the_run_and_into_sweeps) {
     EXPECT_EQ(check_surface_study(write("elsewhere/point.toml", points[1].text)).scene.at("bodies"), 2);
 }
 
+TEST_F(SurfaceStudy, check_tells_of_water_without_a_surface) {
+    EXPECT_TRUE(check_surface_study(write("dam.toml", surface_study_template("dam"))).notes.empty());
+    const std::string lid =
+        "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.0\nfrom_z_m = 0.12\nto_x_m = 0.08\nto_z_m = 0.13\n"
+        "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.067\nfrom_z_m = 0.0\nto_x_m = 0.08\nto_z_m = 0.12\n";
+    const SurfaceCheck check = check_surface_study(write("lid.toml", replaced(surface_study_template("lid"), "to_x_m = 0.066", "to_x_m = 0.067") + lid));
+    ASSERT_EQ(check.notes.size(), 1u);
+    EXPECT_THAT(to_text(check), HasSubstr("closed waters without a surface from 0 s on: 1"));
+}
+
 TEST_F(SurfaceStudy, refuses_what_the_memory_does_not_hold) {
     const std::string text = replaced(surface_study_template("dam"), "cell_m = 0.001 ", "cell_m = 0.0000001 ");
     EXPECT_THAT(mistakes_of(write("dam.toml", text)), HasSubstr("GB of memory"));

@@ -64,6 +64,7 @@ void tell(const Scene& scene) {
               << fmt::format("about {:.0f} steps of {:.2g} s, {:.1f} core minutes\n", found.steps, found.step, found.core_seconds / 60.0);
     if (found.dem_step > 0.0) std::cout << fmt::format("contact step {:.4g} s\n", found.dem_step);
     for (const std::string& note : scene.notes) std::cout << "note: " << note << '\n';
+    for (const std::string& note : water_notes(scene)) std::cout << "note: " << note << '\n';
     std::cout << std::flush;
 }
 
@@ -131,6 +132,7 @@ void run_scene(const Arguments& arguments) {
     SurfaceRecorder recorder(arguments.folder, run.time(), scene.gauges);
     if (run.time() == 0.0) recorder.output(run, engine.get());
     Progress progress("run");
+    int most_enclosed = 0;
     double end = scene.end;
     double checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval),
            output_due = next_multiple(run.time(), scene.write_interval);
@@ -138,6 +140,10 @@ void run_scene(const Arguments& arguments) {
         run.step(std::min({output_due, checkpoint_due, end}) - run.time());
         const SceneReading reading = read_gauges(run, scene.pipe);
         recorder.step(run, reading, core_seconds());
+        if (run.last().enclosed_waters > most_enclosed) {
+            most_enclosed = run.last().enclosed_waters;
+            std::cout << "note: " << enclosed_note(most_enclosed, run.time()) << std::endl;
+        }
         if (end > run.time() + scene.settle && stops(scene, reading)) end = run.time() + scene.settle;
         if (run.time() >= output_due * (1.0 - 1e-12)) {
             recorder.output(run, engine.get());

@@ -568,6 +568,21 @@ Scene read_scene(const std::filesystem::path& file) {
     return Reader(read_parameters(scene_table(), file), file.parent_path()).read();
 }
 
+std::vector<std::string> water_notes(const Scene& scene) {
+    std::vector<Body> bodies;
+    for (std::size_t n = 0; n < scene.bodies.size(); ++n)
+        bodies.push_back(body_of(scene.bodies, n, scene.settings.spheres, scene.settings.tank.depth));
+    const int waters = enclosed_waters(scene.settings, bodies);
+    if (waters == 0) return {};
+    return {enclosed_note(waters, 0.0)};
+}
+
+std::string enclosed_note(int waters, double time) {
+    return fmt::format(
+        "closed waters without a surface from {:.4g} s on: {}; their mean pressure is set to 0, only its differences mean anything", time,
+        waters);
+}
+
 std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth) {
     std::string text = "solid walls\n";
     for (const StillSolid& solid : solids) {

@@ -78,6 +78,23 @@ WaterParticles fill_water(const SceneSettings& settings, gsl::span<const Body> b
     return particles;
 }
 
+int enclosed_waters(const SceneSettings& settings, gsl::span<const Body> bodies) {
+    const StaggeredGrid grid = settings.tank.grid();
+    CellCutter cutter(grid, settings.solids);
+    std::vector<SolidBox> gates;
+    for (const Gate& gate : settings.gates) gates.push_back(gate.at(0.0));
+    cutter.set_gates(gates);
+    CutCells cells;
+    cutter.cut(bodies, cells);
+    CellField fraction;
+    map_fraction(grid, fill_water(settings, bodies), fraction);
+    WaterFraction water;
+    find_water(grid, fraction, cells, water);
+    PressureSystem system(grid);
+    system.assemble(water, cells, bodies, settings.water.density * grid.cell_volume());
+    return system.enclosed_waters();
+}
+
 SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodies)
     : SurfaceRun(settings, bodies, fill_water(settings, bodies_of(bodies, settings))) {}
 

@@ -125,6 +125,9 @@ private:
 /// The water of a scene's boxes, where neither solids nor bodies stand.
 WaterParticles fill_water(const SceneSettings& settings, gsl::span<const Body> bodies);
 
+/// How many waters of a scene's start neither touch air nor a body that gives way: of their pressure only differences are known.
+int enclosed_waters(const SceneSettings& settings, gsl::span<const Body> bodies);
+
 /// A rock as a body: cylinder of the tank's depth or sphere.
 Body body_of(const coupling::Rocks& rocks, std::size_t index, bool sphere, double depth);
 

@@ -101,6 +101,8 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
         throw UserError(fmt::format("{}: the run needs {:.1f} GB of memory", file.string(), found.memory / 1e9),
                         fmt::format("The machine has {:.1f} GB", memory_of_machine() / 1e9),
                         fmt::format("Use cells of {:.2g} m", scene.settings.tank.cell * std::sqrt(found.memory / memory_of_machine())));
+    std::vector<std::string> notes = scene.notes;
+    for (std::string& note : free_surface::water_notes(scene)) notes.push_back(std::move(note));
     return {scene_json(scene),
             {{"cells", found.cells},
              {"water_cells", found.water_cells},
@@ -110,7 +112,7 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
              {"core_s", found.core_seconds},
              {"memory_bytes", found.memory},
              {"contact_step_s", found.dem_step}},
-            scene.notes};
+            notes};
 }
 
 SurfaceInputs surface_inputs(const std::filesystem::path& study) {

@@ -51,6 +51,39 @@ TEST(SurfaceRun, pressure_at_rest_is_hydrostatic) {
     }
 }
 
+/// No air: the mean pressure is 0, its differences are those of the weight, and a flux that cannot be met does not stop the solver.
+TEST(SurfaceRun, enclosed_water_is_solved_with_its_mean_pressure_fixed) {
+    SceneSettings scene = pool();
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(1, 1, 1)}};
+    EXPECT_EQ(enclosed_waters(scene, {}), 1);
+    SurfaceRun run(scene, nullptr);
+    while (run.time() < 0.2) {
+        run.step();
+        ASSERT_TRUE(run.last().pressure.converged);
+        ASSERT_EQ(run.last().enclosed_waters, 1);
+    }
+    EXPECT_LE(largest_speed(run.particles()), 1e-10);
+    double mean = 0.0;
+    run.grid().for_each_cell([&](int cell, int, int, int) { mean += run.pressure()[cell] / (40 * 30); });
+    EXPECT_NEAR(mean, 0.0, 1e-6);
+    EXPECT_NEAR(run.pressure()[run.grid().at(7, 0, 3)] - run.pressure()[run.grid().at(20, 0, 13)], 1000.0 * 9.81 * 0.1, 1e-4);
+
+    scene.gates = {{{Vec3(0.1, -1, 0.0), Vec3(0.12, 1, 0.2)}, 0.2, 0.0, 1.5}};  // draws water in below, leaves by the top
+    SurfaceRun with_gate(scene, nullptr);
+    for (int n = 0; n < 5; ++n) {
+        with_gate.step();
+        EXPECT_TRUE(with_gate.last().pressure.converged);
+        EXPECT_TRUE(std::isfinite(largest_speed(with_gate.particles())));
+    }
+}
+
+TEST(SurfaceRun, waters_below_a_lid_are_counted) {
+    SceneSettings scene = pool();
+    EXPECT_EQ(enclosed_waters(scene, {}), 0);
+    scene.solids = {SolidBox{Vec3(0.0, -1, 0.10), Vec3(0.2, 1, 0.12)}, SolidBox{Vec3(0.2, -1, 0.0), Vec3(0.22, 1, 0.12)}};
+    EXPECT_EQ(enclosed_waters(scene, {}), 1);
+}
+
 TEST(SurfaceRun, repeats_bit_by_bit) {
     SurfaceRun a(dam(8), nullptr), b(dam(8), nullptr);
     for (int n = 0; n < 60; ++n) {
