@@ -210,6 +210,21 @@ TEST_F(SurfaceStudy, results_join_restarts_and_find_the_events_of_a_pipe) {
     EXPECT_TRUE(std::isnan(gauges.number("pressure_pa")[2]));
 }
 
+TEST_F(SurfaceStudy, pictures_of_the_page_have_a_bar_of_length_and_a_scale_of_speeds) {
+    write_rows(folder_);
+    const auto array = [](const std::string& name, const std::string& values) {
+        return "<DataArray type=\"Float64\" Name=\"" + name + "\" format=\"ascii\">\n" + values + "\n</DataArray>\n";
+    };
+    write("postProcessing/water/vtk/water_0.100000.vti", array("water_fraction", "1 1 0 0 0 0") + array("open_volume", "1 1 1 1 1 1") +
+                                                             array("velocity_m_s", "0 0 0 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0"));
+    const std::string without = read_file(postproc::write_surface_report(folder_));
+    EXPECT_THAT(without, HasSubstr(">50 mm</text>"));
+    EXPECT_THAT(without, HasSubstr(">1</text>"));
+    EXPECT_THAT(without, HasSubstr(">2 m/s and more</text>"));
+    write("postProcessing/bodies/vtk/bodies_0.100000.vtp", array("radius_m", "0.02 0.04") + array("Points", "0.1 0 0.1 0.2 0 0.1"));
+    EXPECT_NE(read_file(postproc::write_surface_report(folder_)), without);
+}
+
 TEST_F(SurfaceStudy, page_shows_the_answers_without_any_picture_written) {
     write_rows(folder_);
     const std::string page = read_file(postproc::write_surface_report(folder_));

@@ -13,6 +13,7 @@
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
+#include "postproc/pages/surface_pictures.hpp"
 
 namespace cutterflow::postproc {
 
@@ -20,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int k_snapshots = 6;
-constexpr int k_picture_width = 560;  // [px]
 constexpr const char* k_not_modelled =
     "Not modelled: the third dimension, air and trapped bubbles, surface tension, turbulence, leakage at the ends of the cylinders.";
 
@@ -117,111 +116,6 @@ std::vector<Figure> figures(const SurfaceRows& rows) {
     return result;
 }
 
-/// Numbers of a data array of a VTK file that was written as text.
-std::vector<double> array_of(const std::string& text, const std::string& name) {
-    const std::size_t head = text.find("Name=\"" + name + "\"");
-    if (head == std::string::npos) return {};
-    const char* at = text.c_str() + text.find('>', head) + 1;
-    const char* end = text.c_str() + text.find("</DataArray>", head);
-    std::vector<double> values;
-    while (at < end) {
-        char* next = nullptr;
-        const double value = std::strtod(at, &next);
-        if (next == at || next > end) break;
-        values.push_back(value);
-        at = next;
-    }
-    return values;
-}
-
-struct Snapshot {
-    double time = 0.0;
-    fs::path file;
-};
-
-/// As many as asked for, evenly over the times that were written.
-std::vector<Snapshot> snapshots(const fs::path& run_directory) {
-    std::vector<Snapshot> all;
-    const fs::path folder = run_directory / "postProcessing/water/vtk";
-    if (!fs::is_directory(folder)) return all;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == ".vti") all.push_back({std::strtod(name.c_str() + name.find('_') + 1, nullptr), entry.path()});
-    }
-    std::sort(all.begin(), all.end(), [](const Snapshot& a, const Snapshot& b) { return a.time < b.time; });
-    std::vector<Snapshot> chosen;
-    const std::size_t count = std::min<std::size_t>(all.size(), k_snapshots);
-    for (std::size_t n = 0; n < count; ++n) chosen.push_back(all[count > 1 ? n * (all.size() - 1) / (count - 1) : 0]);
-    return chosen;
-}
-
-Colour mixed(const Colour& a, const Colour& b, double share) {
-    return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green), a.blue + share * (b.blue - a.blue)};
-}
-
-struct Disc {
-    double x = 0.0, z = 0.0;
-};
-
-/// Bodies at the time of a snapshot.
-std::vector<Disc> bodies_at(const SurfaceRows& rows, double time) {
-    std::vector<Disc> discs;
-    for (std::size_t n = 0; rows.has_bodies() && n < rows.bodies.rows(); ++n) {
-        if (std::abs(rows.bodies.number("time_s")[n] - time) < 1e-6)
-            discs.push_back({rows.bodies.number("x_m")[n], rows.bodies.number("z_m")[n]});
-    }
-    return discs;
-}
-
-/// Water by its share of a cell, darker where it is faster; solids and bodies over it.
-Image picture(const SurfaceRows& rows, const Snapshot& snapshot, double fastest) {
-    const auto number = [&](const char* key) { return rows.scene.at(key).get<double>(); };
-    const int columns = rows.scene.at("columns").get<int>(), lines = rows.scene.at("rows").get<int>();
-    const std::string text = read_file(snapshot.file);
-    const std::vector<double> fraction = array_of(text, "water_fraction"), open = array_of(text, "open_volume"),
-                              velocity = array_of(text, "velocity_m_s");
-    Image image;
-    image.width = k_picture_width;
-    image.height = std::max(1, static_cast<int>(std::lround(k_picture_width * number("height_m") / number("width_m"))));
-    const std::vector<Disc> discs = bodies_at(rows, snapshot.time);
-    const double radius = 0.5 * number("diameter_m"), pixel = number("width_m") / image.width, cell_size = number("cell_m");
-    const Colour air = colour_of(palette::field[0]), wall = colour_of(palette::faint), body = colour_of(palette::in_cutter),
-                 edge = colour_of(palette::ink);
-    const Colour slow = colour_of(palette::field[1]), fast = colour_of(palette::field[4]);
-    for (int row = 0; row < image.height; ++row) {
-        for (int n = 0; n < image.width; ++n) {
-            const double x = (n + 0.5) * pixel, z = (image.height - row - 0.5) * pixel;
-            const int i = std::min(columns - 1, static_cast<int>(x / cell_size)), k = std::min(lines - 1, static_cast<int>(z / cell_size));
-            const std::size_t cell = static_cast<std::size_t>(k) * columns + i;
-            Colour colour = air;
-            if (cell < fraction.size() && 3 * cell + 2 < velocity.size()) {
-                const double speed = std::hypot(velocity[3 * cell], velocity[3 * cell + 2]);
-                colour = mixed(air, mixed(slow, fast, std::min(1.0, speed / fastest)), std::clamp(2.0 * fraction[cell] - 0.5, 0.0, 1.0));
-                if (cell < open.size() && open[cell] < 0.5) colour = wall;
-            }
-            for (const Disc& disc : discs) {
-                const double distance = std::hypot(x - disc.x, z - disc.z);
-                if (distance < radius) colour = distance > radius - 1.2 * pixel ? edge : body;
-            }
-            for (const double part : {colour.red, colour.green, colour.blue})
-                image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255.0 * part)));
-        }
-    }
-    return image;
-}
-
-std::string pictures(const Page& page, const SurfaceRows& rows, const fs::path& run_directory) {
-    std::string markup;
-    const double fastest = std::sqrt(9.81 * rows.scene.at("height_m").get<double>());
-    int number = 0;
-    for (const Snapshot& snapshot : snapshots(run_directory)) {
-        markup += html::figure(fmt::format("<img style=\"width: 100%\" alt=\"water and bodies at {0:.3f} s\" src=\"{1}\">", snapshot.time,
-                                           page.address(picture(rows, snapshot, fastest), fmt::format("water_{}", number++))),
-                               fmt::format("{:.3f} s", snapshot.time));
-    }
-    return markup;
-}
-
 std::string seconds(double value) {
     return std::isfinite(value) ? fmt::format("{:.3f} s", value) : std::string("not yet");
 }
@@ -288,7 +182,7 @@ fs::path write_surface_report(const fs::path& run_directory) {
     }
     const std::string title = html::escape(rows.scene.at("name").get<std::string>());
     const std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + answers(rows, results) +
-                             html::section("Water and bodies", "<div class=\"figures\">" + pictures(page, rows, run_directory) + "</div>") +
+                             html::section("Water and bodies", surface_pictures(page, rows, run_directory)) +
                              html::section("In time", "<div class=\"figures\">" + plots + "</div>") +
                              html::section("Balances and cost", cost_table(rows, results, run_directory)) +
                              fmt::format("<p>{}</p>", k_not_modelled);
