@@ -183,9 +183,9 @@ void write_rows(const fs::path& run) {
             "0.1,0.12,0.12,-1e-4,0,1e-4,4,-0.1,0.1,0.1,0.15\n0.2,0.14,0.08,-1e-4,0,1e-4,2,-0.2,0.1,0.1,0.15\n0.3,9,0,0,0,0,0,0,0,0,0\n");
     put("postProcessing/levels/0.2/levels.csv",
         levels + "0.3,0.15,0.05,1e-4,0,1e-4,1,0.05,0.1,0.1,0.299\n0.4,0.14,0.1,1e-4,0,1e-4,0,0,0.1,0.1,0.28\n");
-    const std::string balance = "time_s,volume_error,energy_j,pushed_out,pressure_iterations,core_s\n";
-    put("postProcessing/balance/0/balance.csv", balance + "0.1,0.001,5,1,20,1\n0.2,-0.004,4,2,22,3\n");
-    put("postProcessing/balance/0.2/balance.csv", balance + "0.3,0.002,3,1,20,1.5\n0.4,0,3,1,20,2.5\n");
+    const std::string balance = "time_s,volume_error,energy_j,pushed_out,pressure_iterations,enclosed_waters,through_walls,core_s\n";
+    put("postProcessing/balance/0/balance.csv", balance + "0.1,0.001,5,1,20,0,1,1\n0.2,-0.004,4,2,22,0,2,3\n");
+    put("postProcessing/balance/0.2/balance.csv", balance + "0.3,0.002,3,1,20,1,0,1.5\n0.4,0,3,1,20,0,4,2.5\n");
     put("postProcessing/bodies/0/bodies.csv", "time_s,id,x_m,z_m\n0,1,0.1,0.1\n");
     put("postProcessing/gauges/0/gauges.csv", "time_s,gauge,level_m,pressure_pa\n0.1,far wall,0.1,\n0.1,foot,0.1,900\n0.3,foot,0,0\n");
     put("postProcessing/gauges/0.2/gauges.csv", "time_s,gauge,level_m,pressure_pa\n0.3,far wall,0.12,\n0.3,foot,0.12,1100\n");
@@ -203,6 +203,7 @@ TEST_F(SurfaceStudy, results_join_restarts_and_find_the_events_of_a_pipe) {
     EXPECT_DOUBLE_EQ(results.reversal_s, 0.3);
     EXPECT_TRUE(results.rises_with_bodies);
     EXPECT_DOUBLE_EQ(results.core_s, 5.5);
+    EXPECT_DOUBLE_EQ(results.through_walls, 7.0);
     const postproc::Table gauges = postproc::read_surface_rows(folder_).gauges;
     ASSERT_EQ(gauges.rows(), 4u);
     EXPECT_EQ(gauges.text("gauge")[3], "foot");
@@ -232,6 +233,8 @@ TEST_F(SurfaceStudy, page_shows_the_answers_without_any_picture_written) {
     EXPECT_THAT(page, HasSubstr("0.400 s"));
     EXPECT_THAT(page, HasSubstr("-0.40 %"));
     EXPECT_THAT(page, HasSubstr("Level at the gauges"));
+    EXPECT_THAT(page, HasSubstr("through the pipe's wall"));
+    EXPECT_THAT(page, HasSubstr("steps with closed water"));
     EXPECT_THAT(page, HasSubstr("Pressure at the gauges"));
     EXPECT_THAT(read_file(folder_ / "report/results.json"), HasSubstr("\"half_out_s\": 0.2"));
 }

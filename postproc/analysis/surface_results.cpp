@@ -1,6 +1,8 @@
 #include "postproc/analysis/surface_results.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -41,6 +43,11 @@ void read_pipe(const SurfaceRows& rows, SurfaceResults& results) {
 
 }  // namespace
 
+const std::vector<double>* counted(const Table& table, const std::string& column) {
+    const auto& columns = table.columns();
+    return std::find(columns.begin(), columns.end(), column) == columns.end() ? nullptr : &table.number(column);
+}
+
 SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
     if (!std::filesystem::exists(run_directory / "scene.json"))
         throw UserError(fmt::format("{} has no scene.json", run_directory.string()), "It is written when a free-surface run is set up",
@@ -68,6 +75,8 @@ SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
 SurfaceResults surface_results(const SurfaceRows& rows) {
     SurfaceResults results;
     results.end_s = rows.levels.number("time_s").back();
+    if (const std::vector<double>* counts = counted(rows.balance, "through_walls"))
+        results.through_walls = std::accumulate(counts->begin(), counts->end(), 0.0);
     for (std::size_t n = 0; n < rows.balance.rows(); ++n) {
         const double error = rows.balance.number("volume_error")[n];
         if (std::abs(error) > std::abs(results.volume_error)) results.volume_error = error;
@@ -91,6 +100,7 @@ nlohmann::json to_json(const SurfaceResults& results) {
             {"end_s", results.end_s},
             {"core_s", results.core_s},
             {"volume_error", results.volume_error},
+            {"through_walls", results.through_walls},
             {"arrival_s", time(results.arrival_s)},
             {"half_out_s", time(results.half_out_s)},
             {"all_out_s", time(results.all_out_s)},

@@ -26,6 +26,7 @@ SurfaceRows read_surface_rows(const std::filesystem::path& run_directory);
 
 struct SurfaceResults {
     double end_s = 0.0, core_s = 0.0;
+    double through_walls = 0.0;                        ///< particles that passed a pipe's wall; 0 in runs that did not count them
     double volume_error = 0.0;                         ///< of the occupied volume: the largest of all steps, with its sign
     double arrival_s = k_never;                        ///< a body at the right wall, a contact gap off
     double half_out_s = k_never, all_out_s = k_never;  ///< of the pipe
@@ -33,6 +34,9 @@ struct SurfaceResults {
     double reversal_s = k_never;                       ///< water first flows up into the mouth after it has flown down
     bool rises_with_bodies = false;                    ///< bodies in the pipe rise in the mean at some time after the reversal
 };
+
+/// A column that runs of earlier versions do not have; null then.
+const std::vector<double>* counted(const Table& table, const std::string& column);
 
 SurfaceResults surface_results(const SurfaceRows& rows);
 

@@ -151,6 +151,11 @@ std::string cost_table(const SurfaceRows& rows, const SurfaceResults& results, c
         {"core seconds", fmt::format("{:.1f}", results.core_s)},
         {"iterations of the pressure, mean of a step", fmt::format("{:.1f}", mean("pressure_iterations"))},
         {"particles put out of solids, mean of a step", fmt::format("{:.1f}", mean("pushed_out"))}};
+    if (rows.has_pipe()) lines.push_back({"particles through the pipe's wall", fmt::format("{:.0f}", results.through_walls)});
+    if (const std::vector<double>* waters = counted(rows.balance, "enclosed_waters")) {
+        const auto steps = std::count_if(waters->begin(), waters->end(), [](double count) { return count > 0.0; });
+        if (steps > 0) lines.push_back({"steps with closed water, its mean pressure at 0", fmt::format("{}", steps)});
+    }
     if (fs::exists(run_directory / names::prediction)) {
         const nlohmann::json predicted =
             read_json_document(run_directory / names::prediction, {{"steps", JsonKind::number, true}, {"core_s", JsonKind::number, true}},

@@ -48,12 +48,19 @@ struct RunSettings {
     double even_out_tolerance = 1e-3;
 };
 
+/// The middle plane of an upright wall: particles that pass it are counted.
+struct WatchedWall {
+    double x = 0.0;                   ///< [m]
+    double from_z = 0.0, to_z = 0.0;  ///< [m]
+};
+
 struct SceneSettings {
     TankSettings tank;
     Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
     WaterSettings water;
     std::vector<StillSolid> solids;
     std::vector<Gate> gates;
+    std::vector<WatchedWall> watched_walls;
     bool spheres = false;      ///< bodies are spheres; else cylinders across the tank
     bool bodies_held = false;  ///< the pressure does not move them: they are on given paths
     GapDampingSettings damping;

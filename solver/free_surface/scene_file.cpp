@@ -201,11 +201,15 @@ private:
         for (const double side : {-1.0, 1.0}) {
             const double near = axis + side * half, far = axis + side * (half + wall);
             double from = bottom;
+            const auto add_wall = [&](double to) {
+                add_box(std::min(near, far), from, std::max(near, far), to);
+                scene_.settings.watched_walls.push_back({0.5 * (near + far), from, to});
+            };
             for (double centre = bottom + spacing; centre + 0.5 * hole < top; centre += spacing) {
-                add_box(std::min(near, far), from, std::max(near, far), centre - 0.5 * hole);
+                add_wall(centre - 0.5 * hole);
                 from = centre + 0.5 * hole;
             }
-            add_box(std::min(near, far), from, std::max(near, far), top);
+            add_wall(top);
         }
     }
 

@@ -197,6 +197,8 @@ const StepReport& SurfaceRun::step(double longest) {
     push_water();
     book_walls(step);
     extend_velocity(step);
+    std::array<std::vector<double>, 3> before;
+    if (!settings_.watched_walls.empty()) before = particles_.position;
     const double kept = 1.0 - (mixing_time_ > 0.0 ? std::min(1.0, step / mixing_time_) : 1.0);
     move_particles(grid_, cutter_.slip_walls(), {velocity_, increment_, step, kept}, particles_);
     move_bodies(step);
@@ -210,6 +212,7 @@ const StepReport& SurfaceRun::step(double longest) {
         report_.even_out = even_out_.apply(cells_, cutter_.slip_walls(), water_, particles_);
         push_out();
     }
+    if (!settings_.watched_walls.empty()) report_.through_walls = count_through_walls(before);
     report_.occupied_volume = occupied_volume(grid_, cells_, water_);
     time_ += step;
     report_.time = time_;
@@ -474,6 +477,19 @@ void SurfaceRun::push_out() {
         keep_in_tank(grid_, place);
         for (const int d : grid_.directions()) particles_.position[d][p] = place[d];
     }
+}
+
+int SurfaceRun::count_through_walls(const std::array<std::vector<double>, 3>& before) const {
+    int count = 0;
+    for (const WatchedWall& wall : settings_.watched_walls) {
+        for (std::size_t p = 0; p < particles_.size(); ++p) {
+            const double from = before[0][p] - wall.x, to = particles_.position[0][p] - wall.x;
+            if ((from < 0.0) == (to < 0.0)) continue;
+            const double height = before[2][p] + from / (from - to) * (particles_.position[2][p] - before[2][p]);
+            count += height > wall.from_z && height < wall.to_z;
+        }
+    }
+    return count;
 }
 
 double SurfaceRun::energy() const {

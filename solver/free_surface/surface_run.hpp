@@ -28,6 +28,7 @@ struct StepReport {
     double deepest = 0.0;             ///< the farthest way out of one [m]
     double gap_impulse = 0.0;         ///< momentum that the damping of gaps took out, sum of sizes [N s]
     int enclosed_waters = 0;
+    int through_walls = 0;  ///< particles that passed the middle of a watched wall: none may
 };
 
 /// All that the next steps depend on, beside the settings and the DEM's own state.
@@ -86,6 +87,7 @@ private:
     void take_over_bodies();
     void place_gates(double time);
     void push_out();
+    int count_through_walls(const std::array<std::vector<double>, 3>& before) const;
     void find_surface();
     void check() const;
 

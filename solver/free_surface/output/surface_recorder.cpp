@@ -44,7 +44,7 @@ SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double sta
     balance_ =
         open_rows(folder_ / "balance" / start / "balance.csv",
                   "time_s,step_s,occupied_volume_m3,volume_error,energy_j,pressure_impulse_error_n_s,body_impulse_error,gap_impulse_n_s,"
-                  "pushed_out,deepest_m,pressure_iterations,even_out_iterations,residual,enclosed_waters,core_s");
+                  "pushed_out,deepest_m,pressure_iterations,even_out_iterations,residual,enclosed_waters,through_walls,core_s");
     levels_ = open_rows(folder_ / "levels" / start / "levels.csv",
                         "time_s,level_m,level_in_pipe_m,mouth_flow_m3_s,hole_flow_m3_s,volume_in_pipe_m3,bodies_in_pipe,rise_in_pipe_m_s,"
                         "mean_x_m,mean_z_m,farthest_x_m");
@@ -55,10 +55,11 @@ SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double sta
 
 void SurfaceRecorder::step(const SurfaceRun& run, const SceneReading& reading, double core_seconds) {
     const StepReport& report = run.last();
-    fmt::print(balance_, "{:.9g},{:.6g},{:.9g},{:.6g},{:.9g},{:.3g},{:.3g},{:.4g},{},{:.4g},{},{},{:.3g},{},{:.2f}\n", report.time,
+    fmt::print(balance_, "{:.9g},{:.6g},{:.9g},{:.6g},{:.9g},{:.3g},{:.3g},{:.4g},{},{:.4g},{},{},{:.3g},{},{},{:.2f}\n", report.time,
                report.step, report.occupied_volume, run.initial_volume() > 0.0 ? report.occupied_volume / run.initial_volume() - 1.0 : 0.0,
                run.energy(), report.impulses.sum().norm(), report.body_impulse_error, report.gap_impulse, report.pushed_out, report.deepest,
-               report.pressure.iterations, report.even_out.iterations, report.pressure.residual, report.enclosed_waters, core_seconds);
+               report.pressure.iterations, report.even_out.iterations, report.pressure.residual, report.enclosed_waters,
+               report.through_walls, core_seconds);
     fmt::print(levels_, "{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.8g},{},{:.6g},{:.7g},{:.7g},{:.7g}\n", report.time, reading.level,
                reading.level_in_pipe, reading.mouth_flow, reading.hole_flow, reading.volume_in_pipe, reading.bodies_in_pipe,
                reading.rise_in_pipe, reading.mean_place.x(), reading.mean_place.z(), reading.farthest);

@@ -43,6 +43,10 @@ hole_spacing_m = 0.02
 )",
                                     "scene.toml");
     EXPECT_EQ(scene.settings.solids.size(), 2u * 6u);  // five holes a side
+    ASSERT_EQ(scene.settings.watched_walls.size(), 12u);
+    EXPECT_NEAR(scene.settings.watched_walls[1].x, 0.069, 1e-12);
+    EXPECT_NEAR(scene.settings.watched_walls[1].from_z, 0.0605, 1e-12);
+    EXPECT_NEAR(scene.settings.watched_walls[1].to_z, 0.0795, 1e-12);
     const StaggeredGrid grid = scene.settings.tank.grid();
     const CellCutter cutter(grid, scene.settings.solids);
     double open = 0.0;

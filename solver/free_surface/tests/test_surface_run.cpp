@@ -162,6 +162,24 @@ TEST(SurfaceRun, pressure_takes_from_the_water_what_it_gives_to_bodies_and_walls
     }
 }
 
+/// Water breaks over a wall: none of it passes through. The same plane watched without the wall must count it, else the count is blind.
+TEST(SurfaceRun, counts_water_that_passes_the_middle_of_a_watched_wall) {
+    SceneSettings scene = dam(10);
+    scene.watched_walls = {{0.19, 0.0, 0.08}};
+    const auto passed = [](const SceneSettings& settings) {
+        SurfaceRun run(settings, nullptr);
+        int count = 0;
+        while (run.time() < 0.6) count += run.step().through_walls;
+        double beyond = 0.0;
+        for (const double x : run.particles().position[0]) beyond += x > 0.2;
+        EXPECT_GT(beyond, 20.0);
+        return count;
+    };
+    EXPECT_GT(passed(scene), 100);
+    scene.solids = {SolidBox{Vec3(0.18, -1, 0), Vec3(0.2, 1, 0.08)}};
+    EXPECT_EQ(passed(scene), 0);
+}
+
 /// Takes nine tenths of the water's force.
 class LyingBodies final : public FreeBodies {
 public:

@@ -57,6 +57,8 @@ Dumping dump(Verification& verification, const std::string& pipe, int seed) {
     verification.at_most("occupied volume lost or won" + name, "-", std::abs(dumping.results.volume_error), 0.01, {"exact", "", {}});
     verification.at_most("change of the water in the pipe less what flowed, over the largest change" + name, "-", dumping.balance_error,
                          0.02, {"exact", "mouth and holes", {}});
+    verification.at_most("particles through the pipe's wall" + name, "-", dumping.results.through_walls, 0.0,
+                         {"exact", "any that pass its middle elsewhere than in holes, all steps", {}});
     verification.report("core seconds" + name, "s", dumping.results.core_s, {}, {"exact", "", {}});
     return dumping;
 }
