@@ -30,6 +30,7 @@ std::vector<std::string> split(const std::string& text) {
 
 /// \throws UserError  when the text is no value of the parameter's kind
 ParameterValue value_of(const Parameter& parameter, const std::string& text) {
+    if (parameter.kind == ParameterKind::path) return std::filesystem::absolute(text).string();  // the points lie in other folders
     if (parameter.kind != ParameterKind::number && parameter.kind != ParameterKind::integer) return text;
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);

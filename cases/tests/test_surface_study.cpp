@@ -75,7 +75,7 @@ TEST_F(SurfaceStudy, every_example_reads) {
         EXPECT_TRUE(check_surface_study(entry.path()).notes.empty()) << entry.path();
         ++studies;
     }
-    EXPECT_EQ(studies, 4);
+    EXPECT_EQ(studies, 5);
 }
 
 TEST_F(SurfaceStudy, names_mistakes_of_all_sections_at_once) {
@@ -117,7 +117,8 @@ TEST_F(SurfaceStudy, check_tells_of_water_without_a_surface) {
     const std::string lid =
         "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.0\nfrom_z_m = 0.12\nto_x_m = 0.08\nto_z_m = 0.13\n"
         "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.067\nfrom_z_m = 0.0\nto_x_m = 0.08\nto_z_m = 0.12\n";
-    const SurfaceCheck check = check_surface_study(write("lid.toml", replaced(surface_study_template("lid"), "to_x_m = 0.066", "to_x_m = 0.067") + lid));
+    const SurfaceCheck check =
+        check_surface_study(write("lid.toml", replaced(surface_study_template("lid"), "to_x_m = 0.066", "to_x_m = 0.067") + lid));
     ASSERT_EQ(check.notes.size(), 1u);
     EXPECT_THAT(to_text(check), HasSubstr("closed waters without a surface from 0 s on: 1"));
 }
