@@ -137,6 +137,10 @@ bool SteelTree::contains(const Vec3& point) const {
     return crossings % 2 == 1;
 }
 
+double SteelTree::squared_distance(const Box& box, const Vec3& point) {
+    return (box.lower - point).cwiseMax(point - box.upper).cwiseMax(0.0).squaredNorm();
+}
+
 double SteelTree::squared_distance(const Triangle& triangle, const Vec3& point) {
     // Regions of the triangle's plane: corners, edges, interior (Ericson, Real-Time Collision Detection, 5.1.5).
     const Vec3& ab = triangle.edge1;
@@ -164,14 +168,13 @@ double SteelTree::squared_distance(const Triangle& triangle, const Vec3& point) 
 double SteelTree::distance(const Vec3& point, double limit) const {
     if (nodes_.empty()) return limit;
     double best = limit * limit;
-    const auto to_box = [&](const Box& box) { return (box.lower - point).cwiseMax(point - box.upper).cwiseMax(0.0).squaredNorm(); };
     struct Entry {
         std::int32_t index;
         double squared;
     };
     std::array<Entry, k_stack_size> stack;
     int top = 0;
-    stack[top++] = {0, to_box(nodes_[0].box)};
+    stack[top++] = {0, squared_distance(nodes_[0].box, point)};
     while (top > 0) {
         const Entry entry = stack[--top];
         if (entry.squared >= best) continue;
@@ -181,13 +184,36 @@ double SteelTree::distance(const Vec3& point, double limit) const {
                 best = std::min(best, squared_distance(triangles_[static_cast<std::size_t>(i)], point));
             continue;
         }
-        const Entry first{entry.index + 1, to_box(nodes_[static_cast<std::size_t>(entry.index + 1)].box)};
-        const Entry second{node.first, to_box(nodes_[static_cast<std::size_t>(node.first)].box)};
+        const Entry first{entry.index + 1, squared_distance(nodes_[static_cast<std::size_t>(entry.index + 1)].box, point)};
+        const Entry second{node.first, squared_distance(nodes_[static_cast<std::size_t>(node.first)].box, point)};
         const bool first_is_nearer = first.squared < second.squared;
         stack[top++] = first_is_nearer ? second : first;
         stack[top++] = first_is_nearer ? first : second;
     }
     return std::sqrt(best);
+}
+
+void SteelTree::each_within(const Vec3& point, double limit, const std::function<void(const SteelTriangle&, double)>& each) const {
+    if (nodes_.empty()) return;
+    std::array<std::int32_t, k_stack_size> stack;
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const std::int32_t index = stack[--top];
+        const Node& node = nodes_[static_cast<std::size_t>(index)];
+        if (squared_distance(node.box, point) >= limit * limit) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = index + 1;
+            continue;
+        }
+        for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+            const Triangle& triangle = triangles_[static_cast<std::size_t>(i)];
+            const double squared = squared_distance(triangle, point);
+            if (squared < limit * limit)
+                each({triangle.corner, triangle.corner + triangle.edge1, triangle.corner + triangle.edge2}, squared);
+        }
+    }
 }
 
 }  // namespace cutterflow::coupling

@@ -2,6 +2,7 @@
 /// \file Line of sight past triangles: a bounding volume hierarchy for segment intersection and nearest distance.
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <gsl/span>
@@ -28,6 +29,9 @@ public:
     /// Distance [m] from a point to the nearest triangle, or `limit` when none is nearer.
     double distance(const Vec3& point, double limit) const;
 
+    /// Calls `each(triangle, squared distance)` for every triangle nearer to a point than `limit` [m].
+    void each_within(const Vec3& point, double limit, const std::function<void(const SteelTriangle&, double)>& each) const;
+
 private:
     struct Box {
         Vec3 lower, upper;
@@ -47,6 +51,7 @@ private:
     /// Calls `each(triangle)` for the triangles whose boxes the segment passes, until it returns true. \return whether it did
     template <class Each>
     bool along(const Vec3& origin, const Vec3& direction, const Each& each) const;
+    static double squared_distance(const Box& box, const Vec3& point);
     static double squared_distance(const Triangle& triangle, const Vec3& point);
 
     std::vector<Node> nodes_;

@@ -156,8 +156,10 @@ void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, doubl
     if (point.clearance_limit < reach) {
         point.clearance_limit = k_list_margin * reach;
         point.clearance = steel_[steel].distance(point.position, point.clearance_limit);
+        point.shadows.reset();
     }
     if (point.clearance >= reach) return;
+    if (!point.shadows) point.shadows.emplace(steel_[steel], point.position, k_list_margin * point.clearance_limit);
     for (Zone cells = 0; cells < trees_.zones(); ++cells) {
         for (const std::int32_t c : hidden_cells(steel, point, cells, reach)) {
             double& share = hidden_[steel][static_cast<std::size_t>(c)];
@@ -181,6 +183,7 @@ const std::vector<std::int32_t>& Visibility::hidden_cells(Zone steel, SamplePoin
     for (const Neighbour& n : found_) {
         if (n.squared_distance <= point.clearance * point.clearance) continue;
         const Vec3 centre = frames_.change(cells, steel, trees_.cells().centres[static_cast<std::size_t>(n.index)]);
+        if (point.shadows->is_clear(centre - point.position)) continue;
         ++tests_;
         if (steel_[steel].blocks(point.position, centre)) list.cells.push_back(n.index);
     }

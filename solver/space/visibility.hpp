@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "solver/ports/fluid_engine.hpp"
 #include "solver/space/point_tree.hpp"
+#include "solver/space/shadow_map.hpp"
 #include "solver/space/steel_tree.hpp"
 #include "solver/space/zone_frames.hpp"
 
@@ -75,7 +77,8 @@ private:
         Vec3 position;
         double clearance = 0.0;  // distance to the steel, or the requested reach
         double clearance_limit = -1.0;
-        std::vector<HiddenCells> hidden{};  // by the cells' zone
+        std::vector<HiddenCells> hidden{};   // by the cells' zone
+        std::optional<ShadowMap> shadows{};  // of the steel that can hide listed cells
         std::uint64_t last_used = 0;
     };
     struct Source {

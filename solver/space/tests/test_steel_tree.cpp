@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/ports/testing/synthetic_mesh.hpp"
+#include "solver/space/shadow_map.hpp"
 #include "solver/space/steel_tree.hpp"
 
 namespace cutterflow::coupling {
@@ -39,6 +40,54 @@ void add_sphere(const Vec3& centre, double radius, int n, std::vector<SteelTrian
             if (i > 0) triangles.push_back({point(i, j), point(i + 1, j), point(i, j + 1)});
             if (i + 1 < n) triangles.push_back({point(i, j + 1), point(i + 1, j), point(i + 1, j + 1)});
         }
+}
+
+/// What a shadow map says of random places around random points: it may ask for a test in vain, but never leave one out.
+TEST(ShadowMap, clears_only_what_no_triangle_hides) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-0.9, 0.9);
+    const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
+    constexpr double reach = 1.0;
+    int clear = 0, visible = 0;
+    for (const int count : {3, 40, 400}) {
+        const std::vector<SteelTriangle> triangles = random_triangles(count, random);
+        const SteelTree tree(triangles);
+        for (int i = 0; i < 40; ++i) {
+            // Every fourth point lies on a corner of a triangle or beside it.
+            const SteelTriangle& nearest = triangles[static_cast<std::size_t>(i) % triangles.size()];
+            const Vec3 from = i % 4 == 0 ? nearest.a : i % 4 == 1 ? Vec3(nearest.b + Vec3::Constant(1e-6)) : point();
+            const ShadowMap shadows(tree, from, reach);
+            for (int j = 0; j < 500; ++j) {
+                const Vec3 to = from + (point() - from) * 0.5;
+                if ((to - from).norm() >= reach) continue;
+                const bool blocked = tree.blocks(from, to);
+                if (shadows.is_clear(to - from)) {
+                    EXPECT_FALSE(blocked);
+                    ++clear;
+                }
+                if (!blocked) ++visible;
+            }
+        }
+    }
+    EXPECT_GT(clear, visible / 2);
+}
+
+/// Towards the corners of triangles, where bins and caps are closest to their rounding.
+TEST(ShadowMap, does_not_clear_a_triangles_edge) {
+    std::mt19937 random(9);
+    const std::vector<SteelTriangle> triangles = random_triangles(200, random);
+    const SteelTree tree(triangles);
+    const ShadowMap shadows(tree, Vec3::Zero(), 3.0);
+    for (const SteelTriangle& triangle : triangles)
+        for (const Vec3& corner : {triangle.a, triangle.b, triangle.c, Vec3(0.5 * (triangle.a + triangle.b))}) {
+            EXPECT_FALSE(shadows.is_clear(corner));
+            EXPECT_FALSE(shadows.is_clear(1.5 * corner));
+        }
+}
+
+TEST(ShadowMap, of_no_steel_clears_everything) {
+    const ShadowMap shadows(SteelTree({}), Vec3::Zero(), 1.0);
+    EXPECT_TRUE(shadows.is_clear(Vec3(0.3, -0.2, 0.9)));
 }
 
 TEST(SteelTree, tells_inside_from_outside_of_solids_above_a_tanks_floor) {
