@@ -44,6 +44,9 @@ function(cutterflow_add_ctest name label ranks timeout)
   if(NOT timeout)
     set(timeout 120)
   endif()
+  if(CUTTERFLOW_SANITIZE)  # sanitizers make programs several times slower
+    math(EXPR timeout "6 * ${timeout}")
+  endif()
   set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${timeout} ENVIRONMENT
     "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;WM_PROJECT_DIR=/usr/share/openfoam;OMPI_MCA_btl_vader_single_copy_mechanism=none;OMPI_MCA_mpi_yield_when_idle=1")
 endfunction()
