@@ -7,21 +7,12 @@ namespace cutterflow::free_surface {
 
 namespace {
 
-constexpr double k_modified = 0.97;        // share of the dropped fill that goes onto the diagonal [Bridson2015]
-constexpr double k_smallest_pivot = 0.25;  // of the diagonal, else the diagonal itself
 constexpr int k_most_iterations = 2000;
+constexpr int k_block_cells = 4;  // side of the blocks of cells whose means are solved for directly
 
-double largest(gsl::span<const double> values) {
-    double size = 0.0;
-    for (const double value : values) size = std::max(size, std::abs(value));
-    return size;
-}
-
-double dot(gsl::span<const double> a, gsl::span<const double> b) {
-    double sum = 0.0;
-    for (std::size_t n = 0; n < a.size(); ++n) sum += a[n] * b[n];
-    return sum;
-}
+using Vector = Eigen::VectorXd;
+using VectorView = Eigen::Map<Vector>;
+using ConstVectorView = Eigen::Map<const Vector>;
 
 }  // namespace
 
@@ -34,6 +25,7 @@ void PressureSystem::assemble(const WaterFraction& water, const CutCells& cells,
     set_bodies(cells, bodies, cell_mass);
     find_enclosed(water, cells);
     factorise();
+    set_blocks();
 }
 
 void PressureSystem::number_cells(const WaterFraction& water) {
@@ -49,6 +41,7 @@ void PressureSystem::set_coefficients(const WaterFraction& water, const CutCells
     for (int n = 0; n < directions_; ++n) {
         const int d = grid_.directions()[n], stride = grid_.stride(d);
         upper_[n].assign(count + 1, 0.0);
+        lower_[n].assign(count + 1, 0.0);
         above_[n].assign(count + 1, none);
         below_[n].assign(count + 1, none);
         for (std::size_t r = 0; r < count; ++r) {
@@ -62,7 +55,7 @@ void PressureSystem::set_coefficients(const WaterFraction& water, const CutCells
                 } else if (water.kind[neighbour] == CellKind::water) {
                     diagonal_[r] += open;
                     (side > 0 ? above_ : below_)[n][r] = row_[neighbour];
-                    if (side > 0) upper_[n][r] = -open;
+                    (side > 0 ? upper_ : lower_)[n][r] = -open;
                 }
             }
         }
@@ -115,7 +108,7 @@ void PressureSystem::find_enclosed(const WaterFraction& water, const CutCells& c
     }
 }
 
-/// Modified incomplete Cholesky factor of level 0 of the water's part and of the bodies' diagonal.
+/// Incomplete Cholesky factor of level 0 of the water's part and of the bodies' diagonal.
 void PressureSystem::factorise() {
     const std::size_t count = cell_.size();
     std::vector<double> pivot = diagonal_;
@@ -129,13 +122,7 @@ void PressureSystem::factorise() {
             const int b = below_[d][r];
             const double coefficient = upper_[d][b] * factor_[b];
             value -= coefficient * coefficient;
-            double others = 0.0;
-            for (int e = 0; e < directions_; ++e) {
-                if (e != d) others += upper_[e][b];
-            }
-            value -= k_modified * upper_[d][b] * others * factor_[b] * factor_[b];
         }
-        if (value < k_smallest_pivot * pivot[r]) value = pivot[r];
         factor_[r] = value > 0.0 ? 1.0 / std::sqrt(value) : 0.0;
     }
     for (int d = 0; d < directions_; ++d) {
@@ -149,48 +136,106 @@ void PressureSystem::factorise() {
     }
 }
 
-void PressureSystem::apply(gsl::span<const double> q, gsl::span<double> y) const {
-    std::vector<double> padded(q.begin(), q.end());
-    padded.push_back(0.0);
-    multiply(padded.data(), y);
+void PressureSystem::set_blocks() {
+    int count = 0;
+    const std::vector<int> block = number_blocks(count);
+    blocks_.begin(block, count);
+    for (std::size_t r = 0; r < block.size(); ++r) {
+        blocks_.add(block[r], block[r], diagonal_[r]);
+        for (int d = 0; d < directions_; ++d) {
+            if (upper_[d][r] == 0.0) continue;
+            const int above = block[above_[d][r]];
+            blocks_.add(block[r], above, upper_[d][r]);
+            blocks_.add(above, block[r], upper_[d][r]);
+        }
+    }
+    for (const BodyPart& body : bodies_) add_body_to_blocks(body, block);
+    blocks_.factorise();
 }
 
-/// \param q  unknowns() long and a 0 behind: the neighbour that is none
-void PressureSystem::multiply(const double* q, gsl::span<double> y) const {
+/// The block of each row; of every enclosed water one block is left out, for only differences are known there.
+std::vector<int> PressureSystem::number_blocks(int& count) const {
+    const auto blocks_along = [&](int d) { return (grid_.cells(d) + k_block_cells - 1) / k_block_cells; };
+    const auto place_of = [&](int row) {
+        const std::array<int, 3> place = grid_.place(cell_[row]);
+        return (place[2] / k_block_cells * blocks_along(1) + place[1] / k_block_cells) * blocks_along(0) + place[0] / k_block_cells;
+    };
+    constexpr int unseen = -1, left_out = -2;
+    std::vector<int> number(blocks_along(0) * blocks_along(1) * blocks_along(2), unseen), block(cell_.size());
+    for (const auto& rows : enclosed_) number[place_of(rows.front())] = left_out;
+    for (std::size_t r = 0; r < block.size(); ++r) {
+        int& here = number[place_of(static_cast<int>(r))];
+        if (here == unseen) here = count++;
+        block[r] = here;
+    }
+    std::replace(block.begin(), block.end(), left_out, count);
+    return block;
+}
+
+void PressureSystem::add_body_to_blocks(const BodyPart& body, const std::vector<int>& block) {
+    std::vector<BodyRow> sums;  // of k in each block
+    for (const BodyRow& entry : body.rows) {
+        const int here = block[entry.row];
+        const auto same = std::find_if(sums.begin(), sums.end(), [&](const BodyRow& sum) { return sum.row == here; });
+        if (same == sums.end()) {
+            sums.push_back({here, entry.k});
+        } else {
+            same->k += entry.k;
+        }
+    }
+    for (const BodyRow& a : sums) {
+        for (const BodyRow& b : sums) blocks_.add(a.row, b.row, body.mass_ratio * a.k.dot(b.k));
+    }
+}
+
+void PressureSystem::apply(gsl::span<const double> q, gsl::span<double> y) const {
+    Vector padded(static_cast<Eigen::Index>(q.size()) + 1);
+    padded << ConstVectorView(q.data(), static_cast<Eigen::Index>(q.size())), 0.0;
+    multiply(padded, y.data());
+}
+
+/// \param q  unknowns() long and a 0 behind: the neighbour that is none. Neighbours in x are the rows before and after.
+void PressureSystem::multiply(const Vector& q, double* y) const {
     const int count = static_cast<int>(cell_.size());
-    for (int r = 0; r < count; ++r) y[r] = diagonal_[r] * q[r];
-    for (int d = 0; d < directions_; ++d) {
-        const double* upper = upper_[d].data();
+    const double *diagonal = diagonal_.data(), *along = upper_[0].data();
+    for (int r = 0; r < count; ++r) y[r] = diagonal[r] * q.data()[r] + along[r] * q.data()[r + 1];
+    for (int r = 1; r < count; ++r) y[r] += along[r - 1] * q.data()[r - 1];
+    for (int d = 1; d < directions_; ++d) {
+        const double *upper = upper_[d].data(), *lower = lower_[d].data();
         const int *above = above_[d].data(), *below = below_[d].data();
-        for (int r = 0; r < count; ++r) y[r] += upper[r] * q[above[r]] + upper[below[r]] * q[below[r]];
+        for (int r = 0; r < count; ++r) y[r] += upper[r] * q.data()[above[r]] + lower[r] * q.data()[below[r]];
     }
     for (const auto& body : bodies_) {
         Vec3 push = Vec3::Zero();
-        for (const BodyRow& entry : body.rows) push += entry.k * q[entry.row];
+        for (const BodyRow& entry : body.rows) push += entry.k * q.data()[entry.row];
         push *= body.mass_ratio;
         for (const BodyRow& entry : body.rows) y[entry.row] += entry.k.dot(push);
     }
 }
 
-void PressureSystem::precondition(gsl::span<const double> residual, gsl::span<double> z) const {
+/// \param z  unknowns() long and a 0 behind
+void PressureSystem::precondition(const Vector& residual, Vector& z) const {
     const int count = static_cast<int>(cell_.size());
-    work_.resize(count + 1);
-    work_[count] = 0.0;
-    double* work = work_.data();
+    double* value = z.data();
+    double last = 0.0;  // of the row before
     for (int r = 0; r < count; ++r) {
-        double value = residual[r] * factor_[r];
-        for (int d = directions_ - 1; d >= 0; --d) value -= factor_below_[d][r] * work[below_[d][r]];
-        work[r] = value;
+        double sum = residual.data()[r] * factor_[r];
+        for (int d = directions_ - 1; d > 0; --d) sum -= factor_below_[d][r] * value[below_[d][r]];
+        last = sum - factor_below_[0][r] * last;
+        value[r] = last;
     }
+    last = 0.0;
     for (int r = count - 1; r >= 0; --r) {
-        double value = work[r] * factor_[r];
-        for (int d = directions_ - 1; d >= 0; --d) value -= factor_above_[d][r] * work[above_[d][r]];
-        work[r] = value;
+        double sum = value[r] * factor_[r];
+        for (int d = directions_ - 1; d > 0; --d) sum -= factor_above_[d][r] * value[above_[d][r]];
+        last = sum - factor_above_[0][r] * last;
+        value[r] = last;
     }
-    std::copy_n(work, count, z.begin());
+    multiply(z, product_.data());
+    blocks_.correct(residual, product_, z);
 }
 
-void PressureSystem::remove_means(gsl::span<double> values) const {
+void PressureSystem::remove_means(double* values) const {
     for (const auto& rows : enclosed_) {
         double sum = 0.0;
         for (const int r : rows) sum += values[r];
@@ -198,43 +243,50 @@ void PressureSystem::remove_means(gsl::span<double> values) const {
     }
 }
 
+/// Right side less operator times q; the right side without its mean in enclosed waters.
+void PressureSystem::set_residual(const Vector& right_side, const Vector& q) const {
+    multiply(q, product_.data());
+    residual_ = right_side - product_;
+}
+
 SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tolerance, gsl::span<double> q) const {
-    const std::size_t count = cell_.size();
-    residual_.assign(right_side.begin(), right_side.end());
-    remove_means(residual_);
-    const double scale = largest(residual_);
+    const auto count = static_cast<Eigen::Index>(cell_.size());
     SolveReport report;
+    Vector right = ConstVectorView(right_side.data(), count);
+    remove_means(right.data());
+    const double scale = count > 0 ? right.lpNorm<Eigen::Infinity>() : 0.0;
+    VectorView found(q.data(), count);
     if (scale == 0.0) {
-        std::fill(q.begin(), q.end(), 0.0);
+        found.setZero();
         return report;
     }
     product_.resize(count);
-    direction_.resize(count + 1);
-    direction_[count] = 0.0;
-    std::vector<double> z(count);
-    apply(q, product_);
-    for (std::size_t n = 0; n < count; ++n) residual_[n] -= product_[n];
-    precondition(residual_, z);
-    std::copy(z.begin(), z.end(), direction_.begin());
-    double sigma = dot(residual_, z);
-    report.residual = largest(residual_) / scale;
+    for (Vector* padded : {&solution_, &z_, &direction_}) padded->setZero(count + 1);
+    solution_.head(count) = found;
+    set_residual(right, solution_);
+    product_.setZero();
+    blocks_.correct(residual_, product_, solution_);
+    set_residual(right, solution_);
+    report.residual = residual_.lpNorm<Eigen::Infinity>() / scale;
+    double sigma = 1.0;
     while (report.residual > tolerance && report.iterations < k_most_iterations) {
-        multiply(direction_.data(), product_);
-        const double step = sigma / dot(product_, direction_);
-        for (std::size_t n = 0; n < count; ++n) {
-            q[n] += step * direction_[n];
-            residual_[n] -= step * product_[n];
-        }
-        ++report.iterations;
-        report.residual = largest(residual_) / scale;
-        if (report.residual <= tolerance) break;
-        precondition(residual_, z);
-        const double next = dot(residual_, z);
-        const double share = next / sigma;
-        for (std::size_t n = 0; n < count; ++n) direction_[n] = z[n] + share * direction_[n];
+        precondition(residual_, z_);
+        const double next = residual_.dot(z_.head(count));
+        direction_ = z_ + (report.iterations > 0 ? next / sigma : 0.0) * direction_;
         sigma = next;
+        multiply(direction_, product_.data());
+        const double step = sigma / product_.dot(direction_.head(count));
+        if (!std::isfinite(step)) {
+            report.residual = step;
+            break;
+        }
+        solution_ += step * direction_;
+        residual_ -= step * product_;
+        ++report.iterations;
+        report.residual = residual_.lpNorm<Eigen::Infinity>() / scale;
     }
-    remove_means(q);
+    found = solution_.head(count);
+    remove_means(q.data());
     report.converged = report.residual <= tolerance;  // false for a residual that is no number, too
     return report;
 }

@@ -1,5 +1,6 @@
 #pragma once
 /// \file The pressure of water and bodies as one system: operator, incomplete Cholesky factor, conjugate gradients.
+#include "solver/free_surface/block_correction.hpp"
 #include "solver/free_surface/water_fraction.hpp"
 
 namespace cutterflow::free_surface {
@@ -53,22 +54,27 @@ private:
     void set_bodies(const CutCells& cells, gsl::span<const Body> bodies, double cell_mass);
     void find_enclosed(const WaterFraction& water, const CutCells& cells);
     void factorise();
-    void multiply(const double* padded, gsl::span<double> y) const;
-    void precondition(gsl::span<const double> residual, gsl::span<double> z) const;
-    void remove_means(gsl::span<double> values) const;
+    void set_blocks();
+    std::vector<int> number_blocks(int& count) const;
+    void add_body_to_blocks(const BodyPart& body, const std::vector<int>& block);
+    void multiply(const Eigen::VectorXd& q, double* y) const;
+    void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& z) const;
+    void set_residual(const Eigen::VectorXd& right_side, const Eigen::VectorXd& q) const;
+    void remove_means(double* values) const;
 
     const StaggeredGrid& grid_;
     int directions_ = 0;
     std::vector<int> row_;   // of each cell
     std::vector<int> cell_;  // of each row
     std::vector<double> diagonal_;
-    std::array<std::vector<double>, 3> upper_;                        // coefficient to the neighbour above in each direction, 0: none; <= 0
-    std::array<std::vector<int>, 3> above_, below_;                   // rows of the neighbours; unknowns(): none
-    std::vector<double> factor_;                                      // 1/sqrt of the factor's diagonal
+    std::array<std::vector<double>, 3> upper_, lower_;  // coefficients to the neighbours above and below in each direction, 0: none; <= 0
+    std::array<std::vector<int>, 3> above_, below_;     // rows of the neighbours; unknowns(): none
+    std::vector<double> factor_;                        // 1/sqrt of the factor's diagonal
     std::array<std::vector<double>, 3> factor_below_, factor_above_;  // the factor's entries beside the diagonal, times factor_ of the row
     std::vector<BodyPart> bodies_;
     std::vector<std::vector<int>> enclosed_;  // rows of each
-    mutable std::vector<double> work_, residual_, direction_, product_;
+    BlockCorrection blocks_;
+    mutable Eigen::VectorXd solution_, residual_, z_, direction_, product_;
 };
 
 }  // namespace cutterflow::free_surface

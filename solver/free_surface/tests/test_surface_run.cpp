@@ -221,7 +221,9 @@ TEST(SurfaceRun, a_light_disc_starts_with_its_exact_acceleration_at_any_step) {
 }
 
 TEST(SurfaceRun, plane_and_space_give_the_same) {
-    SceneSettings plane = dam(6), space = dam(6);
+    SceneSettings plane = dam(6);
+    plane.run.pressure_tolerance = plane.run.even_out_tolerance = 1e-12;  // what is left of the residuals differs
+    SceneSettings space = plane;
     space.tank.plane = false;
     space.tank.cells[1] = 4;
     SurfaceRun a(plane, nullptr), b(space, nullptr);
