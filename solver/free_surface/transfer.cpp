@@ -16,105 +16,93 @@ struct PointKernel {
     std::array<KernelWeights, 3> face, centre;
 };
 
-/// One node that a point sees.
+/// Nodes that a point sees of one field.
 struct NodeBlock {
-    int first = 0;              ///< index of the lowest node
-    const double* weight[3]{};  ///< of the nodes in x, y, z
-    int across = 3;             ///< nodes in y
+    int first;                              ///< index of the lowest node
+    const std::array<double, 3>&x, &y, &z;  ///< weights
 };
 
+/// Kernels of points in a plane scene or in space: the directions and the number of nodes across are known to the compiler.
+template <bool plane>
 class Kernels {
 public:
+    static constexpr int k_across = plane ? 1 : 3;  ///< nodes in y
+
     explicit Kernels(const StaggeredGrid& grid, const SlipWalls* walls = nullptr)
         : grid_(grid), walls_(walls && !walls->empty() ? walls : nullptr), inverse_(1.0 / grid.spacing()) {
-        for (int d = 0; d < 3; ++d) largest_[d] = grid.cells(d) - k_wall_distance;
+        for (int d = 0; d < 3; ++d) largest_[d] = (grid.cells(d) - k_wall_distance) * grid.spacing();
+    }
+
+    template <typename Visit>
+    static void for_each_direction(const Visit& visit) {
+        visit(0);
+        if constexpr (!plane) visit(1);
+        visit(2);
     }
 
     /// \param place  [m]
-    void set(const Vec3& place, PointKernel& kernel) const {
-        for (const int d : grid_.directions()) {
+    PointKernel at(const Vec3& place) const {
+        PointKernel kernel;
+        for_each_direction([&](int d) {
             const double s = place[d] * inverse_;
             kernel.face[d] = quadratic_weights(s);
             kernel.centre[d] = quadratic_weights(s - 0.5);
-        }
+        });
+        return kernel;
     }
 
-    /// Nodes of the faces of a direction; 3: of cell centres.
+    /// Nodes of the faces of a direction, or k_centres.
     NodeBlock nodes(const PointKernel& kernel, int direction) const {
+        static constexpr KernelWeights whole{0, {1.0, 0.0, 0.0}};
         const auto along = [&](int d) -> const KernelWeights& { return d == direction ? kernel.face[d] : kernel.centre[d]; };
-        if (grid_.is_plane()) {
-            const KernelWeights &x = along(0), &z = along(2);
-            return {grid_.at(x.first, 0, z.first), {x.weight.data(), &k_one, z.weight.data()}, 1};
-        }
-        const KernelWeights &x = along(0), &y = along(1), &z = along(2);
-        return {grid_.at(x.first, y.first, z.first), {x.weight.data(), y.weight.data(), z.weight.data()}, 3};
+        const KernelWeights &x = along(0), &y = plane ? whole : along(1), &z = along(2);
+        return {grid_.at(x.first, y.first, z.first), x.weight, y.weight, z.weight};
     }
 
     double gather(const NodeBlock& block, const std::vector<double>& field) const {
         double sum = 0.0;
         for (int k = 0; k < 3; ++k) {
-            for (int j = 0; j < block.across; ++j) {
+            for (int j = 0; j < k_across; ++j) {
                 const double* row = field.data() + block.first + j * grid_.stride(1) + k * grid_.stride(2);
-                sum += block.weight[2][k] * block.weight[1][j] *
-                       (block.weight[0][0] * row[0] + block.weight[0][1] * row[1] + block.weight[0][2] * row[2]);
+                sum += block.z[k] * block.y[j] * (block.x[0] * row[0] + block.x[1] * row[1] + block.x[2] * row[2]);
             }
         }
         return sum;
     }
 
-    void scatter(const NodeBlock& block, std::vector<double>& share, std::vector<double>& momentum, double velocity) const {
+    /// Calls visit(node, weight) for every node.
+    template <typename Visit>
+    void for_each_node(const NodeBlock& block, const Visit& visit) const {
         for (int k = 0; k < 3; ++k) {
-            for (int j = 0; j < block.across; ++j) {
+            for (int j = 0; j < k_across; ++j) {
                 const int row = block.first + j * grid_.stride(1) + k * grid_.stride(2);
-                const double weight = block.weight[2][k] * block.weight[1][j];
-                for (int i = 0; i < 3; ++i) {
-                    const double w = weight * block.weight[0][i];
-                    share[row + i] += w;
-                    momentum[row + i] += w * velocity;
-                }
+                const double weight = block.z[k] * block.y[j];
+                for (int i = 0; i < 3; ++i) visit(row + i, weight * block.x[i]);
             }
         }
     }
 
-    void scatter(const NodeBlock& block, std::vector<double>& share) const {
-        for (int k = 0; k < 3; ++k) {
-            for (int j = 0; j < block.across; ++j) {
-                const int row = block.first + j * grid_.stride(1) + k * grid_.stride(2);
-                const double weight = block.weight[2][k] * block.weight[1][j];
-                for (int i = 0; i < 3; ++i) share[row + i] += weight * block.weight[0][i];
-            }
-        }
-    }
-
-    Vec3 gather(const Vec3& place, const FaceField& field) const {
-        PointKernel kernel;
-        set(place, kernel);
-        return gather(kernel, field);
-    }
+    Vec3 gather(const Vec3& place, const FaceField& field) const { return gather(at(place), field); }
 
     Vec3 gather(const PointKernel& kernel, const FaceField& field) const {
         Vec3 value = Vec3::Zero();
-        if (walls_ && walls_->near[nodes(kernel, 3).first + middle(3)]) {
-            for (const int d : grid_.directions()) value[d] = gather_beside_walls(nodes(kernel, d), d, field[d]);
-        } else {
-            for (const int d : grid_.directions()) value[d] = gather(nodes(kernel, d), field[d]);
-        }
+        const bool beside_walls = walls_ && walls_->near[nodes(kernel, k_centres).first + middle(k_centres)];
+        for_each_direction([&](int d) {
+            value[d] = beside_walls ? gather_beside_walls(nodes(kernel, d), d, field[d]) : gather(nodes(kernel, d), field[d]);
+        });
         return value;
     }
 
-    void keep_inside(Vec3& place) const {
-        for (const int d : grid_.directions()) {
-            place[d] = std::clamp(place[d], k_wall_distance * grid_.spacing(), largest_[d] * grid_.spacing());
-        }
+    Vec3 kept_inside(Vec3 place) const {
+        for_each_direction([&](int d) { place[d] = std::clamp(place[d], k_wall_distance * grid_.spacing(), largest_[d]); });
+        return place;
     }
 
 private:
-    static constexpr double k_one = 1.0;
-
-    /// From the lowest node of a block to the middle one in all directions but `along` (3: in all).
+    /// From the lowest node of a block to the middle one in all directions but `along` (k_centres: in all).
     int middle(int along) const {
         int way = 0;
-        for (const int d : grid_.directions()) way += d == along ? 0 : grid_.stride(d);
+        for_each_direction([&](int d) { way += d == along ? 0 : grid_.stride(d); });
         return way;
     }
 
@@ -123,12 +111,12 @@ private:
         const int own_row = block.first + middle(direction);
         double sum = 0.0;
         for (int k = 0; k < 3; ++k) {
-            for (int j = 0; j < block.across; ++j) {
+            for (int j = 0; j < k_across; ++j) {
                 for (int i = 0; i < 3; ++i) {
                     const int node = block.first + i + j * grid_.stride(1) + k * grid_.stride(2);
                     const int place[3] = {i, j, k};
                     const int own = own_row + place[direction] * grid_.stride(direction);
-                    sum += block.weight[2][k] * block.weight[1][j] * block.weight[0][i] * field[closed[node] ? own : node];
+                    sum += block.z[k] * block.y[j] * block.x[i] * field[closed[node] ? own : node];
                 }
             }
         }
@@ -141,6 +129,16 @@ private:
     std::array<double, 3> largest_{};
 };
 
+/// Calls work(kernels) with the kernels of the grid's kind.
+template <typename Work>
+void with_kernels(const StaggeredGrid& grid, const SlipWalls* walls, const Work& work) {
+    if (grid.is_plane()) {
+        work(Kernels<true>(grid, walls));
+    } else {
+        work(Kernels<false>(grid, walls));
+    }
+}
+
 /// The faces on the tank's two walls normal to d: of the first cell and of the ghost after the last.
 template <typename Visit>
 void for_each_wall_face(const StaggeredGrid& grid, int d, const Visit& visit) {
@@ -150,20 +148,26 @@ void for_each_wall_face(const StaggeredGrid& grid, int d, const Visit& visit) {
 }  // namespace
 
 void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, MappedWater& mapped) {
-    const Kernels kernels(grid);
     const auto directions = grid.directions();
     for (const int d : directions) {
         std::fill(mapped.velocity[d].begin(), mapped.velocity[d].end(), 0.0);
         std::fill(mapped.share[d].begin(), mapped.share[d].end(), 0.0);
     }
     std::fill(mapped.fraction.begin(), mapped.fraction.end(), 0.0);
-    PointKernel kernel;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        kernels.set(particles.place(p), kernel);
-        for (const int d : directions)
-            kernels.scatter(kernels.nodes(kernel, d), mapped.share[d], mapped.velocity[d], particles.velocity[d][p]);
-        kernels.scatter(kernels.nodes(kernel, 3), mapped.fraction);
-    }
+    with_kernels(grid, nullptr, [&](const auto& kernels) {
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const PointKernel kernel = kernels.at(particles.place(p));
+            kernels.for_each_direction([&](int d) {
+                double *share = mapped.share[d].data(), *momentum = mapped.velocity[d].data();
+                const double velocity = particles.velocity[d][p];
+                kernels.for_each_node(kernels.nodes(kernel, d), [&](int node, double weight) {
+                    share[node] += weight;
+                    momentum[node] += weight * velocity;
+                });
+            });
+            kernels.for_each_node(kernels.nodes(kernel, k_centres), [&](int node, double weight) { mapped.fraction[node] += weight; });
+        }
+    });
     const double volume = particles.volume / grid.cell_volume();
     for (const int d : directions) {
         fold(grid, d, 1.0, mapped.share[d]);
@@ -180,13 +184,13 @@ void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, Map
 }
 
 void map_fraction(const StaggeredGrid& grid, const WaterParticles& particles, CellField& fraction) {
-    const Kernels kernels(grid);
     fraction.assign(grid.size(), 0.0);
-    PointKernel kernel;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        kernels.set(particles.place(p), kernel);
-        kernels.scatter(kernels.nodes(kernel, 3), fraction);
-    }
+    with_kernels(grid, nullptr, [&](const auto& kernels) {
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const PointKernel kernel = kernels.at(particles.place(p));
+            kernels.for_each_node(kernels.nodes(kernel, k_centres), [&](int node, double weight) { fraction[node] += weight; });
+        }
+    });
     fold(grid, k_centres, 1.0, fraction);
     const double volume = particles.volume / grid.cell_volume();
     for (double& share : fraction) share *= volume;
@@ -235,46 +239,44 @@ void extrapolate(const StaggeredGrid& grid, int layers, std::vector<FaceValue>& 
 }
 
 void move_particles(const StaggeredGrid& grid, const SlipWalls& walls, const WaterMotion& motion, WaterParticles& particles) {
-    const Kernels kernels(grid, &walls);
-    PointKernel kernel;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        const Vec3 start = particles.place(p);
-        kernels.set(start, kernel);
-        const Vec3 increment = kernels.gather(kernel, motion.increment);
-        const Vec3 first = kernels.gather(kernel, motion.velocity);
-        Vec3 place = start + 0.5 * motion.step * first;
-        kernels.keep_inside(place);
-        const Vec3 second = kernels.gather(place, motion.velocity);
-        place = start + 0.75 * motion.step * second;
-        kernels.keep_inside(place);
-        const Vec3 third = kernels.gather(place, motion.velocity);
-        place = start + motion.step / 9.0 * (2.0 * first + 3.0 * second + 4.0 * third);
-        kernels.keep_inside(place);
-        for (const int d : grid.directions()) {
-            particles.velocity[d][p] = motion.kept * (particles.velocity[d][p] + increment[d]) + (1.0 - motion.kept) * first[d];
-            particles.position[d][p] = place[d];
+    with_kernels(grid, &walls, [&](const auto& kernels) {
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            const Vec3 start = particles.place(p);
+            const PointKernel kernel = kernels.at(start);
+            const Vec3 increment = kernels.gather(kernel, motion.increment);
+            const Vec3 first = kernels.gather(kernel, motion.velocity);
+            const Vec3 second = kernels.gather(kernels.kept_inside(start + 0.5 * motion.step * first), motion.velocity);
+            const Vec3 third = kernels.gather(kernels.kept_inside(start + 0.75 * motion.step * second), motion.velocity);
+            const Vec3 end = kernels.kept_inside(start + motion.step / 9.0 * (2.0 * first + 3.0 * second + 4.0 * third));
+            kernels.for_each_direction([&](int d) {
+                particles.velocity[d][p] = motion.kept * (particles.velocity[d][p] + increment[d]) + (1.0 - motion.kept) * first[d];
+                particles.position[d][p] = end[d];
+            });
         }
-    }
+    });
 }
 
 void displace_particles(const StaggeredGrid& grid, const SlipWalls& walls, const FaceField& displacement, double largest,
                         WaterParticles& particles) {
-    const Kernels kernels(grid, &walls);
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-        Vec3 place = particles.place(p);
-        const Vec3 way = kernels.gather(place, displacement);
-        for (const int d : grid.directions()) place[d] += std::clamp(way[d], -largest, largest);
-        kernels.keep_inside(place);
-        for (const int d : grid.directions()) particles.position[d][p] = place[d];
-    }
+    with_kernels(grid, &walls, [&](const auto& kernels) {
+        for (std::size_t p = 0; p < particles.size(); ++p) {
+            Vec3 place = particles.place(p);
+            const Vec3 way = kernels.gather(place, displacement);
+            kernels.for_each_direction([&](int d) { place[d] += std::clamp(way[d], -largest, largest); });
+            place = kernels.kept_inside(place);
+            kernels.for_each_direction([&](int d) { particles.position[d][p] = place[d]; });
+        }
+    });
 }
 
 Vec3 value_at(const StaggeredGrid& grid, const SlipWalls& walls, const FaceField& field, const Vec3& place) {
-    return Kernels(grid, &walls).gather(place, field);
+    Vec3 value = Vec3::Zero();
+    with_kernels(grid, &walls, [&](const auto& kernels) { value = kernels.gather(place, field); });
+    return value;
 }
 
 void keep_in_tank(const StaggeredGrid& grid, Vec3& place) {
-    Kernels(grid).keep_inside(place);
+    with_kernels(grid, nullptr, [&](const auto& kernels) { place = kernels.kept_inside(place); });
 }
 
 }  // namespace cutterflow::free_surface
