@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/free_surface/cell_lists.hpp"
+
 namespace cutterflow::free_surface {
 
 namespace {
@@ -38,41 +40,24 @@ std::vector<GapContact> contacts_of(const StaggeredGrid& grid, gsl::span<const B
 }
 
 /// For each cell the contacts whose band may reach into it.
-class ContactsByCell {
-public:
-    ContactsByCell(const StaggeredGrid& grid, const std::vector<GapContact>& contacts, double reach) : first_(grid.size(), k_none) {
-        for (std::size_t n = 0; n < contacts.size(); ++n) {
-            std::array<int, 3> from{0, 0, 0}, to{0, 0, 0};
-            for (const int d : grid.directions()) {
-                const double place = contacts[n].point[d] / grid.spacing(), cells = reach / grid.spacing();
-                from[d] = std::clamp(static_cast<int>(std::floor(place - cells)), 0, grid.cells(d) - 1);
-                to[d] = std::clamp(static_cast<int>(std::floor(place + cells)), 0, grid.cells(d) - 1);
-            }
-            for (int k = from[2]; k <= to[2]; ++k) {
-                for (int j = from[1]; j <= to[1]; ++j) {
-                    for (int i = from[0]; i <= to[0]; ++i) {
-                        int& first = first_[grid.at(i, j, k)];
-                        entries_.push_back({static_cast<int>(n), first});
-                        first = static_cast<int>(entries_.size()) - 1;
-                    }
-                }
+CellLists contacts_by_cell(const StaggeredGrid& grid, const std::vector<GapContact>& contacts, double reach) {
+    CellLists lists;
+    lists.clear(grid.size());
+    for (std::size_t n = 0; n < contacts.size(); ++n) {
+        std::array<int, 3> from{0, 0, 0}, to{0, 0, 0};
+        for (const int d : grid.directions()) {
+            const double place = contacts[n].point[d] / grid.spacing(), cells = reach / grid.spacing();
+            from[d] = std::clamp(static_cast<int>(std::floor(place - cells)), 0, grid.cells(d) - 1);
+            to[d] = std::clamp(static_cast<int>(std::floor(place + cells)), 0, grid.cells(d) - 1);
+        }
+        for (int k = from[2]; k <= to[2]; ++k) {
+            for (int j = from[1]; j <= to[1]; ++j) {
+                for (int i = from[0]; i <= to[0]; ++i) lists.add(grid.at(i, j, k), static_cast<int>(n));
             }
         }
     }
-
-    template <typename Visit>
-    void for_each(int cell, const Visit& visit) const {
-        for (int entry = first_[cell]; entry != k_none; entry = entries_[entry].next) visit(entries_[entry].contact);
-    }
-
-private:
-    static constexpr int k_none = -1;
-    struct Entry {
-        int contact, next;
-    };
-    std::vector<int> first_;
-    std::vector<Entry> entries_;
-};
+    return lists;
+}
 
 }  // namespace
 
@@ -81,7 +66,7 @@ double damp_gaps(const GapDampingSettings& settings, const StaggeredGrid& grid, 
     const double band = k_band_cells * grid.spacing(), half_gap = 0.5 * (settings.gap + grid.spacing());
     const double mass = density * particles.volume, exponent = step / settings.time;
     const std::vector<GapContact> contacts = contacts_of(grid, bodies, settings.gap);
-    const ContactsByCell nearby(grid, contacts, std::hypot(band, half_gap));
+    const CellLists nearby = contacts_by_cell(grid, contacts, std::hypot(band, half_gap));
     double taken = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
         const Vec3 place = particles.place(p);

@@ -462,16 +462,16 @@ void SurfaceRun::push_out() {
         };
         for (const StillSolid& solid : settings_.solids) leave(solid);
         for (const SolidBox& gate : gates_) leave(gate);
-        for (const Body& body : bodies_) {
+        cells_.covering.for_each(cell_of(grid_, place), [&](int number) {
+            const Body& body = bodies_[number];
             Vec3 arm = place - body.position;
             if (!body.sphere) arm.y() = 0.0;
-            if (arm.squaredNorm() >= body.radius * body.radius) continue;
             const double distance = arm.norm();
-            if (distance >= body.radius || distance == 0.0) continue;
+            if (distance >= body.radius || distance == 0.0) return;
             inside = true;
             report_.deepest = std::max(report_.deepest, body.radius - distance);
             place += arm * (body.radius / distance - 1.0);
-        }
+        });
         if (!inside) continue;
         ++report_.pushed_out;
         keep_in_tank(grid_, place);

@@ -55,7 +55,7 @@ void fill_slivers(const StaggeredGrid& grid, const CutCells& cells, CellField& f
 void find_water(const StaggeredGrid& grid, const CellField& particle_share, const CutCells& cells, WaterFraction& water) {
     water.fraction = particle_share;
     grid.for_each_cell([&](int cell, int, int, int) {
-        if (cells.room[cell] > 0.0) water.fraction[cell] /= cells.room[cell];
+        if (water.fraction[cell] > 0.0 && cells.room[cell] > 0.0) water.fraction[cell] /= cells.room[cell];
     });
     fill_slivers(grid, cells, water.fraction);
 

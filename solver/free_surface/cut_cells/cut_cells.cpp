@@ -11,6 +11,8 @@ namespace cutterflow::free_surface {
 
 namespace {
 
+constexpr double k_wholly_covered = 1.0 - 1e-12;  // share of a cell
+constexpr KernelWeights k_across_plane{-1, {0.0, 1.0, 0.0}};
 constexpr int k_lines = 16;  // through a cell for its open volume, and through a face in space: what stands still is covered once
 
 /// Covered share of a segment of a line.
@@ -137,29 +139,38 @@ void for_each_part(const StaggeredGrid& grid, const Vec3& from, const Visit& vis
     }
 }
 
-/// Takes the covered parts of a cell from the room of the kernels around it, ghosts too.
+/// Takes a share of a part of a cell, or of the cell, from the room of the kernels around it, ghosts too.
+void take_room(const StaggeredGrid& grid, int cell, double share, const std::array<const KernelWeights*, 3>& weights, CellField& room) {
+    for (int c = 0; c < 3; ++c) {
+        for (int b = 0; b < 3; ++b) {
+            const double weight = share * weights[2]->weight[c] * weights[1]->weight[b];
+            if (weight <= 0.0) continue;
+            double* row = room.data() + cell + (b - 1) * grid.stride(1) + (c - 1) * grid.stride(2);
+            for (int a = 0; a < 3; ++a) row[a - 1] -= weight * weights[0]->weight[a];
+        }
+    }
+}
+
+/// Takes the covered parts of a cell.
 void take_room(const StaggeredGrid& grid, int cell, const PartShares& shares, CellField& room) {
     static const std::array<KernelWeights, k_parts> weights{part_weights(0), part_weights(1), part_weights(2), part_weights(3)};
-    static const KernelWeights whole{-1, {0.0, 1.0, 0.0}};
     const Parts parts = parts_of(grid);
     int number = 0;
     for (int k = 0; k < k_parts; ++k) {
         for (int j = 0; j < parts.across; ++j) {
-            const KernelWeights& y = grid.is_plane() ? whole : weights[j];
             for (int i = 0; i < k_parts; ++i) {
                 const double share = shares[number++] / parts.count();
-                if (share <= 0.0) continue;
-                for (int c = 0; c < 3; ++c) {
-                    for (int b = 0; b < 3; ++b) {
-                        const double weight = share * weights[k].weight[c] * y.weight[b];
-                        if (weight <= 0.0) continue;
-                        double* row = room.data() + cell + (b - 1) * grid.stride(1) + (c - 1) * grid.stride(2);
-                        for (int a = 0; a < 3; ++a) row[a - 1] -= weight * weights[i].weight[a];
-                    }
-                }
+                if (share > 0.0)
+                    take_room(grid, cell, share, {&weights[i], grid.is_plane() ? &k_across_plane : &weights[j], &weights[k]}, room);
             }
         }
     }
+}
+
+/// Takes a covered share of a cell, the same in all of its parts.
+void take_room(const StaggeredGrid& grid, int cell, double share, CellField& room) {
+    static const KernelWeights whole{-1, {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0}};
+    take_room(grid, cell, share, {&whole, grid.is_plane() ? &k_across_plane : &whole, &whole}, room);
 }
 
 /// Ghosts repeat the cell next to them.
@@ -292,6 +303,7 @@ void CellCutter::cover_still_room(const std::vector<StillSolid>& solids, int cel
 
 /// A part is covered in proportion to its depth under the surface; together the parts cover what the cell is covered.
 void CellCutter::cover_room(const Body& body, int cell, const Vec3& from, double covered, CutCells& cells) const {
+    if (covered >= k_wholly_covered) return take_room(grid_, cell, covered, cells.room);
     PartShares shares{};
     double sum = 0.0;
     for_each_part(grid_, from, [&](int number, const Vec3& centre, const Vec3& size) {
@@ -300,10 +312,7 @@ void CellCutter::cover_room(const Body& body, int cell, const Vec3& from, double
         shares[number] = std::clamp(0.5 + (body.radius - arm.norm()) / size.x(), 0.0, 1.0);
         sum += shares[number];
     });
-    if (sum <= 0.0) {
-        shares.fill(1.0);  // a corner too small to reach the middle of a part
-        sum = parts_of(grid_).count();
-    }
+    if (sum <= 0.0) return take_room(grid_, cell, covered, cells.room);  // a corner too small to reach the middle of a part
     for (double& share : shares) share *= covered * parts_of(grid_).count() / sum;
     take_room(grid_, cell, shares, cells.room);
 }
@@ -380,14 +389,15 @@ void CellCutter::cover_faces(int index, const Body& body, int d, CutCells& cells
     });
 }
 
-void CellCutter::cover_volumes(const Body& body, CutCells& cells) const {
+void CellCutter::cover_volumes(int index, const Body& body, CutCells& cells) const {
     for_each_in(range_of(grid_, body), [&](int i, int j, int k) {
         const int cell = grid_.at(i, j, k);
-        double& open = cells.open_volume[cell];
-        if (open <= 0.0) return;
         const auto [low_corner, high] = corners(grid_, i, j, k);
         const double covered = covered_volume(body, low_corner, high) / grid_.cell_volume();
         if (covered <= 0.0) return;
+        cells.covering.add(cell, index);
+        double& open = cells.open_volume[cell];
+        if (open <= 0.0) return;
         if (open >= 1.0) cells.cut.push_back(cell);
         cover_room(body, cell, low_corner, std::min(open, covered), cells);
         open = std::max(0.0, open - covered);
@@ -397,7 +407,7 @@ void CellCutter::cover_volumes(const Body& body, CutCells& cells) const {
 void CellCutter::add_body(int index, const Body& body, CutCells& cells) {
     for (const int d : grid_.directions()) cover_faces(index, body, d, cells);
     for (const BodyCell& entry : cells.bodies[index]) entry_[entry.cell] = -1;
-    cover_volumes(body, cells);
+    cover_volumes(index, body, cells);
 }
 
 bool CellCutter::has_open_face(const CutCells& cells, int cell) const {
@@ -426,6 +436,7 @@ void CellCutter::cut(gsl::span<const Body> bodies, CutCells& cells) {
     lists.resize(bodies.size());
     for (auto& list : lists) list.clear();
     cells.bodies = std::move(lists);
+    cells.covering.clear(grid_.size());
     for (std::size_t b = 0; b < bodies.size(); ++b) add_body(static_cast<int>(b), bodies[b], cells);
     fold(grid_, k_centres, 1.0, cells.room);
     if (bodies.empty()) return;

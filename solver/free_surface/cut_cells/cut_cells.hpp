@@ -2,6 +2,7 @@
 /// \file Open areas and volumes of the grid's cells, and how moving bodies push water: the incidence of body motion on cells.
 #include <Eigen/Geometry>
 
+#include "solver/free_surface/cell_lists.hpp"
 #include "solver/free_surface/cut_cells/slip_walls.hpp"
 #include "solver/free_surface/cut_cells/still_solids.hpp"
 
@@ -43,6 +44,7 @@ struct CutCells {
     std::array<std::vector<std::int16_t>, 3> owner;  ///< body that covers most of a face, or a gate; k_no_body: none or what stands still
     std::vector<std::vector<BodyCell>> bodies;       ///< of each body
     std::vector<std::vector<BodyCell>> gates;        ///< the same of each gate
+    CellLists covering;                              ///< bodies that cover a part of each cell
 };
 
 /// Smaller remainders of a face's open share are given to the solid: from round-off they would become jets.
@@ -78,7 +80,7 @@ private:
     void find_slip_walls();
     void add_body(int index, const Body& body, CutCells& cells);
     void cover_faces(int index, const Body& body, int direction, CutCells& cells);
-    void cover_volumes(const Body& body, CutCells& cells) const;
+    void cover_volumes(int index, const Body& body, CutCells& cells) const;
     void cover_still_room(const std::vector<StillSolid>& solids, int cell, const Vec3& from);
     void cover_room(const Body& body, int cell, const Vec3& from, double covered, CutCells& cells) const;
     bool has_open_face(const CutCells& cells, int cell) const;
