@@ -51,6 +51,24 @@ double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head
     return std::max(modulus, *k_contact_section.row("youngsModulus").minimum);
 }
 
+/// What the file does not give of the pairs of materials comes from its preset.
+void resolve_pairs(ParameterValues& values) {
+    coupling::ContactSettings contact;
+    coupling::use_preset(contact, values.text(k_preset_key));
+    for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
+        for (const coupling::Setting<coupling::PairSettings>& setting : coupling::setting_table<coupling::PairSettings>())
+            if (!values.has(key_of(pair, setting))) values.set(key_of(pair, setting), setting.value_in(contact.*pair.settings));
+}
+
+/// \param resolved  with every key of the pairs
+coupling::ContactSettings read_contact(const ParameterValues& resolved) {
+    coupling::ContactSettings contact = k_contact_section.read(resolved);
+    for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
+        for (const coupling::Setting<coupling::PairSettings>& setting : coupling::setting_table<coupling::PairSettings>())
+            setting.assign(contact.*pair.settings, *resolved.find(key_of(pair, setting)));
+    return contact;
+}
+
 double derived_outflow_start(const ParameterValues& values) {
     const double flow_only = values.number("run.flow_revolutions") * period_of(values);
     const double end = end_time_of(values);
@@ -323,6 +341,7 @@ ParameterValues resolve_study(const ParameterValues& values, const HeadSize& hea
     fill(resolved, "tank.bed_clearance_m", 0.975 * ring);
     fill(resolved, "tank.height_m", resolved.number("tank.bed_clearance_m") + head.depth + 1.0875 * ring);
     fill(resolved, "rock.youngs_modulus_pa", needed_youngs_modulus(values, head));
+    resolve_pairs(resolved);
     fill(resolved, "run.checkpoint_interval_s", 0.25 * period_of(values));
     fill(resolved, "run.write_interval_s", 0.25 * period_of(values));
     fill(resolved, "report.bin_width_m", 0.075 * ring);
@@ -359,7 +378,7 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.tank = {number("tank.radius_m"), number("tank.bed_clearance_m"), number("tank.height_m")};
     study.mesh_preset = resolved.text("mesh.preset");
     study.fluid = {number("fluid.density_kg_m3"), number("fluid.kinematic_viscosity_m2_s")};
-    study.contact = k_contact_section.read(resolved);
+    study.contact = read_contact(resolved);
     study.closures = k_closure_section.read(resolved);
     study.kernel = k_kernel_section.read(resolved);
     study.length_ratio = number("scale.length_ratio");

@@ -55,6 +55,12 @@ struct StudySection {
     }
 };
 
+/// Keys of a pair of materials, as "rock.friction_steel".
+inline std::string key_of(const coupling::MaterialPair& pair, const coupling::Setting<coupling::PairSettings>& setting) {
+    return "rock." + snake_case(setting.parameter.key) + "_" + pair.other;
+}
+
+inline constexpr const char* k_preset_key = "rock.preset";
 inline constexpr StudySection<coupling::ContactSettings> k_contact_section{"rock", "maxSpeed"};
 inline constexpr StudySection<coupling::ClosureSettings> k_closure_section{"closures"};
 inline constexpr StudySection<coupling::KernelSettings> k_kernel_section{"kernel"};

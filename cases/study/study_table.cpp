@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cases/study/study.hpp"
 #include "cases/study/study_section.hpp"
@@ -130,10 +131,41 @@ ParameterTable settings_of(const StudySection<Settings>& section) {
     return rows;
 }
 
+/// "0.5 (gravel), 0.15 (paper)".
+std::string values_by_preset(const coupling::MaterialPair& pair, const coupling::Setting<coupling::PairSettings>& setting) {
+    std::vector<std::string> values;
+    for (const coupling::PairPreset& preset : coupling::pair_presets()) {
+        coupling::ContactSettings contact;
+        coupling::use_preset(contact, preset.name);
+        values.push_back(fmt::format("{:g} ({})", std::get<double>(setting.value_in(contact.*pair.settings)), preset.name));
+    }
+    return fmt::format("{}", fmt::join(values, ", "));
+}
+
+/// Keys of every pair of materials; what a file leaves out comes from rock.preset.
+ParameterTable pair_rows() {
+    std::vector<std::string> names;
+    for (const coupling::PairPreset& preset : coupling::pair_presets()) names.emplace_back(preset.name);
+    ParameterTable rows{choice(k_case_stage, k_preset_key, names,
+                               "Friction, restitution and rolling friction that the keys below do not give: of angular gravel, or the "
+                               "reference's, in which rock is smooth and rolls freely.")
+                            .by_default(std::string(coupling::k_gravel_pairs))
+                            .source("NieuwboerVanRheeKeetels2023")};
+    for (const coupling::Setting<coupling::PairSettings>& setting : coupling::setting_table<coupling::PairSettings>()) {
+        for (const coupling::MaterialPair& pair : coupling::k_material_pairs) {
+            Parameter of_pair = setting.parameter;
+            of_pair.key = key_of(pair, setting);
+            of_pair.help = fmt::format("Rock on {}. {}", pair.other, of_pair.help);
+            rows.push_back(Row(std::move(of_pair)).derived(values_by_preset(pair, setting)).stage(k_case_stage));
+        }
+    }
+    return rows;
+}
+
 ParameterTable rock_rows() {
     ParameterTable rows = settings_of(k_contact_section);
     rows.front() = Row(rows.front()).derived("so that rock at tip speed overlaps steel by 5 % of its radius");
-    for (const ParameterTable& more : {settings_of(k_closure_section), settings_of(k_kernel_section)})
+    for (const ParameterTable& more : {pair_rows(), settings_of(k_closure_section), settings_of(k_kernel_section)})
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

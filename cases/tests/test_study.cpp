@@ -69,6 +69,14 @@ TEST_F(StudyFile, two_mistakes_are_both_reported_with_their_lines) {
     EXPECT_TRUE(any_contains(mistakes, "Did you mean suction.mouth_radius_m?"));
 }
 
+TEST_F(StudyFile, keys_that_became_those_of_pairs_are_refused_with_their_successors) {
+    const std::vector<Mistake> mistakes = mistakes_of(minimal("[rock]\nfriction = 0.3\nrestitution = 0.9\n"));
+    ASSERT_EQ(mistakes.size(), 2u);
+    EXPECT_TRUE(any_contains(mistakes, "key rock.friction is unknown"));
+    EXPECT_TRUE(any_contains(mistakes, "Did you mean rock.friction_rock and rock.friction_steel?"));
+    EXPECT_TRUE(any_contains(mistakes, "Did you mean rock.restitution_rock and rock.restitution_steel?"));
+}
+
 TEST_F(StudyFile, a_feeds_quantity_is_given_once_and_its_rock_sinks) {
     EXPECT_TRUE(mistakes_of(with_feed("count = 3\n")).empty());
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nmass_kg = 1\n")), "both count and mass_kg"));
@@ -154,6 +162,27 @@ TEST(Study, blades_go_down_at_the_bank_when_over_cutting_and_up_when_under_cutti
         EXPECT_NEAR(downward("over_cut"), 1.0, 1e-12) << rotor;
         EXPECT_NEAR(downward("under_cut"), -1.0, 1e-12) << rotor;
     }
+}
+
+TEST(Study, pairs_of_materials_come_from_the_preset_where_the_file_is_silent) {
+    const auto contact = [](const std::string& rock) {
+        return make_study(resolve_study(parse(minimal("[rock]\n" + rock)), k_model), "/tmp").contact;
+    };
+    const coupling::ContactSettings gravel = contact(""), paper = contact("preset = \"paper\"\n"),
+                                    mixed = contact("preset = \"paper\"\nfriction_steel = 0.4\nrolling_friction_rock = 0.3\n");
+    EXPECT_EQ(gravel.rock_rock.friction, 0.5);
+    EXPECT_EQ(gravel.rock_steel.friction, 0.35);
+    EXPECT_EQ(gravel.rock_steel.rolling_friction, 0.1);
+    for (const coupling::PairSettings& pair : {paper.rock_rock, paper.rock_steel}) {
+        EXPECT_EQ(pair.friction, 0.15);
+        EXPECT_EQ(pair.restitution, 0.97);
+        EXPECT_EQ(pair.rolling_friction, 0.0);
+    }
+    EXPECT_EQ(mixed.rock_steel.friction, 0.4);
+    EXPECT_EQ(mixed.rock_rock.friction, 0.15);
+    EXPECT_EQ(mixed.rock_rock.rolling_friction, 0.3);
+    EXPECT_EQ(mixed.rock_steel.rolling_friction, 0.0);
+    EXPECT_EQ(gravel.rolling_law, "spring");
 }
 
 TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {

@@ -24,9 +24,17 @@ void add_coupling_models(const coupling::CouplingSettings& settings, std::vector
 
 void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {
     const coupling::ContactSettings& contact = dem.contact;
-    notes.push_back({fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa, friction {:.3g}, restitution {:.3g}",
-                                 contact.youngs_modulus, contact.friction, contact.restitution),
-                     "rock hits rock and steel"});
+    notes.push_back(
+        {fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa", contact.youngs_modulus), "rock hits rock and steel"});
+    for (const coupling::MaterialPair& pair : coupling::k_material_pairs) {
+        const coupling::PairSettings& given = contact.*pair.settings;
+        notes.push_back({fmt::format("rock on {}: friction {:.3g}, restitution {:.3g}", pair.other, given.friction, given.restitution),
+                         std::string("rock.contact.pairs.") + pair.name});
+        if (given.rolling_friction > 0.0)
+            notes.push_back(
+                {fmt::format("rolling friction of rock on {}: {:.3g}, {}", pair.other, given.rolling_friction, contact.rolling_law),
+                 "rock is no sphere: it comes to rest"});
+    }
     if (contact.wet_restitution) notes.push_back({"wet restitution after Legendre", "the fluid in the gap damps slow impacts"});
 }
 

@@ -413,7 +413,7 @@ private:
         dem.linear.damping = values_.number("contact.damping");
         dem.linear.poisson = values_.number("contact.poisson");
         dem.linear.accumulated_shear = values_.text("contact.shear") == "accumulated";
-        dem.contact.friction = values_.number("contact.friction");
+        dem.contact.set_every_pair({values_.number("contact.friction"), dem.contact.rock_rock.restitution, 0.0});
         dem.contact.wet_restitution = false;
         if (dem.linear.damping >= std::sqrt(0.5))
             refuse(values_.where("contact.damping"), fmt::format("contact.damping = {:g}", dem.linear.damping),

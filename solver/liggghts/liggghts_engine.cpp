@@ -50,8 +50,10 @@ constexpr double k_margin_in_radii = 0.25;    // of the domain's half width: roo
 constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at each rebuild
 constexpr const char* k_restart_file = "dem.restart";
 constexpr const char* k_state_file = "dem.json";
+constexpr const char* k_rolling_history = "rolling_history";
 constexpr const char* k_motion = "rock_motion";
 constexpr const char* k_wall_contacts = "wall_contacts";
+constexpr const char* k_wall_rolling = "wall_rolling";
 constexpr const char* k_contact_forces = "contact_forces";
 
 /// Smallest upright box around a domain.
@@ -191,7 +193,7 @@ LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& sett
     : settings_(checked(settings)),
       has_rotor_(!moving.empty()),
       rotor_(has_rotor_ ? moving.front() : coupling::ZoneMotion{}),
-      context_(settings, rotor_.axis) {
+      context_(settings, rotor_) {
     Expects(moving.size() <= 1);
     read_walls();
     MPI_Comm_dup(communicator, &communicator_);
@@ -305,7 +307,9 @@ void LiggghtsEngine::Implementation::declare_walls() {
         command(commands::rock_property(name, columns));
         return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps_->modify->find_fix_id(name));
     };
-    wall_contacts_.emplace(lammps_.get(), context_, property(k_wall_contacts, WallContacts::columns));
+    auto* records = property(k_wall_contacts, WallContacts::columns);
+    auto* rolling = context_.rock_steel.resists_rolling() ? property(k_wall_rolling, WallContacts::rolling_columns) : nullptr;
+    wall_contacts_.emplace(lammps_.get(), context_, records, rolling);
     context_.wall_contacts = &*wall_contacts_;
     contact_forces_ = property(k_contact_forces, 6);
     for (Wall& wall : walls_) {
@@ -421,8 +425,8 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         const double radius = 0.5 * rocks_.diameter[k];
         const double mass = context_.mass_of(0.5 * rocks_.diameter[k], rocks_.density[k]);
-        const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.youngs, contact.max_speed};
-        const physics::Impact on_steel{mass, radius, context_.rock_steel.youngs, contact.max_speed};
+        const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.elastic.youngs, contact.max_speed};
+        const physics::Impact on_steel{mass, radius, context_.rock_steel.elastic.youngs, contact.max_speed};
         shortest = std::min({shortest, physics::hertz_time(on_rock), physics::hertz_time(on_steel),
                              physics::rayleigh_time(radius, rocks_.density[k], contact.youngs_modulus, contact.poisson_rock)});
     }
@@ -614,7 +618,8 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     const double torque = sum(contact_torque_);
     if (is_first_rank()) {
         std::ofstream stream(folder / k_state_file);
-        stream << nlohmann::json{{"time_s", time_}, {"torque_n_m", torque}}.dump(2) << '\n';
+        const bool rolling = context_.rock_rock.resists_rolling();
+        stream << nlohmann::json{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}}.dump(2) << '\n';
         if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / k_state_file).string()));
     }
     MPI_Barrier(communicator_);
@@ -622,8 +627,15 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
 
 void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path& folder) {
     const char* const remedy = "Remove this checkpoint folder; the run then resumes from the one before";
-    const nlohmann::json state =
-        read_json_document(folder / k_state_file, {{"time_s", JsonKind::number, true}, {"torque_n_m", JsonKind::number, true}}, remedy);
+    const nlohmann::json state = read_json_document(
+        folder / k_state_file,
+        {{"time_s", JsonKind::number, true}, {"torque_n_m", JsonKind::number, true}, {k_rolling_history, JsonKind::truth, false}}, remedy);
+    const bool written_with = state.value(k_rolling_history, false), rolling = context_.rock_rock.resists_rolling();
+    if (written_with != rolling)
+        throw UserError({{(folder / k_state_file).string(),
+                          fmt::format("the checkpoint was written {} rolling friction of rock on rock", written_with ? "with" : "without"),
+                          fmt::format("This run has it {}; what contacts remember differs", rolling ? "above 0" : "0"),
+                          "Resume with the settings of the checkpoint, or start anew"}});
     if (!std::filesystem::is_regular_file(folder / k_restart_file))
         throw UserError(
             {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", remedy}});

@@ -1,8 +1,10 @@
 #include "solver/ports/dem_settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gsl/assert>
 
 #include "geometry/base/mistakes.hpp"
 
@@ -21,7 +23,19 @@ void check_linear(Mistakes& mistakes, const DemSettings& settings) {
     mistakes.require(law.poisson >= 0.0 && law.poisson <= 0.5, "contact.poisson", law.poisson, "It must be within 0 and 0.5", k_correct);
     mistakes.require(std::isfinite(law.steps_per_period) && law.steps_per_period >= 20.0, "contact steps per period", law.steps_per_period,
                      "It must be at least 20", k_correct);
-    mistakes.not_negative("contact.friction", settings.contact.friction);
+    for (const MaterialPair& pair : k_material_pairs) {
+        const PairSettings& given = settings.contact.*pair.settings;
+        mistakes.not_negative("contact.friction", given.friction);
+        mistakes.require(given.rolling_friction == 0.0, "rolling friction", given.rolling_friction, "It must be 0: the linear law has none",
+                         k_correct);
+    }
+}
+
+/// What Hertz' law works from.
+void check_hertz(Mistakes& mistakes, const ContactSettings& contact, const std::string& where) {
+    mistakes.add(setting_mistakes(contact, "rock.contact", where));
+    for (const MaterialPair& pair : k_material_pairs)
+        mistakes.add(setting_mistakes(contact.*pair.settings, std::string("rock.contact.pairs.") + pair.name, where));
 }
 
 void check_shape(Mistakes& mistakes, const DemSettings& settings) {
@@ -62,6 +76,21 @@ void check_fluid(Mistakes& mistakes, const DemSettings& settings) {
 
 }  // namespace
 
+const std::array<PairPreset, 2>& pair_presets() {
+    static const ContactSettings gravel;
+    static const std::array<PairPreset, 2> presets{
+        {{k_gravel_pairs, gravel.rock_rock, gravel.rock_steel}, {k_paper_pairs, {0.15, 0.97, 0.0}, {0.15, 0.97, 0.0}}}};
+    return presets;
+}
+
+void use_preset(ContactSettings& settings, const std::string& name) {
+    const auto& presets = pair_presets();
+    const auto found = std::find_if(presets.begin(), presets.end(), [&](const PairPreset& preset) { return preset.name == name; });
+    Expects(found != presets.end());
+    settings.rock_rock = found->rock_rock;
+    settings.rock_steel = found->rock_steel;
+}
+
 bool contains(const DomainSettings& domain, const Vec3& centre) {
     const auto between = [&](Eigen::Index i) { return centre[i] >= domain.lower[i] && centre[i] <= domain.upper[i]; };
     if (domain.shape == DomainShape::box) return between(0) && between(1) && between(2);
@@ -73,7 +102,7 @@ std::vector<Mistake> check_settings(const DemSettings& settings, const std::stri
     if (settings.law == ContactLaw::linear)
         check_linear(mistakes, settings);
     else
-        mistakes.add(setting_mistakes(settings.contact, "rock.contact", where));
+        check_hertz(mistakes, settings.contact, where);
     check_shape(mistakes, settings);
     if (settings.domain.shape == DomainShape::cylinder)
         check_cylinder(mistakes, settings.domain);

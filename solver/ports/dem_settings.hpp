@@ -12,18 +12,52 @@
 
 namespace cutterflow::coupling {
 
-/// Contact law of rock on rock and rock on steel (docs/theory/contact.md). Both materials have the same Young's modulus.
-struct ContactSettings {
-    double youngs_modulus = 0.0;      ///< [Pa]
-    double poisson_rock = 0.24;       ///< [-]
-    double poisson_steel = 0.27;      ///< [-]
-    double friction = 0.15;           ///< Coulomb, rock on rock and rock on steel [-]
-    double restitution = 0.97;        ///< dry [-], 0.14 to 1
-    bool wet_restitution = true;      ///< e after Legendre from the impact speed
-    double time_step_fraction = 0.1;  ///< of the smaller of Rayleigh and Hertz time
-    double max_speed = 0.0;           ///< impact speed for the Hertz time [m/s]
+/// What two materials have in common when they touch.
+struct PairSettings {
+    double friction = 0.5;          ///< Coulomb [-]
+    double restitution = 0.97;      ///< dry [-], 0.14 to 1
+    double rolling_friction = 0.1;  ///< largest rolling couple over normal force and rolling radius [-]
 };
 
+/// Contact law of rock on rock and rock on steel (docs/theory/contact.md). Both materials have the same Young's modulus.
+struct ContactSettings {
+    double youngs_modulus = 0.0;  ///< [Pa]
+    double poisson_rock = 0.24;   ///< [-]
+    double poisson_steel = 0.27;  ///< [-]
+    PairSettings rock_rock;
+    PairSettings rock_steel{0.35, 0.97, 0.1};
+    std::string rolling_law = "spring";  ///< or "constant"
+    bool wet_restitution = true;         ///< e after Legendre from the impact speed
+    double time_step_fraction = 0.1;     ///< of the smaller of Rayleigh and Hertz time
+    double max_speed = 0.0;              ///< impact speed for the Hertz time [m/s]
+
+    void set_every_pair(const PairSettings& pair) { rock_rock = rock_steel = pair; }
+};
+
+/// A pair of materials that can touch: rock and another one.
+struct MaterialPair {
+    const char* name;   ///< of its section of couplingProperties
+    const char* other;  ///< material
+    PairSettings ContactSettings::*settings;
+};
+inline constexpr std::array<MaterialPair, 2> k_material_pairs{
+    {{"rock_rock", "rock", &ContactSettings::rock_rock}, {"rock_steel", "steel", &ContactSettings::rock_steel}}};
+
+/// Coefficients of every pair under one name.
+struct PairPreset {
+    const char* name;
+    PairSettings rock_rock, rock_steel;
+};
+inline constexpr const char* k_gravel_pairs = "gravel";  ///< angular gravel; the default
+inline constexpr const char* k_paper_pairs = "paper";    ///< [NieuwboerVanRheeKeetels2023]
+
+const std::array<PairPreset, 2>& pair_presets();
+
+/// Takes the pairs of that preset. \pre there is one of that name
+void use_preset(ContactSettings& settings, const std::string& name);
+
+template <>
+const SettingTable<PairSettings>& setting_table<PairSettings>();
 template <>
 const SettingTable<ContactSettings>& setting_table<ContactSettings>();
 
@@ -99,7 +133,7 @@ struct DemSettings {
     FluidProperties fluid;
     double added_mass = 0.5;  ///< C_AM [-]
     ContactLaw law = ContactLaw::hertz;
-    LinearContactSettings linear;         ///< of the linear law; friction is that of `contact`
+    LinearContactSettings linear;         ///< of the linear law; friction is that of the pairs of `contact`; nothing resists rolling
     RockShape shape = RockShape::sphere;  ///< cylinders lie along y and stay in their plane
     double cylinder_length = 0.0;         ///< [m]
     double contact_gap = 0.0;             ///< surfaces touch at this distance, at half of it on walls [m]

@@ -95,6 +95,22 @@ SettingTable<ClosureSettings> closure_rows() {
         .take();
 }
 
+SettingTable<PairSettings> pair_rows() {
+    using S = PairSettings;
+    return Rows<S>()
+        .add(&S::friction, number("friction", "-", "Coefficient of friction.").at_least(0.0).at_most(10.0))
+        .add(&S::restitution,
+             number("restitution", "-", "Restitution of a dry impact.").at_least(physics::k_smallest_restitution).at_most(1.0))
+        .add(&S::rolling_friction,
+             number("rollingFriction", "-",
+                    "Largest couple against rolling over normal force and rolling radius: the tangent of the slope on "
+                    "which a sphere starts to roll. 0: none.")
+                 .at_least(0.0)
+                 .at_most(10.0)
+                 .source("Ai2011"))
+        .take();
+}
+
 SettingTable<ContactSettings> contact_rows() {
     using S = ContactSettings;
     return Rows<S>()
@@ -104,9 +120,12 @@ SettingTable<ContactSettings> contact_rows() {
                                          .at_most(1e12))
         .add(&S::poisson_rock, number("poissonRock", "-", "Poisson's ratio of rock.").at_least(0.0).at_most(0.5))
         .add(&S::poisson_steel, number("poissonSteel", "-", "Poisson's ratio of steel.").at_least(0.0).at_most(0.5))
-        .add(&S::friction, number("friction", "-", "Coefficient of friction, rock on rock and on steel.").at_least(0.0).at_most(10.0))
-        .add(&S::restitution,
-             number("restitution", "-", "Restitution of a dry impact.").at_least(physics::k_smallest_restitution).at_most(1.0))
+        .add(&S::rolling_law,
+             ParameterRow("rollingLaw", ParameterKind::choice, "-",
+                          "What resists rolling: a spring that gives way at the largest couple, so that rock comes to rest, "
+                          "or that couple alone.")
+                 .one_of({"spring", "constant"})
+                 .source("Ai2011"))
         .add(&S::wet_restitution, yes_or_no("wetRestitution", "Whether water damps impacts by their Stokes number.").source("Legendre2006"))
         .add(&S::time_step_fraction,
              number("timeStepFraction", "-", "DEM time step over the smaller of Rayleigh time and Hertz time at the largest impact speed.")
@@ -188,6 +207,7 @@ template struct Setting<CheckpointSettings>;
 template struct Setting<RecordSettings>;
 template struct Setting<KernelSettings>;
 template struct Setting<ClosureSettings>;
+template struct Setting<PairSettings>;
 template struct Setting<ContactSettings>;
 
 template <>
@@ -223,6 +243,12 @@ const SettingTable<KernelSettings>& setting_table<KernelSettings>() {
 template <>
 const SettingTable<ClosureSettings>& setting_table<ClosureSettings>() {
     static const SettingTable<ClosureSettings> table = closure_rows();
+    return table;
+}
+
+template <>
+const SettingTable<PairSettings>& setting_table<PairSettings>() {
+    static const SettingTable<PairSettings> table = pair_rows();
     return table;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/file_content.hpp"
+#include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace cutterflow::validation {
@@ -64,10 +65,8 @@ std::vector<Sweep<Options>> one_rock_sweeps(const std::vector<double>& mesh) {
 /// Section rock.contact of couplingProperties.
 inline std::string pareto_contact(double youngs_modulus, double dem_step) {
     return fmt::format(
-        "youngsModulus {:g}; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; timeStepFraction "
-        "{}; maxSpeed "
-        "1.5;",
-        youngs_modulus, dem_step);
+        "youngsModulus {:g}; poissonRock 0.24; poissonSteel 0.27; wetRestitution true; timeStepFraction {}; maxSpeed 1.5; {}",
+        youngs_modulus, dem_step, k_paper_contact_pairs);
 }
 
 /// A trial that an earlier start of the case finished in this folder, or a new one.

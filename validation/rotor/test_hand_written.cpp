@@ -29,7 +29,10 @@ using ::testing::HasSubstr;
 fs::path rotor(const std::string& name, bool with_rock = false) {
     const fs::path folder = scratch_folder(name);
     cases::CaseInputs inputs = cases::test::tiny_inputs();
-    if (with_rock) inputs.rock.emplace();
+    if (with_rock) {
+        inputs.rock.emplace();
+        coupling::use_preset(inputs.rock->contact, coupling::k_paper_pairs);
+    }
     write_rotor_case(folder, inputs, "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,0,0,0.18,-0.1,0.02,2650\n");
     std::ofstream(folder / "system/controlDict", std::ios::app) << R"(
 endTime 0.006; deltaT 2e-3; adjustTimeStep no; writeControl timeStep; writeInterval 1000;

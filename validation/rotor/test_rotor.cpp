@@ -53,6 +53,7 @@ fs::path rotor_case(const std::string& name, const std::string& feed = feed_tabl
     inputs.checkpoint.interval = 0.05;
     inputs.times.write_interval = 0.1;
     inputs.rock.emplace();
+    coupling::use_preset(inputs.rock->contact, coupling::k_paper_pairs);
     write_rotor_case(folder, inputs, feed);
     return folder;
 }

@@ -47,10 +47,16 @@ meshing::FoamDictionary domain_section(const coupling::DomainSettings& domain) {
         .add("walls", meshing::FoamValue::list(walls));
 }
 
+meshing::FoamDictionary contact_section(const coupling::ContactSettings& contact) {
+    meshing::FoamDictionary pairs;
+    for (const coupling::MaterialPair& pair : coupling::k_material_pairs) pairs.add(pair.name, section_of(contact.*pair.settings));
+    return section_of(contact).add("pairs", pairs);
+}
+
 meshing::FoamDictionary rock_section(const fs::path& feed, const coupling::DemSettings& dem) {
     return meshing::FoamDictionary()
         .add("feed", file_name(feed))
-        .add("contact", section_of(dem.contact))
+        .add("contact", contact_section(dem.contact))
         .add("walls", wall_list(dem.walls))
         .add("domain", domain_section(dem.domain));
 }

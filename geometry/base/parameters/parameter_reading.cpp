@@ -181,10 +181,15 @@ private:
                              nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
     }
 
-    /// A key of nearly this name in the same place, else one of this very name in another section.
+    /// Keys that begin with this one, as where one has become several, else one of nearly this name in the same place, else one of this
+    /// very name in another section.
     std::string nearest_key(const std::string& key) const {
-        std::vector<std::string> keys;
-        for (const Parameter& parameter : table_) keys.push_back(parameter.key);
+        std::vector<std::string> keys, longer;
+        for (const Parameter& parameter : table_) {
+            keys.push_back(parameter.key);
+            if (parameter.key.rfind(key + "_", 0) == 0) longer.push_back(parameter.key);
+        }
+        if (!longer.empty()) return join(longer, " and ");
         std::string nearest = nearest_word(key, keys);
         if (!nearest.empty()) return nearest;
         std::vector<std::string> names;

@@ -58,6 +58,17 @@ void read_settings(DictionarySection& section, Settings& settings) {
     }
 }
 
+void read_contact(DictionarySection& section, coupling::ContactSettings& contact) {
+    for (const char* former : {"friction", "restitution"})
+        section.refuse(former, "It is given for each pair of materials",
+                       fmt::format("Write pairs {{ rock_rock {{ {0} ...; }} rock_steel {{ {0} ...; }} }}", former));
+    read_settings(section, contact);
+    read_section(section, "pairs", k_optional, [&](DictionarySection& pairs) {
+        for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
+            read_section(pairs, pair.name, k_optional, [&](DictionarySection& one) { read_settings(one, contact.*pair.settings); });
+    });
+}
+
 coupling::WallSettings read_wall(DictionarySection& section, const std::filesystem::path& folder) {
     coupling::WallSettings wall;
     section.read("name", wall.name, k_required);
@@ -98,7 +109,7 @@ void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
 void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::DemSettings dem;
     section.read("feed", result.coupling.rock_feed, folder, k_required);
-    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_settings(contact, dem.contact); });
+    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, dem.contact); });
     for (const Foam::dictionary& dict : section.sections("walls", k_optional)) {
         DictionarySection wall = section.below(dict, "walls");
         dem.walls.push_back(read_wall(wall, folder));

@@ -25,7 +25,7 @@ struct CouplingDictionary {
 /// rock                                                        // optional
 /// {
 ///     feed     "constant/rockFeed.csv";
-///     contact  { youngsModulus 1e8; maxSpeed 1; }             // optional: poissonRock, poissonSteel, friction, restitution ...
+///     contact  { youngsModulus 1e8; maxSpeed 1; }             // optional: pairs { rock_steel { friction 0.3; } } ...
 ///     walls    ( { name a; file "constant/a.stl"; rotating false; } );                    // optional
 ///     domain   { type box; lower (0 0 0); upper (1 1 1); walls (zMin); }
 ///     // domain { type cylinder; axisPoint (0 0 0); radius 1; zMin 0; zMax 1; walls (zMin zMax); }

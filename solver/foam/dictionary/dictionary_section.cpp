@@ -195,9 +195,16 @@ void DictionarySection::report(const std::string& key, const std::string& what, 
     findings_.add(full_name(key), {where(key), fmt::format("{} {}", full_name(key), what), rule, "Correct the value"});
 }
 
+void DictionarySection::refuse(const std::string& key, const std::string& rule, const std::string& remedy) {
+    if (!dict_.found(key, Foam::keyType::LITERAL)) return;
+    refused_.push_back(key);
+    findings_.add(full_name(key), {where(key), fmt::format("{} is no key of this version", full_name(key)), rule, remedy});
+}
+
 void DictionarySection::finish() {
     for (const Foam::word& key : dict_.toc()) {
         if (key == "FoamFile" || std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+        if (std::find(refused_.begin(), refused_.end(), key) != refused_.end()) continue;
         const std::string nearest = nearest_word(key, known_);
         findings_.add({where(key), fmt::format("{} is unknown", full_name(key)),
                        fmt::format("The keys {} are {}", name_.empty() ? "of the file" : "of " + name_, fmt::join(known_, ", ")),

@@ -70,6 +70,9 @@ public:
     /// Adds a mistake about the value of a key.
     void report(const std::string& key, const std::string& what, const std::string& rule);
 
+    /// Adds a mistake when the section has this key, which it had in an earlier version.
+    void refuse(const std::string& key, const std::string& rule, const std::string& remedy);
+
     void finish();
 
 private:
@@ -84,7 +87,7 @@ private:
     std::string name_;
     std::string file_;
     Findings& findings_;
-    std::vector<std::string> known_;
+    std::vector<std::string> known_, refused_;
 };
 
 }  // namespace cutterflow::foam

@@ -70,13 +70,19 @@ const char* const k_fates = R"(
 fates { contour "c.csv"; ringRadius 0.4; zBackplate 0.03; binWidth 0.03; mouth { centre (0 0 0); direction (0 0 1); radius 0.1; depth 0.2; } }
 )";
 
+template <class Settings>
+void expect_same(const Settings& found, const Settings& written) {
+    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>())
+        EXPECT_EQ(setting.value_in(found), setting.value_in(written)) << setting.parameter.key;
+}
+
 const char* const k_complete = R"(
 patches { outlet suction_end; steel (cutter "backplate"); }
 rock
 {
     feed "constant/rockFeed.csv";
-    contact { youngsModulus 1.1e8; poissonRock 0.25; poissonSteel 0.3; friction 0.2; restitution 0.9; wetRestitution false;
-              timeStepFraction 0.05; maxSpeed 4; }
+    contact { youngsModulus 1.1e8; poissonRock 0.25; poissonSteel 0.3; wetRestitution false; timeStepFraction 0.05; maxSpeed 4;
+              rollingLaw constant; pairs { rock_steel { friction 0.2; restitution 0.9; rollingFriction 0.3; } } }
     walls
     (
         { name cutter; file "constant/triSurface/cutter_dem.stl"; rotating true; }
@@ -136,6 +142,9 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_DOUBLE_EQ(read_back.dem->contact.youngs_modulus, 1.1e8);
     EXPECT_DOUBLE_EQ(read_back.dem->contact.poisson_steel, 0.3);
     EXPECT_FALSE(read_back.dem->contact.wet_restitution);
+    EXPECT_EQ(read_back.dem->contact.rolling_law, "constant");
+    expect_same(read_back.dem->contact.rock_steel, {0.2, 0.9, 0.3});
+    expect_same(read_back.dem->contact.rock_rock, coupling::PairSettings{});
     ASSERT_EQ(read_back.dem->walls.size(), 2u);
     EXPECT_EQ(read_back.dem->walls[0].name, "cutter");
     EXPECT_TRUE(read_back.dem->walls[0].rotating);
@@ -174,24 +183,20 @@ std::string section_of(Settings& settings, std::size_t choice) {
     return text;
 }
 
-template <class Settings>
-void expect_same(const Settings& found, const Settings& written) {
-    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>())
-        EXPECT_EQ(setting.value_in(found), setting.value_in(written)) << setting.parameter.key;
-}
-
 TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
     for (const std::size_t choice : {0, 1, 2}) {
         coupling::ContactSettings contact;
+        coupling::PairSettings rock_rock, rock_steel = contact.rock_steel;
         coupling::KernelSettings kernel;
         coupling::ClosureSettings closures;
         coupling::OutflowSettings outflow;
         coupling::StopSettings stop;
         coupling::CheckpointSettings checkpoint;
         coupling::RecordSettings record;
-        const std::string rock =
-            fmt::format("rock {{ feed \"f.csv\"; contact {{ {} }} domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}",
-                        section_of(contact, choice));
+        const std::string rock = fmt::format(
+            "rock {{ feed \"f.csv\"; contact {{ {} pairs {{ rock_rock {{ {} }} rock_steel {{ {} }} }} }} "
+            "domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}",
+            section_of(contact, choice), section_of(rock_rock, choice), section_of(rock_steel, (choice + 1) % 3));
         const std::string record_section = section_of(record, choice);
         // Any end is later than this start.
         const std::string text = fmt::format(
@@ -202,6 +207,8 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         const CouplingDictionary found = read("dictionary_round_trip_" + std::to_string(choice), text);
         ASSERT_TRUE(found.dem && found.coupling.outflow && found.coupling.stop && found.coupling.checkpoint);
         expect_same(found.dem->contact, contact);
+        expect_same(found.dem->contact.rock_rock, rock_rock);
+        expect_same(found.dem->contact.rock_steel, rock_steel);
         expect_same(found.coupling.kernel, kernel);
         expect_same(found.coupling.closures, closures);
         expect_same(*found.coupling.outflow, outflow);
@@ -263,6 +270,34 @@ stop { undecided 0.1; }
             about(coupling, 7, "z from 1 to 0"), about(coupling, 8, "qMax is no side"),
             about(coupling, 10, "closures.drag = \"brownlawler\""), about(coupling, 10, "closures.addedMass = -1"),
             about(coupling, 11, "section stop without section fates"), about(transport, 3, "nu = 0"), about(transport, 4, "rho = -5")));
+}
+
+TEST(CouplingDictionary, NamesWrongValuesOfPairsAndWhatTookThePlaceOfFormerKeys) {
+    const auto mistakes = mistakes_of([&] {
+        read("dictionary_pairs", R"(
+rock
+{
+    feed "f.csv";
+    contact { youngsModulus 1e8; maxSpeed 1; friction 0.2;
+              pairs
+              {
+                  rock_rock { friction -1; }
+                  rock_steel { rollingFriction 11; }
+                  steel_steel { friction 0.1; }
+              }
+            }
+    domain { type box; lower (0 0 0); upper (1 1 1); }
+}
+)");
+    });
+    const std::string file = "constant/couplingProperties";
+    EXPECT_THAT(mistakes,
+                ::testing::UnorderedElementsAre(
+                    AllOf(::testing::StartsWith(file + line(6)), HasSubstr("rock.contact.friction is no key of this version"),
+                          HasSubstr("pairs { rock_rock { friction ...; } rock_steel { friction ...; } }")),
+                    AllOf(::testing::StartsWith(file + line(9)), HasSubstr("rock.contact.pairs.rock_rock.friction = -1")),
+                    AllOf(::testing::StartsWith(file + line(10)), HasSubstr("rock.contact.pairs.rock_steel.rollingFriction = 11")),
+                    AllOf(::testing::StartsWith(file + line(11)), HasSubstr("rock.contact.pairs.steel_steel is unknown"))));
 }
 
 TEST(CouplingDictionary, NamesAMissingFileOfRockAsAMistake) {

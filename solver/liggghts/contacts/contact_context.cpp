@@ -14,16 +14,22 @@ std::map<const LAMMPS_NS::LAMMPS*, ContactContext*>& contexts() {
     return instances;
 }
 
+/// \param poisson  of what the rock touches
+PairLaw law_of(const coupling::PairSettings& pair, const coupling::ContactSettings& contact, double poisson) {
+    return {pair, elastic_pair(contact.youngs_modulus, contact.poisson_rock, poisson), physics::hertz_damping_factor(pair.restitution)};
+}
+
 }  // namespace
 
-ContactContext::ContactContext(const coupling::DemSettings& settings, const RotationAxis& rotor_axis)
-    : contact(settings.contact),
+ContactContext::ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor)
+    : wet_restitution(settings.contact.wet_restitution),
       fluid(settings.fluid),
       added_mass(settings.added_mass),
-      axis(rotor_axis),
-      rock_rock(elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_rock)),
-      rock_steel(elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_steel)),
-      dry_damping_factor(physics::hertz_damping_factor(contact.restitution)),
+      axis(rotor.axis),
+      rotor_spin(rotor.speed * rotor.axis.direction),
+      rock_rock(law_of(settings.contact.rock_rock, settings.contact, settings.contact.poisson_rock)),
+      rock_steel(law_of(settings.contact.rock_steel, settings.contact, settings.contact.poisson_steel)),
+      rolling_law(settings.contact.rolling_law == "constant" ? RollingLaw::constant : RollingLaw::spring),
       shape(settings.shape),
       cylinder_length(settings.cylinder_length),
       half_gap(0.5 * settings.contact_gap) {
@@ -45,10 +51,15 @@ double ContactContext::mass_with_added_mass(double mass, double radius) const {
     return mass + added_mass * fluid.density * sphere_volume(2.0 * radius);
 }
 
-double ContactContext::damping_factor(double impact_speed, double diameter, double density) const {
-    if (!contact.wet_restitution) return dry_damping_factor;
+double ContactContext::rolling_inertia(double mass, double radius) const {
+    return inertia_of(mass, radius) + mass_with_added_mass(mass, radius) * radius * radius;
+}
+
+double ContactContext::damping_factor(const PairLaw& pair, double impact_speed, double diameter, double density) const {
+    if (!wet_restitution) return pair.dry_damping_factor;
     const double stokes = physics::impact_stokes(density / fluid.density, added_mass, impact_speed, diameter, fluid.kinematic_viscosity);
-    return physics::hertz_damping_factor(std::max(physics::wet_restitution(contact.restitution, stokes), physics::k_smallest_restitution));
+    return physics::hertz_damping_factor(
+        std::max(physics::wet_restitution(pair.settings.restitution, stokes), physics::k_smallest_restitution));
 }
 
 ContactContext& ContactContext::of(const LAMMPS_NS::LAMMPS* lammps) {

@@ -9,6 +9,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "solver/liggghts/contacts/contact_law.hpp"
 #include "solver/ports/dem_settings.hpp"
+#include "solver/ports/fluid_engine.hpp"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -40,16 +41,25 @@ struct ContactTally {
 
 class WallContacts;
 
-/// The law for rock on rock and rock on steel with one Young's modulus, one friction and one dry restitution; different materials per
-/// pair would become a table here.
+/// What the law needs to know of a pair of materials.
+struct PairLaw {
+    coupling::PairSettings settings;
+    ElasticPair elastic;
+    double dry_damping_factor = 0.0;
+
+    bool resists_rolling() const { return settings.rolling_friction > 0.0; }
+};
+
+/// The law for rock on rock and rock on steel with one Young's modulus.
 struct ContactContext {
-    coupling::ContactSettings contact;
+    bool wet_restitution = true;
     coupling::FluidProperties fluid;
     double added_mass = 0.0;
     RotationAxis axis;
-    ElasticPair rock_rock;
-    ElasticPair rock_steel;
-    double dry_damping_factor = 0.0;
+    Vec3 rotor_spin = Vec3::Zero();  ///< of rotating steel [rad/s]
+    PairLaw rock_rock;
+    PairLaw rock_steel;
+    RollingLaw rolling_law = RollingLaw::spring;
     std::optional<LinearLaw> linear;  ///< in place of Hertz'
     coupling::RockShape shape = coupling::RockShape::sphere;
     double cylinder_length = 0.0;
@@ -58,7 +68,7 @@ struct ContactContext {
     WallContacts* wall_contacts = nullptr;
     ContactTally tally;
 
-    ContactContext(const coupling::DemSettings& settings, const RotationAxis& rotor_axis);
+    ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor);
 
     /// Radius [m] of a rock whose radius in LIGGGHTS is `contact_radius`.
     double radius_of(double contact_radius) const { return contact_radius - half_gap; }
@@ -77,9 +87,12 @@ struct ContactContext {
     /// Mass [kg] with added mass of a rock of the given mass [kg] and radius [m].
     double mass_with_added_mass(double mass, double radius) const;
 
+    /// Inertia [kg m2] of a rock about a point of its surface, with the added mass.
+    double rolling_inertia(double mass, double radius) const;
+
     /// Damping factor of a contact that began with the normal speed `impact_speed` [m/s]: rock of diameter `diameter` [m] and density
     /// `density` [kg/m3].
-    double damping_factor(double impact_speed, double diameter, double density) const;
+    double damping_factor(const PairLaw& pair, double impact_speed, double diameter, double density) const;
 
     /// The context of a LIGGGHTS instance; it must have been set.
     static ContactContext& of(const LAMMPS_NS::LAMMPS* lammps);

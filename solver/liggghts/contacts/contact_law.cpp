@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts {
 
 namespace {
+
+constexpr double k_rolling_damping = 0.3;  // zeta, share of critical
 
 /// Part of the contact's radius that one spring covers [m].
 struct Part {
@@ -27,7 +31,14 @@ double pressure_share(const Part& part, double contact_radius) {
     return 1.5 * (y - x) - 0.5 * (y * y * y - x * x * x);
 }
 
-/// Force [N] of one spring and its damper, at most `limit` [N]. What slips carries the limit in the spring alone.
+/// A vector of the tangent plane after a turn about the normal by `angle` [rad], its length unchanged.
+Vec3 turned(const Vec3& vector, const Vec3& normal, double angle) {
+    const double half = 0.5 * angle, share = 1.0 / (1.0 + half * half);
+    return share * ((1.0 - half * half) * vector + 2.0 * half * normal.cross(vector));
+}
+
+/// Force [N] of one spring and its damper, at most `limit` [N]; of an angle and a spin the couple [N m]. What slips carries the limit in
+/// the spring alone.
 Vec3 spring_force(double stiffness, double damping, const Vec3& slip_velocity, double limit, Vec3& stretch) {
     const double elastic = stiffness * stretch.norm();
     if (elastic > limit) {
@@ -70,6 +81,28 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
     }
     if (time_step > 0.0) memory = now;
     return force;
+}
+
+Vec3 rolling_couple(RollingLaw law, const Contact& contact, const Rolling& rolling, double normal_force, double time_step,
+                    RollMemory& memory) {
+    const double limit = contact.rolling_friction * normal_force * contact.radius;
+    const Vec3 spin = rolling.spin - contact.normal * contact.normal.dot(rolling.spin);
+    if (law == RollingLaw::constant) {
+        const double speed = spin.norm();
+        return speed > 0.0 ? Vec3(-limit / speed * spin) : Vec3(Vec3::Zero());
+    }
+    RollMemory now;
+    now.contact_radius = std::sqrt(contact.radius * contact.overlap);
+    const double kept = std::min(1.0, memory.contact_radius / now.contact_radius);
+    Vec3 angle = kept * Vec3(memory.angle);
+    angle -= contact.normal * contact.normal.dot(angle);
+    angle = turned(angle, contact.normal, rolling.twist * time_step) + spin * time_step;
+    const double stiffness = 8.0 * contact.elastic.shear * now.contact_radius * contact.radius * contact.radius;
+    const double damping = 2.0 * k_rolling_damping * std::sqrt(rolling.inertia * stiffness);
+    const Vec3 couple = spring_force(stiffness, damping, spin, limit, angle);
+    std::copy_n(angle.data(), 3, now.angle);
+    if (time_step > 0.0) memory = now;
+    return couple;
 }
 
 Vec3 linear_contact_force(const LinearLaw& law, const Contact& contact, double time_step, SlipMemory& memory) {

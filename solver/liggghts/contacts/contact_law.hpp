@@ -22,8 +22,9 @@ struct Contact {
     double radius = 0.0;                ///< R* [m], 1/R* = sum 1/R
     double mass = 0.0;                  ///< m* [kg], 1/m* = sum 1/m, masses with added mass
     ElasticPair elastic;
-    double damping_factor = 0.0;  ///< alpha [-], from the restitution (physics::hertz_damping_factor)
-    double friction = 0.0;        ///< mu [-]
+    double damping_factor = 0.0;    ///< alpha [-], from the restitution (physics::hertz_damping_factor)
+    double friction = 0.0;          ///< mu [-]
+    double rolling_friction = 0.0;  ///< mu_r [-]
 };
 
 /// Springs that share a contact's area, each of which sticks or slips independently. With 4 an oblique impact is within 1 % of 64 springs.
@@ -46,6 +47,37 @@ struct SlipMemory {
 /// its line [PopovHess2015]. Newly touched area begins without stretch and separating area takes its force away, so that no history creates
 /// energy. \param time_step  [s]; 0 evaluates the force and leaves the memory unchanged. [AntypovElliott2011, NieuwboerVanRheeKeetels2023]
 Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory);
+
+enum class RollingLaw {
+    spring,   ///< a spring up to the largest couple
+    constant  ///< the largest couple at any rolling; a contact that should rest creeps
+};
+
+/// How two bodies turn over each other.
+struct Rolling {
+    Vec3 spin = Vec3::Zero();  ///< of the rock relative to the other body [rad/s]
+    double twist = 0.0;        ///< mean spin of both along the normal [rad/s]
+    double inertia = 0.0;      ///< I_r [kg m2], 1/I_r = sum 1/(I + m R^2): each about the point that touches
+};
+
+/// History of a contact's rolling; only doubles, as SlipMemory.
+struct RollMemory {
+    double contact_radius = 0.0;  ///< a of the previous step [m]
+    double angle[3] = {};         ///< theta [rad], in the tangent plane
+};
+
+/// Couple [N m] on the rock against rolling; the other body gets its opposite. With omega_r the relative spin without its part along the
+/// normal and T_max = mu_r F_n R*:
+///
+///   spring:    T = -k_r theta - eta_r omega_r, |T| <= T_max,  k_r = 8 G* a R*^2,  eta_r = 2 zeta sqrt(I_r k_r), zeta = 0.3
+///   constant:  T = -T_max omega_r/|omega_r|
+///
+/// theta grows by omega_r per time, turns with the normal and about it with the mean spin of both bodies; k_r is Mindlin's stiffness on the
+/// lever R*. What rolls on carries T_max in the spring and no damping. As with slip, a growing contact keeps its couple and a shrinking one
+/// loses some, so that no history creates energy. [Ai2011, IwashitaOda1998]
+/// \param normal_force  F_n [N] \param time_step  [s]; 0 evaluates the couple and leaves the memory
+Vec3 rolling_couple(RollingLaw law, const Contact& contact, const Rolling& rolling, double normal_force, double time_step,
+                    RollMemory& memory);
 
 /// Constants of the linear law, per mass of a contact.
 struct LinearLaw {

@@ -90,7 +90,10 @@ std::vector<WallContacts::Weighted> WallContacts::merge(std::vector<WallTouch> t
 void WallContacts::apply(const std::vector<Weighted>& contacts) {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     const double step = static_cast<double>(lammps_->update->ntimestep);
-    auto* row = reinterpret_cast<WallContactRecord*>(records_->array_atom[contacts.front().touch.rock]);
+    const int rock = contacts.front().touch.rock;
+    auto* row = reinterpret_cast<WallContactRecord*>(records_->array_atom[rock]);
+    auto* rolling_row = rolling_ ? reinterpret_cast<RollMemory*>(rolling_->array_atom[rock]) : nullptr;
+    const auto roll_of = [&](const WallContactRecord* record) { return rolling_row ? rolling_row + (record - row) : nullptr; };
     Records records{}, taken{};
     for (int k = 0; k < max_contacts; ++k) records[k] = row + k;
 
@@ -102,14 +105,24 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
         const double approach = touch.normal.dot(touch.wall_velocity - Vec3(atom.v[touch.rock]));
         taken[k] = unused(records, taken, step);
         *taken[k] = WallContactRecord{};
+        if (rolling_row) *roll_of(taken[k]) = {};
         taken[k]->body = touch.body;
         taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
-        taken[k]->damping_factor = context_.damping_factor(taken[k]->impact_speed, 2.0 * atom.radius[touch.rock], atom.density[touch.rock]);
+        taken[k]->damping_factor =
+            context_.damping_factor(context_.rock_steel, taken[k]->impact_speed, 2.0 * atom.radius[rock], atom.density[rock]);
     }
-    for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k]);
+    for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k], roll_of(taken[k]));
 }
 
-void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
+Rolling WallContacts::rolling_of(const WallTouch& touch) const {
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    const Vec3 of_rock(atom.omega[touch.rock]), of_wall = touch.rotating ? context_.rotor_spin : Vec3(Vec3::Zero());
+    return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall),
+            context_.rolling_inertia(atom.rmass[touch.rock], atom.radius[touch.rock])};
+}
+
+/// \param roll  null when nothing resists rolling
+void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, RollMemory* roll) {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     const WallTouch& touch = weighted.touch;
     const int rock = touch.rock;
@@ -127,13 +140,18 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record) {
     contact.slip_velocity = surface_velocity - touch.normal * touch.normal.dot(surface_velocity);
     contact.radius = radius;
     contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius);
-    contact.elastic = context_.rock_steel;
+    contact.elastic = context_.rock_steel.elastic;
     contact.damping_factor = record.damping_factor;
-    contact.friction = context_.contact.friction;
+    contact.friction = context_.rock_steel.settings.friction;
+    contact.rolling_friction = context_.rock_steel.settings.rolling_friction;
 
     const bool setting_up = lammps_->update->setupflag != 0;
-    const Vec3 force = weighted.weight * context_.force(contact, setting_up ? 0.0 : lammps_->update->dt, record.slip);
-    const Vec3 torque = arm.cross(force);
+    const double time_step = setting_up ? 0.0 : lammps_->update->dt;
+    const Vec3 whole = context_.force(contact, time_step, record.slip), force = weighted.weight * whole;
+    Vec3 torque = arm.cross(force);
+    if (roll)
+        torque +=
+            weighted.weight * rolling_couple(context_.rolling_law, contact, rolling_of(touch), touch.normal.dot(whole), time_step, *roll);
     std::copy_n(touch.normal.data(), 3, record.normal);
     if (!setting_up) record.last_touch = static_cast<double>(lammps_->update->ntimestep);
 

@@ -39,9 +39,12 @@ class WallContacts {
 public:
     static constexpr int max_contacts = 6;  ///< of one rock; the deepest ones count
     static constexpr int columns = max_contacts * static_cast<int>(sizeof(WallContactRecord) / sizeof(double));
+    static constexpr int rolling_columns = max_contacts * static_cast<int>(sizeof(RollMemory) / sizeof(double));
 
-    WallContacts(LAMMPS_NS::LAMMPS* lammps, ContactContext& context, LAMMPS_NS::FixPropertyAtom* records)
-        : lammps_(lammps), context_(context), records_(records) {}
+    /// \param rolling  beside each record its RollMemory; null when nothing resists rolling
+    WallContacts(LAMMPS_NS::LAMMPS* lammps, ContactContext& context, LAMMPS_NS::FixPropertyAtom* records,
+                 LAMMPS_NS::FixPropertyAtom* rolling)
+        : lammps_(lammps), context_(context), records_(records), rolling_(rolling) {}
 
     void add(const WallTouch& touch) { touches_.push_back(touch); }
 
@@ -56,11 +59,13 @@ private:
 
     static std::vector<Weighted> merge(std::vector<WallTouch> touches);
     void apply(const std::vector<Weighted>& contacts);
-    void apply(const Weighted& contact, WallContactRecord& record);
+    void apply(const Weighted& contact, WallContactRecord& record, RollMemory* roll);
+    Rolling rolling_of(const WallTouch& touch) const;
 
     LAMMPS_NS::LAMMPS* lammps_;
     ContactContext& context_;
     LAMMPS_NS::FixPropertyAtom* records_;
+    LAMMPS_NS::FixPropertyAtom* rolling_;
     std::vector<WallTouch> touches_;
 };
 

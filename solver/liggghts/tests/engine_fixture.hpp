@@ -90,11 +90,12 @@ inline std::vector<Triangle> block(const Vec3& low, const Vec3& high, int cells)
     return surface;
 }
 
-/// Rocks in water, no walls, gravity downwards, in a cylinder of radius and half height 0.5 m.
+/// Smooth rocks in water, no walls, gravity downwards, in a cylinder of radius and half height 0.5 m.
 inline coupling::DemSettings still_water() {
     coupling::DemSettings settings;
     settings.contact.youngs_modulus = 1.1e8;
     settings.contact.max_speed = 4.0;
+    coupling::use_preset(settings.contact, coupling::k_paper_pairs);
     settings.domain = coupling::cylinder_domain(0.5, -0.5, 0.5);
     settings.fluid = {k_water_density, k_water_viscosity};
     settings.added_mass = 0.5;

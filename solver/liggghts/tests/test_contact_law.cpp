@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/physics/contact.hpp"
@@ -164,6 +165,126 @@ TEST(ContactLaw, no_step_leaves_the_memory) {
     memory.stretch[0][0] = 1e-7;
     contact_force(contact, 0.0, memory);
     EXPECT_EQ(memory.stretch[0][0], 1e-7);
+    EXPECT_EQ(memory.contact_radius, 0.0);
+}
+
+Contact rolling_rock() {
+    Contact contact = rock_on_steel();
+    contact.rolling_friction = 0.2;
+    return contact;
+}
+
+double rolling_stiffness_of(const Contact& contact) {
+    return 8.0 * contact.elastic.shear * contact_radius_of(contact) * contact.radius * contact.radius;
+}
+
+Rolling rolling_with(const Vec3& spin, double twist = 0.0) {
+    return {spin, twist, 1.4 * 0.0132 * 1e-4};
+}
+
+constexpr double k_step = 1e-6;
+
+/// Rolls by `angle` about y in one step without damping.
+Vec3 roll_by(double angle, const Contact& contact, RollMemory& memory) {
+    Rolling rolling = rolling_with(Vec3(0, angle / k_step, 0));
+    rolling.inertia = 0.0;
+    return rolling_couple(RollingLaw::spring, contact, rolling, normal_force_of(contact), k_step, memory);
+}
+
+TEST(RollingFriction, is_a_spring_up_to_the_largest_couple) {
+    const Contact contact = rolling_rock();
+    const double stiffness = rolling_stiffness_of(contact), limit = 0.2 * normal_force_of(contact) * contact.radius;
+    RollMemory memory;
+    EXPECT_NEAR(roll_by(0.9 * limit / stiffness, contact, memory).y(), -0.9 * limit, 1e-9 * limit);
+    EXPECT_NEAR(roll_by(0.2 * limit / stiffness, contact, memory).y(), -limit, 1e-9 * limit);
+    EXPECT_NEAR(roll_by(-0.5 * limit / stiffness, contact, memory).y(), -0.5 * limit, 1e-9 * limit);
+}
+
+TEST(RollingFriction, is_damped_below_the_largest_couple_alone) {
+    const Contact contact = rolling_rock();
+    const double force = normal_force_of(contact), limit = 0.2 * force * contact.radius, stiffness = rolling_stiffness_of(contact);
+    const Rolling slow = rolling_with(Vec3(0, 1e-3, 0));
+    RollMemory none;
+    const double damping = 0.6 * std::sqrt(slow.inertia * stiffness);
+    EXPECT_NEAR(rolling_couple(RollingLaw::spring, contact, slow, force, 0.0, none).y(), -damping * 1e-3, 1e-9 * damping * 1e-3);
+    RollMemory rolled;
+    roll_by(2.0 * limit / stiffness, contact, rolled);
+    EXPECT_NEAR(rolling_couple(RollingLaw::spring, contact, rolling_with(Vec3(0, 10, 0)), force, k_step, rolled).y(), -limit,
+                1e-12 * limit);
+}
+
+TEST(RollingFriction, of_constant_couple_opposes_any_rolling) {
+    const Contact contact = rolling_rock();
+    const double limit = 0.2 * normal_force_of(contact) * contact.radius;
+    RollMemory memory;
+    const auto couple = [&](const Vec3& spin) {
+        return rolling_couple(RollingLaw::constant, contact, rolling_with(spin), normal_force_of(contact), k_step, memory);
+    };
+    EXPECT_NEAR((couple(Vec3(3e-9, 4e-9, 1.0)) + limit * Vec3(0.6, 0.8, 0.0)).norm(), 0.0, 1e-9 * limit);
+    EXPECT_EQ(couple(Vec3(0, 0, 1.0)), Vec3(Vec3::Zero())) << "what turns about the normal does not roll";
+}
+
+TEST(RollingFriction, grows_with_the_contact_without_more_couple_and_shrinks_with_less) {
+    Contact contact = rolling_rock();
+    const Contact large = [&] {
+        Contact grown = contact;
+        grown.overlap *= 4.0;
+        return grown;
+    }();
+    const double limit = 0.2 * normal_force_of(contact) * contact.radius;
+    RollMemory memory;
+    const double held = roll_by(0.2 * limit / rolling_stiffness_of(contact), contact, memory).y();
+    EXPECT_NEAR(roll_by(0.0, large, memory).y(), held, 1e-9 * std::abs(held));
+    EXPECT_NEAR(roll_by(0.0, contact, memory).y(), 0.5 * held, 1e-9 * std::abs(held));
+}
+
+// Work done on the contact, less what its spring holds, never falls: over any way of rolling and loading.
+TEST(RollingFriction, never_gives_energy_back_that_it_did_not_get) {
+    Contact contact = rolling_rock();
+    const double overlap = contact.overlap;
+    RollMemory memory;
+    double work = 0.0, least = 0.0;
+    for (int k = 0; k < 20000; ++k) {
+        contact.overlap = overlap * (1.0 + 0.9 * std::sin(0.003 * k) * std::cos(0.0007 * k));
+        const Vec3 spin(20.0 * std::sin(0.011 * k), 30.0 * std::cos(0.017 * k), 5.0);
+        const Vec3 before = Vec3(memory.angle) * std::min(1.0, memory.contact_radius / contact_radius_of(contact));
+        const Vec3 couple = rolling_couple(RollingLaw::spring, contact, rolling_with(spin), normal_force_of(contact), k_step, memory);
+        // The spring is taken at the step's end; its mean over the step is less by half its growth.
+        const Vec3 mean = couple + 0.5 * rolling_stiffness_of(contact) * (Vec3(memory.angle) - before);
+        work -= mean.dot(spin) * k_step;
+        const double held = 0.5 * rolling_stiffness_of(contact) * Vec3(memory.angle).squaredNorm();
+        least = std::min(least, work - held);
+    }
+    EXPECT_GT(work, 0.0);
+    EXPECT_GT(least, -1e-6 * work);
+}
+
+// The same way of rolling, seen from a frame that turns, gives the same couple, turned.
+TEST(RollingFriction, does_not_depend_on_the_frame) {
+    const Contact still = rolling_rock();
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(Vec3(1, 2, 2) / 3.0)}) {
+        RollMemory in_still, in_turning;
+        const double rate = 0.5 * k_pi / (20000 * k_step);
+        Vec3 couple, turned;
+        for (int k = 0; k < 20000; ++k) {
+            const Eigen::AngleAxisd turn(rate * k_step * k, axis);
+            const Vec3 spin(0.02 * std::cos(2e-4 * k), 0.04, 0.0);  // the couple stays below its limit: all of it is remembered
+            Contact turning = still;
+            turning.normal = turn * still.normal;
+            couple = rolling_couple(RollingLaw::spring, still, rolling_with(spin), normal_force_of(still), k_step, in_still);
+            turned = rolling_couple(RollingLaw::spring, turning, rolling_with(turn * spin, rate * axis.dot(turning.normal)),
+                                    normal_force_of(still), k_step, in_turning);
+            turned = turn.inverse() * turned;
+        }
+        EXPECT_LT((turned - couple).norm(), 5e-4 * couple.norm()) << axis.transpose();
+    }
+}
+
+TEST(RollingFriction, leaves_its_memory_without_a_step) {
+    RollMemory memory;
+    memory.angle[0] = 1e-6;
+    rolling_couple(RollingLaw::spring, rolling_rock(), rolling_with(Vec3(1, 0, 0)), 1.0, 0.0, memory);
+    EXPECT_EQ(memory.angle[0], 1e-6);
     EXPECT_EQ(memory.contact_radius, 0.0);
 }
 

@@ -49,7 +49,7 @@ TEST_P(Bounce, returns_the_dry_restitution) {
     coupling::DemSettings settings = above_wall(GetParam(), scratch_folder());
     settings.contact.wet_restitution = false;
     for (const double restitution : {0.3, 0.5, 0.7, 0.9, 0.97}) {
-        settings.contact.restitution = restitution;
+        settings.contact.rock_steel.restitution = restitution;
         const Vec3 after = rebound_velocity(settings, Vec3(0, 0, -1.0));
         EXPECT_NEAR(after.z(), restitution, 0.01 * restitution) << "e = " << restitution;
     }
@@ -68,7 +68,7 @@ TEST_P(Bounce, returns_the_wet_restitution) {
 TEST_P(Bounce, restitution_does_not_depend_on_the_added_mass) {
     coupling::DemSettings settings = above_wall(GetParam(), scratch_folder());
     settings.contact.wet_restitution = false;
-    settings.contact.restitution = 0.5;
+    settings.contact.rock_steel.restitution = 0.5;
     for (const double added_mass : {0.0, 0.5, 2.0}) {
         settings.added_mass = added_mass;
         EXPECT_NEAR(rebound_velocity(settings, Vec3(0, 0, -1.0)).z(), 0.5, 0.005) << "C_AM = " << added_mass;
@@ -79,10 +79,10 @@ TEST_P(Bounce, restitution_does_not_depend_on_the_added_mass) {
 TEST_P(Bounce, a_sliding_contact_obeys_coulomb) {
     coupling::DemSettings settings = above_wall(GetParam(), scratch_folder());
     settings.contact.wet_restitution = false;
-    settings.contact.restitution = 1.0;
+    settings.contact.rock_steel.restitution = 1.0;
     Vec3 spin;
     const Vec3 after = rebound_velocity(settings, Vec3(3.0, 0, -1.0), Vec3::Zero(), &spin);
-    const double friction = settings.contact.friction;
+    const double friction = settings.contact.rock_steel.friction;
     EXPECT_NEAR(after.x(), 3.0 - friction * 2.0, 0.01 * friction * 2.0);
     const double inertia_ratio = (k_rock_density + 0.5 * k_water_density) / (0.4 * k_rock_density);  // m_eff / (2/5 m)
     EXPECT_NEAR(spin.y() * 0.01, inertia_ratio * friction * 2.0, 0.02 * inertia_ratio * friction * 2.0);
@@ -162,7 +162,7 @@ TEST(Contacts, the_impact_speed_stays_while_facets_pass_under_the_rock) {
     }
     coupling::DemSettings settings = still_water();
     settings.gravity.setZero();
-    settings.contact.friction = 0.0;
+    settings.contact.rock_steel.friction = 0.0;
     settings.contact.max_speed = 1.0;
     settings.walls = {{"drum", write_stl(scratch_folder() / "drum.stl", drum), true}};
     coupling::ZoneMotion rotor;
@@ -179,7 +179,7 @@ TEST(Contacts, the_impact_speed_stays_while_facets_pass_under_the_rock) {
 TEST(Contacts, youngs_modulus_may_be_that_of_rock_or_far_below) {
     coupling::DemSettings settings = above_wall(WallKind::plane, scratch_folder());
     settings.contact.wet_restitution = false;
-    settings.contact.restitution = 0.9;
+    settings.contact.rock_steel.restitution = 0.9;
     for (const double modulus : {1e6, 6e10}) {
         settings.contact.youngs_modulus = modulus;
         EXPECT_NEAR(rebound_velocity(settings, Vec3(0, 0, -0.5)).z(), 0.45, 0.0045) << "E = " << modulus;

@@ -15,8 +15,8 @@ constexpr double k_gravity = 9.81;
 coupling::DemSettings without_losses(const std::vector<Triangle>& wall, double friction) {
     coupling::DemSettings settings = still_water();
     settings.contact.wet_restitution = false;
-    settings.contact.restitution = 1.0;
-    settings.contact.friction = friction;
+    settings.contact.rock_steel.restitution = 1.0;
+    settings.contact.rock_steel.friction = friction;
     settings.walls = {{"wall", write_stl(scratch_folder() / "wall.stl", wall), false}};
     return settings;
 }
@@ -136,7 +136,7 @@ Drum drum_of(double fold_deg) {
 TEST_P(Folds, do_not_brake_a_rock_that_rolls_over_a_convex_prism) {
     const Drum drum = drum_of(GetParam());
     auto settings = without_losses(drum.surface, 1.0);
-    settings.contact.restitution = 0.5;
+    settings.contact.rock_steel.restitution = 0.5;
     const coupling::Rocks rock = rolling_rock(drum.foot, drum.normal, 0.2 * drum.uphill);
     const double mirrored = -rock.position[0].x();
     const Ride way = ride(settings, rock, 1.0, mirrored);

@@ -90,7 +90,7 @@ struct Lift {
         const auto file = write_stl(folder / "plate.stl", block(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.0), 2));
         settings.walls = {{"plate", file, false, {Vec3(0, 0, speed), begin, end}}};
         settings.contact.wet_restitution = false;
-        settings.contact.restitution = 0.3;
+        settings.contact.rock_steel.restitution = 0.3;
     }
     /// Height of the rock's lowest point over the plate's first place.
     static double follow(LiggghtsEngine& engine, double from, double to) {
@@ -276,7 +276,7 @@ TEST(Walls, any_side_of_a_box_can_be_a_wall) {
     settings.gravity = Vec3::Zero();
     settings.added_mass = 0.0;
     settings.contact.wet_restitution = false;
-    settings.contact.restitution = 0.8;
+    settings.contact.rock_steel.restitution = 0.8;
     const Vec3 middle(0.05, 0.05, 0.05);
     for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
         const auto axis = static_cast<Eigen::Index>(side / 2);
@@ -306,7 +306,7 @@ TEST(Walls, any_side_of_a_box_can_be_a_wall) {
 TEST(Settings, every_mistake_is_named) {
     coupling::DemSettings settings = still_water();
     settings.contact.youngs_modulus = 0.0;
-    settings.contact.restitution = 1.2;
+    settings.contact.rock_steel.restitution = 1.2;
     settings.domain.radius = -1.0;
     settings.domain.make_wall(coupling::DomainSide::x_max);
     try {
@@ -322,7 +322,7 @@ TEST(Settings, every_mistake_is_named) {
 TEST(Settings, a_restitution_that_no_damping_gives_is_refused) {
     for (const double restitution : {-1.0, 0.0, 0.13}) {
         coupling::DemSettings settings = still_water();
-        settings.contact.restitution = restitution;
+        settings.contact.rock_steel.restitution = restitution;
         EXPECT_THROW(LiggghtsEngine(settings, no_zones(), MPI_COMM_WORLD), UserError) << restitution;
     }
 }

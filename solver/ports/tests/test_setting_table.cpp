@@ -14,8 +14,8 @@ namespace {
 template <class Settings>
 class SettingTables : public ::testing::Test {};
 
-using Tabled =
-    ::testing::Types<KernelSettings, ClosureSettings, ContactSettings, OutflowSettings, StopSettings, CheckpointSettings, RecordSettings>;
+using Tabled = ::testing::Types<KernelSettings, ClosureSettings, ContactSettings, PairSettings, OutflowSettings, StopSettings,
+                                CheckpointSettings, RecordSettings>;
 TYPED_TEST_SUITE(SettingTables, Tabled, );
 
 /// Settings that the table allows.

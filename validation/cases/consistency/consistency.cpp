@@ -44,6 +44,7 @@ fs::path rotor_case(const fs::path& folder, const std::string& rocks, double end
     inputs.checkpoint.interval = interval;
     inputs.times.write_interval = interval;
     inputs.rock.emplace();
+    coupling::use_preset(inputs.rock->contact, coupling::k_paper_pairs);
     write_rotor_case(folder, inputs, "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n" + rocks);
     return folder;
 }

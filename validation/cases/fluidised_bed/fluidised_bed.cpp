@@ -143,16 +143,16 @@ void write_cutter_case(const fs::path& folder, const Bed& bed) {
     write_foam_dictionary(folder, "constant/transportProperties", "dictionary", "transportModel Newtonian; nu 1e-5; rho 1.2;");
     write_foam_dictionary(folder, "constant/turbulenceProperties", "dictionary", "simulationType laminar;");
     write_foam_dictionary(folder, "constant/dynamicMeshDict", "dictionary", "dynamicFvMesh staticFvMesh;");
-    write_foam_dictionary(
-        folder, "constant/couplingProperties", "dictionary",
-        fmt::format(
-            "rock\n{{\n    feed \"constant/rockFeed.csv\";\n"
-            "    contact {{ youngsModulus {}; poissonRock 0.35; poissonSteel 0.23; friction 0.10; restitution 0.97; wetRestitution false; "
-            "timeStepFraction 0.1; maxSpeed 1.5; }}\n"
-            "    walls ( {{ name sides; file \"constant/sides.stl\"; rotating false; }} );\n"
-            "    domain {{ type cylinder; radius {}; zMin 0; zMax {}; walls (zMin zMax); }}\n}}\n"
-            "closures {{ drag brown_lawler; hindrance di_felice; addedMass 0.5; }}\n",
-            bed.modulus, 1.05 * std::hypot(k_half_depth, k_half_width), k_height));
+    write_foam_dictionary(folder, "constant/couplingProperties", "dictionary",
+                          fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n"
+                                      "    contact {{ youngsModulus {}; poissonRock 0.35; poissonSteel 0.23; wetRestitution false; "
+                                      "timeStepFraction 0.1; maxSpeed 1.5;\n"
+                                      "        pairs {{ rock_rock {{ friction 0.10; restitution 0.97; rollingFriction 0; }}\n"
+                                      "                rock_steel {{ friction 0.10; restitution 0.97; rollingFriction 0; }} }} }}\n"
+                                      "    walls ( {{ name sides; file \"constant/sides.stl\"; rotating false; }} );\n"
+                                      "    domain {{ type cylinder; radius {}; zMin 0; zMax {}; walls (zMin zMax); }}\n}}\n"
+                                      "closures {{ drag brown_lawler; hindrance di_felice; addedMass 0.5; }}\n",
+                                      bed.modulus, 1.05 * std::hypot(k_half_depth, k_half_width), k_height));
     write_dem_walls(folder / "constant/sides.stl");
     std::string feed = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
     for (std::size_t i = 0; i < bed.particles.size(); ++i) {

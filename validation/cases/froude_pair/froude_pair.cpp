@@ -35,6 +35,7 @@ std::string study(double scale) {
         "[suction]\ndischarge_m3_s = {2}\nmouth_radius_m = {3}\ngap_m = {4}\n"
         "[tank]\nradius_m = {5}\nbed_clearance_m = {6}\nheight_m = {7}\n"
         "[run]\nflow_revolutions = 0.15\nmax_revolutions = 0.45\nmax_courant = 1.8\nstop_undecided = 0\n"
+        "[rock]\npreset = \"paper\"\n"
         "[[feed]]\ncount = {8}\nazimuth_centre_deg = 0\ndepth_to_m = {9}\n[[feed.class]]\ndiameter_m = {10}\n",
         scale, 80.0 / std::sqrt(scale), 0.00375 * std::pow(scale, 2.5), scale * 0.03, scale * 0.01, scale * 0.2, scale * 0.05,
         scale * 0.2125, k_rocks, scale * 0.025, scale * 0.004);

@@ -162,6 +162,7 @@ cases::CaseInputs rotor_inputs(double end_time) {
     inputs.checkpoint.interval = end_time;
     inputs.times.write_interval = end_time / 8.0;
     inputs.rock.emplace();
+    coupling::use_preset(inputs.rock->contact, coupling::k_paper_pairs);
     return inputs;
 }
 

@@ -26,7 +26,7 @@ coupling::DemSettings room(const Trial& trial) {
     coupling::DemSettings settings = column_dem(column);
     settings.gravity = Vec3::Zero();
     settings.shape = trial.shape;
-    settings.contact.friction = 0.0;
+    settings.contact.set_every_pair({0.0, 1.0, 0.0});
     settings.linear.may_pull = trial.may_pull;
     settings.linear.steps_per_period = trial.steps;
     return settings;

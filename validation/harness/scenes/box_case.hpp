@@ -20,6 +20,11 @@ struct BoxRock {
     Vec3 velocity = Vec3::Zero();
 };
 
+/// Pairs of rock.contact: friction 0.15, rock rolls freely. [NieuwboerVanRheeKeetels2023]
+inline constexpr const char* k_paper_contact_pairs =
+    "pairs { rock_rock { friction 0.15; restitution 0.97; rollingFriction 0; } "
+    "rock_steel { friction 0.15; restitution 0.97; rollingFriction 0; } }";
+
 /// What the six sides of the box are.
 enum class BoxSides {
     closed,    ///< slip walls all round: nothing gets in or out
@@ -48,8 +53,8 @@ struct BoxCase {
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
     std::string closures = "drag brown_lawler; hindrance di_felice; addedMass 0.5;";
     std::string contact =
-        "youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; friction 0.15; restitution 0.97; wetRestitution true; "
-        "timeStepFraction 0.1; maxSpeed 1.5;";
+        std::string("youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; wetRestitution true; timeStepFraction 0.1; maxSpeed 1.5; ") +
+        k_paper_contact_pairs;
     std::string walls;                   ///< entries of rock.walls; their surfaces must be put into the folder afterwards
     bool rock_leaves_at_top = false;     ///< the upper side is no wall to rock: it leaves there
     bool rock_leaves_at_bottom = false;  ///< the lower side neither

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <mpi.h>
 
@@ -59,12 +60,21 @@ SingleProcess::~SingleProcess() {
     MPI_Finalize();
 }
 
+bool is_first_process() {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank == 0;
+}
+
+std::unique_ptr<coupling::DemEngine> dem_engine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving) {
+    return std::make_unique<liggghts::LiggghtsEngine>(settings, std::move(moving), MPI_COMM_WORLD);
+}
+
 coupling::DemSettings dry_room(double size, bool floor, const Elastic& material, double restitution, double friction, double speed) {
     coupling::DemSettings settings;
     settings.contact.youngs_modulus = material.youngs_modulus;
     settings.contact.poisson_rock = settings.contact.poisson_steel = material.poisson;
-    settings.contact.friction = friction;
-    settings.contact.restitution = restitution;
+    settings.contact.set_every_pair({friction, restitution, 0.0});
     settings.contact.wet_restitution = false;
     settings.contact.max_speed = speed;
     settings.domain = coupling::cylinder_domain(size, floor ? 0.0 : -size, size);

@@ -1,9 +1,12 @@
 #pragma once
 /// \file Impacts in the DEM itself, in process: spheres that hit each other or a wall.
+#include <memory>
 #include <vector>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/ports/dem_engine.hpp"
 #include "solver/ports/dem_settings.hpp"
+#include "solver/ports/fluid_engine.hpp"
 
 namespace cutterflow::validation {
 
@@ -15,6 +18,12 @@ public:
     SingleProcess(const SingleProcess&) = delete;
     SingleProcess& operator=(const SingleProcess&) = delete;
 };
+
+/// Whether this process is the first of those that MPI runs. \pre MPI is there
+bool is_first_process();
+
+/// The DEM engine on all processes.
+std::unique_ptr<coupling::DemEngine> dem_engine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving = {});
 
 struct Ball {
     double radius = 0.0, density = 0.0;  ///< [m], [kg/m3]

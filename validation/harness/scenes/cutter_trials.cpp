@@ -29,7 +29,7 @@ std::string study(const CutterOptions& options) {
     if (options.max_courant) text += fmt::format("max_courant = {}\n", *options.max_courant);
     if (!options.rock) return text;
     if (options.gamma) text += fmt::format("[kernel]\ngamma = {}\n", *options.gamma);
-    text += "[rock]\n";
+    text += "[rock]\npreset = \"paper\"\n";
     if (options.dem_step) text += fmt::format("time_step_fraction = {}\n", *options.dem_step);
     if (options.youngs_modulus) text += fmt::format("youngs_modulus_pa = {}\n", *options.youngs_modulus);
     return text + "[[feed]]\ncount = 60\n[[feed.class]]\ndiameter_m = 0.02\n";

@@ -25,6 +25,7 @@ struct RockPairRecord {
     double last_touch = 0.0;    ///< step
     double damping_factor = 0.0;
     cutterflow::liggghts::SlipMemory slip;
+    cutterflow::liggghts::RollMemory roll;  ///< there only when something resists rolling
 };
 
 /// The restitution follows from the impact speed.
@@ -40,6 +41,9 @@ public:
         history->add_history_value("contact_radius", "0");
         for (int k = 0; k < cutterflow::liggghts::k_springs; ++k)
             for (const char axis : {'x', 'y', 'z'}) history->add_history_value("stretch_" + std::to_string(k) + axis, "1");
+        if (!context_.rock_rock.resists_rolling()) return;
+        history->add_history_value("rolling_radius", "0");
+        for (const char axis : {'x', 'y', 'z'}) history->add_history_value(std::string("rolling_angle_") + axis, "1");
     }
 
     void registerSettings(Settings&) override {}
@@ -67,10 +71,16 @@ public:
         contact.slip_velocity = Vec3(pair.vtr1, pair.vtr2, pair.vtr3);
         contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
         contact.mass = context_.pair_mass(mass_i, mass_j);
-        contact.elastic = context_.rock_rock;
+        contact.elastic = context_.rock_rock.elastic;
         contact.damping_factor = record.damping_factor;
-        contact.friction = context_.contact.friction;
-        const Vec3 force = context_.force(contact, keep ? update->dt : 0.0, record.slip);
+        contact.friction = context_.rock_rock.settings.friction;
+        contact.rolling_friction = context_.rock_rock.settings.rolling_friction;
+        const double time_step = keep ? update->dt : 0.0;
+        const Vec3 force = context_.force(contact, time_step, record.slip);
+        Vec3 couple = Vec3::Zero();
+        if (context_.rock_rock.resists_rolling())
+            couple = cutterflow::liggghts::rolling_couple(context_.rolling_law, contact, rolling_of(pair, contact.normal),
+                                                          contact.normal.dot(force), time_step, record.roll);
 
         // Across a gap the lever ends on the rock's own surface.
         const double arm_i = context_.half_gap > 0.0 ? context_.radius_of(pair.radi) : pair.cri;
@@ -79,8 +89,8 @@ public:
         for (int k = 0; k < 3; ++k) {
             on_i.delta_F[k] += force[k];
             on_j.delta_F[k] -= force[k];
-            on_i.delta_torque[k] += arm_i * moment[k];
-            on_j.delta_torque[k] += arm_j * moment[k];
+            on_i.delta_torque[k] += arm_i * moment[k] + couple[k];
+            on_j.delta_torque[k] += arm_j * moment[k] - couple[k];
         }
         const bool shared = pair.j >= atom->nlocal;
         context_.tally.add(shared ? 0.5 : 1.0, pair.deltan / std::min(pair.radi, pair.radj));
@@ -96,14 +106,21 @@ private:
             record.impact_speed = std::max(-pair.vn, cutterflow::liggghts::k_smallest_impact_speed);
             record.damping_factor = damping_factor(pair, record.impact_speed);
             record.slip = {};
+            if (context_.rock_rock.resists_rolling()) record.roll = {};
         }
         if (keep) record.last_touch = step;
+    }
+
+    cutterflow::liggghts::Rolling rolling_of(const SurfacesIntersectData& pair, const cutterflow::Vec3& normal) const {
+        const cutterflow::Vec3 spin_i(atom->omega[pair.i]), spin_j(atom->omega[pair.j]);
+        const double inertia_i = context_.rolling_inertia(pair.mi, pair.radi), inertia_j = context_.rolling_inertia(pair.mj, pair.radj);
+        return {spin_i - spin_j, 0.5 * normal.dot(spin_i + spin_j), inertia_i * inertia_j / (inertia_i + inertia_j)};
     }
 
     /// Harmonic mean of the diameters, mean of the densities: for equal rocks the rock's own, as on a wall.
     double damping_factor(const SurfacesIntersectData& pair, double impact_speed) const {
         const double diameter = 4.0 * pair.radi * pair.radj / (pair.radi + pair.radj);
-        return context_.damping_factor(impact_speed, diameter, 0.5 * (atom->density[pair.i] + atom->density[pair.j]));
+        return context_.damping_factor(context_.rock_rock, impact_speed, diameter, 0.5 * (atom->density[pair.i] + atom->density[pair.j]));
     }
 
     cutterflow::liggghts::ContactContext& context_;
