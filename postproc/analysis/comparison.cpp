@@ -296,11 +296,7 @@ std::optional<double> half_width_of_difference(const std::vector<double>& a, con
     }
     const Sample first = sample_of(a), second = sample_of(b);
     if (first.count < k_fewest_repeats || second.count < k_fewest_repeats) return std::nullopt;
-    const double va = first.variance / static_cast<double>(first.count), vb = second.variance / static_cast<double>(second.count);
-    if (va + vb == 0.0) return 0.0;
-    const double freedom =
-        (va + vb) * (va + vb) / (va * va / static_cast<double>(first.count - 1) + vb * vb / static_cast<double>(second.count - 1));
-    return student_factor(freedom) * std::sqrt(va + vb);
+    return half_interval_of_two(first, second);
 }
 
 ComparisonVerdict verdict_of(const Estimate& difference, bool of_rock) {

@@ -1,29 +1,14 @@
 #include "postproc/analysis/replay_estimate.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 #include <gsl/assert>
 
 namespace cutterflow::postproc {
 namespace {
 
-/// Variance of a sample's mean.
-double mean_variance(const Sample& sample) {
-    return sample.variance / static_cast<double>(sample.count);
-}
-
 std::optional<double> interval_of(const Sample& sample) {
     if (sample.count < 2) return std::nullopt;
     return half_interval(sample);
-}
-
-double sum_interval(const Sample& a, const Sample& b) {
-    const double of_a = mean_variance(a), of_b = mean_variance(b);
-    if (of_a + of_b == 0.0) return 0.0;
-    const double freedom =
-        (of_a + of_b) * (of_a + of_b) / (of_a * of_a / static_cast<double>(a.count - 1) + of_b * of_b / static_cast<double>(b.count - 1));
-    return student_factor(freedom) * std::sqrt(of_a + of_b);
 }
 
 std::string percent(double share, const std::optional<double>& interval) {
@@ -43,7 +28,8 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
     estimate.spillage = estimate.replays.mean + estimate.corrections.mean;
     estimate.replay_interval = interval_of(estimate.replays);
     estimate.correction_interval = interval_of(estimate.corrections);
-    if (estimate.replay_interval && estimate.correction_interval) estimate.interval = sum_interval(estimate.replays, estimate.corrections);
+    if (estimate.replay_interval && estimate.correction_interval)
+        estimate.interval = half_interval_of_two(estimate.replays, estimate.corrections);
     return estimate;
 }
 

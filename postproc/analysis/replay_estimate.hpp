@@ -25,7 +25,6 @@ struct ReplayEstimate {
     std::optional<double> interval;             ///< of `spillage`; with two or more of both
 };
 
-/// Degrees of freedom of the sum after Welch and Satterthwaite.
 /// \pre a replay; without pairs `spillage` is the replays' mean
 ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::vector<ReplayPair>& pairs);
 

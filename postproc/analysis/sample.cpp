@@ -6,7 +6,16 @@
 
 namespace cutterflow::postproc {
 
+namespace {
+
 constexpr double k_confidence = 0.95;
+
+/// Half the width of the two-sided interval of a mean, in its standard errors.
+double student_factor(double degrees_of_freedom) {
+    return quantile(boost::math::students_t(degrees_of_freedom), 0.5 * (1.0 + k_confidence));
+}
+
+}  // namespace
 
 Sample sample_of(const std::vector<double>& values) {
     Sample sample;
@@ -17,13 +26,17 @@ Sample sample_of(const std::vector<double>& values) {
     return sample;
 }
 
-double student_factor(double degrees_of_freedom) {
-    return quantile(boost::math::students_t(degrees_of_freedom), 0.5 * (1.0 + k_confidence));
-}
-
 double half_interval(const Sample& sample) {
     const auto n = static_cast<double>(sample.count);
     return student_factor(n - 1.0) * std::sqrt(sample.variance / n);
+}
+
+double half_interval_of_two(const Sample& a, const Sample& b) {
+    const double va = a.variance / static_cast<double>(a.count), vb = b.variance / static_cast<double>(b.count);
+    if (va + vb == 0.0) return 0.0;
+    const double freedom =
+        (va + vb) * (va + vb) / (va * va / static_cast<double>(a.count - 1) + vb * vb / static_cast<double>(b.count - 1));
+    return student_factor(freedom) * std::sqrt(va + vb);
 }
 
 }  // namespace cutterflow::postproc

@@ -13,10 +13,11 @@ struct Sample {
 
 Sample sample_of(const std::vector<double>& values);
 
-/// Half the width of the two-sided 95 % interval of a mean, in its standard errors.
-double student_factor(double degrees_of_freedom);
-
 /// Half the 95 % interval of the mean, by Student's t. \pre two values or more
 double half_interval(const Sample& sample);
+
+/// Half the 95 % interval of the sum or difference of two independent means, with Welch's and Satterthwaite's degrees of freedom; 0 when
+/// neither scatters. \pre two values or more in both
+double half_interval_of_two(const Sample& a, const Sample& b);
 
 }  // namespace cutterflow::postproc
