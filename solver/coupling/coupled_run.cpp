@@ -317,48 +317,38 @@ void CoupledRun::record_flow() {
     phases_->sample(fluid_);
     if (!phases_->is_over(fluid_.time())) return;
     if (phases_->is_complete())
-        write_recording_to(case_folder_ / names::recording);
+        write_whole(case_folder_ / names::recording, [&](const fs::path& folder) { phases_->write(folder, communicator_); });
     else
         recorder_.warning(fluid_.time(),
                           "the flow is not recorded: the rotor did not pass all its phases between record.startTime and endTime");
     phases_.reset();
 }
 
-/// The folder is complete or not there.
-void CoupledRun::write_recording_to(const fs::path& folder) {
+/// A folder that is complete or not there, whenever the run is killed. \param write  writes this rank's files into a folder. Collective.
+void CoupledRun::write_whole(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
+    const bool leads = communicator_.rank() == 0;
     fs::path part = folder;
     part += ".part";
-    if (communicator_.rank() == 0) {
+    if (leads) {
         fs::remove_all(part);
         fs::create_directories(part);
     }
     wait_for_all();
-    phases_->write(part, communicator_);
+    write(part);
     wait_for_all();
-    if (communicator_.rank() == 0) fs::rename(part, folder);
+    if (!leads) return;
+    fs::remove_all(folder);
+    fs::rename(part, folder);
 }
 
 void CoupledRun::write_checkpoint() {
     fluid_.write_now();
-    const bool writes = communicator_.rank() == 0;
-    const fs::path folder = case_folder_ / names::checkpoints / fluid_.time_name();
-    fs::path part = folder;
-    part += ".part";
-    if (writes) {
-        fs::remove_all(part);
-        fs::create_directories(part);
-    }
-    wait_for_all();
-    write_state_files(part);
-    if (phases_) write_recording_to(part / names::recording);
-    report_velocity();
-    recorder_.flush();
-    wait_for_all();
-    if (writes) {
-        fs::remove_all(folder);
-        fs::rename(part, folder);
-        prune_checkpoints(case_folder_, settings_.checkpoint ? settings_.checkpoint->keep : 1);
-    }
+    write_whole(case_folder_ / names::checkpoints / fluid_.time_name(), [&](const fs::path& folder) {
+        write_state_files(folder);
+        report_velocity();
+        recorder_.flush();
+    });
+    if (communicator_.rank() == 0) prune_checkpoints(case_folder_, settings_.checkpoint ? settings_.checkpoint->keep : 1);
     last_checkpoint_ = fluid_.time();
 }
 
@@ -375,6 +365,7 @@ void CoupledRun::write_state_files(const fs::path& folder) {
         write_carry(folder, communicator_.rank(), fluid_.cells().ids, rock_->carry());
         if (fates_) recorder_.outcomes(fates_->outcomes());
     }
+    if (phases_) write_whole(folder / names::recording, [&](const fs::path& inner) { phases_->write(inner, communicator_); });
     if (communicator_.rank() != 0) return;
     write_state(folder, state);
     if (velocity_) write_velocity(folder, *velocity_);

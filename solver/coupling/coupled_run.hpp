@@ -2,6 +2,7 @@
 /// \file The coupled run: one step of fluid and rock, as named stages.
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -79,7 +80,7 @@ private:
     void report_velocity();
     void wait_for_all();
     void record_flow();
-    void write_recording_to(const std::filesystem::path& folder);
+    void write_whole(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write);
 
     CouplingSettings settings_;
     FluidEngine& fluid_;
