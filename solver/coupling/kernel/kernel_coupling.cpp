@@ -129,13 +129,18 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
 
+    const std::vector<double> solid_fraction = spread_present_rock();
+    require_room(largest_of(solid_fraction, communicator_), settings_.kernel.max_solid_fraction);
+    fluid_.reset_void_fraction(void_fraction_of(solid_fraction));
+    return rejected;
+}
+
+/// \return solid fraction per cell of the rocks where they are
+std::vector<double> KernelCoupling::spread_present_rock() {
     map_present_rock();
     Stencils* const stencils[] = {&present_};
-    const auto fractions =
-        redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, settings_.kernel.max_solid_fraction, communicator_);
-    require_room(largest_of(fractions[0], communicator_), settings_.kernel.max_solid_fraction);
-    fluid_.reset_void_fraction(void_fraction_of(fractions[0]));
-    return rejected;
+    return redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, settings_.kernel.max_solid_fraction,
+                        communicator_)[0];
 }
 
 void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const {
@@ -231,13 +236,10 @@ void KernelCoupling::require_all_rocks() const {
 }
 
 void KernelCoupling::map_one_way() {
-    const std::vector<double> volumes = volumes_of(dem_.rocks());
-    map_present_rock();
-    Stencils* const stencils[] = {&present_};
-    const auto fractions = redistribute(stencils, volumes, mapping_.cells().volumes, settings_.kernel.max_solid_fraction, communicator_);
-    void_fraction_new_ = void_fraction_of(fractions[0]);
+    const std::vector<double> solid_fraction = spread_present_rock();
+    void_fraction_new_ = void_fraction_of(solid_fraction);
     check_ranges();
-    note_fullness(fractions[0], largest_of(fractions[0], communicator_));
+    note_fullness(solid_fraction, largest_of(solid_fraction, communicator_));
 }
 
 /// \throws CheckFailure  when a cell has no room left

@@ -91,6 +91,7 @@ public:
     void restore(std::vector<Vec3> carry, const BookedExchange& booked);
 
 private:
+    std::vector<double> spread_present_rock();
     void map_one_way();
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
