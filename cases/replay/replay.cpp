@@ -72,10 +72,7 @@ ParameterValues values_of(const RecordedRun& run, int index) {
     ParameterValues values = run.values;
     if (index == 0) return values;
     const double turned = index * k_golden_ratio - std::floor(index * k_golden_ratio);
-    for (ParameterValues& feed : values.tables_for_writing("feed")) {
-        feed.set("feed.seed", feed.integer("feed.seed") + k_first_seed + index);
-        feed.set("feed.start_revolution", feed.number("feed.start_revolution") + turned / run.head.size.blades);
-    }
+    vary_release(values, k_first_seed + index, turned / run.head.size.blades);
     return values;
 }
 
@@ -131,12 +128,12 @@ public:
 private:
     struct Task {
         std::size_t run;
-        int index;
+        ParameterValues values;
     };
 
     void add(std::size_t run, int index) {
-        tasks_.push_back({run, index});
-        const ParameterValues feed = values_of(runs_[run], index).tables("feed").front();
+        tasks_.push_back({run, values_of(runs_[run], index)});
+        const ParameterValues& feed = tasks_.back().values.tables("feed").front();
         Replay replay;
         replay.name = index == 0 ? fmt::format("pair_{}", run + 1) : fmt::format("replay_{:03d}", index);
         replay.run = runs_[run].folder;
@@ -168,7 +165,7 @@ private:
         if (!fs::exists(cost_file(folder))) {
             {
                 const std::lock_guard<std::mutex> lock(mutex_);  // the placement of rock is not made for threads
-                write_replay(runs_[tasks_[n].run], values_of(runs_[tasks_[n].run], tasks_[n].index), folder);
+                write_replay(runs_[tasks_[n].run], tasks_[n].values, folder);
             }
             require_child(meshing::foam_command(folder, settings_.solver.string()));
         }

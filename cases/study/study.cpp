@@ -310,6 +310,15 @@ double bank_azimuth_deg(const std::string& swing_direction, const std::string& r
     return swing_direction == "under_cut" ? rising : -rising;
 }
 
+void vary_release(ParameterValues& values, std::int64_t seeds, double revolutions) {
+    for (ParameterValues& feed : values.tables_for_writing("feed")) {
+        const double start =
+            feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : values.number("run.flow_revolutions");
+        feed.set("feed.seed", feed.integer("feed.seed") + seeds);
+        if (revolutions > 0.0) feed.set("feed.start_revolution", start + revolutions);
+    }
+}
+
 std::vector<Mistake> check_file_rules(const ParameterValues& study, const std::filesystem::path& file) {
     Rules rules(study, file.string());
     check_feed_quantities(study, rules);

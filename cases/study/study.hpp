@@ -100,6 +100,9 @@ struct Study {
     AxialCylinder water(const HeadSize& head) const;
 };
 
+/// Another placement of every feed, released later: `seeds` are added to the feeds' seeds, `revolutions` of the rotor to their starts.
+void vary_release(ParameterValues& values, std::int64_t seeds, double revolutions);
+
 /// Every key of a study, each with its stage.
 const ParameterTable& study_table();
 

@@ -84,16 +84,6 @@ std::string from_studies(const fs::path& path, const fs::path& folder) {
     return fs::absolute(path).lexically_normal().lexically_relative((fs::absolute(folder) / k_studies).lexically_normal()).string();
 }
 
-/// Repeat `index` of `count`: another placement, released at another angle within one passing of a blade.
-void vary_release(ParameterValues& values, int index, int count, int blades) {
-    for (ParameterValues& feed : values.tables_for_writing("feed")) {
-        const double start =
-            feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : values.number("run.flow_revolutions");
-        feed.set("feed.seed", feed.integer("feed.seed") + index);
-        if (index > 0) feed.set("feed.start_revolution", start + static_cast<double>(index) / (count * blades));
-    }
-}
-
 /// Reads cutters once each: a sweep names the same design many times.
 class Designs {
 public:
@@ -452,7 +442,8 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
         if (axes.repeats > 1) name += fmt::format("_repeat{}", combination.repeat + 1);
         try {
             const geometry::Head& head = designs.head_of(values, cutter);
-            vary_release(values, combination.repeat, axes.repeats, head.symmetry.blade_count);
+            // Repeats are released at angles within one passing of a blade.
+            vary_release(values, combination.repeat, static_cast<double>(combination.repeat) / (axes.repeats * head.symmetry.blade_count));
             values.set("cutter.file", from_studies(cutter, folder));
             if (values.has("report.adv_points"))
                 values.set("report.adv_points", from_studies(study.parent_path() / base.text("report.adv_points"), folder));
