@@ -40,7 +40,9 @@ void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::
 
 }  // namespace
 
-std::string replay_lines(const cases::ReplaySettings& settings) {
+std::string replay_lines(const std::vector<fs::path>& runs, int count, const fs::path& folder, bool resume) {
+    const cases::ReplaySettings settings{
+        runs, count, folder, installation().programs / "cutterFoam", std::max(1, cases::available_cores()), resume};
     try {
         const cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
@@ -67,12 +69,7 @@ void add_replay(CLI::App& app) {
     command->add_option("-o,--output", options->output, "Folder of the replays")->required();
     command->add_flag("--resume", options->resume, "Go on with a stopped call, or add placements to it");
     command->callback([options] {
-        std::cout << replay_lines({{options->runs.begin(), options->runs.end()},
-                                   options->count,
-                                   options->output,
-                                   installation().programs / "cutterFoam",
-                                   std::max(1, cases::available_cores()),
-                                   options->resume});
+        std::cout << replay_lines({options->runs.begin(), options->runs.end()}, options->count, options->output, options->resume);
     });
 }
 

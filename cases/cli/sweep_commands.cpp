@@ -13,7 +13,6 @@
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/cli/replay_lines.hpp"
-#include "cases/replay/replay.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "cases/study/study.hpp"
@@ -97,9 +96,7 @@ void replay_settings(const SweepOptions& options, const std::vector<cases::Sweep
     for (const auto& [name, runs] : runs_by_setting(points, done)) {
         const fs::path replays = folder / ("replays_" + name);
         say(fmt::format("{}: {} replays in {}", name, options.replays, replays.string()));
-        std::cout << name << '\n'
-                  << replay_lines({runs, options.replays, replays, installation().programs / "cutterFoam",
-                                   std::max(1, cases::available_cores()), fs::exists(replays)});
+        std::cout << name << '\n' << replay_lines(runs, options.replays, replays, fs::exists(replays));
     }
 }
 
