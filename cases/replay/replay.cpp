@@ -51,7 +51,10 @@ struct RecordedRun {
 
 RecordedRun open_run(const fs::path& run) {
     const RunDirectory directory(run);
-    return {fs::absolute(run).lexically_normal(), read_study(directory.file(names::resolved_study)), read_run_head(directory),
+    RunHead head = read_run_head(directory);
+    // A file that was changed by hand may lack keys.
+    ParameterValues values = resolve_study(read_study(directory.file(names::resolved_study)), head.size);
+    return {fs::absolute(run).lexically_normal(), std::move(values), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }
 
