@@ -35,6 +35,13 @@ void ExactSolid::unite(const ExactSolid& other) {
                             "Let them overlap"});
 }
 
+void ExactSolid::subtract(const ExactSolid& other) {
+    ExactMesh tool = other.impl_->mesh;
+    if (!pmp::corefine_and_compute_difference(impl_->mesh, tool, impl_->mesh))
+        throw CheckFailure({"", "a solid cannot be cut out of another one",
+                            "What is left may not hang together along an edge or at a point only", "Move or enlarge what is cut out"});
+}
+
 // Lazy numbers are evaluated first, because their interval is not unique. Points are sorted, because the order of the
 // intersections of corefinement depends on memory addresses.
 TriangleSurface ExactSolid::surface() const {

@@ -1,12 +1,13 @@
 #pragma once
-/// \file Union of solids with exact arithmetic.
+/// \file Union and difference of solids with exact arithmetic.
 #include <memory>
 
 #include "geometry/surface/surface.hpp"
 
 namespace cutterflow::geometry {
 
-/// A solid bounded by a closed surface, in exact coordinates: a sequence of unions loses nothing to rounding.
+/// A solid bounded by a closed surface, in exact coordinates: a sequence of unions and differences loses nothing to
+/// rounding.
 class ExactSolid {
 public:
     /// \param surface  closed, outward oriented, without self-intersection
@@ -16,6 +17,9 @@ public:
 
     /// \throws CheckFailure  when the result is no 2-manifold (solids that touch along an edge or a point only)
     void unite(const ExactSolid& other);
+
+    /// Takes the other solid's room away. \throws CheckFailure  as unite
+    void subtract(const ExactSolid& other);
 
     /// Coordinates rounded to double precision.
     TriangleSurface surface() const;
