@@ -187,7 +187,7 @@ const StepReport& SurfaceRun::step(double longest) {
     for (const Gate& gate : settings_.gates) lift_.push_back((gate.rise(time_ + step) - gate.rise(time_)) / step);
     const bool gates_move = std::any_of(lift_.begin(), lift_.end(), [](double speed) { return speed > 0.0; });
     if (steps_++ % k_steps_between_sorts == 0) sort_by_cell(grid_, particles_);
-    map_to_grid(grid_, particles_, mapped_);
+    map_to_grid(grid_, cutter_.slip_walls(), particles_, mapped_);
     find_water(grid_, mapped_.fraction, cells_, water_);
     fill_unmapped_faces();
     add_body_forces(step);

@@ -86,11 +86,37 @@ public:
 
     Vec3 gather(const PointKernel& kernel, const FaceField& field) const {
         Vec3 value = Vec3::Zero();
-        const bool beside_walls = walls_ && walls_->near[nodes(kernel, k_centres).first + middle(k_centres)];
+        const bool beside_walls = is_beside_walls(kernel);
         for_each_direction([&](int d) {
-            value[d] = beside_walls ? gather_beside_walls(nodes(kernel, d), d, field[d]) : gather(nodes(kernel, d), field[d]);
+            if (beside_walls) {
+                for_each_face_beside_walls(nodes(kernel, d), d, [&](int face, double weight) { value[d] += weight * field[d][face]; });
+            } else {
+                value[d] = gather(nodes(kernel, d), field[d]);
+            }
         });
         return value;
+    }
+
+    /// Whether closed faces of still solids are among the faces that a point sees.
+    bool is_beside_walls(const PointKernel& kernel) const {
+        return walls_ && walls_->near[nodes(kernel, k_centres).first + middle(k_centres)];
+    }
+
+    /// Calls visit(face, weight) for what a point beside walls sees of the faces of a direction (SlipWalls).
+    template <typename Visit>
+    void for_each_face_beside_walls(const NodeBlock& block, int direction, const Visit& visit) const {
+        const std::vector<std::uint8_t>& closed = walls_->closed[direction];
+        const int own_row = block.first + middle(direction);
+        for (int k = 0; k < 3; ++k) {
+            for (int j = 0; j < k_across; ++j) {
+                for (int i = 0; i < 3; ++i) {
+                    const int node = block.first + i + j * grid_.stride(1) + k * grid_.stride(2);
+                    const int place[3] = {i, j, k};
+                    const int own = own_row + place[direction] * grid_.stride(direction);
+                    visit(closed[node] ? own : node, block.z[k] * block.y[j] * block.x[i]);
+                }
+            }
+        }
     }
 
     Vec3 kept_inside(Vec3 place) const {
@@ -104,23 +130,6 @@ private:
         int way = 0;
         for_each_direction([&](int d) { way += d == along ? 0 : grid_.stride(d); });
         return way;
-    }
-
-    double gather_beside_walls(const NodeBlock& block, int direction, const std::vector<double>& field) const {
-        const std::vector<std::uint8_t>& closed = walls_->closed[direction];
-        const int own_row = block.first + middle(direction);
-        double sum = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            for (int j = 0; j < k_across; ++j) {
-                for (int i = 0; i < 3; ++i) {
-                    const int node = block.first + i + j * grid_.stride(1) + k * grid_.stride(2);
-                    const int place[3] = {i, j, k};
-                    const int own = own_row + place[direction] * grid_.stride(direction);
-                    sum += block.z[k] * block.y[j] * block.x[i] * field[closed[node] ? own : node];
-                }
-            }
-        }
-        return sum;
     }
 
     const StaggeredGrid& grid_;
@@ -147,23 +156,29 @@ void for_each_wall_face(const StaggeredGrid& grid, int d, const Visit& visit) {
 
 }  // namespace
 
-void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, MappedWater& mapped) {
+void map_to_grid(const StaggeredGrid& grid, const SlipWalls& walls, const WaterParticles& particles, MappedWater& mapped) {
     const auto directions = grid.directions();
     for (const int d : directions) {
         std::fill(mapped.velocity[d].begin(), mapped.velocity[d].end(), 0.0);
         std::fill(mapped.share[d].begin(), mapped.share[d].end(), 0.0);
     }
     std::fill(mapped.fraction.begin(), mapped.fraction.end(), 0.0);
-    with_kernels(grid, nullptr, [&](const auto& kernels) {
+    with_kernels(grid, &walls, [&](const auto& kernels) {
         for (std::size_t p = 0; p < particles.size(); ++p) {
             const PointKernel kernel = kernels.at(particles.place(p));
+            const bool beside_walls = kernels.is_beside_walls(kernel);
             kernels.for_each_direction([&](int d) {
                 double *share = mapped.share[d].data(), *momentum = mapped.velocity[d].data();
                 const double velocity = particles.velocity[d][p];
-                kernels.for_each_node(kernels.nodes(kernel, d), [&](int node, double weight) {
-                    share[node] += weight;
-                    momentum[node] += weight * velocity;
-                });
+                const auto give = [&](int face, double weight) {
+                    share[face] += weight;
+                    momentum[face] += weight * velocity;
+                };
+                if (beside_walls) {
+                    kernels.for_each_face_beside_walls(kernels.nodes(kernel, d), d, give);
+                } else {
+                    kernels.for_each_node(kernels.nodes(kernel, d), give);
+                }
             });
             kernels.for_each_node(kernels.nodes(kernel, k_centres), [&](int node, double weight) { mapped.fraction[node] += weight; });
         }

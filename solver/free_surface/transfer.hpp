@@ -17,8 +17,9 @@ struct MappedWater {
 };
 
 /// u_f = sum V_p W v_p / sum V_p W. The tank's walls mirror: velocity normal to a wall changes its sign there, what is tangential does not.
-/// Particles must be in the tank.
-void map_to_grid(const StaggeredGrid& grid, const WaterParticles& particles, MappedWater& mapped);
+/// Particles must be in the tank. They give to the faces that they read (SlipWalls), with the same weights: what a wall's faces take from
+/// one particle comes from no other one.
+void map_to_grid(const StaggeredGrid& grid, const SlipWalls& walls, const WaterParticles& particles, MappedWater& mapped);
 
 /// The cells' part of map_to_grid alone.
 void map_fraction(const StaggeredGrid& grid, const WaterParticles& particles, CellField& fraction);

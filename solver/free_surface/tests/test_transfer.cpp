@@ -75,7 +75,7 @@ TEST_P(Transfer, conserves_mass_and_momentum_away_from_walls) {
         }
     }
     MappedWater mapped(g);
-    map_to_grid(g, particles, mapped);
+    map_to_grid(g, {}, particles, mapped);
     double volume = 0.0;
     g.for_each_cell([&](int cell, int, int, int) { volume += mapped.fraction[cell] * g.cell_volume(); });
     EXPECT_NEAR(volume, particles.volume * static_cast<double>(particles.size()), 1e-12);
@@ -84,6 +84,31 @@ TEST_P(Transfer, conserves_mass_and_momentum_away_from_walls) {
         g.for_each_face(d, [&](int face, int, int, int) { sum += mapped.share[d][face] * mapped.velocity[d][face] * g.cell_volume(); });
         EXPECT_NEAR(sum, momentum[d], 1e-12) << d;
     }
+}
+
+/// Of two rows of water one meets a closed face where the other passes beside it: neither gives to the face of the other that it does not
+/// read, and a face shows the water of those alone that give to it.
+TEST_P(Transfer, a_jet_gives_nothing_to_the_wall_beside_it) {
+    const StaggeredGrid g = grid();
+    const int jet_row = 3, wall = 4;
+    SlipWalls walls;
+    for (auto& closed : walls.closed) closed.assign(g.size(), 0);
+    walls.near.assign(g.size(), 1);
+    for (int j = 0; j < g.cells(1); ++j) {
+        for (int k = 0; k < g.cells(2); ++k) walls.closed[0][g.at(wall, j, k)] = k != jet_row;
+    }
+    WaterParticles particles = filled(9);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const bool in_jet = static_cast<int>(particles.place(p).z() / 0.1) == jet_row;
+        particles.velocity[0][p] = in_jet ? 5.0 : 0.0;
+    }
+    MappedWater mapped(g);
+    map_to_grid(g, walls, particles, mapped);
+    for (const int row : {jet_row - 1, jet_row + 1}) EXPECT_EQ(mapped.velocity[0][g.at(wall, g.cells(1) / 2, row)], 0.0) << row;
+    const double jet = mapped.velocity[0][g.at(wall, g.cells(1) / 2, jet_row)];
+    EXPECT_GT(jet, 0.75 * 5.0);                                                       // its own particles give all that they have
+    EXPECT_LT(jet, 5.0);                                                              // those beside it read the face, and give to it
+    EXPECT_GT(mapped.velocity[0][g.at(wall - 1, g.cells(1) / 2, jet_row + 1)], 0.0);  // no wall there: the kernels overlap
 }
 
 TEST_P(Transfer, half_a_space_has_half_a_fraction_on_its_surface) {
