@@ -51,7 +51,7 @@ bool stops(const Scene& scene, const SceneReading& reading);
 /// What a run will take, from counts measured on scenes of these kinds.
 struct ScenePrediction {
     double cells = 0.0, water_cells = 0.0, particles = 0.0;
-    double step = 0.0;  ///< [s], at the speed of a fall from the water's height
+    double step = 0.0;  ///< [s], at the speed of the front of a dam of the water's height, 2 sqrt(g H) [Ritter1892]
     double steps = 0.0;
     double core_seconds = 0.0;
     double dem_step = 0.0;  ///< [s]; 0 without bodies

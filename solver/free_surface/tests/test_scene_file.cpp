@@ -55,6 +55,20 @@ hole_spacing_m = 0.02
     EXPECT_NEAR(scene.settings.tank.depth, 0.1, 1e-12);
 }
 
+/// A dam of 0.1 m x 0.1 m in a tank of 0.2 m x 0.2 m, a body in it: counts by hand, a step's cost that grows with each of them.
+TEST(SceneFile, predicts_steps_and_cost_from_what_the_scene_holds) {
+    const auto predicted = [](const std::string& more) { return predict(parse_scene(k_tank + k_fill + more, "scene.toml")); };
+    const ScenePrediction water = predicted("");
+    EXPECT_NEAR(water.step, 0.5 * 1e-3 / (2.0 * std::sqrt(9.81 * 0.1)), 1e-9);
+    EXPECT_NEAR(water.particles, 4.0 * water.water_cells, 1e-6);
+    const ScenePrediction body =
+        predicted("[[bodies]]\ndiameter_m = 0.01\ndensity_kg_m3 = 2700.0\nlayers = 1\nwidest = 1\ncentre_x_m = 0.1\nlowest_m = 0.02\n");
+    EXPECT_NEAR((body.core_seconds - water.core_seconds) / water.steps, 1e-4, 1e-6);  // ten cells across
+    const ScenePrediction twice = predict(parse_scene(k_tank + std::string(k_fill).replace(k_fill.find("0.2"), 3, "0.1"), "scene.toml"));
+    const double of_particles = (water.core_seconds - twice.core_seconds) / water.steps / (water.particles - twice.particles);
+    EXPECT_NEAR(of_particles, 3.1e-7, 1e-9);
+}
+
 std::string gate(const std::string& speed, const std::string& bottom = "0.0") {
     return "[[solid]]\nkind = \"gate\"\naxis_x_m = 0.1\nwall_m = 0.002\nbottom_m = " + bottom + "\ntop_m = 0.12\nspeed_m_s = " + speed +
            "\nstart_s = 0.1\n";
