@@ -32,6 +32,7 @@ coupling::DemSettings column_dem(const CylinderColumn& column) {
     settings.law = coupling::ContactLaw::linear;
     settings.linear.accumulated_shear = column.accumulated_shear;
     settings.contact.set_every_pair({column.friction, settings.contact.rock_rock.restitution, 0.0});
+    settings.contact.rock_steel.friction = column.wall_friction.value_or(column.friction);
     settings.contact.wet_restitution = false;
     settings.shape = coupling::RockShape::cylinder;
     settings.cylinder_length = k_cylinder_length;

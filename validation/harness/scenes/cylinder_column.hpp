@@ -1,6 +1,7 @@
 #pragma once
 /// \file Columns of cylinders in a plane tank, as [Zhang2009] and [Chen2019] let them collapse, dry and in water.
 #include <memory>
+#include <optional>
 
 #include "solver/liggghts/liggghts_engine.hpp"
 
@@ -13,6 +14,7 @@ struct CylinderColumn {
     double jitter = 0.0;  ///< of the places [m]
     unsigned seed = 1;
     double friction = 0.3;
+    std::optional<double> wall_friction;  ///< of cylinders on walls where it is not `friction`
     bool accumulated_shear = true;
     double tank_width = 0.286;
 };
