@@ -1,8 +1,10 @@
 /// What a step costs on the mesh of a run: flow with its rock, flow alone, and stock pimpleFoam, each on one and on two ranks, with the
-/// same time step, schemes and solvers from the same start. Times are wall seconds between the steps' first lines of output; variants take
-/// turns, and medians are compared.
+/// same time step, schemes and linear solvers from the same start. The unit is the processor second, user and system, of all ranks between
+/// the steps' first lines of output. Variants take turns; the least of the rounds counts.
+#include <unistd.h>
+
 #include <algorithm>
-#include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr double k_time_step = 1e-3;  // [s]
 constexpr int k_steps = 25;
 constexpr int k_settling_steps = 5;  // at the start, not counted
-constexpr int k_rounds = 3;
+constexpr int k_least_rounds = 3;
 
 struct Variant {
     std::string name;
@@ -81,53 +83,87 @@ void remove_results(const fs::path& folder, int ranks) {
     for (int rank = 0; rank < ranks; ++rank) fs::remove_all(folder / fmt::format("processor{}", rank) / end);
 }
 
-/// Wall seconds of the counted steps.
-std::vector<double> time_steps(const fs::path& folder, const Variant& variant) {
-    using Clock = std::chrono::steady_clock;
-    std::vector<Clock::time_point> begins;
+/// Processor seconds (user and system) that this process' descendants have used so far: of all ranks, and of mpirun.
+double core_seconds_of_descendants() {
+    struct Process {
+        long parent;
+        double seconds;
+    };
+    const double ticks = static_cast<double>(sysconf(_SC_CLK_TCK));
+    std::map<long, Process> processes;
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        std::string text;
+        std::getline(std::ifstream(entry.path() / "stat"), text);
+        const std::size_t name_end = text.rfind(')');  // a program's name may hold spaces
+        if (name_end == std::string::npos) continue;   // it has ended since
+        std::istringstream fields(text.substr(name_end + 1));
+        std::vector<std::string> value(15);  // from field 3 on: state, parent, ..., user and system ticks at 14 and 15
+        for (std::string& each : value) fields >> each;
+        processes[std::stol(name)] = {std::stol(value[1]), (std::stod(value[11]) + std::stod(value[12])) / ticks};
+    }
+    const auto descends = [&](long id) {
+        while (processes.count(id) != 0) {
+            id = processes.at(id).parent;
+            if (id == getpid()) return true;
+        }
+        return false;
+    };
+    double sum = 0.0;
+    for (const auto& [id, process] : processes)
+        if (descends(id)) sum += process.seconds;
+    return sum;
+}
+
+/// Core seconds of all ranks per counted step, mean of one run.
+double time_steps(const fs::path& folder, const Variant& variant) {
+    std::vector<double> begins;
     require_child(meshing::foam_command(folder, variant.program, {}, variant.ranks), [&](const std::string& line) {
-        if (line.rfind("Time = ", 0) == 0) begins.push_back(Clock::now());
+        if (line.rfind("Time = ", 0) == 0) begins.push_back(core_seconds_of_descendants());
     });
-    std::vector<double> seconds;
-    for (std::size_t i = k_settling_steps; i + 1 < begins.size(); ++i)
-        seconds.push_back(std::chrono::duration<double>(begins[i + 1] - begins[i]).count());
     remove_results(folder, variant.ranks);
-    if (seconds.size() + k_settling_steps + 1 != k_steps) throw std::runtime_error(folder.string() + " did not run all its steps");
-    return seconds;
+    if (begins.size() != k_steps) throw std::runtime_error(folder.string() + " did not run all its steps");
+    return (begins.back() - begins[k_settling_steps]) / (k_steps - 1 - k_settling_steps);
 }
 
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-    return values[values.size() / 2];
+/// Least of the rounds, and by how much the largest lies above it.
+std::string least_and_spread(const std::vector<double>& rounds) {
+    const auto [least, most] = std::minmax_element(rounds.begin(), rounds.end());
+    return fmt::format("{:.3f} (+{:.1f} %)", *least, 100.0 * (*most / *least - 1.0));
 }
 
-int measure(const fs::path& run) {
+/// Ratio of the least of all rounds, and the least and largest ratio within a round.
+std::string ratio(const std::vector<double>& of, const std::vector<double>& to) {
+    std::vector<double> each;
+    for (std::size_t round = 0; round < of.size(); ++round) each.push_back(of[round] / to[round]);
+    const auto [least, most] = std::minmax_element(each.begin(), each.end());
+    return fmt::format("{:.3f} [{:.3f}, {:.3f}]", *std::min_element(of.begin(), of.end()) / *std::min_element(to.begin(), to.end()), *least,
+                       *most);
+}
+
+int measure(const fs::path& run, int rounds) {
     const std::vector<Variant> variants = {{"rock", cutter_foam(), true, 1},       {"flow", cutter_foam(), false, 1},
                                            {"pimpleFoam", "pimpleFoam", false, 1}, {"rock", cutter_foam(), true, 2},
                                            {"flow", cutter_foam(), false, 2},      {"pimpleFoam", "pimpleFoam", false, 2}};
     std::vector<fs::path> folders;
     for (const Variant& variant : variants) folders.push_back(prepare(run, variant));
-    std::vector<std::vector<double>> seconds(variants.size());
-    for (int round = 0; round < k_rounds; ++round)
+    std::map<std::pair<std::string, int>, std::vector<double>> seconds;
+    for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < variants.size(); ++i) {
-            std::cerr << fmt::format("round {} of {}: {} on {} rank(s)\n", round + 1, k_rounds, variants[i].name, variants[i].ranks);
-            const std::vector<double> more = time_steps(folders[i], variants[i]);
-            seconds[i].insert(seconds[i].end(), more.begin(), more.end());
+            const Variant& variant = variants[i];
+            std::cerr << fmt::format("round {} of {}: {} on {} rank(s)\n", round + 1, rounds, variant.name, variant.ranks);
+            seconds[{variant.name, variant.ranks}].push_back(time_steps(folders[i], variant));
         }
 
-    std::map<std::pair<std::string, int>, double> step;
-    fmt::print("| program | ranks | wall s per step (median of {}) | fastest | slowest |\n|---|---|---|---|---|\n", seconds[0].size());
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-        step[{variants[i].name, variants[i].ranks}] = median(seconds[i]);
-        const auto [fastest, slowest] = std::minmax_element(seconds[i].begin(), seconds[i].end());
-        fmt::print("| {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", variants[i].name, variants[i].ranks, median(seconds[i]), *fastest, *slowest);
-    }
-    fmt::print("\nrock / flow: {:.2f} on one rank, {:.2f} on two\n", step[{"rock", 1}] / step[{"flow", 1}],
-               step[{"rock", 2}] / step[{"flow", 2}]);
-    fmt::print("flow / pimpleFoam: {:.2f} on one rank, {:.2f} on two\n", step[{"flow", 1}] / step[{"pimpleFoam", 1}],
-               step[{"flow", 2}] / step[{"pimpleFoam", 2}]);
-    for (const char* name : {"rock", "flow", "pimpleFoam"})
-        fmt::print("parallel efficiency on two ranks, {}: {:.2f}\n", name, step[{name, 1}] / (2.0 * step[{name, 2}]));
+    fmt::print("{} rounds of {} steps of {:g} s each; core seconds of all ranks, user and system.\n\n", rounds,
+               k_steps - 1 - k_settling_steps, k_time_step);
+    fmt::print("| program | ranks | core s per step, least of the rounds (largest above it) |\n|---|---|---|\n");
+    for (const Variant& variant : variants)
+        fmt::print("| {} | {} | {} |\n", variant.name, variant.ranks, least_and_spread(seconds[{variant.name, variant.ranks}]));
+    fmt::print("\n| ratio of core seconds | one rank [range of the rounds] | two ranks |\n|---|---|---|\n");
+    for (const auto& [of, to] : {std::pair("flow", "pimpleFoam"), std::pair("rock", "pimpleFoam"), std::pair("rock", "flow")})
+        fmt::print("| {} / {} | {} | {} |\n", of, to, ratio(seconds[{of, 1}], seconds[{to, 1}]), ratio(seconds[{of, 2}], seconds[{to, 2}]));
     return 0;
 }
 
@@ -135,13 +171,18 @@ int measure(const fs::path& run) {
 }  // namespace cutterflow::validation
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::cerr << "usage: step_cost RUN_DIRECTORY\n\nRUN_DIRECTORY is of a run with rock (cutterflow run); it is not changed.\n";
+    using namespace cutterflow;
+    const int rounds = argc == 3 ? std::atoi(argv[2]) : validation::k_least_rounds;
+    if (argc < 2 || argc > 3 || rounds < validation::k_least_rounds) {
+        std::cerr << fmt::format(
+            "usage: step_cost RUN_DIRECTORY [ROUNDS]\n\nRUN_DIRECTORY is of a run with rock (cutterflow run); it is not changed. "
+            "ROUNDS is {} or more.\n",
+            validation::k_least_rounds);
         return 2;
     }
     try {
-        return cutterflow::validation::measure(argv[1]);
-    } catch (const cutterflow::ToolError& error) {
+        return validation::measure(argv[1], rounds);
+    } catch (const ToolError& error) {
         std::cerr << "step_cost: " << error.what() << '\n';
         return 3;
     } catch (const std::exception& error) {
