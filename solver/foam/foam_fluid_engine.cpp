@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "geometry/base/error.hpp"
+#include "solver/foam/mesh_motion/moving_zones.hpp"
 #include "solver/foam/session/case_errors.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 #include "solver/foam/session/foam_session.hpp"
 #include "solver/foam/session/pstream_communicator.hpp"
 #include "solver/foam/single_phase/cutter_fluid.hpp"
 #include "solver/foam/single_phase/flow_loads.hpp"
-#include "solver/foam/single_phase/moving_zones.hpp"
 #include "solver/foam/single_phase/patch_roles.hpp"
 #include "solver/foam/single_phase/steel_faces.hpp"
 #include "solver/foam/single_phase/velocity_sampler.hpp"

@@ -43,6 +43,7 @@ double read_density(const dictionary& transport, RockPresence rock) {
 CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock)
     : mesh_(mesh),
       zones_(zones),
+      rotation_(mesh, zones),
       time_(const_cast<Time&>(mesh.time())),
       rock_(rock),
       pimple_(mesh),
@@ -164,9 +165,14 @@ std::string CutterFluid::turbulence_model() const {
     return turbulence_.type();
 }
 
+/// On a mesh that changes, OpenFOAM measures the distances of the walls anew in each step. Those of a rigid zone stay, and its volumes too,
+/// which is all else that the model takes from the motion: its fluxes are relative to the mesh and their divergence is that of the absolute
+/// ones.
 void CutterFluid::correct_turbulence() {
     transport_.correct();
+    const bool moving = mesh_.moving(mesh_.moving() && !rotation_.is_rigid());
     turbulence_.correct();
+    mesh_.moving(moving);
 }
 
 tmp<vectorField> CutterFluid::vorticity() const {

@@ -6,9 +6,10 @@
 
 #include <gsl/span>
 
-#include "solver/foam/single_phase/moving_zones.hpp"
+#include "solver/foam/mesh_motion/moving_zones.hpp"
+#include "solver/foam/mesh_motion/rigid_rotation.hpp"
+#include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/single_phase/registered_turbulence.hpp"
-#include "solver/foam/single_phase/sliding_interface.hpp"
 #include "solver/ports/fluid_engine.hpp"
 
 #include "dynamicFvMesh.H"
@@ -127,6 +128,7 @@ private:
 
     Foam::dynamicFvMesh& mesh_;
     const MovingZones& zones_;
+    RigidRotation rotation_;
     Foam::Time& time_;
     const RockPresence rock_;
     Foam::pimpleControl pimple_;

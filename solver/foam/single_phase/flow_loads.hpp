@@ -1,7 +1,7 @@
 #pragma once
 /// \file What the flow does to the rotor and through the boundary. Only for .cpp files of this folder.
+#include "solver/foam/mesh_motion/moving_zones.hpp"
 #include "solver/foam/single_phase/cutter_fluid.hpp"
-#include "solver/foam/single_phase/moving_zones.hpp"
 
 namespace cutterflow::foam {
 

@@ -9,7 +9,7 @@ using namespace Foam;
 /// Faces carry their flux relative to the mesh along, as what turns with the mesh does, except where the boundary condition states the
 /// velocity.
 void CutterFluid::move_mesh() {
-    mesh_.update();
+    rotation_.move();
     if (!mesh_.moving()) return;
     forAll(phi_.boundaryField(), patch) {
         if (!U_.boundaryField()[patch].fixesValue()) continue;

@@ -2,7 +2,7 @@
 /// \file Wall faces of the mesh as triangles of steel.
 #include <vector>
 
-#include "solver/foam/single_phase/moving_zones.hpp"
+#include "solver/foam/mesh_motion/moving_zones.hpp"
 
 #include "label.H"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/foam/single_phase/sliding_interface.hpp"
+#include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
 #include "dynamicFvMesh.H"

@@ -1,4 +1,4 @@
-#include "solver/foam/single_phase/sliding_interface.hpp"
+#include "solver/foam/mesh_motion/sliding_interface.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "solver/foam/single_phase/moving_zones.hpp"
+#include "solver/foam/mesh_motion/moving_zones.hpp"
 
 #include <fmt/format.h>
 
