@@ -1,5 +1,7 @@
 #include "solver/foam/mesh_motion/rigid_rotation.hpp"
 
+#include <cmath>
+
 #include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 
@@ -8,7 +10,6 @@
 #include "cyclicAMIFvPatch.H"
 #include "cyclicAMIGAMGInterface.H"
 #include "dynamicMotionSolverFvMesh.H"
-#include "emptyPolyPatch.H"
 #include "pointIOField.H"
 #include "pointMesh.H"
 #include "points0MotionSolver.H"
@@ -137,10 +138,10 @@ RigidRotation::RigidRotation(dynamicFvMesh& mesh, const MovingZones& zones) : me
     cells_ = turns.sortedToc();
     faces_ = faces.sortedToc();
     points_ = points.sortedToc();
-    if (turns_rigidly()) motion_ = &zones.motion.front();
+    if (turns_rigidly(zones.motion.front().axis)) motion_ = &zones.motion.front();
 }
 
-bool RigidRotation::turns_rigidly() const {
+bool RigidRotation::turns_rigidly(const RotationAxis& axis) const {
     bool rigid = true;
     bitSet turns(mesh_.nCells()), moved(mesh_.nPoints());
     turns.set(cells_);
@@ -149,7 +150,9 @@ bool RigidRotation::turns_rigidly() const {
         if (turns.test(mesh_.faceOwner()[face])) continue;
         for (const label point : mesh_.faces()[face]) rigid = rigid && !moved.test(point);
     }
-    for (const polyPatch& patch : mesh_.boundaryMesh()) rigid = rigid && !isA<emptyPolyPatch>(patch) && !isA<wedgePolyPatch>(patch);
+    for (const polyPatch& patch : mesh_.boundaryMesh()) rigid = rigid && !isA<wedgePolyPatch>(patch);
+    for (direction d = 0; d < vector::nComponents; ++d)
+        rigid = rigid && (mesh_.solutionD()[d] == 1 || std::abs(axis.direction[d]) > 1.0 - 1e-12);
     return returnReduce(rigid, andOp<bool>());
 }
 
@@ -257,10 +260,11 @@ void RigidRotation::set_mesh_flux() {
         const label face = faces_[i];
         if (mesh_.isInternalFace(face)) {
             flux[face] = flux_[i];
-        } else {
-            const label patch = mesh_.boundaryMesh().patchID()[face - mesh_.nInternalFaces()];
-            flux.boundaryFieldRef()[patch][face - mesh_.boundaryMesh()[patch].start()] = flux_[i];
+            continue;
         }
+        const label patch = mesh_.boundaryMesh().patchID()[face - mesh_.nInternalFaces()];
+        fvsPatchScalarField& values = flux.boundaryFieldRef()[patch];
+        if (!values.empty()) values[face - mesh_.boundaryMesh()[patch].start()] = flux_[i];  // empty patches have no values
     }
 }
 

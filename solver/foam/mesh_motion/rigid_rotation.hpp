@@ -25,7 +25,7 @@ public:
     RigidRotation(Foam::dynamicFvMesh& mesh, const MovingZones& zones);
 
     /// Moves the mesh to the present time: by OpenFOAM's own update where nothing turns, where turning cells share points with still ones,
-    /// and where patches are empty or wedges. Collective.
+    /// where patches are wedges, and where a plane mesh does not turn in its plane. Collective.
     void move();
 
     bool is_rigid() const { return motion_ != nullptr; }
@@ -43,7 +43,7 @@ private:
         std::vector<Vectors> patch_corrections;    ///< of each patch
     };
 
-    bool turns_rigidly() const;
+    bool turns_rigidly(const RotationAxis& axis) const;
     void remember();
     void turn(const Foam::tensor& rotation);
     void turn_patches(const Foam::tensor& rotation);

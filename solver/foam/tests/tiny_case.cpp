@@ -204,7 +204,6 @@ TinyCase laminar_case(const std::string& name, const std::string& mesh, double t
         "solvers { \"p.*\" { solver PBiCGStab; preconditioner DIC; tolerance 1e-13; relTol 0; }\n"
         "\"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; maxIter 100; } }\n"
         "PIMPLE { nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }\n";
-    tiny.files["system/decomposeParDict"] = "numberOfSubdomains 2; method simple; coeffs { n (2 1 1); delta 0.001; }\n";
     tiny.files["constant/transportProperties"] = "transportModel Newtonian; nu 1e-6; rho 1000;\n";
     tiny.files["constant/turbulenceProperties"] = "simulationType laminar;\n";
     return tiny;
@@ -233,7 +232,11 @@ std::filesystem::path build_case(const TinyCase& tiny) {
         std::filesystem::remove_all(folder);
         for (const auto& [path, body] : tiny.files) write_file(folder, path, body);
         run_program(folder, "blockMesh");
-        if (ranks > 1) run_program(folder, "decomposePar");
+        if (ranks > 1) {
+            write_file(folder, "system/decomposeParDict",
+                       fmt::format("numberOfSubdomains {0}; method simple; coeffs {{ n ({0} 1 1); delta 0.001; }}\n", ranks));
+            run_program(folder, "decomposePar");
+        }
     }
     MPI_Barrier(MPI_COMM_WORLD);
     return folder;
