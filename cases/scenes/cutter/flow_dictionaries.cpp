@@ -94,11 +94,22 @@ FoamFile schemes_file(const std::string& time_scheme, const meshing::FoamDiction
     return system_file("fvSchemes", schemes);
 }
 
+meshing::FoamDictionary multigrid(const char* role) {
+    return meshing::FoamDictionary()
+        .add(role, "GAMG")
+        .add("smoother", "DICGaussSeidel")
+        .add("cacheAgglomeration", true);  // both solutions of a step share it; mesh motion discards it
+}
+
+meshing::FoamDictionary steady_pressure_solver(double tolerance, double relative) {
+    return multigrid("solver").add("tolerance", tolerance).add("relTol", relative);
+}
+
+/// Conjugate gradients with two V-cycles an iteration; docs/design/007-flow-settings.md has the cost of the alternatives.
 meshing::FoamDictionary pressure_solver(double tolerance, double relative) {
     return meshing::FoamDictionary()
-        .add("solver", "GAMG")
-        .add("smoother", "DICGaussSeidel")
-        .add("cacheAgglomeration", true)  // both solutions of a step share it; mesh motion discards it
+        .add("solver", "PCG")
+        .add("preconditioner", multigrid("preconditioner"))
         .add("tolerance", tolerance)
         .add("relTol", relative);
 }
@@ -259,7 +270,7 @@ std::vector<FoamFile> start_system_files(const CaseInputs& inputs, int iteration
     convection.add("div((nuEff*dev2(T(grad(U)))))", meshing::FoamValue::raw("Gauss linear"));
 
     meshing::FoamDictionary solvers;
-    solvers.add("p", pressure_solver(1e-9, 0.02)).add_pattern("(U|k|epsilon)", transport_solver(1e-9, 0.1));
+    solvers.add("p", steady_pressure_solver(1e-9, 0.02)).add_pattern("(U|k|epsilon)", transport_solver(1e-9, 0.1));
     meshing::FoamDictionary relaxation;
     relaxation.add("fields", meshing::FoamDictionary().add("p", 0.3));
     relaxation.add("equations", meshing::FoamDictionary().add("U", 0.7).add_pattern("(k|epsilon)", 0.5));
