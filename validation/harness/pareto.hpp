@@ -59,7 +59,7 @@ std::vector<Sweep<Options>> one_rock_sweeps(const std::vector<double>& mesh) {
             {"kernel width gamma", number_values(&Options::gamma, {0.5, 0.75, 1.5, 2.0})},
             {"DEM step over the shortest contact time", number_values(&Options::dem_step, {0.025, 0.05, 0.2, 0.4})},
             {"Young's modulus, Pa", number_values(&Options::youngs_modulus, {1e6, 1e7, 1e9})},
-            {"scheme of convection", scheme_values<Options>({"linearUpwind grad(U)", "limitedLinear 1", "linear"})}};
+            {"scheme of convection", scheme_values<Options>({"upwind", "limitedLinearV 1", "linear"})}};
 }
 
 /// Section rock.contact of couplingProperties.

@@ -22,13 +22,13 @@ struct Rotor {
 
 /// Scheme of momentum convection in the transient run. The frozen-rotor start is always upwind.
 enum class ConvectionScheme {
-    upwind,          ///< first order
-    limited_linear,  ///< second order, limited to upwind where the velocity is not smooth
+    upwind,         ///< first order
+    linear_upwind,  ///< second order, from the upwind cell with its limited gradient; the matrix is that of upwind
 };
 
 /// How the transient flow is solved. docs/design/007-flow-settings.md has the measurements behind the defaults.
 struct FlowNumerics {
-    std::optional<ConvectionScheme> convection;  ///< none: upwind with rock, as the reference work; limited_linear for the flow alone
+    ConvectionScheme convection = ConvectionScheme::linear_upwind;
     double max_courant = 0.9;
     int outer_correctors = 1;
     int pressure_correctors = 2;

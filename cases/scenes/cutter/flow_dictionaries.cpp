@@ -68,10 +68,8 @@ FoamFile system_file(const std::string& name, meshing::FoamDictionary contents) 
     return {"system/" + name, "dictionary", std::move(contents)};
 }
 
-const char* convection_scheme(const CaseInputs& inputs) {
-    const ConvectionScheme scheme =
-        inputs.numerics.convection.value_or(inputs.rock ? ConvectionScheme::upwind : ConvectionScheme::limited_linear);
-    return scheme == ConvectionScheme::upwind ? "Gauss upwind" : "Gauss limitedLinearV 1";
+const char* scheme_text(ConvectionScheme scheme) {
+    return scheme == ConvectionScheme::upwind ? "Gauss upwind" : "Gauss linearUpwindV grad(U)";
 }
 
 meshing::FoamDictionary one(const std::string& key, const std::string& scheme) {
@@ -98,7 +96,7 @@ meshing::FoamDictionary multigrid(const char* role) {
     return meshing::FoamDictionary()
         .add(role, "GAMG")
         .add("smoother", "DICGaussSeidel")
-        .add("cacheAgglomeration", true);  // both solutions of a step share it; mesh motion discards it
+        .add("cacheAgglomeration", true);  // both solutions of a step share it, and it turns with the mesh
 }
 
 meshing::FoamDictionary steady_pressure_solver(double tolerance, double relative) {
@@ -219,7 +217,7 @@ FoamFile frozen_rotor_file(const CaseInputs& inputs) {
 
 std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
     meshing::FoamDictionary convection = one("default", "none");
-    convection.add("div(phi,U)", meshing::FoamValue::raw(convection_scheme(inputs)))
+    convection.add("div(phi,U)", meshing::FoamValue::raw(scheme_text(inputs.numerics.convection)))
         .add("div(phi,k)", meshing::FoamValue::raw("Gauss upwind"))
         .add("div(phi,epsilon)", meshing::FoamValue::raw("Gauss upwind"))
         .add("div((nuEff*dev2(T(grad(U)))))", meshing::FoamValue::raw("Gauss linear"));

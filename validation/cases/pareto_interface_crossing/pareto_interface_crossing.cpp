@@ -27,7 +27,7 @@ struct Options {
     double gamma = 1.0;
     double dem_step = 0.1;  ///< of the shortest contact time
     double youngs_modulus = 1e8;
-    std::string convection = "upwind";
+    std::string convection = "linearUpwindV grad(U)";
 };
 
 /// The tank with cells of about this size [m] at the interface; its two sides differ.

@@ -22,7 +22,7 @@ struct Options {
     double gamma = 1.0;
     double dem_step = 0.1;  ///< of the shortest contact time
     double youngs_modulus = 1e8;
-    std::string convection = "upwind";
+    std::string convection = "linearUpwindV grad(U)";
 };
 
 double terminal_speed(const BoxCase& water) {

@@ -82,22 +82,23 @@ double error_in_study(const Verification& verification, cases::ConvectionScheme 
     annulus.study = convection;
     annulus.viscosity = 1e-6;
     annulus.time_step = time_step;
-    const char* const scheme = convection == cases::ConvectionScheme::upwind ? "upwind" : "limited_linear";
+    const char* const scheme = convection == cases::ConvectionScheme::upwind ? "upwind" : "linear_upwind";
     return turn(verification, fmt::format("study_{}_step_{:g}_turns_{}", scheme, time_step, turns), annulus).velocity_error;
 }
 
 void check_study_settings(Verification& verification) {
     const About about{"exact", "Euler, one outer corrector, water; 96 faces around; the step of the draft study at 60 rpm is 1.25 ms", {}};
-    const std::string quantity = "L2 error of velocity over its L2 norm, settings of a study";
+    const std::string quantity = "L2 error of velocity over its L2 norm, settings of a study with and without rock";
     using cases::ConvectionScheme;
-    verification.at_most(quantity + ", 2 turns", "-", error_in_study(verification, ConvectionScheme::limited_linear, 1.25e-3, 2), 0.01,
+    verification.at_most(quantity + ", 2 turns", "-", error_in_study(verification, ConvectionScheme::linear_upwind, 1.25e-3, 2), 0.01,
                          about);
-    verification.at_most(quantity + ", 20 turns", "-", error_in_study(verification, ConvectionScheme::limited_linear, 1.25e-3, 20), 0.03,
+    verification.at_most(quantity + ", 20 turns", "-", error_in_study(verification, ConvectionScheme::linear_upwind, 1.25e-3, 20), 0.03,
                          about);
     verification.at_most(quantity + ", 2 turns, step five times longer", "-",
-                         error_in_study(verification, ConvectionScheme::limited_linear, 6.25e-3, 2), 0.01, about);
-    verification.at_most(quantity + " with rock (upwind), 2 turns", "-", error_in_study(verification, ConvectionScheme::upwind, 1.25e-3, 2),
-                         0.01, about);
+                         error_in_study(verification, ConvectionScheme::linear_upwind, 6.25e-3, 2), 0.01, about);
+    verification.report("L2 error of velocity over its L2 norm, settings of a study but upwind, 2 turns", "-",
+                        error_in_study(verification, ConvectionScheme::upwind, 1.25e-3, 2), {},
+                        {"exact", "what first order would cost; studies with rock had it up to version 0.2.0", {}});
 }
 
 void run(Verification& verification) {

@@ -149,7 +149,7 @@ std::string pressure_reference(const AnnulusCase& annulus) {
 
 void write_study_schemes(const fs::path& folder, const AnnulusCase& annulus) {
     cases::CaseInputs inputs(geometry::Contour({0.0, annulus.height}, {annulus.inner, annulus.inner}, annulus.inner, annulus.height));
-    inputs.numerics.convection = annulus.study;
+    inputs.numerics.convection = *annulus.study;
     inputs.rotor.speed = 1.0;  // acts on the controlDict alone
     for (const cases::FoamFile& file : cases::run_system_files(inputs))
         if (file.path != "system/controlDict") meshing::write_foam_file(folder / file.path, file.foam_class, file.contents);

@@ -91,7 +91,8 @@ void write_system(const fs::path& folder, const BoxCase& box) {
                     box.end_time, box.time_step, box.time_step, std::min(box.write_interval, box.end_time), box.functions));
     write_foam_dictionary(
         folder, "system/fvSchemes", "dictionary",
-        fmt::format("ddtSchemes {{ default Euler; }}\ngradSchemes {{ default Gauss linear; }}\ndivSchemes\n{{\n    default Gauss "
+        fmt::format("ddtSchemes {{ default Euler; }}\ngradSchemes {{ default Gauss linear; grad(U) cellLimited Gauss linear 1; "
+                    "}}\ndivSchemes\n{{\n    default Gauss "
                     "upwind;\n    div(phi,U) Gauss {};\n    div((nuEff*dev2(T(grad(U))))) Gauss linear;\n"
                     "    div(((alpha*nuEff)*dev2(T(grad(U))))) Gauss linear;\n}}\nlaplacianSchemes {{ default Gauss linear "
                     "corrected; }}\ninterpolationSchemes {{ default linear; }}\nsnGradSchemes {{ default corrected; }}",

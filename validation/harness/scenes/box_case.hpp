@@ -49,7 +49,7 @@ struct BoxCase {
     double write_interval = 1e9;       ///< [s]
     double pressure_tolerance = 1e-9;  ///< of the linear solver, without a relative one
     std::vector<BoxRock> rocks;
-    std::string convection = "upwind";  ///< scheme of div(phi,U)
+    std::string convection = "linearUpwindV grad(U)";  ///< scheme of div(phi,U); a study's unless set
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
     std::string closures = "drag brown_lawler; hindrance di_felice; addedMass 0.5;";
     std::string contact =

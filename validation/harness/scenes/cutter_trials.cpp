@@ -6,8 +6,12 @@
 #include <fmt/format.h>
 
 #include "cases/runner/stages.hpp"
+#include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/run_files.hpp"
+#include "meshing/dictionary/foam_dictionary.hpp"
 #include "validation/harness/pareto.hpp"
 #include "validation/harness/program_run.hpp"
 
@@ -41,6 +45,18 @@ double top_outflow(const nlohmann::json& results) {
     throw std::runtime_error(std::string("the run has no bin ") + k_top_bin);
 }
 
+/// As a user overrides a generated file.
+void override_convection(const fs::path& run, cases::ConvectionScheme scheme) {
+    cases::CaseInputs inputs = cases::test::tiny_inputs();
+    inputs.numerics.convection = scheme;
+    for (const cases::FoamFile& file : cases::run_system_files(inputs))
+        if (file.path == "system/fvSchemes") meshing::write_foam_file(run / "overrides" / file.path, file.foam_class, file.contents);
+}
+
+double torque(const fs::path& folder) {
+    return nlohmann::json::parse(read_file(folder / "run" / names::results_json)).at("rotor").at("torque_flow_mean_n_m");
+}
+
 /// \return its cost; the outflow [m/s] takes the place of the error
 Trial run_trial(const fs::path& folder, const CutterOptions& options) {
     write_file(folder / "study.toml", study(options));
@@ -49,17 +65,28 @@ Trial run_trial(const fs::path& folder, const CutterOptions& options) {
     if (!fs::exists(common / "cutter.stl")) run_cutterflow(common, {"generate-cutter", crown.string(), "-o", "cutter.stl"});
     const bool first = folder.filename() == k_default;
     if (!first) cases::share_stages(donor, folder / "run", {"geometry", "mesh"});
+    if (options.convection) override_convection(folder / "run", *options.convection);
     const double outflow = top_outflow(run_study(folder, first ? fs::path() : donor));
     return {stage_core_s(folder / "run", "run"), outflow};
 }
 
-void show(Verification& verification, const std::string& title, const std::vector<CutterValue>& values, const std::vector<Trial>& trials) {
+struct CutterTrial {
+    Trial trial;
+    double torque = 0.0;  ///< mean of the flow's [N m]
+};
+
+void show(Verification& verification, const std::string& title, const std::vector<CutterValue>& values,
+          const std::vector<CutterTrial>& trials) {
     Chart chart{title, "core seconds", "distance of the outflow from the finest run, %", {}};
-    ExhibitTable table{fmt::format("Outflow {} below the ring plane: {}", k_top_bin, title), {"value", "core seconds", "outflow, m/s"}, {}};
+    ExhibitTable table{fmt::format("Outflow {} below the ring plane: {}", k_top_bin, title),
+                       {"value", "core seconds", "outflow, m/s", "torque of the flow, N m"},
+                       {}};
     for (std::size_t v = 0; v < values.size(); ++v) {
-        const double distance = 100.0 * std::abs(trials[v].error / trials.back().error - 1.0);
-        chart.points.push_back({values[v].label, trials[v].core_s, distance, values[v].standard});
-        table.rows.push_back({values[v].label, fmt::format("{:.1f}", trials[v].core_s), fmt::format("{:.5f}", trials[v].error)});
+        const Trial& trial = trials[v].trial;
+        const double distance = 100.0 * std::abs(trial.error / trials.back().trial.error - 1.0);
+        chart.points.push_back({values[v].label, trial.core_s, distance, values[v].standard});
+        table.rows.push_back({values[v].label, fmt::format("{:.1f}", trial.core_s), fmt::format("{:.5f}", trial.error),
+                              fmt::format("{:.3f}", trials[v].torque)});
         if (values[v].standard)
             verification.report("distance of the default's outflow from the finest run: " + title, "%", distance, {},
                                 {"exact", "first bin below the ring, " + std::string(k_top_bin), {}});
@@ -71,14 +98,16 @@ void show(Verification& verification, const std::string& title, const std::vecto
 }  // namespace
 
 void run_cutter_sweeps(Verification& verification, const CutterOptions& standard, const std::vector<CutterSweep>& sweeps) {
-    const Trial of_defaults = finished_or_run<CutterOptions>(verification.folder(k_default), standard, run_trial);
+    const auto finished = [&](const std::string& name, const CutterOptions& options) -> CutterTrial {
+        const fs::path folder = verification.folder(name);
+        return {finished_or_run<CutterOptions>(folder, options, run_trial), torque(folder)};
+    };
+    const CutterTrial of_defaults = finished(k_default, standard);
     for (std::size_t s = 0; s < sweeps.size(); ++s) {
-        std::vector<Trial> trials;
+        std::vector<CutterTrial> trials;
         for (std::size_t v = 0; v < sweeps[s].values.size(); ++v) {
             const CutterValue& value = sweeps[s].values[v];
-            trials.push_back(value.standard ? of_defaults
-                                            : finished_or_run<CutterOptions>(verification.folder(fmt::format("run_{}_{}", s, v)),
-                                                                             value.options, run_trial));
+            trials.push_back(value.standard ? of_defaults : finished(fmt::format("run_{}_{}", s, v), value.options));
         }
         show(verification, sweeps[s].title, sweeps[s].values, trials);
     }
