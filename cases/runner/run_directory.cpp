@@ -91,7 +91,7 @@ std::vector<std::string> RunDirectory::overrides() const {
     return files;
 }
 
-const std::vector<std::string>& RunDirectory::apply_overrides(const std::vector<std::string>& files) const {
+std::vector<std::string> RunDirectory::apply_overrides(std::vector<std::string> files) const {
     for (const std::string& relative : files) {
         fs::create_directories(file(relative).parent_path());
         fs::copy_file(path_ / k_overrides / relative, file(relative), fs::copy_options::overwrite_existing);

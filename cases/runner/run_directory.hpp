@@ -36,7 +36,7 @@ public:
     std::vector<std::string> overrides() const;
 
     /// Copies files of overrides/ (relative to it) over the run directory. \return the same
-    const std::vector<std::string>& apply_overrides(const std::vector<std::string>& files) const;
+    std::vector<std::string> apply_overrides(std::vector<std::string> files) const;
 
 private:
     std::filesystem::path path_;

@@ -229,7 +229,9 @@ TEST_F(Stages, overrides_are_copied_over_the_case) {
     write_file(folder_ / "overrides/system/fvSolution", "mine");
     write_file(folder_ / "overrides/constant/deep/er", "new");
     EXPECT_EQ(directory.overrides(), (Names{"constant/deep/er", "system/fvSolution"}));
-    directory.apply_overrides(directory.overrides());
+    Names copied;
+    for (const std::string& file : directory.apply_overrides(directory.overrides())) copied.push_back(file);
+    EXPECT_EQ(copied, directory.overrides());
     EXPECT_EQ(read_file(folder_ / "system/fvSolution"), "mine");
     EXPECT_EQ(read_file(folder_ / "constant/deep/er"), "new");
 }
