@@ -446,22 +446,27 @@ void SurfaceRun::move_bodies(double step) {
     take_over_bodies();
 }
 
+/// Particles in solids go to the surface. What still walls and gates stop, loses its velocity into them: a face that is open in part drives
+/// water against the closed part, and what is put back there step by step would gain velocity in each.
 void SurfaceRun::push_out() {
     if (cells_.cut.empty() && bodies_.empty()) return;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
         Vec3 place = particles_.place(p);
         if (cells_.open_volume[cell_of(grid_, place)] >= 1.0) continue;
         bool inside = false;
-        const auto leave = [&](const StillSolid& solid) {
+        Vec3 velocity = particles_.speed(p);
+        const auto leave = [&](const StillSolid& solid, double lift) {
             if (const auto way = way_out(solid, place)) {
                 inside = true;
                 const double depth = (*way - place).norm();
+                const Vec3 outward = (*way - place) / depth;
                 report_.deepest = std::max(report_.deepest, depth);
-                place += (*way - place) * (1.0 + k_off_walls * grid_.spacing() / depth);
+                place = *way + k_off_walls * grid_.spacing() * outward;
+                velocity += std::max(0.0, lift * outward.z() - velocity.dot(outward)) * outward;
             }
         };
-        for (const StillSolid& solid : settings_.solids) leave(solid);
-        for (const SolidBox& gate : gates_) leave(gate);
+        for (const StillSolid& solid : settings_.solids) leave(solid, 0.0);
+        for (std::size_t n = 0; n < gates_.size(); ++n) leave(gates_[n], n < lift_.size() ? lift_[n] : 0.0);
         cells_.covering.for_each(cell_of(grid_, place), [&](int number) {
             const Body& body = bodies_[number];
             Vec3 arm = place - body.position;
@@ -475,7 +480,10 @@ void SurfaceRun::push_out() {
         if (!inside) continue;
         ++report_.pushed_out;
         keep_in_tank(grid_, place);
-        for (const int d : grid_.directions()) particles_.position[d][p] = place[d];
+        for (const int d : grid_.directions()) {
+            particles_.position[d][p] = place[d];
+            particles_.velocity[d][p] = velocity[d];
+        }
     }
 }
 
