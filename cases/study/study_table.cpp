@@ -185,7 +185,7 @@ ParameterTable run_rows() {
             .at_least(1e-3)
             .at_most(k_most_revolutions)
             .by_default(4.0),
-        setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.05),
+        setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.0),
         number(
             k_case_stage, "run.record_revolutions", "-",
             "Revolutions of the flow before the first rock that are recorded by rotor phase, for `cutterflow replay`; 0 records nothing.")

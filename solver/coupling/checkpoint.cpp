@@ -20,14 +20,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_state_file = "state.json";
 constexpr const char* k_velocity_file = "velocity.sums";
-constexpr const char* k_schema = "cutterflow.state/2";
+constexpr const char* k_schema = "cutterflow.state/3";
 constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
 
 const std::vector<JsonField> k_state_fields{{"schema", JsonKind::text, true},
                                             {"time_s", JsonKind::number, true},
                                             {"rotor_angle_rad", JsonKind::number, true},
                                             {"ranks", JsonKind::whole, true},
-                                            {"handled_feed/*", JsonKind::whole, true},
+                                            {"feed/placed/*", JsonKind::whole, true},
+                                            {"feed/waiting/*/id", JsonKind::whole, true},
+                                            {"feed/waiting/*/due_s", JsonKind::number_or_null, true},
+                                            {"feed/waiting/*/tried", JsonKind::truth, true},
+                                            {"feed/last_packet_s", JsonKind::number_or_null, true},
+                                            {"feed/fed_kg", JsonKind::number, true},
                                             {"booked/volume_m3", JsonKind::number, true},
                                             {"booked/momentum_n_s/*", JsonKind::number, true},
                                             {"rocks/*/id", JsonKind::whole, true},
@@ -38,6 +43,9 @@ const std::vector<JsonField> k_state_fields{{"schema", JsonKind::text, true},
                                             {"rocks/*/inside", JsonKind::truth, true},
                                             {"rocks/*/was_inside", JsonKind::truth, true},
                                             {"rocks/*/sucked_up", JsonKind::truth, true},
+                                            {"rocks/*/mixed", JsonKind::truth, true},
+                                            {"rocks/*/left_behind", JsonKind::truth, true},
+                                            {"rocks/*/start_distance_m", JsonKind::number, true},
                                             {"rocks/*/last_exit_bin", JsonKind::whole_or_null, true},
                                             {"rocks/*/first_exit_time_s", JsonKind::number_or_null, true},
                                             {"rocks/*/first_exit_azimuth_rad", JsonKind::number_or_null, true}};
@@ -70,6 +78,9 @@ json to_json(const TrackedRock& rock) {
             {"inside", rock.inside},
             {"was_inside", rock.was_inside},
             {"sucked_up", rock.sucked_up},
+            {"mixed", rock.mixed},
+            {"left_behind", rock.left_behind},
+            {"start_distance_m", rock.start_distance},
             {"last_exit_bin", to_json(rock.last_exit_bin)},
             {"first_exit_time_s", to_json(rock.first_exit_time)},
             {"first_exit_azimuth_rad", to_json(rock.first_exit_azimuth)}};
@@ -85,10 +96,27 @@ TrackedRock rock_of(const json& j) {
     rock.inside = j.at("inside");
     rock.was_inside = j.at("was_inside");
     rock.sucked_up = j.at("sucked_up");
+    rock.mixed = j.at("mixed");
+    rock.left_behind = j.at("left_behind");
+    rock.start_distance = j.at("start_distance_m");
     rock.last_exit_bin = optional_of<std::size_t>(j.at("last_exit_bin"));
     rock.first_exit_time = optional_of<double>(j.at("first_exit_time_s"));
     rock.first_exit_azimuth = optional_of<double>(j.at("first_exit_azimuth_rad"));
     return rock;
+}
+
+json to_json(const FeedState& feed) {
+    json waiting = json::array();
+    for (const FeedState::Waiting& rock : feed.waiting)
+        waiting.push_back({{"id", rock.id}, {"due_s", to_json(rock.due)}, {"tried", rock.tried}});
+    return {{"placed", feed.placed}, {"waiting", waiting}, {"last_packet_s", to_json(feed.last_packet)}, {"fed_kg", feed.fed}};
+}
+
+FeedState feed_of(const json& j) {
+    FeedState feed{j.at("placed").get<std::vector<int>>(), {}, optional_of<double>(j.at("last_packet_s")), j.at("fed_kg")};
+    for (const json& rock : j.at("waiting"))
+        feed.waiting.push_back({rock.at("id"), optional_of<double>(rock.at("due_s")), rock.at("tried")});
+    return feed;
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule) {
@@ -103,7 +131,7 @@ std::string carry_file(int rank) {
 
 void write_state(const fs::path& folder, const RunState& state) {
     json j{{"schema", k_schema}, {"time_s", state.time}, {"rotor_angle_rad", state.rotor_angle}, {"ranks", state.ranks}};
-    j["handled_feed"] = state.handled_feed;
+    j["feed"] = to_json(state.feed);
     j["booked"] = {{"volume_m3", state.booked.volume}, {"momentum_n_s", to_json(state.booked.momentum)}};
     j["rocks"] = json::array();
     for (const auto& [id, rock] : state.rocks) j["rocks"].push_back(to_json(rock));
@@ -123,7 +151,7 @@ RunState read_state(const fs::path& folder) {
         state.time = j.at("time_s");
         state.rotor_angle = j.at("rotor_angle_rad");
         state.ranks = j.at("ranks");
-        state.handled_feed = j.at("handled_feed").get<std::vector<int>>();
+        state.feed = feed_of(j.at("feed"));
         state.booked = {j.at("booked").at("volume_m3"), vector_of(j.at("booked").at("momentum_n_s"))};
         for (const json& rock : j.at("rocks")) state.rocks[rock.at("id")] = rock_of(rock);
         return state;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/coupling/feed/feed_queue.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
@@ -17,8 +18,8 @@ namespace cutterflow::coupling {
 struct RunState {
     double time = 0.0;
     double rotor_angle = 0.0;
-    int ranks = 1;                  ///< that wrote it
-    std::vector<int> handled_feed;  ///< ids of the feed that are placed or rejected
+    int ranks = 1;  ///< that wrote it
+    FeedState feed;
     std::map<int, TrackedRock> rocks;
     BookedExchange booked;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <gsl/assert>
 
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
@@ -22,6 +23,9 @@ constexpr double k_axis_tolerance = 1e-9;
 
 /// Volume that a step may have too much in a closed domain, over its volume: rounding of sums over many cells.
 constexpr double k_largest_surplus = 1e-10;
+
+/// Share of the fed mass that may be missing in the ledger: rounding.
+constexpr double k_largest_ledger_error = 1e-9;
 
 /// Tolerance on release times, as a fraction of the step (simulated time accumulates rounding).
 constexpr double k_due_tolerance = 1e-3;
@@ -70,7 +74,10 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     mistakes.add(check_settings(settings, properties, names::coupling_properties));
     if (settings.fates || settings.outflow)
         for (const ZoneMotion& zone : fluid.moving_zones()) mistakes.add(check_axis(zone));
-    if (settings.has_rock && !settings.rock_feed.empty()) mistakes.gather([&] { feed_ = read_rock_feed(settings.rock_feed); });
+    const auto moving = fluid.moving_zones();
+    const ZoneMotion rotor = moving.empty() ? ZoneMotion{} : moving[0];
+    if (settings.has_rock && !settings.rock_feed.empty())
+        mistakes.gather([&] { feed_ = FeedQueue(read_rock_feed(settings.rock_feed), settings.queue, rotor); });
     if (settings.fates && mistakes.empty())
         mistakes.gather([&] {
             const geometry::Contour contour = read_contour(*settings.fates);
@@ -98,6 +105,7 @@ void CoupledRun::step() {
     double seconds = 0.0;
     {
         const Timer timer(seconds);
+        remove_finished_rock();
         insert_due_rock();
         sample_flow();
         begin_fluid_step();
@@ -115,22 +123,33 @@ RunInstant CoupledRun::now() const {
     return {fluid_.time(), moving.empty() ? 0.0 : moving[0].angle(fluid_.time())};
 }
 
+double CoupledRun::release_tolerance() const {
+    return k_due_tolerance * fluid_.time_step();
+}
+
+/// With packets of rock, so that the DEM sets itself up once for both.
+void CoupledRun::remove_finished_rock() {
+    if (!has_rock() || !fates_ || !feed_.packet_is_due(fluid_.time(), release_tolerance())) return;
+    const Timer timer(cost_.mapping);
+    const std::vector<int> leaving = fates_->finished();
+    if (leaving.empty()) return;
+    for (const RockEvent& event : fates_->take_out(leaving, dem_->rocks(), now())) recorder_.event(event);
+    rock_->remove(leaving);
+}
+
 void CoupledRun::insert_due_rock() {
     if (!has_rock()) return;
     const Timer timer(cost_.mapping);
-    const double due_until = fluid_.time() + k_due_tolerance * fluid_.time_step();
-    const auto later = std::find_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return rock.time > due_until; });
-    if (later == feed_.begin()) return;
-    const std::vector<FeedRock> due(feed_.begin(), later);
-    feed_.erase(feed_.begin(), later);
-    const std::vector<int> rejected = rock_->insert(due);
-    for (const FeedRock& rock : due) {
-        handled_feed_.push_back(rock.id);
-        if (std::find(rejected.begin(), rejected.end(), rock.id) != rejected.end()) {
-            recorder_.rejected({rock.id, fluid_.time(), "overlaps a rock or a wall or lies outside the domain"});
-            continue;
-        }
-        const Rocks& rocks = dem_->rocks();
+    feed_.collect_due(fluid_.time(), release_tolerance());
+    if (!feed_.packet_is_due(fluid_.time(), release_tolerance())) return;
+    const auto room_for = [&](const std::vector<FeedRock>& rocks) { return rock_->room_for(rocks); };
+    const std::vector<FeedRock> packet = feed_.next_packet(fluid_.time(), release_tolerance(), room_for);
+    for (const FeedRock& rock : feed_.newly_waiting())
+        recorder_.rejected({rock.id, fluid_.time(), "overlaps a rock or a wall or lies outside the domain"});
+    if (packet.empty()) return;
+    Ensures(rock_->insert(packet).empty());
+    const Rocks& rocks = dem_->rocks();
+    for (const FeedRock& rock : packet) {
         const auto p = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), rock.id) - rocks.id.begin());
         recorder_.event(fates_ ? fates_->place(rock.id, rock.diameter, rock.density, rocks.position[p], rocks.velocity[p], now())
                                : rock_event(EventSurface::feed, EventDirection::in, rocks, p, now()));
@@ -149,7 +168,7 @@ void CoupledRun::begin_fluid_step() {
     const Timer timer(cost_.mesh_motion);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     // Rock was placed for the rotor's angle at its time.
-    fluid_.begin_step(has_rock() ? rock_->travel_limit() : infinity, feed_.empty() ? infinity : feed_.front().time);
+    fluid_.begin_step(has_rock() ? rock_->travel_limit() : infinity, feed_.next_release());
 }
 
 void CoupledRun::move_rock() {
@@ -218,7 +237,10 @@ void CoupledRun::report() {
     if (settings_.outflow && fluid_.time() + fluid_.time_step() >= settings_.outflow->start_time)
         recorder_.outflow(fluid_.time(), fluid_.watched_means());
     if (velocity_) velocity_->sample_if_due(fluid_);
-    if (fates_) recorder_.fates(fluid_.time(), fates_->totals());
+    if (fates_) {
+        recorder_.fates(fluid_.time(), fates_->totals());
+        report_ledger();
+    }
     if (fluid_.write_if_due() && has_rock()) record_picture();
     // Half a step of tolerance, so that checkpoints do not lag their interval by one step each time.
     if (settings_.checkpoint && fluid_.time() + 0.5 * fluid_.time_step() >= last_checkpoint_ + settings_.checkpoint->interval)
@@ -260,6 +282,18 @@ void CoupledRun::report_loads_and_balance() {
     require_closed_volume(balance);
 }
 
+void CoupledRun::report_ledger() {
+    const RockLedger ledger = ledger_of(fates_->rocks(), dem_->rocks(), feed_.fed_mass(), feed_.owed_mass());
+    recorder_.ledger(fluid_.time(), ledger);
+    if (ledger.error() <= k_largest_ledger_error) return;
+    throw CheckFailure(
+        {"",
+         fmt::format("at time {:.9g} s {:.3g} of the {:.6g} kg of rock that was fed is not accounted for; rock/ledger.csv has "
+                     "its columns",
+                     fluid_.time(), ledger.error(), ledger.fed),
+         fmt::format("All rock is somewhere, to {:g} of what was fed", k_largest_ledger_error), "Report this as a defect"});
+}
+
 void CoupledRun::record_picture() {
     const Rocks& rocks = dem_->rocks();
     std::vector<Fate> fates;
@@ -289,7 +323,7 @@ void CoupledRun::report_cost(double step_seconds) {
 }
 
 bool CoupledRun::finished() const {
-    return settings_.stop && fates_ && feed_.empty() && fates_->totals().undecided() <= settings_.stop->undecided;
+    return settings_.stop && fates_ && feed_.all_in() && fates_->totals().undecided() <= settings_.stop->undecided;
 }
 
 void CoupledRun::finish() {
@@ -357,7 +391,7 @@ void CoupledRun::write_state_files(const fs::path& folder) {
     state.time = fluid_.time();
     state.rotor_angle = now().rotor_angle;
     state.ranks = communicator_.size();
-    state.handled_feed = handled_feed_;
+    state.feed = feed_.state();
     if (has_rock()) {
         if (fates_) state.rocks = fates_->rocks();
         state.booked = rock_->booked();
@@ -379,7 +413,6 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     if (std::abs(state.time - fluid_.time()) > 1e-9 * std::max(1.0, std::abs(state.time)))
         refuse(fmt::format("the checkpoint is of time {:.9g} s, the run starts at {:.9g} s", state.time, fluid_.time()),
                "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start from the beginning");
-    handled_feed_ = state.handled_feed;
     last_checkpoint_ = fluid_.time();
     // Every rank holds the same sums and reads the same file.
     if (velocity_) read_velocity(checkpoint, *velocity_);
@@ -388,8 +421,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     else
         phases_.reset();
     if (!has_rock()) return;
-    const std::set<int> handled(handled_feed_.begin(), handled_feed_.end());
-    feed_.erase(std::remove_if(feed_.begin(), feed_.end(), [&](const FeedRock& rock) { return handled.count(rock.id) > 0; }), feed_.end());
+    feed_.restore(state.feed);
 
     std::vector<Vec3> carry;
     double failed = 0.0;

@@ -5,9 +5,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "solver/coupling/checkpoint.hpp"
+#include "solver/coupling/feed/feed_queue.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/head/outflow_places.hpp"
@@ -26,7 +26,8 @@ namespace cutterflow::coupling {
 ///
 /// One step from t to t + dt, with x the rocks' positions, w the deposit and psi the sampling weights (sum over cells of weight times
 /// volume = 1 for every rock):
-///   insert_due_rock   rock of the feed enters; the void fraction is replaced without a source
+///   remove_finished_rock, insert_due_rock   rock that is sucked up or left behind goes, rock of the feed comes in; the void fraction
+///                     is replaced without a source
 ///   sample_flow       u, alpha, Du/Dt at every rock with psi(x(t)) on the mesh at t
 ///   begin_fluid_step  the fluid picks dt (rock travels <= 0.25 min(sigma, dx)) and moves the mesh
 ///   move_rock         (rho_s + C_AM rho_f) V dv/dt = D(v)(u - v) + (1 + C_AM) rho_f V Du/Dt + weight - buoyancy + contacts, every DEM step
@@ -60,6 +61,7 @@ public:
     void write_checkpoint();
 
 private:
+    void remove_finished_rock();
     void insert_due_rock();
     void sample_flow();
     void begin_fluid_step();
@@ -73,6 +75,8 @@ private:
     RunInstant now() const;
     void require_equal_angles() const;
     std::vector<RockEvent> follow_rock();
+    double release_tolerance() const;
+    void report_ledger();
     void report_loads_and_balance();
     void report_cost(double step_seconds);
     void record_picture();
@@ -94,8 +98,7 @@ private:
     std::optional<FateTracker> fates_;
     std::optional<VelocitySets> velocity_;
     std::unique_ptr<PhaseRecorder> phases_;  // while the flow is recorded
-    std::vector<FeedRock> feed_;             // not yet handled, sorted by time
-    std::vector<int> handled_feed_;
+    FeedQueue feed_;
 
     RunInstant step_start_;
     DemStep moved_;

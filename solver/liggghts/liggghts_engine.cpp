@@ -33,6 +33,7 @@
 #include "solver/liggghts/contacts/contact_registration.hpp"
 #include "solver/liggghts/contacts/wall_contacts.hpp"
 #include "solver/liggghts/liggghts_commands.hpp"
+#include "solver/liggghts/rock_grid.hpp"
 #include "solver/liggghts/rock_motion.hpp"
 #include "solver/liggghts/settings_check.hpp"
 #include "solver/liggghts/wall_surface.hpp"
@@ -122,6 +123,7 @@ public:
 
     const Rocks& rocks() const { return rocks_; }
     double largest_time_step() const;
+    std::vector<bool> room_for(const Rocks& candidates) const;
     std::vector<int> insert(const Rocks& candidates);
     void remove(gsl::span<const int> ids);
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force);
@@ -151,7 +153,6 @@ private:
     void gather();
     void require_all_rocks(const std::vector<int>& before) const;
     bool overlaps_wall(const Vec3& centre, double radius, double angle) const;
-    bool overlaps_rock(const Rocks& others, const Vec3& centre, double radius) const;
     void create_rock(const Rocks& rocks, std::size_t k);
     void delete_rocks(const std::vector<int>& sorted_ids);
     void after_change_of_rocks();
@@ -450,26 +451,33 @@ bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double ra
     return is_inside(turns_of_rotor) || is_inside(turns_of_stator);
 }
 
-bool LiggghtsEngine::Implementation::overlaps_rock(const Rocks& others, const Vec3& centre, double radius) const {
-    for (std::size_t k = 0; k < others.size(); ++k)
-        if ((others.position[k] - centre).norm() < radius + 0.5 * others.diameter[k]) return true;
-    return false;
+std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidates) const {
+    double largest = 0.0;
+    for (const std::vector<double>* diameters : {&rocks_.diameter, &candidates.diameter})
+        for (const double diameter : *diameters) largest = std::max(largest, diameter);
+    RockGrid grid(largest);
+    for (std::size_t k = 0; k < rocks_.size(); ++k) grid.add(rocks_.position[k], rocks_.diameter[k]);
+    const double angle = rotor_angle();
+    std::vector<bool> room(candidates.size(), false);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Vec3& centre = candidates.position[k];
+        const double diameter = candidates.diameter[k];
+        if (!contains(settings_.domain, centre) || grid.overlaps(centre, diameter) || overlaps_wall(centre, 0.5 * diameter, angle))
+            continue;
+        room[k] = true;
+        grid.add(centre, diameter);
+    }
+    return room;
 }
 
 std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates) {
-    const double angle = rotor_angle();
+    for (auto id = candidates.id.begin(); id != candidates.id.end(); ++id)
+        if (std::binary_search(rocks_.id.begin(), rocks_.id.end(), *id) || std::binary_search(candidates.id.begin(), id, *id))
+            throw std::invalid_argument(fmt::format("rock id {} is in the run already", *id));
+    const std::vector<bool> room = room_for(candidates);
     Rocks accepted;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double radius = 0.5 * candidates.diameter[k];
-        const Vec3& centre = candidates.position[k];
-        if (std::binary_search(rocks_.id.begin(), rocks_.id.end(), candidates.id[k]) ||
-            std::find(accepted.id.begin(), accepted.id.end(), candidates.id[k]) != accepted.id.end())
-            throw std::invalid_argument(fmt::format("rock id {} is in the run already", candidates.id[k]));
-        if (!contains(settings_.domain, centre) || overlaps_rock(rocks_, centre, radius) || overlaps_rock(accepted, centre, radius) ||
-            overlaps_wall(centre, radius, angle))
-            continue;
-        accepted.append(candidates, k);
-    }
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        if (room[k]) accepted.append(candidates, k);
     if (accepted.size() == 0) return {};
     store_contact_forces();
     for (std::size_t k = 0; k < accepted.size(); ++k) {
@@ -658,6 +666,9 @@ const Rocks& LiggghtsEngine::rocks() const {
 }
 double LiggghtsEngine::largest_time_step() const {
     return implementation_->largest_time_step();
+}
+std::vector<bool> LiggghtsEngine::room_for(const Rocks& rocks) const {
+    return implementation_->room_for(rocks);
 }
 std::vector<int> LiggghtsEngine::insert(const Rocks& rocks) {
     return implementation_->insert(rocks);

@@ -22,6 +22,7 @@ public:
 
     const coupling::Rocks& rocks() const override;
     double largest_time_step() const override;
+    std::vector<bool> room_for(const coupling::Rocks& rocks) const override;
     std::vector<int> insert(const coupling::Rocks& rocks) override;
     void remove(gsl::span<const int> ids) override;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override;

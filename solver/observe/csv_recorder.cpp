@@ -50,10 +50,13 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     events_ = open(k_rock, "events.csv",
                    "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,"
                    "density_kg_m3,bin");
-    if (settings.fates)
+    if (settings.fates) {
+        ledger_ = open(k_rock, "ledger.csv",
+                       "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error");
         fates_ = open(k_rock, "fates.csv",
                       "time_s,placed_count,placed_kg,sucked_up_count,sucked_up_kg,spilled_count,spilled_kg,in_cutter_count,in_cutter_kg,"
                       "never_entered_count,never_entered_kg");
+    }
     rejected_ = open(k_rock, "rejected.csv", "id,time_s,reason");
 
     // Pictures of an earlier part of the run stay in the series.
@@ -98,6 +101,12 @@ void CsvRecorder::fates(double time, const FateTotals& totals) {
     for (const Fate fate : {Fate::sucked_up, Fate::spilled, Fate::in_cutter, Fate::never_entered})
         fmt::print(fates_, ",{},{:.9g}", totals.of(fate).count, totals.of(fate).mass);
     fates_ << '\n';
+}
+
+void CsvRecorder::ledger(double time, const RockLedger& ledger) {
+    fmt::print(ledger_, "{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.3g}\n", time, ledger.fed, ledger.owed,
+               ledger.in_head, ledger.delivered, ledger.spilled_mixing, ledger.spilled_cutting, ledger.on_bed, ledger.left_behind,
+               ledger.error());
 }
 
 void CsvRecorder::outflow(double time, gsl::span<const double> radial_velocity) {
@@ -212,7 +221,7 @@ void CsvRecorder::warning(double time, const std::string& text) {
 }
 
 void CsvRecorder::flush() {
-    for (std::ofstream* stream : {&events_, &rejected_, &fates_, &outflow_, &loads_, &balance_, &cost_}) {
+    for (std::ofstream* stream : {&events_, &rejected_, &fates_, &ledger_, &outflow_, &loads_, &balance_, &cost_}) {
         stream->flush();
         if (!*stream) fail_to_write(root_);
     }

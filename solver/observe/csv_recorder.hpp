@@ -24,6 +24,7 @@ public:
     void event(const RockEvent& event) override;
     void rejected(const RejectedRock& rock) override;
     void fates(double time, const FateTotals& totals) override;
+    void ledger(double time, const RockLedger& ledger) override;
     void outflow(double time, gsl::span<const double> radial_velocity) override;
     void loads(const LoadsRow& row) override;
     void balance(const BalanceRow& row) override;
@@ -43,7 +44,7 @@ private:
 
     std::filesystem::path root_;
     std::string start_;
-    std::ofstream events_, rejected_, fates_, outflow_, loads_, balance_, cost_;
+    std::ofstream events_, rejected_, fates_, ledger_, outflow_, loads_, balance_, cost_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;
     std::vector<std::string> warnings_;

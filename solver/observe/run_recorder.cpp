@@ -1,5 +1,7 @@
 #include "solver/observe/run_recorder.hpp"
 
+#include <cmath>
+
 #include "geometry/base/axis_frame.hpp"
 
 namespace cutterflow::coupling {
@@ -23,6 +25,11 @@ RockEvent rock_event(EventSurface surface, EventDirection direction, const Rocks
     const double azimuth = to_cylindrical(RotationAxis{}, Vec3::UnitX(), position).azimuth;
     return {now.time,        rocks.id[p], surface,     direction,         position,         rocks.velocity[p],
             now.rotor_angle, azimuth,     position[2], rocks.diameter[p], rocks.density[p], ""};
+}
+
+double RockLedger::error() const {
+    if (fed == 0.0) return 0.0;
+    return std::abs(fed - (owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind)) / fed;
 }
 
 double FateTotals::undecided() const {

@@ -48,7 +48,7 @@ struct RunInstant {
 /// The event of rock `p` at its present place.
 RockEvent rock_event(EventSurface surface, EventDirection direction, const Rocks& rocks, std::size_t p, const RunInstant& now);
 
-/// A rock of the feed that could not be placed.
+/// A rock of the feed that found no place when it was due.
 struct RejectedRock {
     int id = 0;
     double time = 0.0;
@@ -67,6 +67,22 @@ struct FateTotals {
     const CountAndMass& of(Fate fate) const { return by_fate[static_cast<std::size_t>(fate)]; }
     /// Share of the placed mass that is neither sucked up nor spilled; 1 when nothing was placed.
     double undecided() const;
+};
+
+/// Where the rock of the feed is, by mass [kg]. Each rock is in one place:
+///   fed = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind.
+struct RockLedger {
+    double fed = 0.0;   ///< was due so far
+    double owed = 0.0;  ///< was due and is not in: it found no place
+    double in_head = 0.0;
+    double delivered = 0.0;        ///< sucked up
+    double spilled_mixing = 0.0;   ///< outside the head, after it had been mixed into the head's flow
+    double spilled_cutting = 0.0;  ///< outside the head, thrown out where it was cut
+    double on_bed = 0.0;           ///< outside the head, never having been in it
+    double left_behind = 0.0;      ///< outside and so far off that it was taken out
+
+    /// |fed - sum of the others| / fed; 0 while nothing was fed.
+    double error() const;
 };
 
 /// Outcome of one rock.
@@ -144,6 +160,7 @@ public:
     virtual void event(const RockEvent& event) = 0;
     virtual void rejected(const RejectedRock& rock) = 0;
     virtual void fates(double time, const FateTotals& totals) = 0;
+    virtual void ledger(double time, const RockLedger& ledger) = 0;
     /// \param radial_velocity  averaged over azimuth, one per axial bin [m/s]
     virtual void outflow(double time, gsl::span<const double> radial_velocity) = 0;
     virtual void loads(const LoadsRow& row) = 0;
@@ -167,6 +184,7 @@ public:
     void event(const RockEvent&) override {}
     void rejected(const RejectedRock&) override {}
     void fates(double, const FateTotals&) override {}
+    void ledger(double, const RockLedger&) override {}
     void outflow(double, gsl::span<const double>) override {}
     void loads(const LoadsRow&) override {}
     void balance(const BalanceRow&) override {}

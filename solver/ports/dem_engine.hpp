@@ -58,7 +58,11 @@ public:
     /// Largest DEM time step [s] that the contacts allow with the given rocks (fraction of Rayleigh and Hertz times).
     virtual double largest_time_step() const = 0;
 
-    /// Inserts rocks (ids new, arrays of rocks sorted by id). Those that would overlap a rock or a wall are not inserted.
+    /// Whether each of these rocks has room: it lies in the domain and overlaps no wall, no rock of the run and none before it in `rocks`
+    /// that has room.
+    virtual std::vector<bool> room_for(const Rocks& rocks) const = 0;
+
+    /// Inserts rocks (ids new, arrays of rocks sorted by id). Those without room are not inserted.
     /// \return ids that were inserted
     virtual std::vector<int> insert(const Rocks& rocks) = 0;
     virtual void remove(gsl::span<const int> ids) = 0;

@@ -151,9 +151,23 @@ SettingTable<StopSettings> stop_rows() {
             &StopSettings::undecided,
             number("undecided", "-",
                    "The run ends earlier when the share of rock that is neither spilled nor sucked up is at most this; 0 waits for the "
-                   "last rock.")
+                   "last rock. Above 0 the run ends sooner where rock is decided sooner, and spilling is quicker than suction: keep 0, "
+                   "and the same time in all runs, to compare speeds.")
                 .at_least(0.0)
                 .at_most(0.99))
+        .take();
+}
+
+SettingTable<QueueSettings> queue_rows() {
+    using S = QueueSettings;
+    return Rows<S>()
+        .require(&S::interval, number("interval", "s", "Time between packets of rock that comes in.").above(0.0).at_most(1.0))
+        .require(&S::retry_interval,
+                 number("retryInterval", "s", "Time after which rock that found no place is due again, at its first place.").above(0.0))
+        .require(&S::reach,
+                 number("reach", "rad", "How far ahead of its place, in the sense of rotation, rock may go in where its place is taken.")
+                     .at_least(0.0)
+                     .at_most(3.2))
         .take();
 }
 
@@ -203,6 +217,7 @@ void Setting<Settings>::assign(Settings& settings, const ParameterValue& value) 
 
 template struct Setting<OutflowSettings>;
 template struct Setting<StopSettings>;
+template struct Setting<QueueSettings>;
 template struct Setting<CheckpointSettings>;
 template struct Setting<RecordSettings>;
 template struct Setting<KernelSettings>;
@@ -219,6 +234,12 @@ const SettingTable<OutflowSettings>& setting_table<OutflowSettings>() {
 template <>
 const SettingTable<StopSettings>& setting_table<StopSettings>() {
     static const SettingTable<StopSettings> table = stop_rows();
+    return table;
+}
+
+template <>
+const SettingTable<QueueSettings>& setting_table<QueueSettings>() {
+    static const SettingTable<QueueSettings> table = queue_rows();
     return table;
 }
 

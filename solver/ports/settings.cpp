@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -37,6 +38,12 @@ void check_fates(Mistakes& mistakes, const FateSettings& fates) {
     mistakes.positive("fates.mouth.radius", fates.mouth.radius);
     mistakes.require(fates.mouth.depth >= 0.0, "fates.mouth.depth", fates.mouth.depth, "It must not be negative",
                      "Use the mouth's diameter");
+    if (fates.cutting) {
+        mistakes.positive("fates.cutting.distance", fates.cutting->distance);
+        mistakes.positive("fates.cutting.distanceBehind", fates.cutting->distance_behind);
+        mistakes.require(std::abs(fates.cutting->behind.norm() - 1.0) < 1e-6, "fates.cutting.behind: length", fates.cutting->behind.norm(),
+                         "It is a unit vector against the swing", "Use (0 -1 0) for a swing along +y");
+    }
     mistakes.require(fates.mouth.direction.norm() > 0.0, "fates.mouth.direction: length", fates.mouth.direction.norm(),
                      "It is a direction into the pipe", "Use (0 0 1)");
 }
@@ -92,6 +99,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         mistakes.add(setting_mistakes(settings.kernel, "kernel", where));
         mistakes.add(setting_mistakes(settings.closures, "closures", where));
         check_hindrance(mistakes, settings.closures);
+        if (settings.queue) mistakes.add(setting_mistakes(*settings.queue, "rock.queue", where));
         if (settings.rock_feed.empty()) mistakes.add("rock.feed is missing", "Rock enters through a feed file", "Name a CSV file");
     }
     if (settings.fates)

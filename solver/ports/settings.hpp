@@ -51,13 +51,22 @@ struct MouthSettings {
     double depth = 0.0;              ///< [m]
 };
 
+/// Rock comes from a cut face. What lies outside the head, farther than `distance` from its contour or more than `distance_behind` behind
+/// the rotor's axis, is left behind and taken out.
+struct CuttingSettings {
+    double distance = 0.0;         ///< [m]
+    Vec3 behind = Vec3::Zero();    ///< against the swing, of length 1
+    double distance_behind = 0.0;  ///< [m]
+};
+
 struct FateSettings {
     std::filesystem::path contour;  ///< CSV z_m,r_m
     double ring_radius = 0.0;       ///< [m]
     double z_backplate = 0.0;       ///< [m]
     double hysteresis = 0.25;       ///< of the rock's diameter
     MouthSettings mouth;
-    double bin_width = 0.0;  ///< [m]
+    double bin_width = 0.0;                  ///< [m]
+    std::optional<CuttingSettings> cutting;  ///< none: rock comes in batches, and stays wherever it goes
 };
 
 /// Sampling of the radial velocity just outside the contour.
@@ -117,12 +126,23 @@ struct PatchSettings {
     std::vector<std::string> steel;  ///< walls that hide the fluid behind them from rock; empty: all patches of type wall
 };
 
+/// Rock that comes all the time goes in by packets, and waits where it finds no place (FeedQueue).
+struct QueueSettings {
+    double interval = 0.0;        ///< between packets [s]
+    double retry_interval = 0.0;  ///< until rock without a place is due again [s]
+    double reach = 0.0;           ///< how far ahead of its place rock may go in, about the rotor's axis [rad]
+};
+
+template <>
+const SettingTable<QueueSettings>& setting_table<QueueSettings>();
+
 /// All settings of couplingProperties for the coupled algorithm. `kernel`, `closures`, `fates` and `stop` count with rock only, but for
 /// the contour of `fates`, which `outflow` needs too.
 struct CouplingSettings {
     bool has_rock = false;
     PatchSettings patches;
-    std::filesystem::path rock_feed;  ///< CSV, with rock
+    std::filesystem::path rock_feed;     ///< CSV, with rock
+    std::optional<QueueSettings> queue;  ///< none: the feed's rock comes in batches
     KernelSettings kernel;
     ClosureSettings closures;
     std::optional<FateSettings> fates;  ///< needed by outflow and stop; without, rock is followed but not sorted by fate

@@ -283,7 +283,7 @@ void write_checkpoint(const fs::path& folder) {
     write_file(folder / "samples.csv", k_sample_points);
     coupling::RunState state;
     state.time = 1.25;
-    state.handled_feed = {1, 2};
+    state.feed.placed = {1, 2};
     for (const int id : {1, 2}) {
         coupling::TrackedRock rock;
         rock.id = id;

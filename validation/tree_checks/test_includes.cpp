@@ -53,7 +53,7 @@ const std::vector<Layer> k_layers = {
     {"solver/observe/velocity/", {k_base, "solver/ports/", "solver/space/", "solver/observe/velocity/"}},
     {"solver/replay/", {k_base, "solver/ports/", "solver/replay/"}},
     {"solver/coupling/", {k_base, "solver/physics/", "solver/ports/", "solver/observe/", "solver/replay/", "solver/coupling/"}},
-    {"solver/coupling/feed/", {k_base, "solver/coupling/feed/"}},
+    {"solver/coupling/feed/", {k_base, "solver/ports/", "solver/coupling/feed/"}},
     {"solver/coupling/kernel/",
      {k_base, "solver/physics/", "solver/ports/", "solver/space/", "solver/coupling/feed/", "solver/coupling/kernel/"}},
     {"solver/foam/session/", {k_base, "solver/ports/", "solver/foam/session/"}},

@@ -56,20 +56,22 @@ void require_room(double largest_solid_fraction, double limit) {
          "Place less rock there, or widen kernel.gamma"});
 }
 
+void append(Rocks& rocks, const FeedRock& rock) {
+    rocks.id.push_back(rock.id);
+    rocks.position.push_back(rock.position);
+    rocks.velocity.push_back(rock.velocity.value_or(Vec3::Zero()));
+    rocks.angular_velocity.push_back(Vec3::Zero());
+    rocks.diameter.push_back(rock.diameter);
+    rocks.density.push_back(rock.density);
+}
+
 /// The rocks to place, sorted by id.
 Rocks rocks_of(const std::vector<FeedRock>& due) {
     std::vector<const FeedRock*> sorted;
     for (const FeedRock& rock : due) sorted.push_back(&rock);
     std::sort(sorted.begin(), sorted.end(), [](const FeedRock* a, const FeedRock* b) { return a->id < b->id; });
     Rocks rocks;
-    for (const FeedRock* rock : sorted) {
-        rocks.id.push_back(rock->id);
-        rocks.position.push_back(rock->position);
-        rocks.velocity.push_back(rock->velocity.value_or(Vec3::Zero()));
-        rocks.angular_velocity.push_back(Vec3::Zero());
-        rocks.diameter.push_back(rock->diameter);
-        rocks.density.push_back(rock->density);
-    }
+    for (const FeedRock* rock : sorted) append(rocks, *rock);
     return rocks;
 }
 
@@ -129,10 +131,38 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
 
+    replace_void_fraction();
+    return rejected;
+}
+
+std::vector<bool> KernelCoupling::room_for(const std::vector<FeedRock>& rocks) const {
+    Rocks candidates;
+    for (const FeedRock& rock : rocks) append(candidates, rock);
+    return dem_.room_for(candidates);
+}
+
+void KernelCoupling::remove(gsl::span<const int> ids) {
+    const Rocks& rocks = dem_.rocks();
+    Rocks leaving;
+    for (const int id : ids)
+        leaving.append(rocks, static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), id) - rocks.id.begin()));
+    mapping_.set_time(fluid_.time());
+    mapping_.build({leaving.id, leaving.position, leaving.diameter}, present_);
+    std::vector<FlowAtRock> flow;
+    sample_with(present_, flow);
+    for (std::size_t p = 0; p < leaving.size(); ++p) {
+        const double volume = sphere_volume(leaving.diameter[p]);
+        booked_.volume -= volume;
+        booked_.momentum -= properties_.density * volume * flow[p].velocity;
+    }
+    dem_.remove(ids);
+    replace_void_fraction();
+}
+
+void KernelCoupling::replace_void_fraction() {
     const std::vector<double> solid_fraction = spread_present_rock();
     require_room(largest_of(solid_fraction, communicator_), settings_.kernel.max_solid_fraction);
     fluid_.reset_void_fraction(void_fraction_of(solid_fraction));
-    return rejected;
 }
 
 /// \return solid fraction per cell of the rocks where they are

@@ -57,6 +57,12 @@ public:
     /// \throws CheckFailure  when cells are so full of rock that no fluid is left (also of map)
     std::vector<int> insert(const std::vector<FeedRock>& due);
 
+    /// Whether rock of the feed has room in the DEM.
+    std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const;
+
+    /// Takes rock out of the run. The fluid takes its place without a source: the volume flow of fluid and rock together does not change.
+    void remove(gsl::span<const int> ids);
+
     /// Samples the flow at every rock on the present mesh.
     void sample();
 
@@ -92,6 +98,7 @@ public:
 
 private:
     std::vector<double> spread_present_rock();
+    void replace_void_fraction();
     void map_one_way();
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;

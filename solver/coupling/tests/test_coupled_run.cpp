@@ -3,11 +3,13 @@
 #include <fstream>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/observe/csv_recorder.hpp"
 #include "solver/ports/testing/fake_engines.hpp"
@@ -30,6 +32,7 @@ public:
     void event(const RockEvent& e) override { events.push_back(e); }
     void rejected(const RejectedRock& r) override { rejections.push_back(r); }
     void fates(double time, const FateTotals& totals) override { fate_rows.emplace_back(time, totals); }
+    void ledger(double, const RockLedger& ledger) override { ledgers.push_back(ledger); }
     void outflow(double, gsl::span<const double> v) override { outflow_rows.emplace_back(v.begin(), v.end()); }
     void loads(const LoadsRow& row) override { load_rows.push_back(row); }
     void balance(const BalanceRow& row) override { balance_rows.push_back(row); }
@@ -48,6 +51,7 @@ public:
     std::vector<RockEvent> events;
     std::vector<RejectedRock> rejections;
     std::vector<std::pair<double, FateTotals>> fate_rows;
+    std::vector<RockLedger> ledgers;
     std::vector<std::vector<double>> outflow_rows;
     std::vector<LoadsRow> load_rows;
     std::vector<BalanceRow> balance_rows;
@@ -204,6 +208,103 @@ TEST(CoupledRun, carries_rock_out_and_up_and_accounts_for_all_of_it) {
     EXPECT_GE(rig.fluid.time(), 0.3);
 }
 
+double mass_of(const Rocks& rocks) {
+    double mass = 0.0;
+    for (std::size_t p = 0; p < rocks.size(); ++p) mass += sphere_mass(rocks.diameter[p], rocks.density[p]);
+    return mass;
+}
+
+TEST(CoupledRun, takes_rock_out_once_it_is_sucked_up) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.15,0.02,2650\n"), folder.path(), recorder, Vec3(0, 0, 1.0));
+    double highest = 0.0;
+    while (rig.fluid.time() < 0.25) {
+        rig.run->step();
+        for (std::size_t p = 0; p < rig.dem.rocks().size(); ++p)
+            if (rig.dem.rocks().id[p] == 1) highest = std::max(highest, rig.dem.rocks().position[p][2]);
+    }
+    EXPECT_GE(highest, 0.13) << "the mouth's depth beyond its lip";
+    EXPECT_LE(highest, 0.13 + 2.0 * 4e-3);
+    EXPECT_EQ(rig.dem.rocks().id, std::vector<int>{2});
+    const RockEvent& last = recorder.events.back();
+    EXPECT_EQ(last.id, 1);
+    EXPECT_EQ(last.surface, EventSurface::domain);
+    EXPECT_EQ(last.direction, EventDirection::out);
+    const double volume = sphere_volume(0.02);
+    EXPECT_NEAR(recorder.balance_rows.back().exchanged_volume, volume, 1e-15) << "two came in, one left, without a source";
+    for (const BalanceRow& row : recorder.balance_rows) EXPECT_LE(row.solid_volume_error, 1e-12);
+    EXPECT_EQ(recorder.fate_rows.back().second.of(Fate::sucked_up).count, 1);
+    EXPECT_NEAR(recorder.ledgers.back().delivered, sphere_mass(0.02, 2650.0), 1e-12);
+}
+
+/// Rock that comes from a cut face around the head, one each 5 ms, some of it into places that are taken.
+CouplingSettings fed_settings(const TemporaryFolder& folder) {
+    std::string feed;
+    for (int i = 0; i < 40; ++i) {
+        const double azimuth = 0.9 * i;
+        feed += fmt::format("{},{},{},{},{},0.02,2650\n", i + 1, 0.005 * i, 0.17 * std::cos(azimuth), 0.17 * std::sin(azimuth), -0.02);
+    }
+    CouplingSettings settings = case_settings(folder, feed);
+    settings.queue = QueueSettings{0.01, 0.05, 0.1};
+    settings.fates->cutting = CuttingSettings{0.1, Vec3(0, -1, 0), 0.25};
+    return settings;
+}
+
+/// A flow out of the head on one side, to its mouth on the other.
+Vec3 through_the_head(const Vec3& x, double) {
+    return x[1] < 0.0 ? Vec3(0, -1.5, 0) : Vec3(10.0 * (0.1 - x[0]), -10.0 * x[1], 1.0);
+}
+
+TEST(Ledger, closes_at_every_step_of_a_feed_with_every_way_out) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(fed_settings(folder), folder.path(), recorder, Vec3::Zero());
+    rig.fluid.flow = through_the_head;
+    rig.dem.is_taken = [](const Vec3& x) { return x[0] < -0.12; };
+    while (rig.fluid.time() < 0.4) rig.run->step();
+    for (const RockLedger& ledger : recorder.ledgers) EXPECT_LE(ledger.error(), 1e-12);
+    const RockLedger& end = recorder.ledgers.back();
+    const double one = sphere_mass(0.02, 2650.0);
+    EXPECT_NEAR(end.fed, 40.0 * one, 1e-10);
+    EXPECT_GE(end.owed, 0.5 * one);
+    EXPECT_GE(end.delivered, 0.5 * one);
+    EXPECT_GE(end.left_behind, 0.5 * one);
+    const double followed = end.in_head + end.spilled_mixing + end.spilled_cutting + end.on_bed;
+    EXPECT_GE(mass_of(rig.dem.rocks()), followed - 1e-12) << "what is done with leaves with the next packet";
+    EXPECT_EQ(
+        std::count_if(recorder.events.begin(), recorder.events.end(), [](const RockEvent& e) { return e.surface == EventSurface::feed; }),
+        std::lround(40.0 - end.owed / one));
+}
+
+/// Takes one rock more out than it is told to.
+class GreedyDem final : public FakeDem {
+public:
+    using FakeDem::FakeDem;
+    void remove(gsl::span<const int> ids) override {
+        FakeDem::remove(ids);
+        if (rocks_.size() > 0) FakeDem::remove(std::vector<int>{rocks_.id.front()});
+    }
+};
+
+TEST(Ledger, catches_an_engine_that_loses_a_rock) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    FakeFluid fluid(head_mesh(), turning(), 4e-3);
+    fluid.flow = through_the_head;
+    GreedyDem dem(turning(), 0.5, k_water.density);
+    SerialCommunicator serial;
+    CoupledRun run(fed_settings(folder), k_water, fluid, &dem, serial, recorder, folder.path());
+    const auto to_the_end = [&] {
+        while (fluid.time() < 0.4) run.step();
+    };
+    EXPECT_THROW(to_the_end(), CheckFailure);
+    ASSERT_GE(recorder.ledgers.size(), 2u);
+    EXPECT_LE((recorder.ledgers.end() - 2)->error(), 1e-12) << "up to the step before it closed";
+    const RockLedger& broken = recorder.ledgers.back();
+    EXPECT_NEAR(broken.error() * broken.fed, sphere_mass(0.02, 2650.0), 1e-12) << "one rock is missing";
+}
+
 TEST(CoupledRun, releases_rock_at_its_own_time) {
     // Steps of 4 ms; the release falls between two of them.
     const TemporaryFolder folder;
@@ -220,7 +321,7 @@ TEST(CoupledRun, follows_the_order_of_its_stages) {
     Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
     rig.run->step();
     rig.run->step();
-    EXPECT_EQ(rig.fluid.log, "reset begin end begin end ");
+    EXPECT_EQ(rig.fluid.log, "reset begin end begin end ");  // nothing is reset while no rock comes or goes
     EXPECT_LT(rig.fluid.travel_limits.back(), 1.0);
 }
 
@@ -340,19 +441,12 @@ std::vector<double> state_of(Rig& rig) {
     return state;
 }
 
-TEST(Checkpoint, resumes_to_the_bit) {
-    const TemporaryFolder folder;
-    const std::string feed =
-        "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n3,0.03,0.12,0.03,-0.1,0.02,2650\n4,0.08,-0.05,0.1,-0.1,0.02,2650\n";
-    CouplingSettings settings = case_settings(folder, feed);
+/// A run and the same one resumed from a checkpoint of it. \param prepare  both
+void expect_same_to_the_bit(CouplingSettings settings, const TemporaryFolder& folder, const std::function<void(Rig&)>& prepare) {
     settings.checkpoint = CheckpointSettings{0.04, 2};
-    const auto two_way = [](Rig& rig) {
-        rig.fluid.flow = nullptr;
-        rig.dem.gravity = Vec3(2.0, 0.0, -9.0);
-    };
     MemoryRecorder through;
     Rig whole(settings, folder.path(), through, Vec3(0, 0, 1.0));
-    two_way(whole);
+    prepare(whole);
     // What OpenFOAM would have written with the checkpoint.
     std::vector<Vec3> velocity, acceleration;
     std::vector<double> void_fraction;
@@ -376,7 +470,7 @@ TEST(Checkpoint, resumes_to_the_bit) {
 
     MemoryRecorder after;
     Rig resumed(settings, folder.path(), after, Vec3(0, 0, 1.0));
-    two_way(resumed);
+    prepare(resumed);
     resumed.fluid.velocity = velocity;
     resumed.fluid.acceleration = acceleration;
     resumed.fluid.void_fraction = void_fraction;
@@ -394,7 +488,31 @@ TEST(Checkpoint, resumes_to_the_bit) {
         EXPECT_EQ(after.events[i].id, through.events[events_at_checkpoint + i].id);
     }
     EXPECT_EQ(after.balance_rows.back().exchanged_volume, through.balance_rows.back().exchanged_volume);
-    EXPECT_EQ(after.fate_rows.back().second.placed.count, 4);
+    EXPECT_EQ(after.fate_rows.back().second.placed.count, through.fate_rows.back().second.placed.count);
+    const RockLedger& ledger = after.ledgers.back();
+    EXPECT_EQ(ledger.fed, through.ledgers.back().fed);
+    EXPECT_NEAR(ledger.owed, through.ledgers.back().owed, 1e-15);
+    EXPECT_NEAR(ledger.delivered, through.ledgers.back().delivered, 1e-15);
+    EXPECT_NEAR(ledger.spilled_cutting, through.ledgers.back().spilled_cutting, 1e-15);
+    for (const RockLedger& one : after.ledgers) EXPECT_LE(one.error(), 1e-12);
+}
+
+TEST(Checkpoint, resumes_to_the_bit) {
+    const TemporaryFolder folder;
+    const std::string feed =
+        "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n3,0.03,0.12,0.03,-0.1,0.02,2650\n4,0.08,-0.05,0.1,-0.1,0.02,2650\n";
+    expect_same_to_the_bit(case_settings(folder, feed), folder, [](Rig& rig) {
+        rig.fluid.flow = nullptr;
+        rig.dem.gravity = Vec3(2.0, 0.0, -9.0);
+    });
+}
+
+TEST(Checkpoint, resumes_a_feed_to_the_bit) {
+    const TemporaryFolder folder;
+    expect_same_to_the_bit(fed_settings(folder), folder, [](Rig& rig) {
+        rig.fluid.flow = through_the_head;
+        rig.dem.is_taken = [](const Vec3& x) { return x[0] < -0.12; };
+    });
 }
 
 TEST(Checkpoint, carries_the_sums_of_velocity) {
@@ -515,14 +633,14 @@ TEST(Checkpoint, of_carried_momentum_that_is_no_number_is_refused) {
 TEST(Checkpoint, whose_state_holds_numbers_that_int_cannot_is_refused_with_all_of_them) {
     const TemporaryFolder folder;
     RunState state;
-    state.handled_feed = {1, 2};
+    state.feed.placed = {1, 2};
     state.rocks[2].id = 2;
     state.rocks[2].last_exit_bin = 3;
     write_state(folder.path(), state);
     EXPECT_EQ(read_state(folder.path()).rocks.at(2).last_exit_bin, 3u);
     nlohmann::json document = nlohmann::json::parse(std::ifstream(folder.path() / "state.json"));
     document["ranks"] = 1e300;
-    document["handled_feed"][1] = 4294967297;
+    document["feed"]["placed"][1] = 4294967297;
     document["rocks"][0]["id"] = 2.5;
     document["rocks"][0]["last_exit_bin"] = -1;
     std::ofstream(folder.path() / "state.json") << document.dump();

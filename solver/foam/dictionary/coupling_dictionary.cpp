@@ -109,6 +109,7 @@ void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
 void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::DemSettings dem;
     section.read("feed", result.coupling.rock_feed, folder, k_required);
+    read_optional(section, "queue", result.coupling.queue, read_settings<coupling::QueueSettings>);
     read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, dem.contact); });
     for (const Foam::dictionary& dict : section.sections("walls", k_optional)) {
         DictionarySection wall = section.below(dict, "walls");
@@ -134,6 +135,11 @@ void read_fates(DictionarySection& section, const std::filesystem::path& folder,
     section.read("hysteresis", fates.hysteresis, k_optional);
     read_section(section, "mouth", k_required, [&](DictionarySection& mouth) { read_mouth(mouth, fates.mouth); });
     section.read("binWidth", fates.bin_width, k_required);
+    read_optional(section, "cutting", fates.cutting, [](DictionarySection& cutting, coupling::CuttingSettings& settings) {
+        cutting.read("distance", settings.distance, k_required);
+        cutting.read("behind", settings.behind, k_required);
+        cutting.read("distanceBehind", settings.distance_behind, k_required);
+    });
 }
 
 void read_velocity(DictionarySection& section, const std::filesystem::path& folder, coupling::VelocitySettings& velocity) {

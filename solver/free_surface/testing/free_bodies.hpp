@@ -13,6 +13,7 @@ public:
     explicit BodiesWithoutContacts(coupling::Rocks rocks) : rocks_(std::move(rocks)) {}
     const coupling::Rocks& rocks() const final { return rocks_; }
     double largest_time_step() const final { return 1.0; }
+    std::vector<bool> room_for(const coupling::Rocks& rocks) const final { return std::vector<bool>(rocks.size(), false); }
     std::vector<int> insert(const coupling::Rocks&) final { return {}; }
     void remove(gsl::span<const int>) final {}
     std::vector<double> zone_angles() const final { return {}; }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cfenv>
+#include <random>
 
 #include "solver/liggghts/tests/engine_fixture.hpp"
 #include "solver/physics/drag.hpp"
@@ -137,6 +139,39 @@ TEST(RockMotion, contact_impulse_is_the_rest_of_the_change_of_momentum) {
         }
     }
     EXPECT_GT(largest, 1e-3);  // they met: 13 g at 0.5 m/s
+}
+
+// The search by cells finds what a search of all pairs finds.
+TEST(Room, is_where_no_rock_wall_or_earlier_rock_overlaps) {
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-0.12, 0.12), size(0.006, 0.03);
+    const auto draw = [&](int first, int count) {
+        coupling::Rocks rocks;
+        for (int k = 0; k < count; ++k)
+            add_rock(rocks, first + k, Vec3(place(random), place(random), place(random)), Vec3::Zero(), size(random));
+        return rocks;
+    };
+    coupling::Rocks there, asked = draw(501, 400);
+    const coupling::Rocks wanted = draw(1, 200);
+    const std::vector<int> inserted = engine.insert(wanted);
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+        if (std::binary_search(inserted.begin(), inserted.end(), wanted.id[k])) there.append(wanted, k);
+    ASSERT_GT(there.size(), 50u);
+    ASSERT_LT(there.size(), 200u);
+
+    const std::vector<bool> room = engine.room_for(asked);
+    std::size_t rooms = 0;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        bool free = true;
+        for (std::size_t j = 0; j < there.size(); ++j)
+            free = free && (there.position[j] - asked.position[k]).norm() >= 0.5 * (there.diameter[j] + asked.diameter[k]);
+        EXPECT_EQ(room[k], free) << k;
+        if (!free) continue;
+        ++rooms;
+        there.append(asked, k);
+    }
+    EXPECT_GT(rooms, 10u);
 }
 
 // The first half kick of a call uses the law of that call: with a law that is 0 in every second call, the velocity does not change in it.

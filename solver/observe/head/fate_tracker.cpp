@@ -31,8 +31,32 @@ Fate TrackedRock::fate() const {
     return was_inside ? Fate::spilled : Fate::never_entered;
 }
 
+RockPlace TrackedRock::place() const {
+    if (sucked_up) return RockPlace::delivered;
+    if (left_behind) return RockPlace::left_behind;
+    if (inside) return RockPlace::in_head;
+    if (!was_inside) return RockPlace::on_bed;
+    return mixed ? RockPlace::spilled_mixing : RockPlace::spilled_cutting;
+}
+
 double TrackedRock::mass() const {
     return sphere_mass(diameter, density);
+}
+
+RockLedger ledger_of(const std::map<int, TrackedRock>& rocks, const Rocks& present, double fed, double owed) {
+    RockLedger ledger;
+    ledger.fed = fed;
+    ledger.owed = owed;
+    const auto add = [&](RockPlace place, double mass) {
+        double* const columns[] = {&ledger.in_head,         &ledger.delivered, &ledger.spilled_mixing,
+                                   &ledger.spilled_cutting, &ledger.on_bed,    &ledger.left_behind};
+        *columns[static_cast<std::size_t>(place)] += mass;
+    };
+    for (const auto& [id, rock] : rocks)
+        if (!rock.in_run) add(rock.place(), rock.mass());
+    for (std::size_t p = 0; p < present.size(); ++p)
+        add(rocks.at(present.id[p]).place(), sphere_mass(present.diameter[p], present.density[p]));
+    return ledger;
 }
 
 FateTracker::FateTracker(const FateSettings& settings, geometry::Contour contour)
@@ -72,11 +96,18 @@ RockEvent FateTracker::place(int id, double diameter, double density, const Vec3
     rock.diameter = diameter;
     rock.density = density;
     rock.position = position;
-    rock.inside = rock.was_inside = signed_distance(position) < 0.0;
+    rock.start_distance = signed_distance(position);
+    rock.inside = rock.was_inside = rock.start_distance < 0.0;
+    rock.mixed = rock.inside && !settings_.cutting;
     const PipePlace pipe = place_in_pipe(position);
     rock.sucked_up = pipe.depth >= settings_.mouth.depth && pipe.radius <= settings_.mouth.radius;
     rocks_[id] = rock;
     return event(rock, EventSurface::feed, EventDirection::in, position, velocity, now);
+}
+
+bool FateTracker::is_left_behind(const Vec3& position, double distance) const {
+    if (!settings_.cutting) return false;
+    return distance > settings_.cutting->distance || position.dot(settings_.cutting->behind) > settings_.cutting->distance_behind;
 }
 
 std::vector<RockEvent> FateTracker::follow(TrackedRock& rock, const Vec3& position, const Vec3& velocity, const RunInstant& before,
@@ -95,6 +126,7 @@ std::vector<RockEvent> FateTracker::follow(TrackedRock& rock, const Vec3& positi
     const double level = rock.inside ? margin : -margin;
     const double from = signed_distance(rock.position), to = signed_distance(position);
     const bool crosses = rock.inside ? to > level : to < level;
+    if (to < std::min(rock.start_distance, 0.0) - margin) rock.mixed = true;
     if (crosses && !rock.sucked_up) {
         const double share = crossing(from, to, level);
         const EventDirection direction = rock.inside ? EventDirection::out : EventDirection::in;
@@ -111,6 +143,7 @@ std::vector<RockEvent> FateTracker::follow(TrackedRock& rock, const Vec3& positi
         }
     }
     rock.position = position;
+    if (!rock.inside && !rock.sucked_up) rock.left_behind = rock.left_behind || is_left_behind(position, to);
     return events;
 }
 
@@ -133,8 +166,27 @@ std::vector<RockEvent> FateTracker::leave(int id, const Vec3& position, const Ve
         rock.sucked_up = true;
         events.push_back(event(rock, EventSurface::mouth, EventDirection::in, position, velocity, after));
     }
+    rock.left_behind = rock.left_behind || (settings_.cutting && !rock.sucked_up);
     rock.in_run = false;
     events.push_back(event(rock, EventSurface::domain, EventDirection::out, position, velocity, after));
+    return events;
+}
+
+std::vector<int> FateTracker::finished() const {
+    std::vector<int> ids;
+    for (const auto& [id, rock] : rocks_)
+        if (rock.in_run && (rock.sucked_up || rock.left_behind)) ids.push_back(id);
+    return ids;
+}
+
+std::vector<RockEvent> FateTracker::take_out(gsl::span<const int> ids, const Rocks& present, const RunInstant& now) {
+    std::vector<RockEvent> events;
+    for (const int id : ids) {
+        TrackedRock& rock = rocks_.at(id);
+        rock.in_run = false;
+        const auto p = static_cast<std::size_t>(std::lower_bound(present.id.begin(), present.id.end(), id) - present.id.begin());
+        events.push_back(event(rock, EventSurface::domain, EventDirection::out, rock.position, present.velocity[p], now));
+    }
     return events;
 }
 

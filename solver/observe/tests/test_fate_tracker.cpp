@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 
 namespace cutterflow::coupling {
@@ -184,6 +185,70 @@ TEST(Fates, add_up_to_the_placed_rock_in_count_and_mass) {
     const double sucked = 2400.0 * k_pi / 6.0 * 64e-6;
     EXPECT_NEAR(totals.of(Fate::sucked_up).mass, sucked, 1e-12);
     EXPECT_NEAR(totals.undecided(), totals.of(Fate::never_entered).mass / totals.placed.mass, 1e-12);
+}
+
+/// One rock from a cut face at the cone, a little within it.
+struct CutRock {
+    CutRock() : tracker(with_cutting(), cone()) {
+        tracker.place(1, k_diameter, 2650.0, start, Vec3::Zero(), {});
+        rocks.id = {1};
+        rocks.velocity = {Vec3::Zero()};
+        rocks.diameter = {k_diameter};
+        rocks.density = {2650.0};
+    }
+    static FateSettings with_cutting() {
+        FateSettings s = settings();
+        s.cutting = CuttingSettings{0.3, Vec3(0, -1, 0), 0.6};
+        return s;
+    }
+    RockPlace at(const Vec3& place) {
+        rocks.position = {place};
+        tracker.move(rocks, {time, 0.0}, {time + 0.1, 0.0});
+        time += 0.1;
+        return tracker.rocks().at(1).place();
+    }
+    double distance(const Vec3& place) const { return tracker.signed_distance(place); }
+
+    const Vec3 start = Vec3(0, 0.36 - 0.55 * k_diameter * std::sqrt(1.25), -0.08);  // 0.55 d within the cone, r = 0.36 there
+    FateTracker tracker;
+    Rocks rocks;
+    double time = 0.0;
+};
+
+TEST(CutRock, that_leaves_from_where_it_was_cut_is_spilled_by_cutting) {
+    CutRock rock;
+    ASSERT_NEAR(rock.distance(rock.start), -0.55 * k_diameter, 1e-9);
+    EXPECT_EQ(rock.at(rock.start + Vec3(0, -0.004, 0)), RockPlace::in_head) << "less than the hysteresis deeper";
+    EXPECT_EQ(rock.at(Vec3(0, 0.40, -0.08)), RockPlace::spilled_cutting);
+    EXPECT_EQ(rock.at(rock.start), RockPlace::in_head);
+    EXPECT_EQ(rock.at(Vec3(0, 0.30, -0.08)), RockPlace::in_head);
+    EXPECT_EQ(rock.at(Vec3(0, 0.40, -0.08)), RockPlace::spilled_mixing) << "it has been in the head's flow meanwhile";
+}
+
+TEST(CutRock, that_is_far_off_or_behind_is_left_behind_for_good) {
+    CutRock far;
+    EXPECT_EQ(far.at(Vec3(0, 0.60, -0.08)), RockPlace::spilled_cutting);
+    EXPECT_TRUE(far.tracker.finished().empty());
+    EXPECT_EQ(far.at(Vec3(0, 0.80, -0.08)), RockPlace::left_behind);
+    EXPECT_EQ(far.tracker.finished(), std::vector<int>{1});
+    EXPECT_EQ(far.at(Vec3(0, 0.30, -0.08)), RockPlace::left_behind);
+    CutRock behind;
+    EXPECT_EQ(behind.at(Vec3(0, 0, -0.08)), RockPlace::in_head);
+    EXPECT_EQ(behind.at(Vec3(0, -0.59, -0.08)), RockPlace::spilled_mixing) << "its way led through the head";
+    EXPECT_EQ(behind.at(Vec3(0, -0.61, -0.08)), RockPlace::left_behind);
+}
+
+TEST(Ledger, has_every_rock_in_one_place) {
+    CutRock rock;
+    for (const Vec3& place : {Vec3(0, 0.30, -0.08), Vec3(0, 0.42, -0.08), Vec3(0, 0.9, 0), Vec3(0.22, 0, 0.3)}) {
+        rock.at(place);
+        const RockLedger ledger =
+            ledger_of(rock.tracker.rocks(), rock.rocks, 3.0 * sphere_mass(k_diameter, 2650.0), 2.0 * sphere_mass(k_diameter, 2650.0));
+        EXPECT_LE(ledger.error(), 1e-15);
+    }
+    const RockLedger lost = ledger_of(rock.tracker.rocks(), Rocks(), sphere_mass(k_diameter, 2650.0), 0.0);
+    EXPECT_NEAR(lost.error(), 1.0, 1e-15) << "the DEM has no such rock";
+    EXPECT_EQ(RockLedger().error(), 0.0);
 }
 
 TEST(Undecided, is_everything_while_nothing_is_placed) {

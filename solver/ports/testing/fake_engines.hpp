@@ -130,10 +130,18 @@ public:
     const Rocks& rocks() const override { return rocks_; }
     double largest_time_step() const override { return 1e-4; }
 
+    std::vector<bool> room_for(const Rocks& rocks) const override {
+        std::vector<bool> room;
+        for (std::size_t p = 0; p < rocks.size(); ++p)
+            room.push_back(!(refuses && refuses(rocks.id[p])) && !(is_taken && is_taken(rocks.position[p])));
+        return room;
+    }
+
     std::vector<int> insert(const Rocks& rocks) override {
         std::vector<int> inserted;
+        const std::vector<bool> room = room_for(rocks);
         for (std::size_t p = 0; p < rocks.size(); ++p) {
-            if (refuses && refuses(rocks.id[p])) continue;
+            if (!room[p]) continue;
             const auto at = std::lower_bound(rocks_.id.begin(), rocks_.id.end(), rocks.id[p]) - rocks_.id.begin();
             rocks_.id.insert(rocks_.id.begin() + at, rocks.id[p]);
             rocks_.position.insert(rocks_.position.begin() + at, rocks.position[p]);
@@ -210,6 +218,7 @@ public:
 
     Vec3 gravity = Vec3::Zero();
     std::function<bool(int id)> refuses;
+    std::function<bool(const Vec3& position)> is_taken;
     std::function<bool(const Vec3& position)> leaves;
     double angle_error = 0.0;
 

@@ -19,6 +19,7 @@ public:
 
     const coupling::Rocks& rocks() const override { return rocks_; }
     double largest_time_step() const override { return 1.0; }
+    std::vector<bool> room_for(const coupling::Rocks& rocks) const override { return std::vector<bool>(rocks.size(), true); }
     std::vector<int> insert(const coupling::Rocks& rocks) override {
         rocks_ = rocks;
         return rocks.id;
