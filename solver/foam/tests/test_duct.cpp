@@ -59,6 +59,42 @@ TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
     }
 }
 
+// Rock that is sucked up is taken out between two steps, and fluid takes its place without a source. Fluid and rock together then pass
+// every section below with the discharge of the outlet, also in the step of the removal: the mixture's flow is the discharge, the fluid's
+// is that less the rock's. An outlet that let less through while rock is taken out would take it from the mixture.
+TEST(Duct, TakingRockOutIsNoSourceSoThatTheMixtureFlowsWithTheDischarge) {
+    FluidRun run(testing::build_case(duct("duct_removal", 0.2)), true, {"outlet", {}});
+    const auto fraction_at = [&](double time) {
+        if (time > 0.1) return std::vector<double>(run.cells(), 1.0);
+        return run.evaluate([time](const Vec3& x) { return 1.0 - 0.3 * std::exp(-0.5 * std::pow((x.x() - 0.2 - 0.5 * time) / 0.05, 2)); });
+    };
+    const auto rock_volume = [&](const std::vector<double>& fraction) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < run.cells(); ++i) sum += (1.0 - fraction[i]) * run.engine().cells().volumes[i];
+        return run.total(sum);
+    };
+    std::vector<double> present = fraction_at(0.0);
+    double taken_out = 0.0;
+    while (run.engine().running()) {
+        run.begin();
+        std::vector<double> next = fraction_at(run.engine().time());
+        if (rock_volume(next) == 0.0 && rock_volume(present) > 0.0) {
+            taken_out = rock_volume(present);
+            present = next;
+            run.engine().reset_void_fraction(present);
+        }
+        run.end(present, next);
+        const double displaced = (rock_volume(present) - rock_volume(next)) / run.engine().time_step();
+        const coupling::FluidLoads loads = run.engine().loads();
+        const double inflow = loads.outlet_flow.value() - loads.boundary_flow;
+        EXPECT_NEAR(loads.outlet_flow.value(), k_discharge, 1e-12);
+        EXPECT_NEAR(inflow, k_discharge + displaced, 1e-9 * k_discharge);
+        EXPECT_LE(loads.continuity_error, 1e-8);
+        present = next;
+    }
+    EXPECT_GT(taken_out, 0.02 * k_discharge * 0.2);
+}
+
 // Rock held in the flow takes momentum out of it: the pressure falls along the duct by its drag over the section.
 TEST(Duct, DragOfHeldRockIsThePressureDrop) {
     FluidRun run(testing::build_case(duct("duct_drag", 0.6)), true, {"outlet", {}});
