@@ -53,6 +53,10 @@ Estimate energy_per_volume(const Results& results) {
     return plain(results.rotor.power->mean * duration / results.spillage->sucked_volume);
 }
 
+std::optional<double> mixing(const ComparedRun& compared, double Mixing::*member) {
+    return compared.results.mixing ? std::optional<double>((*compared.results.mixing).*member) : std::nullopt;
+}
+
 using Evaluate = std::function<Estimate(const ComparedRun&)>;
 
 struct QuantityRule {
@@ -146,6 +150,11 @@ std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
     std::vector<QuantityRule> rules;
     for (const std::string& name : common_bins(
              runs, [](const ComparedRun& r) -> const auto& { return r.results.outflow; })) {
+        if (rules.empty())
+            rules = {{"outflow_over_discharge", "outflow of the head over discharge, q", "-", false,
+                      [](const ComparedRun& r) { return plain(mixing(r, &Mixing::outflow_over_discharge)); }},
+                     {"well_mixed_spillage", "spillage of neutral, well-mixed rock, q / (1 + q)", "-", false,
+                      [](const ComparedRun& r) { return plain(mixing(r, &Mixing::well_mixed_spillage)); }}};
         rules.push_back({bin_key("outflow", name, "m_s"), fmt::format("radial outflow, {}", text::bin_text(name)), "m/s", false,
                          [=](const ComparedRun& r) { return of_average(find_bin(r.results.outflow, name)->radial_velocity); }});
     }

@@ -27,6 +27,47 @@ std::vector<BinOutflow> average_outflow(const RunData& run) {
     return outflow;
 }
 
+/// Of the bins beside the head, from the gap to the hub: below it the flow across the contour is not radial.
+std::optional<Mixing> mixing_of(const RunData& run, const std::vector<BinOutflow>& outflow) {
+    constexpr int slices = 20;  // of a bin, over which the contour's radius is summed
+    double out = 0.0;
+    for (const BinOutflow& item : outflow) {
+        if (!std::isfinite(item.bin.z_min)) continue;
+        if (!item.radial_velocity) return std::nullopt;
+        const double slice = (item.bin.z_max - item.bin.z_min) / slices;
+        double area = 0.0;
+        for (int i = 0; i < slices; ++i) area += 2.0 * k_pi * run.contour.radius_at(item.bin.z_min + (i + 0.5) * slice) * slice;
+        out += std::max(0.0, item.radial_velocity->mean) * area;
+    }
+    if (outflow.empty()) return std::nullopt;
+    const double q = out / run.operating_point.discharge;
+    return Mixing{q, q / (1.0 + q)};
+}
+
+std::vector<double> sum_of(const Table& table, const std::vector<const char*>& columns) {
+    std::vector<double> sum(table.rows(), 0.0);
+    for (const char* column : columns) {
+        const std::vector<double>& values = table.number(column);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += values[i];
+    }
+    return sum;
+}
+
+std::optional<FedHead> evaluate_fed_head(const RunData& run) {
+    constexpr double full_share = 0.05;  // of what a blade passing cuts
+    if (!run.operating_point.fed_by_cutting || !run.rock || run.rock->ledger.empty()) return std::nullopt;
+    const Table& ledger = run.rock->ledger;
+    const ProductionSeries series{ledger.number("time_s"), ledger.number("fed_kg"), ledger.number("delivered_kg"),
+                                  sum_of(ledger, {"spilled_mixing_kg", "spilled_cutting_kg", "left_behind_kg"}),
+                                  sum_of(ledger, {"owed_kg", "in_head_kg", "on_bed_kg"})};
+    const double revolution = run.operating_point.revolution_s();
+    const std::optional<Production> production = production_of(series, revolution);
+    if (!production) return std::nullopt;
+    const double rate = production->fed / (production->to - production->from);
+    const double longest = longest_time_above(series.time, ledger.number("owed_kg"), full_share * rate * blade_period(run));
+    return FedHead{*production, longest >= revolution};
+}
+
 RotorLoads average_loads(const RunData& run, double start) {
     RotorLoads rotor;
     const std::vector<double>& times = run.loads.number("time_s");
@@ -193,6 +234,27 @@ json series_json(const std::vector<RatiosAt>& series, const char* key) {
     return list;
 }
 
+json fed_json(const FedHead& head) {
+    const Production& production = head.production;
+    const double duration = production.to - production.from;
+    json object{{"start_s", or_null(production.start)},
+                {"window_start_s", production.from},
+                {"window_end_s", production.to},
+                {"fed_kg_s", production.fed / duration},
+                {"delivered_kg_s", production.delivered / duration},
+                {"share", production.delivered / production.fed},
+                {"share_half_interval", production.share ? json(production.share->half_interval) : json(nullptr)},
+                {"hold_up_kg", production.held},
+                {"hold_up_change_share", production.held_change / production.fed},
+                {"is_steady", production.is_steady},
+                {"spillage", production.is_steady ? json(production.spillage_max) : json(nullptr)},
+                {"spillage_min", production.spillage_min},
+                {"spillage_max", production.spillage_max},
+                {"head_is_full", head.is_full}};
+    if (!production.is_steady) object["spillage_reason"] = "hold-up still changes: only the bounds are known";
+    return object;
+}
+
 json spillage_json(const Spillage& spillage, const std::vector<BinOutflow>& outflow) {
     json object = ratios_json(spillage.ratios);
     object["replicates"] = "no replicate";
@@ -288,11 +350,14 @@ Results compute_results(const RunData& run) {
     results.end_time = run.balance.number("time_s").back();
     if (run.rock) {
         results.spillage = evaluate_spillage(run.rock->fates, run.rock->events, run.bins, run.operating_point.revolution_s(), run.finished);
-        const auto rejected_in_run = static_cast<std::int64_t>(run.rock->rejected_in_run);
+        // Rock from a cut face that finds no place waits for another.
+        const std::int64_t rejected_in_run = run.operating_point.fed_by_cutting ? 0 : static_cast<std::int64_t>(run.rock->rejected_in_run);
         results.rock_requested = run.feed ? run.feed->requested : results.spillage->fates.placed.count + rejected_in_run;
         results.rock_rejected = (run.feed ? run.feed->rejected : 0) + rejected_in_run;
     }
     results.outflow = average_outflow(run);
+    results.mixing = mixing_of(run, results.outflow);
+    results.fed = evaluate_fed_head(run);
     results.rotor = average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     results.scale = compute_scale(run);
@@ -316,6 +381,10 @@ json results_json(const Results& results, const RunData& run) {
                                 {"domain_surplus_max", or_null(results.conservation.domain_surplus)},
                                 {"overfull_cells_max", or_null(results.conservation.overfull_cells)}};
     document["rotor"] = rotor_json(results, run);
+    const auto of_mixing = [&](double Mixing::*member) { return results.mixing ? json((*results.mixing).*member) : json(nullptr); };
+    document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},
+                          {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)}};
+    document["production"] = results.fed ? fed_json(*results.fed) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},
                              {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};

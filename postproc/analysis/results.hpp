@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "postproc/analysis/production.hpp"
 #include "postproc/analysis/spillage.hpp"
 #include "postproc/analysis/time_average.hpp"
 #include "postproc/run/run_reader.hpp"
@@ -31,6 +32,19 @@ struct RotorLoads {
     std::optional<TimeAverage> torque_flow;  ///< [N m], pressure and viscous
     std::optional<TimeAverage> torque_rock;  ///< [N m]
     std::optional<TimeAverage> power;        ///< [W]
+};
+
+/// What flows out of the head through its contour, from the run's own mean radial velocities, and the spillage of rock that would follow
+/// the flow: neutral rock that is mixed well into the head leaves in proportion to the flows, S_mix = q / (1 + q).
+struct Mixing {
+    double outflow_over_discharge = 0.0;  ///< q = Q_out / Q, Q_out the sum over the bins of what flows outwards
+    double well_mixed_spillage = 0.0;     ///< S_mix
+};
+
+/// A head that is fed from a cut face.
+struct FedHead {
+    Production production;
+    bool is_full = false;  ///< for a revolution more was owed than 5 % of what a blade passing cuts: the head cannot take what it cuts
 };
 
 /// What the suction pipe carries.
@@ -75,6 +89,8 @@ struct Results {
     std::optional<Spillage> spillage;  ///< none: no rock
     std::int64_t rock_requested = 0, rock_rejected = 0;
     std::vector<BinOutflow> outflow;  ///< empty when the run did not sample it
+    std::optional<Mixing> mixing;     ///< of the outflow
+    std::optional<FedHead> fed;       ///< of a head that is fed all the time, once it has run long enough
     RotorLoads rotor;
     Delivery delivery;
     ScaleNumbers scale;

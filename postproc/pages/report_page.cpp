@@ -249,10 +249,35 @@ std::string bins_table(const Results& results) {
     return html::table(header, rows, true);
 }
 
+/// Of a head that is fed all the time: rates and hold-up together.
+std::string production_table(const FedHead& head) {
+    const Production& production = head.production;
+    const double duration = production.to - production.from;
+    std::string share = percent(production.delivered / production.fed);
+    share += production.share ? fmt::format(" ± {}", percent(production.share->half_interval)) : " (too short for an interval)";
+    const std::string spillage = production.is_steady ? percent(production.spillage_max)
+                                                      : fmt::format("{} to {}: hold-up still changes", percent(production.spillage_min),
+                                                                    percent(production.spillage_max));
+    std::string content = html::table({},
+                                      {{"window", fmt::format("{:.3f} to {:.3f} s, whole revolutions{}", production.from, production.to,
+                                                              production.start ? "" : "; start-up never ended")},
+                                       {"fed", fmt::format("{} kg/s", number(production.fed / duration))},
+                                       {"delivered", fmt::format("{} kg/s", number(production.delivered / duration))},
+                                       {"delivered / fed", share},
+                                       {"spillage", spillage},
+                                       {"hold-up", fmt::format("{} kg, changed by {} of what was fed", number(production.held),
+                                                               percent(production.held_change / production.fed))}},
+                                      true);
+    if (head.is_full)
+        content += "<p>The head is full: for a revolution more rock waited for a place than 5 % of what a blade passing cuts.</p>";
+    return content;
+}
+
 std::string rock_section(const Results& results, const RunData& run) {
     std::string content = fmt::format("<div class=\"tables\"><div><h3>By axial bin{}</h3>{}</div><div>",
                                       results.spillage ? " (of the last exit)" : "", bins_table(results));
     if (results.spillage) {
+        if (results.fed) content += "<h3>Steady production</h3>" + production_table(*results.fed);
         content += "<h3>At equal revolutions and at equal time</h3>" + series_table(*results.spillage);
         content += "<h3>Feed</h3>" + html::table({},
                                                  {{"requested", fmt::format("{} rocks", results.rock_requested)},
@@ -307,10 +332,16 @@ std::string operation_section(const Results& results, const RunData& run) {
         {"gap between ring and backplate", number(run.contour.z_backplate(), "m")}};
     std::vector<std::string> header{"quantity", "as computed"};
     if (ratio != 1.0) header.push_back(fmt::format("Froude-scaled {:g}:1", ratio));
-    const std::vector<std::vector<std::string>> numbers{{"flow number Q / (ω R³)", number(results.scale.flow_number)},
-                                                        {"Froude number ω² R / g", number(results.scale.froude)},
-                                                        {"settling ratio u<sub>t</sub> / (ω R)", number(results.scale.settling_ratio)},
-                                                        {"size ratio d / R", number(results.scale.size_ratio)}};
+    const auto of_mixing = [&](double Mixing::*member) {
+        return results.mixing ? std::optional<double>((*results.mixing).*member) : std::nullopt;
+    };
+    const std::vector<std::vector<std::string>> numbers{
+        {"flow number Q / (ω R³)", number(results.scale.flow_number)},
+        {"outflow over discharge q = Q<sub>out</sub> / Q", number(of_mixing(&Mixing::outflow_over_discharge), "")},
+        {"spillage of neutral, well-mixed rock, q / (1 + q)", number(of_mixing(&Mixing::well_mixed_spillage), "")},
+        {"Froude number ω² R / g", number(results.scale.froude)},
+        {"settling ratio u<sub>t</sub> / (ω R)", number(results.scale.settling_ratio)},
+        {"size ratio d / R", number(results.scale.size_ratio)}};
     std::string content = "<div class=\"tables\"><div><h3>Quantities</h3>" + html::table(header, rows, true) +
                           "</div><div><h3>Scale numbers</h3>" + html::table({}, numbers, true);
     content += "<h3>Layout</h3>" + html::table({}, layout, true);

@@ -108,6 +108,7 @@ public:
         });
         return text.str();
     }
+    bool is_fed_by_cutting() const { return root_["feed"][0]["kind"].value_or(std::string()) == "cut_face"; }
     int seed() const { return root_["feed"][0]["seed"].value_or(0); }
     void require_all() {
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
@@ -163,6 +164,7 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.length_ratio = study.positive("scale.length_ratio");
     point.swing_direction = study.text("swing.direction", false);
     point.mesh_preset = study.text("mesh.preset", false);
+    point.fed_by_cutting = study.is_fed_by_cutting();
     return point;
 }
 
@@ -218,6 +220,14 @@ TableRules fate_rules() {
             {"placed_count", "sucked_up_count", "spilled_count", "in_cutter_count", "never_entered_count"}};
 }
 
+TableRules ledger_rules() {
+    return {{"time_s", "fed_kg", "owed_kg", "in_head_kg", "delivered_kg", "spilled_mixing_kg", "spilled_cutting_kg", "on_bed_kg",
+             "left_behind_kg", "error"},
+            {},
+            {},
+            k_rerun};
+}
+
 TableRules final_rules() {
     return {{"id", "first_exit_time_s", "first_exit_azimuth_rad", "x_m", "y_m", "z_m", "diameter_m", "density_kg_m3"},
             {"fate", "last_exit_bin"},
@@ -271,6 +281,7 @@ std::optional<RockTables> read_rock(const fs::path& directory) {
     RockTables rock;
     rock.fates = read_fates(directory);
     if (rock.fates.empty()) return std::nullopt;
+    rock.ledger = read_joined_table(directory, "rock", "ledger.csv", ledger_rules());
     rock.events = read_joined_table(directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
     rock.final_state = read_newest_table(directory, "rock", "final.csv", final_rules());
     rock.rejected_in_run = read_joined_table(directory, "rock", "rejected.csv", {{"time_s", "id"}, {"reason"}, {}, k_rerun}, {"id"}).rows();

@@ -32,6 +32,7 @@ struct OperatingPoint {
     double length_ratio = 1.0;    ///< prototype length over model length, > 0
     std::string swing_direction;  ///< may be empty
     std::string mesh_preset;      ///< may be empty
+    bool fed_by_cutting = false;  ///< rock comes all the time, from a cut face
     double revolution_s() const { return 60.0 / speed_rpm; }
     double angular_speed() const { return rpm_to_rad_s(speed_rpm); }  ///< [rad/s], > 0
 };
@@ -56,6 +57,7 @@ struct FeedSummary {
 struct RockTables {
     Table events;
     Table fates;
+    Table ledger;       ///< where all rock that was due is; empty in a run of before there was one
     Table final_state;  ///< one row per rock, as of the last checkpoint or of the end
     std::size_t rejected_in_run = 0;
 };

@@ -135,6 +135,21 @@ TEST(ResultsJson, operation_and_scale_follow_their_formulas) {
     EXPECT_NEAR(results.at("scale").at("size_ratio").get<double>(), 0.05, 1e-12);
 }
 
+// Mean radial velocity of bin k is 0.1 k - 0.3 m/s: outwards from the fourth on, inwards above. The last bin, below the hub, is not beside
+// the head.
+TEST(ResultsJson, spillage_of_well_mixed_rock_follows_from_the_outflow) {
+    const json mixing = document_of_small_run("mixing").at("mixing");
+    const geometry::Contour contour({-0.44, -0.40, -0.25, -0.10, 0.0}, {0.10, 0.20, 0.32, 0.39, 0.40}, 0.40, 0.03);  // the small run's
+    double out = 0.0;
+    for (int k = 4; k < 16; ++k) {
+        const double top = -0.03 * (k - 1), bottom = k == 15 ? contour.z_hub() : top - 0.03;
+        for (double z = bottom + 0.5e-5; z < top; z += 1e-5) out += (0.1 * k - 0.3) * 2.0 * k_pi * contour.radius_at(z) * 1e-5;
+    }
+    const double q = out / 0.12;
+    EXPECT_NEAR(mixing.at("outflow_over_discharge").get<double>(), q, 1e-3 * q);
+    EXPECT_NEAR(mixing.at("well_mixed_spillage").get<double>(), q / (1.0 + q), 1e-3);
+}
+
 TEST(ResultsJson, settling_ratio_is_null_when_the_feed_has_no_settling_velocity) {
     SmallRun run("no_settling");
     run.write();
