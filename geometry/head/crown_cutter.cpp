@@ -29,11 +29,15 @@ constexpr double k_pick_tip = 0.5;      // width of a pick's tip over that of it
 constexpr double k_pick_root = 0.8;     // depth of the pick inside the blade, over its width
 constexpr double k_pick_spacing = 1.2;  // least distance of picks over their width
 
+double edge_radius_in_ring(const CrownParameters& p) {
+    return p.ring_radius - k_edge_inset * (p.ring_radius - p.ring_inner_radius);
+}
+
 /// The outer edge of a blade in the meridional half plane, by arc length from the ring end.
 class EdgeCurve {
 public:
     explicit EdgeCurve(const CrownParameters& p) {
-        const double r_ring = p.ring_radius - k_edge_inset * (p.ring_radius - p.ring_inner_radius);
+        const double r_ring = edge_radius_in_ring(p);
         const double z_ring = -0.5 * p.ring_height;
         const double r_hub = 0.6 * p.hub_radius;
         const double z_hub = -p.hub_depth + 0.15 * p.hub_height;
@@ -157,6 +161,13 @@ TriangleSurface crown_hub(const CrownParameters& p, double edge) {
     return solid_of_revolution(section, circle_segments(p.hub_radius, edge), edge);
 }
 
+/// From within the hub to the ring plane.
+TriangleSurface crown_shaft(const CrownParameters& p, double edge) {
+    const double foot = 0.5 * p.hub_height - p.hub_depth;
+    const std::vector<MeridianPoint> section{{0.0, foot}, {p.shaft_radius_at_hub, foot}, {p.shaft_radius, 0.0}, {0.0, 0.0}};
+    return solid_of_revolution(section, circle_segments(std::max(p.shaft_radius, p.shaft_radius_at_hub), edge), edge);
+}
+
 /// Range of the picks on the edge, as parameters u of the sheet: one width clear of ring and hub.
 struct PickRange {
     double from = 1.0, to = 0.0;
@@ -213,9 +224,14 @@ void require_consistent(const CrownParameters& p) {
     require(p.hub_depth - p.hub_height > p.ring_height, fmt::format("hub.height_m = {}", p.hub_height),
             fmt::format("The hub must end below the ring: less than hub.depth_m - ring.height_m = {}", p.hub_depth - p.ring_height),
             "Make the hub's cylinder lower or the head deeper");
-    require(p.blade_depth_at_ring < p.ring_radius - p.ring_inner_radius, fmt::format("blades.depth_at_ring_m = {}", p.blade_depth_at_ring),
-            fmt::format("It must be smaller than the ring's width of {}", p.ring_radius - p.ring_inner_radius),
-            "Make the blade narrower there or the ring wider");
+    const double width = edge_radius_in_ring(p) - p.shaft_radius;
+    require(p.blade_depth_at_ring < width, fmt::format("blades.depth_at_ring_m = {}", p.blade_depth_at_ring),
+            fmt::format("Blades must end outside shaft and axis, {:.4g} m from their outer edge", width), "Make the blades less deep");
+    require(p.shaft_radius < p.ring_inner_radius, fmt::format("shaft.radius_m = {}", p.shaft_radius),
+            fmt::format("The ring's bore must stay open: less than ring.inner_radius_m = {}", p.ring_inner_radius),
+            "Make the shaft thinner");
+    require(p.shaft_radius_at_hub < p.hub_radius || p.shaft_radius == 0.0, fmt::format("shaft.radius_at_hub_m = {}", p.shaft_radius_at_hub),
+            fmt::format("It must stand on the hub: less than hub.radius_m = {}", p.hub_radius), "Make the shaft thinner or the hub wider");
     const double thickest = std::max(p.blade_thickness, p.blade_thickness_at_hub);
     require(p.blade_thickness < p.ring_height, fmt::format("blades.thickness_m = {}", p.blade_thickness),
             fmt::format("A blade must end within the ring, ring.height_m = {}", p.ring_height),
@@ -327,6 +343,7 @@ TriangleSurface united_crown_parts(const CrownParameters& p) {
     require_consistent(p);
     const double part_edge = k_part_refinement * p.edge_length;
     ExactSolid head(crown_hub(p, part_edge));
+    if (p.shaft_radius > 0.0) head.unite(ExactSolid(crown_shaft(p, part_edge)));
     const TriangleSurface blade = crown_blade(p);
     require_simple(blade);
     const TriangleSurface picks = joined(crown_picks(p));

@@ -1,5 +1,5 @@
 #pragma once
-/// \file A parametric crown cutter: ring, hub and helical blades.
+/// \file A parametric crown cutter: ring, hub, shaft and helical blades.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,7 +17,8 @@ namespace cutterflow::geometry {
 ///     r(t) = r_h + (r_r - r_h) cos(t)^(2/p),   z(t) = z_r - (z_r - z_h) sin(t)^(2/p),   0 <= t <= pi/2
 ///
 /// from within the ring (r_r, z_r) to within the hub (r_h, z_h) and turns about the axis in proportion to its arc length; the strip goes
-/// inwards from there by the blade's depth, in a direction that turns from radial at the ring to axial at the hub.
+/// inwards from there by the blade's depth, in a direction that turns from radial at the ring to axial at the hub. A blade deeper than
+/// the ring is wide reaches into the ring's bore.
 ///
 /// Sense of rotation. A blade that moves with +azimuth pushes with the face whose outward normal n has n_azimuth > 0, along n. It carries
 /// rock towards the suction side (+z) when n_z > 0 there, that is when the blade's ring end trails its hub end: `wrap` > 0 is the
@@ -33,6 +34,8 @@ struct CrownParameters {
     double hub_depth = 0.0;       ///< distance of the hub's lower rim from the ring plane
     double hub_height = 0.0;      ///< of the hub's cylinder
     double hub_cap_height = 0.0;  ///< of the spherical cap below the rim; the head's height is hub_depth + hub_cap_height
+    double shaft_radius = 0.0;    ///< in the ring plane, where the shaft ends; 0: no shaft
+    double shaft_radius_at_hub = 0.0;
     int blade_count = 0;
     double blade_wrap = 0.0;  ///< see above
     double blade_rake = 0.0;  ///< between strip and radius in a section normal to the axis; positive: the outer edge leads when carrying
@@ -62,7 +65,7 @@ CrownParameters read_crown_parameters(const std::filesystem::path& file);
 /// \throws CheckFailure  when blades, ring and hub do not unite into one sound solid
 TriangleSurface generate_crown_cutter(const CrownParameters& parameters);
 
-/// Ring, hub, blades and picks united in exact arithmetic, with the small and thin triangles that this leaves: the solid of which
+/// Ring, hub, shaft, blades and picks united in exact arithmetic, with the small and thin triangles that this leaves: the solid of which
 /// generate_crown_cutter makes the surface.
 /// \throws as generate_crown_cutter
 TriangleSurface united_crown_parts(const CrownParameters& parameters);

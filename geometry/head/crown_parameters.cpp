@@ -55,6 +55,8 @@ ParameterTable make_table() {
         length("hub.depth_m", "Distance of the hub's lower rim from the ring plane."),
         length("hub.height_m", "Height of the hub's cylinder above its lower rim."),
         length("hub.cap_height_m", "Height of the spherical cap below the lower rim; the head's height is depth plus cap."),
+        derived(length("shaft.radius_m", "Radius, in the ring plane, of the shaft or cone from there to the hub."), "no shaft"),
+        derived(length("shaft.radius_at_hub_m", "The same at the hub; linear in between."), "shaft.radius_m"),
         count("blades.count", 2, 12, "Number of blades."),
         number("blades.wrap_deg", "deg", -120.0, 120.0,
                "Azimuth by which a blade's hub end leads its ring end, right-handed about hub-to-ring. Positive: positive rotation carries "
@@ -64,7 +66,8 @@ ParameterTable make_table() {
                "Angle between blade and radius; positive when the outer edge leads in the carrying sense of rotation."),
         length("blades.thickness_m", "Thickness of the blades at the ring, normal to their surface."),
         derived(length("blades.thickness_at_hub_m", "The same at the hub; linear in between."), "blades.thickness_m"),
-        length("blades.depth_at_ring_m", "Width of a blade from its outer edge inwards, at the ring."),
+        length("blades.depth_at_ring_m",
+               "Width of a blade from its outer edge inwards, at the ring; 0.25 to 0.4 ring radius on heads that dredge."),
         length("blades.depth_at_hub_m", "The same at the hub; linear in between."),
         number("blades.contour_exponent", "-", 1.0, 6.0,
                "Shape of the outer contour between ring and hub: 1 is a cone, 2 an ellipse, larger is fuller."),
@@ -95,8 +98,9 @@ std::string crown_manual_page() {
            "<!-- Made from the table in geometry/head/crown_parameters.cpp: build the target update_manual instead of editing this page. "
            "-->\n\n"
            "`cutterflow generate-cutter crown.toml -o cutter.stl` makes a watertight crown cutter, in metres, from these sizes: a ring, a "
-           "hub and\n"
-           "helical blades between them, with picks on the blades' outer edges when `picks.per_blade` is above 0. The ring's top face is z "
+           "hub,\n"
+           "helical blades between them and, with `shaft.radius_m`, a shaft or cone, with picks on the blades' outer edges when "
+           "`picks.per_blade` is above 0. The ring's top face is z "
            "= 0 and\n"
            "the head lies below it. `cases/examples/model_cutter/crown.toml` is an example.\n\n"
            "Solids of known volume for cases with a known answer come from `cutterflow generate-solid pipe`, `box` and `funnel`; "
@@ -115,6 +119,10 @@ CrownParameters read_crown_parameters(const std::filesystem::path& file) {
     p.hub_depth = values.number("hub.depth_m");
     p.hub_height = values.number("hub.height_m");
     p.hub_cap_height = values.number("hub.cap_height_m");
+    if (values.has("shaft.radius_m")) {
+        p.shaft_radius = values.number("shaft.radius_m");
+        p.shaft_radius_at_hub = values.number(values.has("shaft.radius_at_hub_m") ? "shaft.radius_at_hub_m" : "shaft.radius_m");
+    }
     p.blade_count = static_cast<int>(values.integer("blades.count"));
     p.blade_wrap = radians(values.number("blades.wrap_deg"));
     p.blade_rake = radians(values.number("blades.rake_deg"));

@@ -1,5 +1,7 @@
 #include "geometry/head/geometry_report.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +9,8 @@ namespace cutterflow::geometry {
 namespace {
 
 using nlohmann::json;
+
+constexpr double k_degrees = 180.0 / k_pi;
 
 json vector_json(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
@@ -55,6 +59,13 @@ json defects_json(const SoundnessReport& report) {
             {"self_intersections", defect_json(report.self_intersections)}};
 }
 
+json blades_json(const std::vector<BladeSlice>& blades) {
+    json slices = json::array();
+    for (const BladeSlice& slice : blades)
+        slices.push_back({{"z_m", slice.z}, {"angle_deg", slice.angle * k_degrees}, {"coverage", slice.coverage}});
+    return slices;
+}
+
 json head_json(const Head& head) {
     return {{"axis", {{"origin_m", vector_json(head.axis.origin)}, {"direction", vector_json(head.axis.direction)}}},
             {"blades", head.symmetry.blade_count},
@@ -65,7 +76,28 @@ json head_json(const Head& head) {
             {"passage_m", head.passage ? json(*head.passage) : json()},
             {"thickness_m", head.thickness},
             {"carrying", {{"sense", name_of_sense(head.carrying.sense)}, {"measure", head.carrying.measure}}},
+            {"blade_slices", blades_json(head.blades)},
             {"contour", {{"nodes", head.contour.z.size()}, {"error_m", head.contour.error}}}};
+}
+
+/// The ladder from which on rock slides off most of the blades [rad]: the angle that half of the slices with blades exceed.
+double middle_angle(const std::vector<BladeSlice>& blades) {
+    std::vector<double> angles;
+    for (const BladeSlice& slice : blades)
+        if (slice.coverage < 1.0) angles.push_back(slice.angle);
+    if (angles.empty()) return 0.0;
+    std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2), angles.end());
+    return angles[angles.size() / 2];
+}
+
+std::string blades_text(const std::vector<BladeSlice>& blades) {
+    if (blades.empty()) return "";
+    std::string text = "blades by depth below the ring: angle with the axis, share of the circumference that they close\n";
+    for (auto slice = blades.rbegin(); slice != blades.rend(); ++slice)
+        text += fmt::format("  {:>8.4g} m  {:>5.1f} deg  {:>5.1f} %\n", -slice->z, slice->angle * k_degrees, 100.0 * slice->coverage);
+    const double middle = middle_angle(blades) * k_degrees;
+    return text + fmt::format("rock slides towards the ring on most of the rising blades where the ladder is flatter than {:.0f} degrees\n",
+                              std::max(0.0, middle));
 }
 
 std::string head_text(const Head& head) {
@@ -80,6 +112,7 @@ std::string head_text(const Head& head) {
     text += fmt::format("contour      {} nodes, error {:.3g} m\n", head.contour.z.size(), head.contour.error);
     text += fmt::format("carries rock to the suction side for rotation: {} (measure {:.3g})\n", name_of_sense(head.carrying.sense),
                         head.carrying.measure);
+    text += blades_text(head.blades);
     if (head.steel_above_ring > 0.0) text += fmt::format("steel stands out {:.4g} m above the ring plane\n", head.steel_above_ring);
     return text;
 }

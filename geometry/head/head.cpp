@@ -20,6 +20,7 @@ constexpr double k_half = 0.5;        // of the largest radius: a shaft is thinn
 constexpr int k_heights = 400;
 constexpr double k_end_contrast = 0.02;
 constexpr double k_contour_tolerance = 5e-4;  // of the ring radius
+constexpr int k_blade_slices = 12;
 constexpr double k_carrying_limit = 0.02;
 constexpr double k_standing_angle = 0.02 * k_pi / 180.0;
 constexpr double k_standing_shift = 1e-4;
@@ -131,6 +132,9 @@ Head understand_head(const TriangleSurface& surface) {
     head.contour = fit_contour(profile, head.lowest_z, std::min(0.0, profile.z_max()), k_contour_tolerance * head.ring_radius);
     if (head.symmetry.blade_count > 1) head.passage = passage_between_blades(head.surface, head.contour, head.symmetry.blade_count);
     head.thickness = smallest_thickness(head.surface);
+    if (head.symmetry.blade_count > 1)
+        head.blades =
+            blade_profile(head.surface, head.contour, head.carrying.sense == CarryingSense::negative ? -1.0 : 1.0, k_blade_slices);
     return head;
 }
 

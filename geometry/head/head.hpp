@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/head/blade_profile.hpp"
 #include "geometry/head/revolution_contour.hpp"
 #include "geometry/head/rotational_symmetry.hpp"
 #include "geometry/surface/surface.hpp"
@@ -33,9 +34,10 @@ struct Head {
     double lowest_z = 0.0;                                           ///< of the hub's end, negative: the head's height is -lowest_z
     double steel_above_ring = 0.0;                                   ///< height above the ring plane of steel nearer to the axis (a shaft)
     Carrying carrying;
-    RevolutionContour contour;      ///< from the lowest point to the ring plane
-    std::optional<double> passage;  ///< passage_between_blades; none without blades
-    double thickness = 0.0;         ///< smallest_thickness of the steel
+    RevolutionContour contour;       ///< from the lowest point to the ring plane
+    std::optional<double> passage;   ///< passage_between_blades; none without blades
+    double thickness = 0.0;          ///< smallest_thickness of the steel
+    std::vector<BladeSlice> blades;  ///< from the lowest point to the ring plane; none without blades
 };
 
 /// Axis and blades by rotational symmetry; the outer radius runs in (from 0.75 to 0.5 of its largest) over more height at the hub's end
