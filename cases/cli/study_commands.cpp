@@ -11,6 +11,7 @@
 #include "cases/runner/machine.hpp"
 #include "cases/runner/prediction.hpp"
 #include "cases/scenes/cutter/feed.hpp"
+#include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
@@ -117,14 +118,17 @@ void check_study_file(const CheckOptions& options) {
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
     const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
     std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
+    for (const Mistake& warning : cases::bank_without_run(resolved)) warnings.push_back(warning);
     for (const Mistake& warning : cases::prediction_warnings(study, prediction)) warnings.push_back(warning);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
+    for (const Mistake& warning : cases::blade_warnings(study, *inspection.head)) warnings.push_back(warning);
     for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface)))
         warnings.push_back(warning);
     const fs::path run = fs::path("runs") / fs::path(options.study).stem();  // where it goes without -o
     if (const auto missing = cases::missing_space(run, prediction.mesh_disk + prediction.run_disk)) warnings.push_back(*missing);
     if (options.json) {
         std::cout << nlohmann::json{{"cutter", geometry::to_json(inspection)},
+                                    {"bank", cases::bank_json(study, contour)},
                                     {"prediction", to_json(prediction)},
                                     {"feeds", nlohmann::json::parse(cases::feed_json(feeds, study)).at("feeds")},
                                     {"warnings", mistakes_json(warnings)}}
@@ -132,7 +136,7 @@ void check_study_file(const CheckOptions& options) {
                   << std::endl;
         return;
     }
-    std::cout << geometry::to_text(inspection) << "\n" << to_text(prediction);
+    std::cout << geometry::to_text(inspection) << cases::bank_text(study, contour) << "\n" << to_text(prediction);
     for (const std::string& line : cases::feed_lines(feeds)) std::cout << line << "\n";
     for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
     std::cout << fmt::format("{} is valid; next: cutterflow run {} --ranks {}\n", options.study, shell_word(options.study), options.ranks);

@@ -177,6 +177,8 @@ geometry::Contour RunHead::with_backplate(double z_backplate) const {
 Pipeline::Pipeline(const RunDirectory& directory, PipelineSettings settings, Say say)
     : directory_(directory), settings_(std::move(settings)), say_(std::move(say)), values_(read_study(settings_.study_file)) {
     require_cutter_file(values_, settings_.study_file.parent_path());
+    std::vector<Mistake> bank = bank_without_run(values_);
+    if (!bank.empty()) throw UserError(std::move(bank));
 }
 
 std::vector<Stage> Pipeline::stages() {
@@ -217,6 +219,7 @@ StageOutcome Pipeline::make_geometry() {
     const Study study = resolved_study(size);
     for (const Mistake& warning : study_warnings(resolve_study(values_, size), size)) say_("warning: " + warning.text());
     for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
+    for (const Mistake& warning : blade_warnings(study, head)) say_("warning: " + warning.text());
     for (const Mistake& warning : meshing::mesh_warnings(mesh_input_of(study, size, head.surface))) say_("warning: " + warning.text());
     say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
                      head.ring_radius, size.depth));

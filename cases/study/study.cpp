@@ -1,6 +1,7 @@
 #include "cases/study/study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -75,6 +76,32 @@ double derived_outflow_start(const ParameterValues& values) {
     return flow_only < end ? flow_only : 0.5 * end;
 }
 
+/// Keys that say something of a bank or its soil.
+constexpr std::array<const char*, 7> k_bank_keys = {"swing.speed_m_min",  "bank.cut_height_m",        "bank.step_m",  "bank.clearance_m",
+                                                    "bank.pick_length_m", "soil.grain_density_kg_m3", "soil.porosity"};
+constexpr double k_wider_by_picks = 0.03;  // of the ring radius: a head that is wider than its ring by this has picks
+
+bool has_bank(const ParameterValues& values) {
+    return values.text("bank.model") == k_wall_bank;
+}
+
+void resolve_bank(ParameterValues& values, const HeadSize& head) {
+    const double ring = head.ring_radius;
+    const bool has_picks = head.tip_radius >= (1.0 + k_wider_by_picks) * ring;
+    fill(values, "bank.cut_height_m", 0.8 * ring);
+    fill(values, "bank.step_m", 0.4 * ring);
+    fill(values, "bank.clearance_m", 0.02 * ring);
+    fill(values, "bank.pick_length_m", has_picks ? 0.0 : 0.1 * ring);
+    fill(values, "soil.grain_density_kg_m3", 2650.0);
+    fill(values, "soil.porosity", 0.15);
+}
+
+Study::Bank make_bank(const ParameterValues& resolved) {
+    const auto number = [&](const char* key) { return resolved.number(key); };
+    return {number("swing.speed_m_min") / 60.0, number("bank.cut_height_m"),        number("bank.step_m"),  number("bank.clearance_m"),
+            number("bank.pick_length_m"),       number("soil.grain_density_kg_m3"), number("soil.porosity")};
+}
+
 void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
     fill(feed, "feed.start_revolution", study.number("run.flow_revolutions"));
     fill(feed, "feed.azimuth_centre_deg", bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")));
@@ -122,6 +149,18 @@ private:
     const ParameterValues& values_;
     Mistakes mistakes_;
 };
+
+/// A bank needs the speed of its swing, and keys of a bank need a bank.
+void check_bank_keys(const ParameterValues& study, Rules& rules) {
+    if (has_bank(study)) {
+        rules.require(!lacks_swing(study), "bank.model", "A bank is cut by a swing: swing.speed_m_min is missing", "Add swing.speed_m_min");
+        return;
+    }
+    for (const char* key : k_bank_keys)
+        if (study.has(key))
+            rules.require(false, key, fmt::format("It belongs to a bank, and bank.model = \"{}\"", k_no_bank),
+                          fmt::format("Set bank.model = \"{}\", or remove the key", k_wall_bank));
+}
 
 /// What can be said of the feeds without the cutter.
 void check_feed_quantities(const ParameterValues& study, Rules& rules) {
@@ -300,9 +339,25 @@ double Study::first_release() const {
     return std::min_element(feeds.begin(), feeds.end(), [](const FeedRequest& a, const FeedRequest& b) { return a.start < b.start; })
         ->start;
 }
+double Study::bank_side() const {
+    return (swing_direction == "under_cut") == (rotation_speed > 0.0) ? 1.0 : -1.0;
+}
 AxialCylinder Study::water(const HeadSize& head) const {
     const double bottom = -head.depth - tank.bed_clearance;
     return {tank.radius, bottom, bottom + tank.height};
+}
+
+bool lacks_swing(const ParameterValues& values) {
+    return has_bank(values) && !values.has("swing.speed_m_min");
+}
+
+std::vector<Mistake> bank_without_run(const ParameterValues& values) {
+    if (!has_bank(values)) return {};
+    return {{values.where("bank.model"), fmt::format("bank.model = \"{}\"", k_wall_bank),
+             "Runs have no bank yet: neither rock nor water would feel it",
+             fmt::format("To run, set bank.model = \"{}\" and remove the keys of bank, soil and swing speed; cutterflow check has what a "
+                         "swing cuts",
+                         k_no_bank)}};
 }
 
 double bank_azimuth_deg(const std::string& swing_direction, const std::string& rotor_direction) {
@@ -321,6 +376,7 @@ void vary_release(ParameterValues& values, std::int64_t seeds, double revolution
 
 std::vector<Mistake> check_file_rules(const ParameterValues& study, const std::filesystem::path& file) {
     Rules rules(study, file.string());
+    check_bank_keys(study, rules);
     check_feed_quantities(study, rules);
     if (!study.tables("feed").empty())
         rules.require(
@@ -351,6 +407,7 @@ ParameterValues resolve_study(const ParameterValues& values, const HeadSize& hea
     fill(resolved, "tank.height_m", resolved.number("tank.bed_clearance_m") + head.depth + 1.0875 * ring);
     fill(resolved, "rock.youngs_modulus_pa", needed_youngs_modulus(values, head));
     resolve_pairs(resolved);
+    if (has_bank(values)) resolve_bank(resolved, head);
     fill(resolved, "run.checkpoint_interval_s", 0.25 * period_of(values));
     fill(resolved, "run.write_interval_s", 0.25 * period_of(values));
     fill(resolved, "report.bin_width_m", 0.075 * ring);
@@ -384,6 +441,7 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
                      number("suction.pipe_wall_m")};
     study.inclination = number("ladder.inclination_deg") * k_degree;
     study.swing_direction = resolved.text("swing.direction");
+    if (has_bank(resolved)) study.bank = make_bank(resolved);
     study.tank = {number("tank.radius_m"), number("tank.bed_clearance_m"), number("tank.height_m")};
     study.mesh_preset = resolved.text("mesh.preset");
     study.fluid = {number("fluid.density_kg_m3"), number("fluid.kinematic_viscosity_m2_s")};

@@ -22,6 +22,9 @@ inline constexpr const char* k_mesh_stage = "mesh";
 inline constexpr const char* k_case_stage = "case";
 inline constexpr const char* k_report_stage = "report";
 
+/// Values of bank.model.
+inline constexpr const char *k_no_bank = "none", *k_wall_bank = "wall";
+
 /// What derived defaults follow: sizes of the head in the run's frame.
 struct HeadSize {
     double ring_radius = 0.0;           ///< [m]
@@ -71,6 +74,13 @@ struct Study {
     } suction;
     double inclination = 0.0;  ///< of the axis below horizontal [rad]
     std::string swing_direction;
+    struct Bank {
+        double swing_speed = 0.0;                                                 ///< [m/s]
+        double cut_height = 0.0, step = 0.0, clearance = 0.0, pick_length = 0.0;  ///< [m]
+        double grain_density = 0.0;                                               ///< of the soil [kg/m3]
+        double porosity = 0.0;                                                    ///< of the soil
+    };
+    std::optional<Bank> bank;
     struct Tank {
         double radius = 0.0, bed_clearance = 0.0, height = 0.0;  ///< [m]
     } tank;
@@ -97,6 +107,7 @@ struct Study {
     double period() const;         ///< of one revolution [s]
     double end_time() const;       ///< [s]
     double first_release() const;  ///< [s]; of a study with rock
+    double bank_side() const;      ///< 1 with the bank at azimuth 90 degrees, -1 at -90
     AxialCylinder water(const HeadSize& head) const;
 };
 
@@ -108,6 +119,12 @@ const ParameterTable& study_table();
 
 /// Rules that values broke which a study's file gives, as far as they can be seen without the cutter. \param file  the study's
 std::vector<Mistake> check_file_rules(const ParameterValues& values, const std::filesystem::path& file);
+
+/// Whether a study has a bank without the swing that cuts it. check_file_rules refuses it.
+bool lacks_swing(const ParameterValues& values);
+
+/// That runs have no bank yet; nothing of a study without one.
+std::vector<Mistake> bank_without_run(const ParameterValues& values);
 
 /// Reads a study file; values as the file gives them, plain defaults filled in, derived ones still absent.
 /// \throws UserError  with every mistake of the file that can be seen without the cutter

@@ -86,6 +86,39 @@ ParameterTable head_rows() {
     };
 }
 
+/// The bank that the head swings into, and its soil. All belong to the study only with bank.model = "wall".
+ParameterTable bank_rows() {
+    return {
+        number(k_case_stage, "swing.speed_m_min", "m/min",
+               "Speed of the swing, of this head; the report's prototype swings faster by the root of scale.length_ratio.")
+            .at_least(0.0)
+            .at_most(1000.0)
+            .derived("nothing; a bank needs it"),
+        choice(k_case_stage, "bank.model", {k_no_bank, k_wall_bank},
+               "Soil beside the head: none, or the bank that earlier swings left standing. For `cutterflow check`; runs have no bank yet.")
+            .by_default(std::string(k_no_bank)),
+        length(k_case_stage, "bank.cut_height_m", k_largest_length,
+               "Height of the bank's level top above the lowest point of the head with picks and clearance, vertical.")
+            .derived("0.8 ring radius"),
+        length(k_case_stage, "bank.step_m", k_largest_length, "Advance of the ship after each swing, horizontal.")
+            .derived("0.4 ring radius"),
+        number(k_case_stage, "bank.clearance_m", "m", "Distance of the soil from the head and its picks.")
+            .at_least(0.0)
+            .at_most(k_largest_length)
+            .derived("0.02 ring radius"),
+        number(k_case_stage, "bank.pick_length_m", "m",
+               "By which picks that the cutter's file does not have stand out of the head's contour; they cut, and do nothing else.")
+            .at_least(0.0)
+            .at_most(k_largest_length)
+            .derived("0 when the head is wider than its ring by 0.03 ring radius or more, as heads with picks are; else 0.1 ring radius"),
+        number(k_case_stage, "soil.grain_density_kg_m3", "kg/m3", "Density of the soil's grains.")
+            .at_least(100.0)
+            .at_most(30000.0)
+            .derived("2650"),
+        number(k_case_stage, "soil.porosity", "-", "Share of the standing soil that is water.").at_least(0.0).at_most(0.9).derived("0.15"),
+    };
+}
+
 ParameterTable water_rows() {
     return {
         length(k_geometry_stage, "tank.radius_m", k_largest_tank, "Radius of the water's cylinder about the axis; at most 50 ring radii.")
@@ -276,7 +309,7 @@ ParameterTable feed_rows() {
 const ParameterTable& study_table() {
     static const ParameterTable table = [] {
         ParameterTable all;
-        for (const ParameterTable& rows : {head_rows(), water_rows(), rock_rows(), run_rows(), feed_rows()})
+        for (const ParameterTable& rows : {head_rows(), bank_rows(), water_rows(), rock_rows(), run_rows(), feed_rows()})
             std::copy(rows.begin(), rows.end(), std::back_inserter(all));
         return all;
     }();

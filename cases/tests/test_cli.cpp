@@ -490,7 +490,9 @@ TEST_F(Cli, refuses_a_feed_region_without_water_and_warns_of_one_too_small) {
 }
 
 TEST_F(Cli, warns_of_a_rotor_that_carries_rock_away_and_of_rock_that_may_block) {
-    EXPECT_EQ(call({"check", study()}).text.find("warning"), std::string::npos);
+    EXPECT_EQ(call({"check", study("[ladder]\ninclination_deg = 15\n")}).text.find("warning"), std::string::npos);
+    // At 45 degrees, the default, the crown's blades are flatter than the ladder.
+    expect_contains(call({"check", study()}).text, "warning: ladder.inclination_deg = 45 with blades that are flatter over 100 %");
     const Outcome away = call({"check", study("[swing]\ndirection = \"under_cut\"\n", "cutter.stl")});
     EXPECT_EQ(away.text.find("carry rock away"), std::string::npos);
     geometry::write_stl(mirrored(crown()), folder_ / "mirror.stl");
@@ -499,6 +501,16 @@ TEST_F(Cli, warns_of_a_rotor_that_carries_rock_away_and_of_rock_that_may_block) 
     expect_contains(mirror.text, "warning: rotor.direction = \"right_handed\" makes the blades carry rock away from the suction side");
     expect_contains(call({"check", study("[[feed]]\ncount = 1\n[[feed.class]]\ndiameter_m = 0.08\n")}).text,
                     "third of the smallest passage");
+}
+
+TEST_F(Cli, names_a_bank_without_a_swing_with_all_other_mistakes) {
+    study("mouth_radius_m = 3\n[bank]\nmodel = \"wall\"\n[[feed]]\n[[feed.class]]\ndiameter_m = 0.02\n");
+    for (const char* command : {"check", "run", "mesh"}) {
+        const Outcome outcome = call({command, "study.toml"});
+        expect_refused(outcome, 2, "swing.speed_m_min is missing. Add swing.speed_m_min");
+        expect_contains(outcome.text, "feed 1 has neither count nor mass_kg");
+    }
+    expect_contains(call({"check", "study.toml"}).text, "suction.mouth_radius_m = 3. The mouth must lie inside the ring");
 }
 
 TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -67,7 +68,8 @@ void require_cutter_file(const ParameterValues& values, const std::filesystem::p
 
 void require_study_file(const std::filesystem::path& file) {
     Mistakes mistakes;
-    read_with_mistakes(file, mistakes);
+    const ReadParameters read = read_with_mistakes(file, mistakes);
+    if (read.complete) mistakes.add(bank_without_run(read.values));
     mistakes.refuse();
 }
 
@@ -80,7 +82,11 @@ CheckedStudy read_checked_study(const std::filesystem::path& file) {
         study.inspection = import_study_cutter(values, file.parent_path());
         study.size = head_size(*study.inspection.head);
         study.resolved = resolve_study(values, study.size);
-        mistakes.add(check_study(study.resolved, study.size));
+        const std::vector<Mistake> broken = check_study(study.resolved, study.size);
+        mistakes.add(broken);
+        // Steel behind the head, water and bank have their sizes only when the study keeps its own rules.
+        if (broken.empty() && !lacks_swing(study.resolved))
+            mistakes.add(bank_mistakes(study.resolved, make_study(study.resolved, file.parent_path()), *study.inspection.head));
     });
     mistakes.refuse();
     return study;
@@ -128,6 +134,16 @@ std::vector<Mistake> carrying_warnings(const Study& study, const geometry::Head&
     return {{"", what + " makes the blades carry rock away from the suction side",
              fmt::format("This head carries towards it when it turns {}", positive ? "left_handed" : "right_handed"),
              "Check rotor.direction, or mirror the cutter"}};
+}
+
+std::vector<Mistake> blade_warnings(const Study& study, const geometry::Head& head) {
+    const std::optional<double> flatter = geometry::share_flatter_than(head.blades, study.inclination);
+    if (!flatter || *flatter <= 0.5) return {};
+    return {{"",
+             fmt::format("ladder.inclination_deg = {:g} with blades that are flatter over {:.0f} % of their height",
+                         study.inclination * 180.0 / k_pi, 100.0 * *flatter),
+             "On a rising blade rock slides towards the ring where the blade's angle with the axis is larger than the ladder's",
+             "Look at the blades' angles (cutterflow inspect); a flatter ladder or steeper blades keep rock from the hub"}};
 }
 
 CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geometry::Contour& contour, int ranks) {

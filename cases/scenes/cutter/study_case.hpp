@@ -15,7 +15,7 @@ namespace cutterflow::cases {
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder);
 
 /// \throws UserError  with every mistake of a study that can be seen without reading its cutter: those of its text, of the files
-/// that it names, and of its rules unless a value is wrong or missing
+/// that it names, and of its rules unless a value is wrong or missing; and with a bank, which runs do not have yet
 void require_study_file(const std::filesystem::path& file);
 
 /// A study without a mistake, and its cutter.
@@ -41,6 +41,9 @@ geometry::StationarySteelParameters stationary_steel_of(const Study& study, cons
 
 /// Warns of a rotor that carries rock away from the suction side, or whose blades push along the axis in neither sense.
 std::vector<Mistake> carrying_warnings(const Study& study, const geometry::Head& head);
+
+/// Warns of blades that are flatter than the ladder over most of their height: gravity draws rock to the hub.
+std::vector<Mistake> blade_warnings(const Study& study, const geometry::Head& head);
 
 /// The case of a study. \param ranks  of the run
 CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geometry::Contour& contour, int ranks);

@@ -1,0 +1,150 @@
+#include "cases/scenes/cutter/study_bank.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/cgal/solid_search.hpp"
+#include "geometry/head/stationary_steel.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+// Rock that far from the axis has left the head for good.
+constexpr double k_reach_per_ring_radius = 3.0;
+constexpr double k_seconds_per_hour = 3600.0;
+
+Mistake broken(const ParameterValues& resolved, const char* key, const std::string& rule, const std::string& remedy) {
+    return {resolved.where(key), fmt::format("{} = {:.6g}", key, resolved.number(key)), rule, remedy};
+}
+
+/// Height along the vertical of the highest point of the water's cylinder.
+double height_of_water(const Study& study, const HeadSize& size) {
+    const AxialCylinder water = study.water(size);
+    return water.z_max * std::sin(study.inclination) + water.radius * std::cos(study.inclination);
+}
+
+void check_shape(const ParameterValues& resolved, const Study& study, const HeadSize& size, const geometry::Bank& bank,
+                 Mistakes& mistakes) {
+    if (!(study.bank->cut_height < bank.head_height()))
+        mistakes.add(broken(resolved, "bank.cut_height_m",
+                            fmt::format("The head with picks and clearance is {:.4g} m high, and no swing cuts higher", bank.head_height()),
+                            "Lower the bank; higher ones are cut in layers"));
+    if (!(bank.top() < height_of_water(study, size)))
+        mistakes.add(broken(resolved, "bank.cut_height_m",
+                            fmt::format("The bank's top would stand {:.4g} m above the water", bank.top() - height_of_water(study, size)),
+                            "Lower the bank, or make the tank larger"));
+    if (!(study.bank->step < bank.head_length()))
+        mistakes.add(
+            broken(resolved, "bank.step_m",
+                   fmt::format("The head with picks and clearance is {:.4g} m long in the direction of advance; soil would be left "
+                               "between two swings",
+                               bank.head_length()),
+                   "Make shorter steps"));
+    if (!mistakes.empty()) return;
+    if (!(bank.width_at_top() >= study.bank->step))
+        mistakes.add(broken(resolved, "bank.step_m",
+                            fmt::format("At the bank's top, {:.4g} m above its lowest point, the head is {:.4g} m long in the direction of "
+                                        "advance: with longer steps soil would overhang",
+                                        study.bank->cut_height, bank.width_at_top()),
+                            "Make shorter steps or lower bank.cut_height_m"));
+}
+
+/// Soil that comes nearer than the clearance to the steel that does not turn.
+void check_stationary_steel(const ParameterValues& resolved, const Study& study, const HeadSize& size, const geometry::Contour& contour,
+                            Mistakes& mistakes) {
+    const geometry::SolidSearch soil(bank_surface(study, size, contour));
+    const geometry::StationarySteel steel = geometry::generate_stationary_steel(stationary_steel_of(study, size));
+    for (const auto& [name, part] : {std::pair("backplate", &steel.backplate), std::pair("suction pipe", &steel.suction_pipe)}) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Vec3& point : part->points) nearest = std::min(nearest, soil.contains(point) ? 0.0 : soil.nearest(point).distance);
+        if (nearest > 0.0 && nearest >= study.bank->clearance) continue;
+        mistakes.add(broken(resolved, "bank.clearance_m",
+                            nearest > 0.0 ? fmt::format("The bank comes within {:.4g} m of the {}", nearest, name)
+                                          : fmt::format("The {} would stand in the bank", name),
+                            "Lower bank.cut_height_m, make shorter steps, or shorten the steel behind the head"));
+    }
+}
+
+}  // namespace
+
+geometry::Bank bank_of(const Study& study, const geometry::Contour& contour) {
+    geometry::BankParameters parameters;
+    parameters.inclination = study.inclination;
+    parameters.swing_sign = study.bank_side();
+    parameters.cut_height = study.bank->cut_height;
+    parameters.step = study.bank->step;
+    parameters.pick_length = study.bank->pick_length;
+    parameters.clearance = study.bank->clearance;
+    return {contour, parameters};
+}
+
+geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size, const geometry::Contour& contour) {
+    return bank_of(study, contour).soil(k_reach_per_ring_radius * std::max(size.ring_radius, size.tip_radius));
+}
+
+std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const geometry::Head& head) {
+    if (!study.bank) return {};
+    const HeadSize size = head_size(head);
+    const geometry::Contour contour = head_contour(head, study.suction.gap);
+    Mistakes mistakes;
+    const double standing_out = study.bank->pick_length + study.bank->clearance;
+    if (!(standing_out > head.contour.error))
+        mistakes.add(broken(resolved, "bank.clearance_m",
+                            fmt::format("The bank would touch the head: with bank.pick_length_m = {:g} it must be more than {:.3g} m, the "
+                                        "error of the contour",
+                                        study.bank->pick_length, head.contour.error - study.bank->pick_length),
+                            "Raise it"));
+    check_shape(resolved, study, size, bank_of(study, contour), mistakes);
+    if (mistakes.empty()) check_stationary_steel(resolved, study, size, contour, mistakes);
+    return mistakes.take();
+}
+
+CutFigures cut_figures(const Study& study, const geometry::Contour& contour) {
+    CutFigures figures;
+    figures.section = bank_of(study, contour).cut_section();
+    figures.swing_speed = study.bank->swing_speed;
+    figures.in_situ = figures.swing_speed * figures.section;
+    figures.dry = study.bank->grain_density * (1.0 - study.bank->porosity) * figures.in_situ;
+    return figures;
+}
+
+CutFigures scaled(const CutFigures& figures, double length_ratio) {
+    const double flow = std::pow(length_ratio, 2.5);
+    return {figures.section * length_ratio * length_ratio, figures.in_situ * flow, figures.dry * flow,
+            figures.swing_speed * std::sqrt(length_ratio)};
+}
+
+std::string bank_text(const Study& study, const geometry::Contour& contour) {
+    if (!study.bank) return "";
+    const auto line = [](const char* of, const CutFigures& figures) {
+        return fmt::format("{}cut section {:.4g} m2, swing {:.4g} m/min: {:.4g} m3/h of soil in situ, {:.4g} t/h of dry grains\n", of,
+                           figures.section, 60.0 * figures.swing_speed, k_seconds_per_hour * figures.in_situ,
+                           1e-3 * k_seconds_per_hour * figures.dry);
+    };
+    const CutFigures figures = cut_figures(study, contour);
+    std::string text =
+        fmt::format("bank         {:.4g} m high, steps of {:.4g} m, {}\n", study.bank->cut_height, study.bank->step, study.swing_direction);
+    text += line("cut          ", figures);
+    if (study.length_ratio != 1.0) text += line("prototype    ", scaled(figures, study.length_ratio));
+    return text;
+}
+
+nlohmann::json bank_json(const Study& study, const geometry::Contour& contour) {
+    if (!study.bank) return nullptr;
+    const auto figures_json = [](const CutFigures& figures) {
+        return nlohmann::json{{"cut_section_m2", figures.section},
+                              {"swing_speed_m_s", figures.swing_speed},
+                              {"in_situ_m3_s", figures.in_situ},
+                              {"dry_kg_s", figures.dry}};
+    };
+    const CutFigures figures = cut_figures(study, contour);
+    return {{"model", figures_json(figures)}, {"prototype", figures_json(scaled(figures, study.length_ratio))}};
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,41 @@
+#pragma once
+/// \file The bank of a study: whether it can stand there, what a swing cuts from it, and its surface.
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cases/study/study.hpp"
+#include "geometry/head/head.hpp"
+#include "geometry/soil/bank.hpp"
+
+namespace cutterflow::cases {
+
+/// \pre the study has a bank
+geometry::Bank bank_of(const Study& study, const geometry::Contour& contour);
+
+/// Soil as far from the axis as rock matters, in the run's frame. \pre the study has a bank that can stand
+geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size, const geometry::Contour& contour);
+
+/// Rules that a bank breaks beside this head, its steel and its water: higher than head or water, steps longer than the head, overhanging,
+/// steel in the soil. None for a study without a bank. \param resolved  from which the study was made; its lines are named
+std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const geometry::Head& head);
+
+/// What a swing cuts.
+struct CutFigures {
+    double section = 0.0;      ///< A_cut [m2]
+    double in_situ = 0.0;      ///< volume flux of standing soil v_h A_cut [m3/s]
+    double dry = 0.0;          ///< mass flux of its grains [kg/s]
+    double swing_speed = 0.0;  ///< [m/s]
+};
+/// \pre the study has a bank
+CutFigures cut_figures(const Study& study, const geometry::Contour& contour);
+
+/// By Froude's law, for a prototype longer by `length_ratio`; the soil is the same.
+CutFigures scaled(const CutFigures& figures, double length_ratio);
+
+/// Lines for the user, and the same for `check --json`; empty and null without a bank.
+std::string bank_text(const Study& study, const geometry::Contour& contour);
+nlohmann::json bank_json(const Study& study, const geometry::Contour& contour);
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,145 @@
+/// The bank of a study: its keys, its rules beside a head, what a swing cuts.
+#include "cases/scenes/cutter/study_bank.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/cgal/solid_search.hpp"
+#include "geometry/head/crown_cutter.hpp"
+#include "geometry/surface/soundness.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+const geometry::Head& model_head() {
+    static const geometry::Head head = geometry::understand_head(geometry::generate_crown_cutter(
+        geometry::read_crown_parameters(std::string(CUTTERFLOW_SOURCE_DIR) + "/cases/examples/model_cutter/crown.toml")));
+    return head;
+}
+
+ParameterValues values_of(const std::string& more) {
+    return parse_parameters(study_table(), "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n" + more,
+                            "study.toml");
+}
+
+ParameterValues resolved_of(const std::string& more) {
+    return resolve_study(values_of(more), head_size(model_head()));
+}
+
+Study study_of(const std::string& more) {
+    return make_study(resolved_of(more), "/tmp");
+}
+
+geometry::Contour contour_of(const Study& study) {
+    return head_contour(model_head(), study.suction.gap);
+}
+
+std::vector<std::string> texts(const std::vector<Mistake>& mistakes) {
+    std::vector<std::string> all;
+    for (const Mistake& mistake : mistakes) all.push_back(mistake.text());
+    return all;
+}
+
+bool has(const std::vector<std::string>& all, const std::string& part) {
+    return std::any_of(all.begin(), all.end(), [&](const std::string& text) { return text.find(part) != std::string::npos; });
+}
+
+std::vector<std::string> mistakes_of(const std::string& more) {
+    const ParameterValues resolved = resolved_of(more);
+    return texts(bank_mistakes(resolved, make_study(resolved, "/tmp"), model_head()));
+}
+
+TEST(StudyBank, is_none_by_default_and_follows_the_ring_otherwise) {
+    EXPECT_FALSE(study_of("").bank);
+    const Study study = study_of("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n");
+    ASSERT_TRUE(study.bank);
+    EXPECT_NEAR(study.bank->swing_speed, 0.1, 1e-15);
+    EXPECT_NEAR(study.bank->cut_height, 0.32, 1e-12);
+    EXPECT_NEAR(study.bank->step, 0.16, 1e-12);
+    EXPECT_NEAR(study.bank->clearance, 0.008, 1e-12);
+    EXPECT_NEAR(study.bank->pick_length, 0.04, 1e-12);  // the model cutter has none of its own
+    EXPECT_EQ(study.bank->grain_density, 2650.0);
+    EXPECT_EQ(study.bank->porosity, 0.15);
+}
+
+TEST(StudyBank, of_a_head_with_picks_adds_none) {
+    HeadSize size = head_size(model_head());
+    size.tip_radius = 1.05 * size.ring_radius;
+    const ParameterValues values = values_of("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n");
+    EXPECT_EQ(resolve_study(values, size).number("bank.pick_length_m"), 0.0);
+}
+
+// 1 m3/s of soil with a third of pores and grains of 3000 kg/m3 is 2 t/s; Froude: lengths 4, speeds 2, areas 16, flows 32.
+TEST(StudyBank, figures_are_those_of_the_swing_and_scale_by_froude) {
+    const std::string keys = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[soil]\ngrain_density_kg_m3 = 3000\nporosity = 0.25\n";
+    const Study study = study_of(keys + "[scale]\nlength_ratio = 4\n");
+    const CutFigures figures = cut_figures(study, contour_of(study));
+    EXPECT_NEAR(figures.section, 0.16 * 0.32, 0.02 * 0.16 * 0.32);
+    EXPECT_NEAR(figures.in_situ, 0.1 * figures.section, 1e-15);
+    EXPECT_NEAR(figures.dry, 2250.0 * figures.in_situ, 1e-12);
+    const CutFigures prototype = scaled(figures, 4.0);
+    EXPECT_NEAR(prototype.section, 16.0 * figures.section, 1e-12);
+    EXPECT_NEAR(prototype.swing_speed, 0.2, 1e-15);
+    EXPECT_NEAR(prototype.in_situ, prototype.section * prototype.swing_speed, 1e-12);
+    EXPECT_NEAR(bank_json(study, contour_of(study)).at("prototype").at("dry_kg_s").get<double>(), 32.0 * figures.dry, 1e-9);
+    EXPECT_NE(bank_text(study, contour_of(study)).find("prototype"), std::string::npos);
+    EXPECT_EQ(bank_text(study_of(""), contour_of(study)), "");
+}
+
+TEST(StudyBank, stands_on_the_side_where_rock_is_fed) {
+    for (const char* swing : {"over_cut", "under_cut"})
+        for (const char* rotor : {"right_handed", "left_handed"}) {
+            const std::string directions = std::string("direction = \"") + swing + "\"\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
+            ParameterValues values = values_of("[swing]\n" + directions);
+            values.set("rotor.direction", std::string(rotor));
+            const Study study = make_study(resolve_study(values, head_size(model_head())), "/tmp");
+            EXPECT_EQ(study.bank_side() > 0.0, bank_azimuth_deg(swing, rotor) > 0.0) << swing << " " << rotor;
+        }
+}
+
+TEST(StudyBank, can_stand_beside_the_model_cutter_and_is_a_solid) {
+    const std::string keys = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
+    EXPECT_TRUE(mistakes_of(keys).empty());
+    const Study study = study_of(keys);
+    const geometry::TriangleSurface soil = bank_surface(study, head_size(model_head()), contour_of(study));
+    EXPECT_TRUE(geometry::inspect_surface(soil).sound());
+    const geometry::SolidSearch search(soil);
+    for (const Vec3& point : model_head().surface.points) EXPECT_FALSE(search.contains(point));
+}
+
+TEST(StudyBank, is_refused_with_all_its_mistakes) {
+    const std::string keys = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
+    const auto high = mistakes_of(keys + "cut_height_m = 6.0\nstep_m = 2.0\nclearance_m = 0.0\npick_length_m = 0.0\n");
+    EXPECT_TRUE(has(high, "study.toml:11: bank.cut_height_m = 6. The head with picks and clearance is")) << high.front();
+    EXPECT_TRUE(has(high, "above the water"));
+    EXPECT_TRUE(has(high, "bank.step_m = 2. The head with picks and clearance is"));
+    EXPECT_TRUE(has(high, "bank.clearance_m = 0. The bank would touch the head"));
+    EXPECT_EQ(high.size(), 4u);
+    const auto overhanging = mistakes_of(keys + "cut_height_m = 0.7\nstep_m = 0.3\n");
+    ASSERT_EQ(overhanging.size(), 1u);
+    EXPECT_TRUE(has(overhanging, "soil would overhang"));
+}
+
+TEST(StudyBank, and_its_keys_need_each_other) {
+    const auto broken = [](const std::string& more) { return texts(check_file_rules(values_of(more), "study.toml")); };
+    EXPECT_TRUE(has(broken("[bank]\nmodel = \"wall\"\n"), "swing.speed_m_min is missing"));
+    const auto without = broken("[swing]\nspeed_m_min = 6\n[bank]\nstep_m = 0.1\n[soil]\nporosity = 0.3\n");
+    EXPECT_EQ(without.size(), 3u);
+    EXPECT_TRUE(has(without, "bank.step_m = 0.1. It belongs to a bank"));
+    EXPECT_TRUE(broken("").empty());
+    EXPECT_THROW(values_of("[soil]\nporosity = 0.95\n"), UserError);
+    EXPECT_THROW(values_of("[swing]\nspeed_m_min = -1\n"), UserError);
+}
+
+TEST(StudyBank, is_refused_by_runs_which_would_ignore_it) {
+    EXPECT_TRUE(bank_without_run(values_of("")).empty());
+    const auto refused = texts(bank_without_run(values_of("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n")));
+    ASSERT_EQ(refused.size(), 1u);
+    EXPECT_TRUE(has(refused, "study.toml:10: bank.model = \"wall\". Runs have no bank yet: neither rock nor water would feel it"));
+}
+
+}  // namespace
+}  // namespace cutterflow::cases
