@@ -118,7 +118,6 @@ void check_study_file(const CheckOptions& options) {
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
     const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
     std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
-    for (const Mistake& warning : cases::bank_without_run(resolved)) warnings.push_back(warning);
     for (const Mistake& warning : cases::prediction_warnings(study, prediction)) warnings.push_back(warning);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
     for (const Mistake& warning : cases::blade_warnings(study, *inspection.head)) warnings.push_back(warning);

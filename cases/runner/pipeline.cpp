@@ -18,6 +18,7 @@
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
 #include "cases/scenes/cutter/start_flow.hpp"
+#include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
@@ -177,8 +178,6 @@ geometry::Contour RunHead::with_backplate(double z_backplate) const {
 Pipeline::Pipeline(const RunDirectory& directory, PipelineSettings settings, Say say)
     : directory_(directory), settings_(std::move(settings)), say_(std::move(say)), values_(read_study(settings_.study_file)) {
     require_cutter_file(values_, settings_.study_file.parent_path());
-    std::vector<Mistake> bank = bank_without_run(values_);
-    if (!bank.empty()) throw UserError(std::move(bank));
 }
 
 std::vector<Stage> Pipeline::stages() {
@@ -217,7 +216,9 @@ StageOutcome Pipeline::make_geometry() {
     const geometry::Head& head = *inspection.head;
     const HeadSize size = head_size(head);
     const Study study = resolved_study(size);
-    for (const Mistake& warning : study_warnings(resolve_study(values_, size), size)) say_("warning: " + warning.text());
+    const ParameterValues resolved = resolve_study(values_, size);
+    if (const std::vector<Mistake> mistakes = bank_mistakes(resolved, study, head); !mistakes.empty()) throw UserError(mistakes);
+    for (const Mistake& warning : study_warnings(resolved, size)) say_("warning: " + warning.text());
     for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
     for (const Mistake& warning : blade_warnings(study, head)) say_("warning: " + warning.text());
     for (const Mistake& warning : meshing::mesh_warnings(mesh_input_of(study, size, head.surface))) say_("warning: " + warning.text());

@@ -126,7 +126,9 @@ std::string to_text(const Prediction& p) {
                     p.core_hours, duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
     text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
     text += fmt::format("numbers      Q/(omega R^3) = {:.3g}, omega^2 R/g = {:.3g}\n", p.flow_number, p.froude);
-    text += fmt::format("rock         {} rocks", p.rocks);
+    // Of a cut face the number follows from the bank; `run` tells it.
+    text += p.rocks == 0 && !p.settling_speeds.empty() ? std::string("rock         from a cut face")
+                                                       : fmt::format("rock         {} rocks", p.rocks);
     for (const double speed : p.settling_speeds) text += fmt::format(", settling at {:.3g} m/s", speed);
     return text + "\n";
 }

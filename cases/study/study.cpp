@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/study/size_law.hpp"
 #include "cases/study/study_section.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -43,6 +44,7 @@ double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head
     double density = 2650.0;
     for (const ParameterValues& feed : values.tables("feed"))
         for (const ParameterValues& rock : feed.tables("feed.class")) density = std::max(density, rock.number("feed.class.density_kg_m3"));
+    if (values.has("soil.grain_density_kg_m3")) density = std::max(density, values.number("soil.grain_density_kg_m3"));
     const double inertia_density = density + values.number("closures.added_mass") * values.number("fluid.density_kg_m3");
     const double rock = values.number("rock.poisson_rock");
     const double steel = values.number("rock.poisson_steel");
@@ -105,10 +107,42 @@ Study::Bank make_bank(const ParameterValues& resolved) {
 void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
     fill(feed, "feed.start_revolution", study.number("run.flow_revolutions"));
     fill(feed, "feed.azimuth_centre_deg", bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")));
+    fill(feed, "feed.radius_to_m", head.tip_radius);
     fill(feed, "feed.depth_to_m", head.depth);
 }
 
-FeedRequest make_feed(const ParameterValues& feed, double period) {
+bool is_cut_face(const ParameterValues& feed) {
+    return feed.text("feed.kind") == "cut_face";
+}
+
+bool has_cut_face(const ParameterValues& study) {
+    return std::any_of(study.tables("feed").begin(), study.tables("feed").end(), is_cut_face);
+}
+
+bool has_size_law(const ParameterValues& feed) {
+    return feed.text("feed.size_law") != "classes";
+}
+
+/// Keys that the law of a feed needs.
+std::vector<const char*> keys_of_law(const ParameterValues& feed) {
+    const bool rosin = feed.text("feed.size_law") == "rosin_rammler";
+    return {rosin ? "feed.size_d63_m" : "feed.size_d50_m", "feed.size_spread", "feed.size_min_m", "feed.size_max_m"};
+}
+
+bool is_law_complete(const ParameterValues& feed) {
+    const std::vector<const char*> keys = keys_of_law(feed);
+    return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return feed.has(key); });
+}
+
+/// \pre is_law_complete
+SizeDistribution sizes_of(const ParameterValues& feed) {
+    const bool rosin = feed.text("feed.size_law") == "rosin_rammler";
+    return {rosin ? SizeLaw::rosin_rammler : SizeLaw::log_normal, feed.number(keys_of_law(feed).front()), feed.number("feed.size_spread"),
+            feed.number("feed.size_min_m"), feed.number("feed.size_max_m")};
+}
+
+/// \param end_time  of the run [s] \param grain_density  of the soil [kg/m3]
+FeedRequest make_feed(const ParameterValues& feed, double period, double end_time, double grain_density) {
     FeedRequest request;
     if (feed.has("feed.count")) request.count = feed.integer("feed.count");
     if (feed.has("feed.mass_kg")) request.mass = feed.number("feed.mass_kg");
@@ -117,11 +151,22 @@ FeedRequest make_feed(const ParameterValues& feed, double period) {
     request.spacing = feed.number("feed.spacing_diameters");
     request.azimuth_centre = feed.number("feed.azimuth_centre_deg") * k_degree;
     request.azimuth_width = feed.number("feed.azimuth_width_deg") * k_degree;
+    request.radius_from = feed.number("feed.radius_from_m");
+    request.radius_to = feed.number("feed.radius_to_m");
     request.depth_from = feed.number("feed.depth_from_m");
     request.depth_to = feed.number("feed.depth_to_m");
     for (const ParameterValues& rock : feed.tables("feed.class"))
         request.classes.push_back(
             {rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"), rock.number("feed.class.mass_share")});
+    if (!is_cut_face(feed)) return request;
+    request.kind = FeedKind::cut_face;
+    const double duration = feed.number("feed.duration_s");
+    request.end = duration > 0.0 ? request.start + duration : end_time;
+    request.velocity_share = feed.number("feed.velocity_share");
+    request.disintegration = feed.number("feed.disintegration");
+    if (has_size_law(feed) && is_law_complete(feed))  // check_file_rules refuses others
+        for (const double diameter : equal_mass_diameters(sizes_of(feed), static_cast<int>(feed.integer("feed.size_classes"))))
+            request.classes.push_back({diameter, grain_density, 1.0});
     return request;
 }
 
@@ -162,21 +207,81 @@ void check_bank_keys(const ParameterValues& study, Rules& rules) {
                           fmt::format("Set bank.model = \"{}\", or remove the key", k_wall_bank));
 }
 
+/// Sizes by a law, or by classes.
+void check_sizes(const ParameterValues& feed, int index, Rules& rules) {
+    const bool has_classes = !feed.tables("feed.class").empty();
+    if (!has_size_law(feed)) {
+        if (!has_classes)
+            rules.add(fmt::format("feed {} has no class of rock", index), "Its sizes are [[feed.class]] tables or a feed.size_law",
+                      "Add [[feed.class]] with diameter_m below this [[feed]], or a law");
+        for (const ParameterValues& rock : feed.tables("feed.class"))
+            if (feed.has("feed.size_min_m"))
+                rules.require(rock.number("feed.class.diameter_m") >= feed.number("feed.size_min_m"), rock, "feed.class.diameter_m",
+                              fmt::format("Rock is not finer than feed.size_min_m = {:g} m; what is finer counts as fines",
+                                          feed.number("feed.size_min_m")),
+                              "Remove the class, and lower feed.disintegration by its share");
+        return;
+    }
+    if (has_classes)
+        rules.add(fmt::format("feed {} has a size_law and [[feed.class]]", index), "Its sizes are given once", "Remove one of them");
+    for (const char* key : keys_of_law(feed))
+        if (!feed.has(key))
+            rules.require(false, feed, "feed.size_law", fmt::format("It needs {}", key), fmt::format("Add {} to this [[feed]]", key));
+    if (!is_law_complete(feed)) return;
+    const SizeDistribution sizes = sizes_of(feed);
+    rules.require(sizes.smallest < sizes.largest, feed, "feed.size_max_m",
+                  fmt::format("It must be more than feed.size_min_m = {:g} m", sizes.smallest), "Exchange or correct them");
+    if (!(sizes.smallest < sizes.largest)) return;
+    const double mass = sizes.mass_below(sizes.largest) - sizes.mass_below(sizes.smallest);
+    rules.require(mass >= 0.01, feed, "feed.size_law",
+                  fmt::format("Only {:.2g} of its mass lies between feed.size_min_m and feed.size_max_m; a hundredth is needed", mass),
+                  "Correct the law or its bounds; diameters are in m");
+}
+
+/// Rock from a cut face: its quantity follows from the bank.
+void check_cut_face(const ParameterValues& study, const ParameterValues& feed, int index, Rules& rules) {
+    rules.require(has_bank(study), feed, "feed.kind", "Rock comes from a cut face only where the head cuts a bank",
+                  "Set bank.model = \"wall\", or feed.kind = \"batch\"");
+    if (study.has("swing.speed_m_min"))
+        rules.require(!has_bank(study) || study.number("swing.speed_m_min") > 0.0, "swing.speed_m_min",
+                      "A head that does not swing cuts nothing", "Give the speed of the swing, or set feed.kind = \"batch\"");
+    for (const char* key : {"feed.count", "feed.mass_kg"})
+        if (feed.has(key))
+            rules.require(false, feed, key, "The quantity of rock from a cut face follows from swing, bank and soil", "Remove it");
+    check_sizes(feed, index, rules);
+    const double start = feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : study.number("run.flow_revolutions");
+    const double end = start * period_of(study) + feed.number("feed.duration_s");
+    rules.require(end <= end_time_of(study) * (1.0 + 1e-9), feed, "feed.duration_s",
+                  fmt::format("The feed would end at {:.4g} s, after the run's end at {:.4g} s", end, end_time_of(study)),
+                  "Shorten it, raise run.max_revolutions, or use 0 for the whole run");
+    if (study.tables("feed").size() > 1)
+        rules.add(fmt::format("feed {} is a cut face among {} feeds", index, study.tables("feed").size()),
+                  "A study has batches or one cut face: rates and batches are not told apart in the results", "Remove the other feeds");
+}
+
+void check_batch(const ParameterValues& feed, int index, Rules& rules) {
+    const bool has_count = feed.has("feed.count");
+    if (has_count == feed.has("feed.mass_kg"))
+        rules.add(fmt::format("feed {} has {}", index, has_count ? "both count and mass_kg" : "neither count nor mass_kg"),
+                  "A feed's quantity is given once", has_count ? "Remove one of them" : "Add count = <number of rocks> to this [[feed]]");
+    if (feed.tables("feed.class").empty())
+        rules.add(fmt::format("feed {} has no class of rock", index), "A feed needs one or more [[feed.class]] with diameter_m",
+                  "Add [[feed.class]] with diameter_m below this [[feed]]");
+    rules.require(!has_size_law(feed), feed, "feed.size_law", "A batch has its sizes in [[feed.class]]; laws are for rock from a cut face",
+                  "Remove it, or set feed.kind = \"cut_face\"");
+    rules.require(feed.number("feed.duration_s") == 0.0, feed, "feed.duration_s", "A batch is released at once (duration 0)",
+                  "Use 0, several [[feed]] tables with different start_revolution, or feed.kind = \"cut_face\"");
+}
+
 /// What can be said of the feeds without the cutter.
 void check_feed_quantities(const ParameterValues& study, Rules& rules) {
     int index = 0;
     for (const ParameterValues& feed : study.tables("feed")) {
         ++index;
-        const bool has_count = feed.has("feed.count");
-        if (has_count == feed.has("feed.mass_kg"))
-            rules.add(fmt::format("feed {} has {}", index, has_count ? "both count and mass_kg" : "neither count nor mass_kg"),
-                      "A feed's quantity is given once",
-                      has_count ? "Remove one of them" : "Add count = <number of rocks> to this [[feed]]");
-        if (feed.tables("feed.class").empty())
-            rules.add(fmt::format("feed {} has no class of rock", index), "A feed needs one or more [[feed.class]] with diameter_m",
-                      "Add [[feed.class]] with diameter_m below this [[feed]]");
-        rules.require(feed.number("feed.duration_s") == 0.0, feed, "feed.duration_s", "Only batches (duration 0) can be released so far",
-                      "Use 0, or several [[feed]] tables with different start_revolution");
+        if (is_cut_face(feed))
+            check_cut_face(study, feed, index, rules);
+        else
+            check_batch(feed, index, rules);
         for (const ParameterValues& rock : feed.tables("feed.class"))
             rules.require(rock.number("feed.class.density_kg_m3") > study.number("fluid.density_kg_m3"), rock, "feed.class.density_kg_m3",
                           fmt::format("Rock must be denser than the fluid ({} kg/m3)", study.number("fluid.density_kg_m3")),
@@ -235,6 +340,10 @@ void check_rocks(const ParameterValues& study, const HeadSize& head, Rules& rule
             rules.require(rock.number("feed.class.diameter_m") < 2.0 * head.tip_radius, rock, "feed.class.diameter_m",
                           fmt::format("Rock must be smaller than the head, whose diameter is {:.4g} m", 2.0 * head.tip_radius),
                           "Correct the diameter; its unit is m");
+        if (feed.has("feed.size_max_m"))
+            rules.require(feed.number("feed.size_max_m") < 2.0 * head.tip_radius, feed, "feed.size_max_m",
+                          fmt::format("Rock must be smaller than the head, whose diameter is {:.4g} m", 2.0 * head.tip_radius),
+                          "Correct the diameter; its unit is m");
         if (!has_quantity(feed)) continue;
         const double number = number_of_rocks(feed);
         if (feed.has("feed.mass_kg"))
@@ -281,6 +390,9 @@ void check_feed_region(const ParameterValues& study, const HeadSize& head, Rules
     for (const ParameterValues& feed : study.tables("feed")) {
         const double from = feed.number("feed.depth_from_m");
         const double to = feed.number("feed.depth_to_m");
+        rules.require(feed.number("feed.radius_to_m") > feed.number("feed.radius_from_m"), feed, "feed.radius_to_m",
+                      fmt::format("It must be more than radius_from_m = {}", feed.number("feed.radius_from_m")),
+                      "Exchange or correct them");
         rules.require(to > from, feed, "feed.depth_to_m", fmt::format("It must be more than depth_from_m = {}", from),
                       "Exchange or correct them");
         rules.require(to <= head.depth, feed, "feed.depth_to_m", fmt::format("The head ends {:.4g} m below the ring plane", head.depth),
@@ -320,6 +432,8 @@ void check_recording(const ParameterValues& study, Rules& rules) {
     const char* key = "run.record_revolutions";
     rules.require(recorded >= 1.0, key, "The rotor passes all its phases in one revolution", "Use 1 or more, or 0 for no recording");
     rules.require(!study.tables("feed").empty(), key, "A recording is for rock", "Add a feed, or use 0");
+    rules.require(!has_cut_face(study), key, "Replays follow batches; a steady rate needs rock and water together",
+                  "Use 0, or feed.kind = \"batch\"");
     for (const ParameterValues& feed : study.tables("feed"))
         rules.require(
             recorded <= feed.number("feed.start_revolution"), key,
@@ -342,6 +456,9 @@ double Study::first_release() const {
 double Study::bank_side() const {
     return (swing_direction == "under_cut") == (rotation_speed > 0.0) ? 1.0 : -1.0;
 }
+bool Study::is_fed_by_cutting() const {
+    return std::any_of(feeds.begin(), feeds.end(), [](const FeedRequest& feed) { return feed.kind == FeedKind::cut_face; });
+}
 AxialCylinder Study::water(const HeadSize& head) const {
     const double bottom = -head.depth - tank.bed_clearance;
     return {tank.radius, bottom, bottom + tank.height};
@@ -349,15 +466,6 @@ AxialCylinder Study::water(const HeadSize& head) const {
 
 bool lacks_swing(const ParameterValues& values) {
     return has_bank(values) && !values.has("swing.speed_m_min");
-}
-
-std::vector<Mistake> bank_without_run(const ParameterValues& values) {
-    if (!has_bank(values)) return {};
-    return {{values.where("bank.model"), fmt::format("bank.model = \"{}\"", k_wall_bank),
-             "Runs have no bank yet: neither rock nor water would feel it",
-             fmt::format("To run, set bank.model = \"{}\" and remove the keys of bank, soil and swing speed; cutterflow check has what a "
-                         "swing cuts",
-                         k_no_bank)}};
 }
 
 double bank_azimuth_deg(const std::string& swing_direction, const std::string& rotor_direction) {
@@ -458,7 +566,8 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
         study.report.adv_probe = {number("report.adv_probe_diameter_m"), number("report.adv_probe_length_m"),
                                   number("report.adv_position_error_m")};
     }
-    for (const ParameterValues& feed : resolved.tables("feed")) study.feeds.push_back(make_feed(feed, study.period()));
+    for (const ParameterValues& feed : resolved.tables("feed"))
+        study.feeds.push_back(make_feed(feed, study.period(), study.end_time(), study.bank ? study.bank->grain_density : 0.0));
     return study;
 }
 
@@ -483,14 +592,18 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
 
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
+    rules.require(!has_bank(resolved), "bank.model", "Rock and water do not feel the bank yet; it says how much rock comes, where and when",
+                  "Expect more spillage than beside a bank that holds rock back");
     const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
     const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
     const char* place = passage < mouth ? "between the blades" : "the suction mouth";
-    for (const ParameterValues& feed : resolved.tables("feed"))
+    const std::string rule = fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place);
+    for (const ParameterValues& feed : resolved.tables("feed")) {
         for (const ParameterValues& rock : feed.tables("feed.class"))
-            rules.require(rock.number("feed.class.diameter_m") <= passage / 3.0, rock, "feed.class.diameter_m",
-                          fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place),
-                          "Check the diameter");
+            rules.require(rock.number("feed.class.diameter_m") <= passage / 3.0, rock, "feed.class.diameter_m", rule, "Check the diameter");
+        if (has_size_law(feed))
+            rules.require(feed.number("feed.size_max_m") <= passage / 3.0, feed, "feed.size_max_m", rule, "Check the diameter");
+    }
     const double speed = rpm_to_rad_s(resolved.number("rotor.speed_rpm")) * head.tip_radius;
     // Hertz' largest overlap goes with E^(-2/5).
     const double softness = needed_youngs_modulus(resolved, head) / resolved.number("rock.youngs_modulus_pa");

@@ -42,18 +42,29 @@ struct FeedClass {
     double mass_share = 0.0;  ///< of the feed, > 0; shares are relative to their sum
 };
 
-/// One batch of rock, placed on a lattice inside a wedge of the head.
+enum class FeedKind {
+    batch,     ///< placed on a lattice inside a wedge of the head, at once
+    cut_face,  ///< comes all the time from where the head cuts the bank
+};
+
+/// One feed of rock.
 struct FeedRequest {
+    FeedKind kind = FeedKind::batch;
     std::optional<std::int64_t> count;  ///< one of count and mass
     std::optional<double> mass;         ///< [kg]
     double start = 0.0;                 ///< [s]
+    double end = 0.0;                   ///< [s] of a cut face
+    double velocity_share = 0.0;        ///< of a cut face: speed of rock over the blade's
+    double disintegration = 0.0;        ///< of a cut face: share of the ground that becomes rock
     std::int64_t seed = 0;
-    double spacing = 0.0;         ///< between centres, over the largest diameter
-    double azimuth_centre = 0.0;  ///< [rad], in the fixed frame when it is released
-    double azimuth_width = 0.0;   ///< [rad]
-    double depth_from = 0.0;      ///< [m] below the ring plane
-    double depth_to = 0.0;        ///< [m]
-    std::vector<FeedClass> classes;
+    double spacing = 0.0;            ///< between centres, over the largest diameter
+    double azimuth_centre = 0.0;     ///< [rad], in the fixed frame when it is released
+    double azimuth_width = 0.0;      ///< [rad]
+    double radius_from = 0.0;        ///< [m]
+    double radius_to = 0.0;          ///< [m]
+    double depth_from = 0.0;         ///< [m] below the ring plane
+    double depth_to = 0.0;           ///< [m]
+    std::vector<FeedClass> classes;  ///< by a law: of equal mass, and the density of the soil's grains
 };
 
 /// A study in SI units, radians and the run's frame (docs/design/001-contracts.md), every derived default filled in.
@@ -108,6 +119,7 @@ struct Study {
     double end_time() const;       ///< [s]
     double first_release() const;  ///< [s]; of a study with rock
     double bank_side() const;      ///< 1 with the bank at azimuth 90 degrees, -1 at -90
+    bool is_fed_by_cutting() const;
     AxialCylinder water(const HeadSize& head) const;
 };
 
@@ -122,9 +134,6 @@ std::vector<Mistake> check_file_rules(const ParameterValues& values, const std::
 
 /// Whether a study has a bank without the swing that cuts it. check_file_rules refuses it.
 bool lacks_swing(const ParameterValues& values);
-
-/// That runs have no bank yet; nothing of a study without one.
-std::vector<Mistake> bank_without_run(const ParameterValues& values);
 
 /// Reads a study file; values as the file gives them, plain defaults filled in, derived ones still absent.
 /// \throws UserError  with every mistake of the file that can be seen without the cutter

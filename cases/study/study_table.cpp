@@ -95,7 +95,9 @@ ParameterTable bank_rows() {
             .at_most(1000.0)
             .derived("nothing; a bank needs it"),
         choice(k_case_stage, "bank.model", {k_no_bank, k_wall_bank},
-               "Soil beside the head: none, or the bank that earlier swings left standing. For `cutterflow check`; runs have no bank yet.")
+               "Soil beside the head: none, or the bank that earlier swings left standing. It says how much rock comes from the cut face, "
+               "where "
+               "and when; rock and water do not feel it yet.")
             .by_default(std::string(k_no_bank)),
         length(k_case_stage, "bank.cut_height_m", k_largest_length,
                "Height of the bank's level top above the lowest point of the head with picks and clearance, vertical.")
@@ -258,15 +260,56 @@ ParameterTable run_rows() {
 
 ParameterTable feed_rows() {
     return {
-        integer(k_case_stage, "feed.count", "Number of rocks; give this or mass_kg.").at_least(1.0).derived("from mass_kg"),
-        number(k_case_stage, "feed.mass_kg", "kg", "Mass of the rocks; give this or count.").above(0.0).derived("from count"),
+        choice(k_case_stage, "feed.kind", {"batch", "cut_face"},
+               "A batch of rock released at once inside the head, or rock that comes all the time where the head cuts the bank.")
+            .by_default(std::string("batch")),
+        integer(k_case_stage, "feed.count", "Number of rocks of a batch; give this or mass_kg.").at_least(1.0).derived("from mass_kg"),
+        number(k_case_stage, "feed.mass_kg", "kg", "Mass of the rocks of a batch; give this or count.").above(0.0).derived("from count"),
         number(k_case_stage, "feed.start_revolution", "-", "Revolution at which the rock is released.")
             .at_least(0.0)
             .at_most(k_most_revolutions)
             .derived("run.flow_revolutions"),
-        number(k_case_stage, "feed.duration_s", "s", "0 releases all at once, as a batch. Other values are kept for continuous feed.")
+        number(k_case_stage, "feed.duration_s", "s",
+               "How long rock comes from a cut face; 0 goes on to the end of the run. Not for batches.")
             .at_least(0.0)
             .by_default(0.0),
+        number(k_case_stage, "feed.velocity_share", "-",
+               "Speed of rock from a cut face where it comes in, over that of the blade there: 0 lies, 1 is thrown.")
+            .at_least(0.0)
+            .at_most(1.0)
+            .by_default(0.5),
+        number(k_case_stage, "feed.disintegration", "-",
+               "Share of what a cut face gives that becomes rock of the feed's sizes; the rest are fines, which are not followed.")
+            .above(0.0)
+            .at_most(1.0)
+            .by_default(1.0),
+        choice(k_case_stage, "feed.size_law", {"classes", "rosin_rammler", "log_normal"},
+               "Sizes of rock from a cut face: the [[feed.class]] tables, or a law of mass over diameter, cut into classes of equal mass.")
+            .by_default(std::string("classes")),
+        number(k_case_stage, "feed.size_d63_m", "m", "Diameter d63 of rosin_rammler, F(d) = 1 - exp(-(d/d63)^spread).")
+            .at_least(1e-5)
+            .at_most(10.0)
+            .derived("needed by rosin_rammler"),
+        number(k_case_stage, "feed.size_d50_m", "m", "Median diameter by mass of log_normal.")
+            .at_least(1e-5)
+            .at_most(10.0)
+            .derived("needed by log_normal"),
+        number(k_case_stage, "feed.size_spread", "-", "Exponent of rosin_rammler, or standard deviation of ln(d) of log_normal.")
+            .above(0.0)
+            .at_most(20.0)
+            .derived("needed by both laws"),
+        number(k_case_stage, "feed.size_min_m", "m", "Smallest diameter of rock; what is finer counts as fines. A law is truncated to it.")
+            .at_least(1e-5)
+            .at_most(10.0)
+            .derived("needed by both laws"),
+        number(k_case_stage, "feed.size_max_m", "m", "Largest diameter of rock by a law, which is truncated to it; less than the head's.")
+            .at_least(1e-5)
+            .at_most(10.0)
+            .derived("needed by both laws"),
+        integer(k_case_stage, "feed.size_classes", "Classes of equal mass into which a law is cut.")
+            .at_least(1.0)
+            .at_most(100.0)
+            .by_default(std::int64_t{6}),
         integer(k_case_stage, "feed.seed", "Seed of the placement; repeats of a run differ by it.")
             .at_least(0.0)
             .by_default(std::int64_t{1}),
@@ -284,6 +327,12 @@ ParameterTable feed_rows() {
             .above(0.0)
             .at_most(360.0)
             .by_default(120.0),
+        number(k_case_stage, "feed.radius_from_m", "m", "Inner radius of the wedge.")
+            .at_least(0.0)
+            .at_most(k_largest_length)
+            .by_default(0.0),
+        length(k_case_stage, "feed.radius_to_m", k_largest_length, "Outer radius of the wedge; rock stays within the head's contour.")
+            .derived("the head's largest radius"),
         number(k_case_stage, "feed.depth_from_m", "m", "Upper end of the wedge, below the ring plane.")
             .at_least(0.0)
             .at_most(k_largest_length)

@@ -513,6 +513,25 @@ TEST_F(Cli, names_a_bank_without_a_swing_with_all_other_mistakes) {
     expect_contains(call({"check", "study.toml"}).text, "suction.mouth_radius_m = 3. The mouth must lie inside the ring");
 }
 
+TEST_F(Cli, names_all_mistakes_of_a_cut_face_at_once) {
+    study(
+        "mouth_radius_m = 3\n[swing]\nspeed_m_min = 6\n[bank]\nstep_m = 2\n"
+        "[[feed]]\nkind = \"cut_face\"\nduration_s = 9\nsize_law = \"log_normal\"\nsize_d50_m = 0.02\n");
+    const Outcome outcome = call({"check", "study.toml"});
+    expect_refused(outcome, 2, "Rock comes from a cut face only where the head cuts a bank. Set bank.model = \"wall\"");
+    for (const char* part :
+         {"swing.speed_m_min = 6. It belongs to a bank", "bank.step_m = 2. It belongs to a bank", "It needs feed.size_spread",
+          "It needs feed.size_min_m", "It needs feed.size_max_m", "feed.duration_s = 9. The feed would end at",
+          "suction.mouth_radius_m = 3. The mouth must lie inside the ring"})
+        expect_contains(outcome.text, part);
+    // What needs the head's geometry, too: the bank is checked beside a feed that is wrong.
+    study(
+        "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\ncut_height_m = 9\n[[feed]]\nkind = \"cut_face\"\nsize_law = \"log_normal\"\n");
+    const Outcome beside = call({"check", "study.toml"});
+    expect_refused(beside, 2, "bank.cut_height_m = 9. The head with picks and clearance is");
+    expect_contains(beside.text, "It needs feed.size_d50_m");
+}
+
 TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
     const std::string header = call({"report", "--adv-template"}).text;
     write_file(folder_ / "points.csv", header);

@@ -82,10 +82,45 @@ TEST_F(StudyFile, a_feeds_quantity_is_given_once_and_its_rock_sinks) {
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nmass_kg = 1\n")), "both count and mass_kg"));
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("seed = 3\n")), "neither count nor mass_kg"));
     EXPECT_TRUE(any_contains(mistakes_of(minimal("[[feed]]\ncount = 3\n")), "no class of rock"));
-    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nduration_s = 2\n")), "Only batches"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nduration_s = 2\n")), "A batch is released at once"));
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n", "diameter_m = 0.02\ndensity_kg_m3 = 900\n")), "denser than the fluid"));
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nstart_revolution = 4\n")), "released before run.max_revolutions = 4"));
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n") + "[run]\nflow_revolutions = 4\n"), "no rock is ever released"));
+}
+
+/// A feed from a cut face, without a bank.
+std::string with_cut_face(const std::string& keys) {
+    return minimal("[run]\nmax_revolutions = 4\n[[feed]]\nkind = \"cut_face\"\n" + keys);
+}
+
+TEST_F(StudyFile, mistakes_of_a_cut_face_are_told_at_once) {
+    const std::vector<Mistake> mistakes = mistakes_of(
+        with_cut_face("count = 3\nduration_s = 4\nsize_law = \"rosin_rammler\"\nsize_d63_m = 0.02\n[[feed.class]]\ndiameter_m = 0.02\n"));
+    EXPECT_TRUE(any_contains(mistakes, "feed.kind = \"cut_face\". Rock comes from a cut face only where the head cuts a bank"));
+    EXPECT_TRUE(any_contains(mistakes, "The quantity of rock from a cut face follows from swing, bank and soil"));
+    EXPECT_TRUE(any_contains(mistakes, "The feed would end at 5 s, after the run's end at 4 s"));
+    EXPECT_TRUE(any_contains(mistakes, "Its sizes are given once"));
+    for (const char* key : {"feed.size_spread", "feed.size_min_m", "feed.size_max_m"})
+        EXPECT_TRUE(any_contains(mistakes, std::string("It needs ") + key)) << key;
+    EXPECT_FALSE(any_contains(mistakes, "It needs feed.size_d63_m"));
+    EXPECT_EQ(mistakes.size(), 7u);
+    const std::string bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n", rock = "[[feed.class]]\ndiameter_m = 0.02\n";
+    EXPECT_TRUE(mistakes_of(with_cut_face(rock) + bank).empty());
+    EXPECT_TRUE(any_contains(mistakes_of(with_cut_face(rock) + "[swing]\nspeed_m_min = 0\n[bank]\nmodel = \"wall\"\n"),
+                             "swing.speed_m_min = 0. A head that does not swing cuts nothing"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_cut_face(rock + "[[feed]]\ncount = 3\n" + rock) + bank), "one cut face"));
+}
+
+TEST_F(StudyFile, sizes_of_a_cut_face_lie_within_their_bounds) {
+    EXPECT_TRUE(any_contains(mistakes_of(with_cut_face("size_min_m = 0.01\n[[feed.class]]\ndiameter_m = 0.005\n")),
+                             "Rock is not finer than feed.size_min_m = 0.01 m"));
+    const std::string law = "size_law = \"log_normal\"\nsize_d50_m = 0.02\nsize_spread = 0.5\n";
+    EXPECT_TRUE(any_contains(mistakes_of(with_cut_face(law + "size_min_m = 0.05\nsize_max_m = 0.04\n")),
+                             "It must be more than feed.size_min_m = 0.05 m"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_cut_face(law + "size_min_m = 0.2\nsize_max_m = 0.4\n")), "a hundredth is needed"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_cut_face("")), "Its sizes are [[feed.class]] tables or a feed.size_law"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nduration_s = 1\n")), "A batch is released at once"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nsize_law = \"log_normal\"\n")), "laws are for rock from a cut face"));
 }
 
 TEST_F(StudyFile, the_template_reads_back) {

@@ -134,11 +134,11 @@ TEST(StudyBank, and_its_keys_need_each_other) {
     EXPECT_THROW(values_of("[swing]\nspeed_m_min = -1\n"), UserError);
 }
 
-TEST(StudyBank, is_refused_by_runs_which_would_ignore_it) {
-    EXPECT_TRUE(bank_without_run(values_of("")).empty());
-    const auto refused = texts(bank_without_run(values_of("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n")));
-    ASSERT_EQ(refused.size(), 1u);
-    EXPECT_TRUE(has(refused, "study.toml:10: bank.model = \"wall\". Runs have no bank yet: neither rock nor water would feel it"));
+TEST(StudyBank, is_warned_of_while_rock_and_water_do_not_feel_it) {
+    const auto warnings = [](const std::string& more) { return texts(study_warnings(resolved_of(more), head_size(model_head()))); };
+    EXPECT_FALSE(has(warnings(""), "bank"));
+    EXPECT_TRUE(has(warnings("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n"),
+                    "study.toml:10: bank.model = \"wall\". Rock and water do not feel the bank yet"));
 }
 
 }  // namespace

@@ -454,6 +454,15 @@ std::map<std::string, std::vector<std::string>> differing_keys(const Comparison&
     return values;
 }
 
+Scope scope_of(const Comparison& comparison) {
+    Scope scope{false, true};
+    for (const ComparedRun& compared : comparison.runs) {
+        const Scope run = scope_of(compared.run);
+        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting};
+    }
+    return scope;
+}
+
 json comparison_json(const Comparison& comparison) {
     json document{{"schema", k_comparison_schema}, {"settings", json::array()}, {"quantities", json::array()}};
     for (const ComparedSetting& setting : comparison.settings) {
@@ -481,7 +490,7 @@ json comparison_json(const Comparison& comparison) {
     document["equal_time_s"] = or_null(comparison.equal_time);
     document["equal_revolutions"] = or_null(comparison.equal_revolutions);
     document["not_modelled"] = json::array();
-    for (const NotModelled& item : not_modelled()) document["not_modelled"].push_back(item.name);
+    for (const NotModelled& item : not_modelled(scope_of(comparison))) document["not_modelled"].push_back(item.name);
     return document;
 }
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/results.hpp"
 
 namespace cutterflow::postproc {
@@ -85,6 +86,9 @@ std::string bin_key(const std::string& what, const std::string& bin, const std::
 
 /// "differs", "not significant", ...
 const char* verdict_text(ComparisonVerdict verdict);
+
+/// Of all runs together: what one of them has, and cutting only when all are fed by it.
+Scope scope_of(const Comparison& comparison);
 
 /// The contract's document.
 nlohmann::json comparison_json(const Comparison& comparison);

@@ -2,14 +2,21 @@
 
 namespace cutterflow::postproc {
 
-const std::vector<NotModelled>& not_modelled() {
-    static const std::vector<NotModelled> table{
+Scope scope_of(const RunData& run) {
+    return {run.rock.has_value(), run.operating_point.fed_by_cutting};
+}
+
+std::vector<NotModelled> not_modelled(const Scope& scope) {
+    std::vector<NotModelled> table{
         {"cutting process",
-         "rock is released loose between the blades; spillage by cutting (rock never taken into the head) is not counted"},
-        {"bank and breach", "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
+         scope.fed_by_cutting
+             ? "rock comes loose from the cut face ahead of the blades, as fast as the head swings; forces of cutting are not computed"
+             : "rock is released loose between the blades; spillage by cutting (rock never taken into the head) is not counted"},
+        {"bank and breach", scope.fed_by_cutting
+                                ? "rock and water do not feel the bank yet; the open side lets rock out that a bank would hold back"
+                                : "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
         {"bed", "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
         {"hauling (swing motion)", "the head turns but does not travel; rock is not swept into the head by the swing"},
-        {"continuous feed", "one batch of rock; production and spillage do not reach a steady state as in continuous dredging"},
         {"pick points and adapters", "only what the cutter's surface file contains; teeth missing there affect neither flow nor rock"},
         {"lift and rock spin forces",
          "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source is valid for grains"},
@@ -17,10 +24,17 @@ const std::vector<NotModelled>& not_modelled() {
         {"unresolved wakes", "rock is a smoothed body force on the flow; the wake of a single rock is only in the drag law"},
         {"pump and pipeline", "the discharge is imposed; it does not drop when the mixture becomes heavier"},
     };
+    if (!scope.fed_by_cutting)
+        table.insert(table.begin() + 4, {"continuous feed",
+                                         "one batch of rock; production and spillage do not reach a steady state as in continuous "
+                                         "dredging"});
     return table;
 }
 
-const std::string& scope_sentence(bool with_rock) {
+const std::string& scope_sentence(const Scope& scope) {
+    static const std::string cutting =
+        "Rock comes from the cut face as fast as the head swings. Rock and water do not feel the bank yet, and bed and hauling are not "
+        "modelled, so this report names no best speed.";
     static const std::string rock =
         "This is spillage by mixing of loose rock in a turning head with imposed discharge: cutting, bank, hauling and continuous feed are "
         "not "
@@ -29,7 +43,8 @@ const std::string& scope_sentence(bool with_rock) {
         "This is the flow of clear water through a turning head with imposed discharge, without bank, hauling and rock; it shows where "
         "water "
         "leaves the head, not how much rock would, and this report names no best speed.";
-    return with_rock ? rock : flow;
+    if (!scope.with_rock) return flow;
+    return scope.fed_by_cutting ? cutting : rock;
 }
 
 }  // namespace cutterflow::postproc

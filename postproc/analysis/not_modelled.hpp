@@ -1,7 +1,9 @@
 #pragma once
-/// \file What no run of Cutterflow models yet: the one table behind every page and results.json.
+/// \file What a run of Cutterflow does not model: the one table behind every page and results.json.
 #include <string>
 #include <vector>
+
+#include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::postproc {
 
@@ -10,9 +12,17 @@ struct NotModelled {
     std::string consequence;  ///< what a reader of the result must keep in mind
 };
 
-const std::vector<NotModelled>& not_modelled();
+/// What a run was asked for.
+struct Scope {
+    bool with_rock = false;
+    bool fed_by_cutting = false;  ///< rock comes all the time, from a cut face
+};
 
-/// One sentence for the top of a page of a run with or without rock.
-const std::string& scope_sentence(bool with_rock);
+Scope scope_of(const RunData& run);
+
+std::vector<NotModelled> not_modelled(const Scope& scope);
+
+/// One sentence for the top of a page.
+const std::string& scope_sentence(const Scope& scope);
 
 }  // namespace cutterflow::postproc

@@ -330,9 +330,9 @@ json rotor_json(const Results& results, const RunData& run) {
     return object;
 }
 
-json not_modelled_json() {
+json not_modelled_json(const RunData& run) {
     json list = json::array();
-    for (const NotModelled& item : not_modelled()) list.push_back(item.name);
+    for (const NotModelled& item : not_modelled(scope_of(run))) list.push_back(item.name);
     return list;
 }
 
@@ -394,7 +394,7 @@ json results_json(const Results& results, const RunData& run) {
                          {"size_ratio", or_null(results.scale.size_ratio)}};
     document["cost"] = cost_json(results.cost);
     document["models"] = run.cost_summary.value("models", json::array());
-    document["not_modelled"] = not_modelled_json();
+    document["not_modelled"] = not_modelled_json(run);
     document["mesh"] = run.mesh;
     document["versions"] = versions_json(run);
     return document;

@@ -166,7 +166,7 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder, 
     const std::string title = fmt::format("Comparison of {} settings", comparison.settings.size());
     std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + page.how_to_make_live("cutterflow compare RUN... -o FOLDER") +
                        batches_notice(comparison) + settings_table(comparison);
-    body += fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(with_rock)));
+    body += fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(comparison))));
     if (with_rock && !has_repeats(comparison))
         body +=
             "<p>No replicate: each setting is one batch. The ranges are bounds by the undecided rock, not intervals; three or more repeats "

@@ -193,7 +193,7 @@ std::string answer_section(const Results& results, const RunData& run, const Pag
     std::string content = fmt::format("<div class=\"answers\">\n{}</div>\n",
                                       results.spillage ? rock_answers(results, run.operating_point.revolution_s()) : flow_answers(results));
     content += plots_at(figures, Place::answer);
-    return content + fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(results.spillage.has_value()))) + trust_list(results);
+    return content + fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) + trust_list(results);
 }
 
 std::string head_figure(const Results& results, const PageFigures& figures) {
@@ -374,7 +374,7 @@ std::string model_section(const RunData& run) {
     for (const json& model : run.cost_summary.value("models", json::array())) {
         on.push_back({escape(model.value("name", "")), escape(model.value("why", ""))});
     }
-    for (const NotModelled& item : not_modelled()) off.push_back({escape(item.name), escape(item.consequence)});
+    for (const NotModelled& item : not_modelled(scope_of(run))) off.push_back({escape(item.name), escape(item.consequence)});
     std::string content =
         on.empty() ? "<p>The run has not yet written its active models.</p>" : html::table({"active model", "reason"}, on, false);
     content += "<h3>What is not modelled</h3>" + html::table({"", "what that means for the result"}, off, false);

@@ -105,7 +105,8 @@ const std::vector<Layer> k_layers = {
      {"geometry/", "solver/ports/", "solver/coupling/", "postproc/", "cases/study/", "cases/scenes/cutter/", "cases/runner/",
       "validation/fuzz/"}},
     {"validation/rotor/",
-     {k_base, k_head_names, "meshing/dictionary/", "postproc/draw/", "cases/runner/", "cases/testing/", "validation/harness/"}},
+     {k_base, k_head_names, "geometry/cgal/", "geometry/soil/", "meshing/dictionary/", "postproc/draw/", "cases/scenes/cutter/",
+      "cases/runner/", "cases/testing/", "validation/harness/"}},
     {"validation/studies/", {"geometry/", "meshing/", "validation/harness/", "validation/studies/"}},
     {"validation/tree_checks/", {k_base}},
 };

@@ -53,12 +53,11 @@ meshing::FoamDictionary contact_section(const coupling::ContactSettings& contact
     return section_of(contact).add("pairs", pairs);
 }
 
-meshing::FoamDictionary rock_section(const fs::path& feed, const coupling::DemSettings& dem) {
-    return meshing::FoamDictionary()
-        .add("feed", file_name(feed))
-        .add("contact", contact_section(dem.contact))
-        .add("walls", wall_list(dem.walls))
-        .add("domain", domain_section(dem.domain));
+meshing::FoamDictionary rock_section(const coupling::CouplingSettings& settings, const coupling::DemSettings& dem) {
+    meshing::FoamDictionary rock;
+    rock.add("feed", file_name(settings.rock_feed));
+    if (settings.queue) rock.add("queue", section_of(*settings.queue));
+    return rock.add("contact", contact_section(dem.contact)).add("walls", wall_list(dem.walls)).add("domain", domain_section(dem.domain));
 }
 
 meshing::FoamDictionary fates_section(const coupling::FateSettings& fates) {
@@ -67,13 +66,19 @@ meshing::FoamDictionary fates_section(const coupling::FateSettings& fates) {
         .add("direction", fates.mouth.direction)
         .add("radius", fates.mouth.radius)
         .add("depth", fates.mouth.depth);
-    return meshing::FoamDictionary()
-        .add("contour", file_name(fates.contour))
+    meshing::FoamDictionary section;
+    section.add("contour", file_name(fates.contour))
         .add("ringRadius", fates.ring_radius)
         .add("zBackplate", fates.z_backplate)
         .add("hysteresis", fates.hysteresis)
         .add("mouth", mouth)
         .add("binWidth", fates.bin_width);
+    if (fates.cutting)
+        section.add("cutting", meshing::FoamDictionary()
+                                   .add("distance", fates.cutting->distance)
+                                   .add("behind", fates.cutting->behind)
+                                   .add("distanceBehind", fates.cutting->distance_behind));
+    return section;
 }
 
 meshing::FoamDictionary velocity_section(const coupling::VelocitySettings& velocity) {
@@ -130,7 +135,7 @@ meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
     meshing::FoamDictionary coupling;
     coupling.add("patches", meshing::FoamDictionary().add("outlet", settings.patches.outlet));
     if (settings.has_rock)
-        coupling.add("rock", rock_section(settings.rock_feed, dem_settings(inputs)))
+        coupling.add("rock", rock_section(settings, dem_settings(inputs)))
             .add("kernel", section_of(settings.kernel))
             .add("closures", section_of(settings.closures));
     coupling.add("fates", fates_section(*settings.fates));

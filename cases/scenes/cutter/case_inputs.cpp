@@ -90,6 +90,7 @@ coupling::CouplingSettings solver_settings(const CaseInputs& inputs) {
     settings.has_rock = inputs.rock.has_value();
     settings.patches.outlet = names::outlet_patch;
     if (settings.has_rock) settings.rock_feed = names::rock_feed;
+    settings.queue = inputs.queue;
     settings.kernel = inputs.kernel;
     settings.closures = inputs.closures;
     settings.fates = inputs.fates;

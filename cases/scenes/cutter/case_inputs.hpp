@@ -82,7 +82,8 @@ struct CaseInputs {
         std::vector<coupling::WallSettings> walls;  ///< files relative to the run directory
         double density = 2650.0;                    ///< [kg/m3], the heaviest of the feed
     };
-    std::optional<Rock> rock;  ///< none: pure flow
+    std::optional<Rock> rock;                      ///< none: pure flow
+    std::optional<coupling::QueueSettings> queue;  ///< of rock that comes all the time; none: batches
 };
 
 /// What the solver reads in constant/couplingProperties, files relative to the run directory.

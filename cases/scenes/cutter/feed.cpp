@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/scenes/cutter/cut_face_feed.hpp"
+#include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/sphere.hpp"
@@ -21,6 +23,7 @@ namespace {
 
 // Rock starts clear of steel by this share of its diameter, so that no contact is under way at the release.
 constexpr double k_clearance_per_diameter = 0.05;
+constexpr double k_patch_per_ring_radius = 0.02;  // of the cut face
 
 double mass_of(const FeedClass& rock) {
     return sphere_mass(rock.diameter, rock.density);
@@ -60,32 +63,51 @@ std::vector<std::size_t> shuffled_classes(const std::vector<std::size_t>& counts
     return classes;
 }
 
-geometry::RockBatch batch_of(const FeedRequest& request, std::size_t count, const HeadSize& head) {
+geometry::RockBatch batch_of(const FeedRequest& request, std::size_t count) {
     const double diameter = largest_diameter(request);
     geometry::RockBatch batch;
     batch.count = count;
     batch.diameter = diameter;
     batch.lattice_spacing = request.spacing * diameter;
     batch.clearance = k_clearance_per_diameter * diameter;
-    batch.region = {request.azimuth_centre, request.azimuth_width, -request.depth_to, -request.depth_from, 0.0, head.tip_radius};
+    batch.region = {request.azimuth_centre, request.azimuth_width, -request.depth_to,
+                    -request.depth_from,    request.radius_from,   request.radius_to};
     batch.seed = static_cast<std::uint64_t>(request.seed);
     return batch;
 }
 
-PlacedFeed place_feed(const FeedRequest& request, const Study& study, const FeedScene& scene, const geometry::SolidSearch& stationary) {
+PlacedFeed place_batch(const FeedRequest& request, const Study& study, const FeedScene& scene, const geometry::SolidSearch& stationary) {
     const double angle = study.rotation_speed * request.start;
     const Eigen::Affine3d turn(Eigen::AngleAxisd(angle, Vec3::UnitZ()));
     const geometry::SolidSearch cutter(geometry::transformed(scene.cutter, turn));
     const std::vector<std::size_t> counts = rocks_per_class(request);
     const std::size_t count = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     const AxialCylinder water = study.water(scene.size);
-    const geometry::RockPlacement placement =
-        geometry::place_rocks(batch_of(request, count, scene.size), scene.head, water, {&cutter, &stationary});
+    const geometry::RockPlacement placement = geometry::place_rocks(batch_of(request, count), scene.head, water, {&cutter, &stationary});
 
     PlacedFeed feed{request, placement.requested, {}, {}};
     const std::vector<std::size_t> classes = shuffled_classes(counts, request.seed);
-    for (std::size_t i = 0; i < placement.positions.size(); ++i) feed.rocks.push_back({request.start, placement.positions[i], classes[i]});
+    for (std::size_t i = 0; i < placement.positions.size(); ++i)
+        feed.rocks.push_back({request.start, placement.positions[i], classes[i], std::nullopt});
     if (placement.rejected() > 0) feed.reasons.push_back(placement.rejection_reason());
+    return feed;
+}
+
+/// \pre the scene has a cut face
+PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const FeedScene& scene) {
+    const Study::Bank& bank = *study.bank;
+    CutRequest cut;
+    cut.face = *scene.cut_face;
+    cut.mass_rate = request.disintegration * cut_mass_rate(cut.face, bank.swing_speed, bank.grain_density, bank.porosity);
+    cut.begin = request.start;
+    cut.end = request.end;
+    cut.velocity_share = request.velocity_share;
+    cut.seed = static_cast<std::uint64_t>(request.seed);
+    cut.classes = request.classes;
+    PlacedFeed feed{request, 0, {}, {}};
+    for (const CutRock& rock : cut_face_schedule(cut, {scene.head, scene.cutter, study.rotation_speed}))
+        feed.rocks.push_back({rock.time, rock.position, rock.rock_class, rock.velocity});
+    feed.requested = feed.rocks.size();
     return feed;
 }
 
@@ -98,6 +120,7 @@ std::vector<std::size_t> rocks_per_class(const FeedRequest& request) {
         numbers.push_back(rock.mass_share / mass_of(rock));
         shares += rock.mass_share;
     }
+    if (request.kind == FeedKind::cut_face) return std::vector<std::size_t>(request.classes.size(), 0);
     if (request.count) return apportion(static_cast<std::size_t>(*request.count), numbers);
     std::vector<std::size_t> counts;
     for (const double number : numbers) counts.push_back(static_cast<std::size_t>(std::llround(*request.mass * number / shares)));
@@ -105,13 +128,17 @@ std::vector<std::size_t> rocks_per_class(const FeedRequest& request) {
 }
 
 FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::Contour& head, const geometry::TriangleSurface& cutter) {
-    return {head, cutter, geometry::generate_stationary_steel(stationary_steel_of(study, size)).solid(), size};
+    FeedScene scene{head, cutter, geometry::generate_stationary_steel(stationary_steel_of(study, size)).solid(), size};
+    if (study.is_fed_by_cutting()) scene.cut_face = bank_of(study, head).cut_face(k_patch_per_ring_radius * size.ring_radius);
+    return scene;
 }
 
 std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
     std::vector<std::string> lines;
     for (const PlacedFeed& feed : feeds) {
-        lines.push_back(fmt::format("{} rocks requested, {} placed", feed.requested, feed.rocks.size()));
+        lines.push_back(feed.request.kind == FeedKind::cut_face
+                            ? fmt::format("{} rocks from {:.4g} to {:.4g} s", feed.rocks.size(), feed.request.start, feed.request.end)
+                            : fmt::format("{} rocks requested, {} placed", feed.requested, feed.rocks.size()));
         for (const std::string& reason : feed.reasons) lines.push_back("warning: " + reason);
     }
     return lines;
@@ -120,18 +147,25 @@ std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) {
     const geometry::SolidSearch stationary(scene.stationary);
     std::vector<PlacedFeed> feeds;
-    for (const FeedRequest& request : study.feeds) feeds.push_back(place_feed(request, study, scene, stationary));
+    for (const FeedRequest& request : study.feeds)
+        feeds.push_back(request.kind == FeedKind::cut_face ? place_cut_face(request, study, scene)
+                                                           : place_batch(request, study, scene, stationary));
     return feeds;
 }
 
 std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds) {
-    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
+    // Batches, which start with the water, and a cut face are not in one study.
+    const bool with_velocity = !feeds.empty() && feeds.front().request.kind == FeedKind::cut_face;
+    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3";
+    text += with_velocity ? ",vx_m_s,vy_m_s,vz_m_s\n" : "\n";
     std::size_t id = 0;
     for (const PlacedFeed& feed : feeds) {
         for (const PlacedRock& rock : feed.rocks) {
             const FeedClass& rock_class = feed.request.classes[rock.rock_class];
-            text += fmt::format("{},{},{},{},{},{},{}\n", ++id, rock.time, rock.position.x(), rock.position.y(), rock.position.z(),
+            text += fmt::format("{},{},{},{},{},{},{}", ++id, rock.time, rock.position.x(), rock.position.y(), rock.position.z(),
                                 rock_class.diameter, rock_class.density);
+            if (rock.velocity) text += fmt::format(",{},{},{}", rock.velocity->x(), rock.velocity->y(), rock.velocity->z());
+            text += "\n";
         }
     }
     return text;

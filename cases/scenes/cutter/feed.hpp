@@ -1,11 +1,13 @@
 #pragma once
 /// \file The rock of a study, placed: constant/rockFeed.csv and feed.json.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/study/study.hpp"
 #include "geometry/head/contour.hpp"
+#include "geometry/soil/cut_face.hpp"
 #include "geometry/surface/surface.hpp"
 
 namespace cutterflow::cases {
@@ -14,7 +16,8 @@ namespace cutterflow::cases {
 struct PlacedRock {
     double time = 0.0;  ///< [s]
     Vec3 position = Vec3::Zero();
-    std::size_t rock_class = 0;  ///< index in the feed's classes
+    std::size_t rock_class = 0;    ///< index in the feed's classes
+    std::optional<Vec3> velocity;  ///< [m/s]; none: that of the water there
 };
 
 /// What became of one [[feed]].
@@ -26,7 +29,7 @@ struct PlacedFeed {
 };
 
 /// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses are in proportion to the shares.
-/// Rounded so that a given count is kept exactly.
+/// Rounded so that a given count is kept exactly. 0 of a cut face, whose rock is a matter of time.
 std::vector<std::size_t> rocks_per_class(const FeedRequest& request);
 
 /// What the rock is placed into.
@@ -35,6 +38,7 @@ struct FeedScene {
     geometry::TriangleSurface cutter;      ///< at rotor angle 0, run's frame
     geometry::TriangleSurface stationary;  ///< closed
     HeadSize size;
+    std::optional<geometry::CutFace> cut_face{};  ///< of a study with a bank
 };
 
 /// The scene of a study's cutter. \param cutter  as FeedScene has it

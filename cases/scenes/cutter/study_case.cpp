@@ -19,6 +19,10 @@ namespace {
 // The pipe ends this many ring radii above the water's surface, which cuts it.
 constexpr double k_pipe_above_water = 0.25;
 constexpr double k_steel_edge_per_ring_radius = 0.05;
+// A few steps of the flow: the DEM sets itself up once for all rock of a packet.
+constexpr double k_packet_interval = 0.005;  // [s]
+constexpr double k_farthest_ahead = k_pi / 6.0;
+constexpr double k_left_behind_per_ring_radius = 0.75, k_left_behind_the_axis_per_ring_radius = 1.5;
 // The Courant limit takes over after the first step.
 constexpr double k_first_step_per_revolution = 1e-4;
 
@@ -29,6 +33,14 @@ CaseInputs::Rock rock_of(const Study& study) {
     rock.contact = study.contact;
     rock.walls = standard_walls();
     return rock;
+}
+
+/// Rock goes in by packets; what finds no place waits for the next blade; what lies far off is left behind.
+void feed_by_cutting(const Study& study, const HeadSize& head, CaseInputs& inputs) {
+    const double pitch = 2.0 * k_pi / head.blades;
+    inputs.queue = coupling::QueueSettings{k_packet_interval, study.period() / head.blades, std::min(0.5 * pitch, k_farthest_ahead)};
+    inputs.fates.cutting = coupling::CuttingSettings{k_left_behind_per_ring_radius * head.ring_radius, Vec3(0.0, -study.bank_side(), 0.0),
+                                                     k_left_behind_the_axis_per_ring_radius * head.ring_radius};
 }
 
 std::optional<coupling::RecordSettings> record_of(const Study& study, const HeadSize& head) {
@@ -68,8 +80,7 @@ void require_cutter_file(const ParameterValues& values, const std::filesystem::p
 
 void require_study_file(const std::filesystem::path& file) {
     Mistakes mistakes;
-    const ReadParameters read = read_with_mistakes(file, mistakes);
-    if (read.complete) mistakes.add(bank_without_run(read.values));
+    read_with_mistakes(file, mistakes);
     mistakes.refuse();
 }
 
@@ -172,6 +183,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
     inputs.ranks = ranks;
     if (!study.feeds.empty()) {
         inputs.rock = rock_of(study);
+        if (study.is_fed_by_cutting()) feed_by_cutting(study, head, inputs);
         inputs.stop = study.run.stop;
         inputs.record = record_of(study, head);
     }
