@@ -57,6 +57,20 @@ std::optional<double> mixing(const ComparedRun& compared, double Mixing::*member
     return compared.results.mixing ? std::optional<double>((*compared.results.mixing).*member) : std::nullopt;
 }
 
+/// Of a head that is fed all the time; only bounds are known while its hold-up changes.
+Estimate spillage_of(const Production& production) {
+    if (!production.is_steady) return {std::nullopt, production.spillage_min, production.spillage_max, std::nullopt};
+    Estimate estimate = plain(production.spillage_max);
+    if (production.share) estimate.half_width = production.share->half_interval;
+    return estimate;
+}
+
+Estimate share_of(const Production& production) {
+    Estimate estimate = plain(production.delivered / production.fed);
+    if (production.share) estimate.half_width = production.share->half_interval;
+    return estimate;
+}
+
 using Evaluate = std::function<Estimate(const ComparedRun&)>;
 
 struct QuantityRule {
@@ -112,6 +126,25 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
                            [=](const ComparedRun& r) { return turns * r.run.operating_point.revolution_s(); }));
     }
     return rules;
+}
+
+/// Of heads that are fed all the time: no ratio without its hold-up.
+std::vector<QuantityRule> fed_rules() {
+    const auto of = [](const std::function<Estimate(const FedHead&)>& evaluate) -> Evaluate {
+        return [=](const ComparedRun& r) { return r.results.fed ? evaluate(*r.results.fed) : Estimate{}; };
+    };
+    const auto rate = [&](double Production::*mass) {
+        return of([=](const FedHead& head) { return plain(head.production.*mass / (head.production.to - head.production.from)); });
+    };
+    return {{"ratio", "spillage: 1 - delivered / fed", "-", true, of([](const FedHead& head) { return spillage_of(head.production); })},
+            {"production", "production: delivered / fed", "-", true, of([](const FedHead& head) { return share_of(head.production); })},
+            {"hold_up_kg", "hold-up: owed, in the head or on the bed", "kg", true,
+             of([](const FedHead& head) { return plain(head.production.held); })},
+            {"hold_up_change_share", "change of hold-up / fed", "-", true,
+             of([](const FedHead& head) { return plain(head.production.held_change / head.production.fed); })},
+            {"fed_kg_s", "fed", "kg/s", true, rate(&Production::fed)},
+            {"delivered_kg_s", "delivered", "kg/s", true, rate(&Production::delivered)},
+            {"head_is_full", "head is full (1: yes)", "-", true, of([](const FedHead& head) { return plain(head.is_full ? 1.0 : 0.0); })}};
 }
 
 std::vector<QuantityRule> load_rules(bool with_rock) {
@@ -216,7 +249,7 @@ std::vector<QuantityRule> rules_of(const Comparison& comparison) {
         std::all_of(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.results.spillage.has_value(); });
     std::vector<QuantityRule> rules = operating_rules();
     const auto append = [&](std::vector<QuantityRule> more) { rules.insert(rules.end(), more.begin(), more.end()); };
-    if (with_rock) append(rock_rules(comparison));
+    if (with_rock) append(scope_of(comparison).fed_by_cutting ? fed_rules() : rock_rules(comparison));
     append(load_rules(with_rock));
     append(outflow_rules(comparison.runs));
     if (with_rock) append(spilled_rules(comparison.runs));
@@ -326,11 +359,23 @@ json estimate_json(const Estimate& estimate) {
 }
 
 std::string estimate_text(const Estimate& estimate) {
-    if (!estimate.value) return "-";
+    const std::string bounds = estimate.low ? fmt::format("[{:.3f}, {:.3f}]", *estimate.low, *estimate.high) : "";
+    if (!estimate.value) return bounds.empty() ? "-" : bounds;
     std::string text = is_count(*estimate.value) ? fmt::format("{:.0f}", *estimate.value) : fmt::format("{:.4g}", *estimate.value);
     if (estimate.half_width) text += fmt::format(" ± {:.2g}", *estimate.half_width);
-    if (estimate.low) text += fmt::format(" [{:.3f}, {:.3f}]", *estimate.low, *estimate.high);
-    return text;
+    return bounds.empty() ? text : text + " " + bounds;
+}
+
+/// A batch is decided once for all, a head that is fed all the time has a rate: they have no spillage in common.
+void require_one_kind_of_feed(const std::vector<ComparedRun>& runs) {
+    const auto kind = [](bool fed_by_cutting) {
+        return [=](const ComparedRun& r) { return r.results.spillage && r.run.operating_point.fed_by_cutting == fed_by_cutting; };
+    };
+    const auto batch = std::find_if(runs.begin(), runs.end(), kind(false)), cut_face = std::find_if(runs.begin(), runs.end(), kind(true));
+    if (batch == runs.end() || cut_face == runs.end()) return;
+    throw UserError(
+        fmt::format("{} has a batch of rock, {} rock from a cut face", batch->run.directory.string(), cut_face->run.directory.string()),
+        "Spillage of a batch and of a steady feed are not the same quantity", "Compare runs of one feed.kind");
 }
 
 /// A run is no repeat of itself, by whatever path it comes, and no copy of it is.
@@ -372,6 +417,7 @@ Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     require_different(comparison.runs);
+    require_one_kind_of_feed(comparison.runs);
     comparison.settings = group(comparison.runs);
     find_equal_points(comparison);
     for (const QuantityRule& rule : rules_of(comparison)) {
@@ -398,9 +444,9 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
         const bool paired = are_paired(seeds_of(comparison, comparison.settings[0]), seeds_of(comparison, comparison.settings[index]));
         difference.estimate.half_width = half_width_of_difference(values_of(quantity.repeats.front(), &Estimate::value),
                                                                   values_of(quantity.repeats[index], &Estimate::value), paired);
-    } else if (a.half_width && b.half_width) {
-        difference.estimate.half_width = std::hypot(*a.half_width, *b.half_width);
     }
+    if (!difference.estimate.half_width && a.half_width && b.half_width)
+        difference.estimate.half_width = std::hypot(*a.half_width, *b.half_width);
     difference.verdict = verdict_of(difference.estimate, quantity.of_rock);
     return difference;
 }
@@ -426,6 +472,7 @@ const char* verdict_text(ComparisonVerdict verdict) {
 }
 
 std::vector<std::string> differing_batches(const Comparison& comparison) {
+    if (scope_of(comparison).fed_by_cutting) return {};
     std::vector<std::string> texts;
     std::set<std::string> feeds;
     std::set<std::vector<int>> seeds;

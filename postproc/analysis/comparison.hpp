@@ -78,7 +78,8 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
 std::map<std::string, std::vector<std::string>> differing_keys(const Comparison& comparison);
 
 /// The batch of every setting in words (requested rocks, sizes, densities, seeds) when they are not all the same; else
-/// nothing. Settings with different batches are compared, but a difference may then be that of the batches.
+/// nothing, and nothing of heads that are fed all the time. Settings with different batches are compared, but a difference may then be that
+/// of the batches.
 std::vector<std::string> differing_batches(const Comparison& comparison);
 
 /// Key of a quantity of an axial bin, such as "outflow_0-30mm_m_s" or "spilled_gap_share".

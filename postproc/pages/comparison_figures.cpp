@@ -232,8 +232,12 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
 }
 
 std::vector<Figure> rock_figures(const Comparison& comparison) {
-    const std::string shares = "Spillage ratio, spilled / (spilled + sucked up), and production, sucked up / placed, by mass";
-    const std::string bars = "; bars are bounds: what the undecided rock could still do.";
+    const bool fed = scope_of(comparison).fed_by_cutting;
+    const std::string shares = fed ? "Spillage, 1 − delivered / fed, and production, delivered / fed, by mass"
+                                   : "Spillage ratio, spilled / (spilled + sucked up), and production, sucked up / placed, by mass";
+    const std::string bars =
+        fed ? "; bars are 95 % intervals. Spillage is not drawn while the hold-up still changes; the table has its bounds and the hold-up."
+            : "; bars are bounds: what the undecided rock could still do.";
     std::vector<Figure> figures{{shares_plot(comparison), shares + ", of every setting" + bars, ""}};
     const Quantity &speed = *find_quantity(comparison, "speed_rpm"), &flow_number = *find_quantity(comparison, "flow_number");
     if (varies(speed)) {

@@ -26,11 +26,11 @@ using html::escape;
 constexpr const char* k_document = "comparison.json";
 
 std::string estimate_markup(const Estimate& estimate) {
-    if (!estimate.value) return text::k_dash;
+    const std::string bounds = estimate.low ? fmt::format("{:.3f} … {:.3f}", *estimate.low, *estimate.high) : "";
+    if (!estimate.value) return bounds.empty() ? text::k_dash : bounds;
     std::string markup = is_count(*estimate.value) ? fmt::format("{:.0f}", *estimate.value) : text::digits_of(*estimate.value, 4);
     if (estimate.half_width) markup += " ± " + text::digits_of(*estimate.half_width, 2);
-    if (estimate.low) markup += fmt::format("<br>{:.3f} … {:.3f}", *estimate.low, *estimate.high);
-    return markup;
+    return bounds.empty() ? markup : markup + "<br>" + bounds;
 }
 
 /// What the rows are, then the number of each setting.
@@ -167,7 +167,11 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder, 
     std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + page.how_to_make_live("cutterflow compare RUN... -o FOLDER") +
                        batches_notice(comparison) + settings_table(comparison);
     body += fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(comparison))));
-    if (with_rock && !has_repeats(comparison))
+    if (scope_of(comparison).fed_by_cutting)
+        body +=
+            "<p>Each head is fed all the time: ± is the 95 % interval of batch means in time, or, with three or more repeats, that of "
+            "their scatter. Where the hold-up still changes, spillage has bounds only. No share is to be read without its hold-up.</p>\n";
+    else if (with_rock && !has_repeats(comparison))
         body +=
             "<p>No replicate: each setting is one batch. The ranges are bounds by the undecided rock, not intervals; three or more repeats "
             "of a setting give intervals.</p>\n";

@@ -126,6 +126,51 @@ std::string rock_answers(const Results& results, double revolution) {
     return blocks;
 }
 
+/// Of a head that is fed all the time: production and spillage, never without the hold-up.
+std::string fed_answers(const FedHead& head) {
+    const Production& production = head.production;
+    const std::string interval = production.share ? fmt::format(" ± {}", percent(production.share->half_interval)) : "";
+    const std::string sure = production.share ? fmt::format("95 % interval from {} batches in time", production.share->batches)
+                                              : "too short for an interval: it takes 8 batches of a revolution or more";
+    std::string blocks =
+        answer(palette::sucked_up, "Production: delivered / fed, by mass", percent(production.delivered / production.fed) + interval, sure);
+    blocks += answer(palette::spilled, "Spillage: 1 − delivered / fed, by mass",
+                     production.is_steady ? percent(production.spillage_max) + interval
+                                          : fmt::format("{} to {}", percent(production.spillage_min), percent(production.spillage_max)),
+                     production.is_steady ? "what the head holds changed by less than 5 % of what was fed"
+                                          : "bounds: what the head holds still changes, and may yet be delivered or spilled");
+    blocks += answer(palette::in_cutter, "Hold-up: owed, in the head or on the bed", fmt::format("{} kg", number(production.held)),
+                     fmt::format("changed by {} of what was fed", percent(production.held_change / production.fed)));
+    return blocks + answer(palette::ink, "Head", head.is_full ? "full" : "not full",
+                           head.is_full ? "for a revolution more rock waited for a place than 5 % of what a blade cuts in passing"
+                                        : "rock that was cut found its place");
+}
+
+/// Masses so far, and no ratio: the hold-up of a window is not known.
+std::string early_answers(const Fates& fates) {
+    const auto mass = [](const RockAmount& amount) { return fmt::format("{} kg", number(amount.mass)); };
+    std::string blocks = answer(palette::ink, "Production and spillage", "not known yet",
+                                "they take a whole revolution after the start-up of 3 s and two revolutions or more");
+    blocks += answer(palette::sucked_up, "Delivered so far", mass(fates.sucked_up), fate_detail(fates.sucked_up));
+    blocks += answer(palette::spilled, "Spilled so far", mass(fates.spilled), fate_detail(fates.spilled));
+    return blocks + answer(palette::in_cutter, "In the cutter", mass(fates.in_cutter), fate_detail(fates.in_cutter));
+}
+
+/// Window and rates of a head that is fed all the time.
+std::string production_table(const FedHead& head, double revolution) {
+    const Production& production = head.production;
+    const double duration = production.to - production.from;
+    const auto rate = [&](double mass) { return fmt::format("{} kg/s", number(mass / duration)); };
+    const std::string window = fmt::format("{:.0f} revolutions, {:.3f} to {:.3f} s", duration / revolution, production.from, production.to);
+    return html::table({"steady production", ""},
+                       {{"window", window + (production.start ? "" : "; start-up never ended")},
+                        {"fed", rate(production.fed)},
+                        {"delivered", rate(production.delivered)},
+                        {"spilled", rate(production.spilled)},
+                        {"hold-up grows by", rate(production.held_change)}},
+                       true);
+}
+
 /// The mean of an average and, in small print, its error.
 std::string error_detail(const TimeAverage& average, const char* unit) {
     return average.standard_error ? fmt::format("± {} standard error; ", number(average.standard_error, unit, 2)) : "";
@@ -173,12 +218,16 @@ std::string cost_text(const Cost& cost) {
     return text;
 }
 
-std::string trust_list(const Results& results) {
+std::string trust_list(const Results& results, bool fed_by_cutting) {
     std::string items;
     const auto item = [&](const char* label, const std::string& text) {
         items += fmt::format("<li><b>{}</b><span>{}</span></li>", label, text);
     };
-    if (results.spillage) {
+    if (fed_by_cutting)
+        item("Statistical error",
+             "the interval is of one run's time: it holds neither another placement of the rock nor the mesh. Three runs with other seeds "
+             "(cutterflow sweep --repeats) give that of placement.");
+    else if (results.spillage) {
         item("Statistical error",
              "no replicate: one batch, one placement. An interval needs three or more repeats that vary placement and "
              "release angle; the bounds above are not an interval but the range of outcomes of the undecided rock.");
@@ -189,11 +238,19 @@ std::string trust_list(const Results& results) {
     return fmt::format("<ul class=\"trust\">{}</ul>\n", items);
 }
 
+std::string answers(const Results& results, const RunData& run) {
+    const double revolution = run.operating_point.revolution_s();
+    const auto blocks = [](const std::string& content) { return fmt::format("<div class=\"answers\">\n{}</div>\n", content); };
+    if (!results.spillage) return blocks(flow_answers(results));
+    if (!run.operating_point.fed_by_cutting) return blocks(rock_answers(results, revolution));
+    if (!results.fed) return blocks(early_answers(results.spillage->fates));
+    return blocks(fed_answers(*results.fed)) + production_table(*results.fed, revolution);
+}
+
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
-    std::string content = fmt::format("<div class=\"answers\">\n{}</div>\n",
-                                      results.spillage ? rock_answers(results, run.operating_point.revolution_s()) : flow_answers(results));
-    content += plots_at(figures, Place::answer);
-    return content + fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) + trust_list(results);
+    return answers(results, run) + plots_at(figures, Place::answer) +
+           fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) +
+           trust_list(results, run.operating_point.fed_by_cutting);
 }
 
 std::string head_figure(const Results& results, const PageFigures& figures) {
@@ -249,36 +306,13 @@ std::string bins_table(const Results& results) {
     return html::table(header, rows, true);
 }
 
-/// Of a head that is fed all the time: rates and hold-up together.
-std::string production_table(const FedHead& head) {
-    const Production& production = head.production;
-    const double duration = production.to - production.from;
-    std::string share = percent(production.delivered / production.fed);
-    share += production.share ? fmt::format(" ± {}", percent(production.share->half_interval)) : " (too short for an interval)";
-    const std::string spillage = production.is_steady ? percent(production.spillage_max)
-                                                      : fmt::format("{} to {}: hold-up still changes", percent(production.spillage_min),
-                                                                    percent(production.spillage_max));
-    std::string content = html::table({},
-                                      {{"window", fmt::format("{:.3f} to {:.3f} s, whole revolutions{}", production.from, production.to,
-                                                              production.start ? "" : "; start-up never ended")},
-                                       {"fed", fmt::format("{} kg/s", number(production.fed / duration))},
-                                       {"delivered", fmt::format("{} kg/s", number(production.delivered / duration))},
-                                       {"delivered / fed", share},
-                                       {"spillage", spillage},
-                                       {"hold-up", fmt::format("{} kg, changed by {} of what was fed", number(production.held),
-                                                               percent(production.held_change / production.fed))}},
-                                      true);
-    if (head.is_full)
-        content += "<p>The head is full: for a revolution more rock waited for a place than 5 % of what a blade passing cuts.</p>";
-    return content;
-}
-
 std::string rock_section(const Results& results, const RunData& run) {
     std::string content = fmt::format("<div class=\"tables\"><div><h3>By axial bin{}</h3>{}</div><div>",
                                       results.spillage ? " (of the last exit)" : "", bins_table(results));
     if (results.spillage) {
-        if (results.fed) content += "<h3>Steady production</h3>" + production_table(*results.fed);
-        content += "<h3>At equal revolutions and at equal time</h3>" + series_table(*results.spillage);
+        // Of a head that is fed all the time a ratio says nothing without the hold-up of its window.
+        if (!run.operating_point.fed_by_cutting)
+            content += "<h3>At equal revolutions and at equal time</h3>" + series_table(*results.spillage);
         content += "<h3>Feed</h3>" + html::table({},
                                                  {{"requested", fmt::format("{} rocks", results.rock_requested)},
                                                   {"placed", fmt::format("{} rocks", results.spillage->fates.placed.count)},

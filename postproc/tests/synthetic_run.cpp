@@ -397,6 +397,21 @@ void SmallRun::write() const {
     write_tables("0", 0.0, end_time);
 }
 
+void make_fed(const SmallRun& run, double held, double stuck) {
+    constexpr double rate = 10.0, begin = 1.0, wave = 0.1;  // [kg/s], [s], [kg]
+    write_text(run.directory / "study.resolved.toml",
+               read_text(run.directory / "study.resolved.toml") + "\n[[feed]]\nkind = \"cut_face\"\n");
+    std::string text =
+        "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error\n";
+    for (int step = 1; step <= 3100; ++step) {
+        const double time = 0.01 * step, fed = rate * std::max(0.0, time - begin), gone = std::max(0.0, (1.0 - stuck) * fed - held);
+        const double to_and_fro = gone > 0.0 ? wave * std::cos(k_pi * time) : 0.0;
+        const double delivered = std::max(0.0, 0.6 * gone + to_and_fro), spilled = gone - delivered;
+        text += fmt::format("{:.9g},{:.12g},0,{:.12g},{:.12g},{:.12g},0,0,0,0\n", time, fed, fed - gone, delivered, spilled);
+    }
+    write_text(run.directory / "postProcessing/rock/0/ledger.csv", text);
+}
+
 void write_velocity_planes(const fs::path& directory, PlaneFlow flow) {
     const auto table = [&](int columns, int rows, const std::function<Vec3(int, int)>& place) {
         std::string text =

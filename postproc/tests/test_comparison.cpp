@@ -69,6 +69,41 @@ TEST(Comparison, of_single_runs_has_bounds_and_no_interval) {
     EXPECT_EQ(difference_of(comparison, quantity_of(comparison, "cells"), 1).verdict, ComparisonVerdict::no_interval);
 }
 
+fs::path fed(const std::string& name, double stuck, double length_ratio) {
+    SmallRun run(name);
+    run.length_ratio = length_ratio;
+    run.write();
+    testing::make_fed(run, 5.0, stuck);
+    return run.directory;
+}
+
+// 60 % of what goes on is delivered: of all that is fed, of four fifths in a head that fills, of a tenth less.
+TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
+    const Comparison comparison = compare_runs({fed("fed_a", 0.0, 1.0), fed("fed_b", 0.2, 2.0), fed("fed_c", 0.04, 3.0)});
+    const Quantity &spillage = quantity_of(comparison, "ratio"), &production = quantity_of(comparison, "production");
+    EXPECT_NEAR(*spillage.settings[0].value, 0.4, 0.01);
+    EXPECT_GT(*spillage.settings[0].half_width, 0.0);
+    EXPECT_FALSE(spillage.settings[0].low);
+    EXPECT_NEAR(*production.settings[0].value, 0.6, 0.01);
+    EXPECT_FALSE(spillage.settings[1].value) << "it still fills";
+    EXPECT_NEAR(*spillage.settings[1].low, 0.32, 0.01);
+    EXPECT_NEAR(*spillage.settings[1].high, 0.52, 0.01);
+    EXPECT_NEAR(*production.settings[1].value, 0.48, 0.01);
+    const Quantity& held = quantity_of(comparison, "hold_up_kg");
+    EXPECT_NEAR(*held.settings[0].value, 5.0, 1e-6);
+    EXPECT_GT(*held.settings[1].value, 10.0);
+    EXPECT_NEAR(*quantity_of(comparison, "hold_up_change_share").settings[1].value, 0.2, 0.01);
+    const Difference difference = difference_of(comparison, production, 1);
+    EXPECT_NEAR(*difference.estimate.half_width, std::hypot(*production.settings[0].half_width, *production.settings[1].half_width), 1e-12);
+    EXPECT_EQ(difference.verdict, ComparisonVerdict::differs);
+    EXPECT_THAT(comparison_text(comparison), HasSubstr("[0.3"));
+    for (const Quantity& quantity : comparison.quantities) EXPECT_NE(quantity.key, "ratio_at_equal_time");
+}
+
+TEST(Comparison, of_a_batch_and_a_fed_head_is_refused) {
+    EXPECT_THROW(compare_runs({variant("batch", {}), fed("not_a_batch", 0.0, 2.0)}), UserError);
+}
+
 TEST(Comparison, gives_settings_of_equal_names_labels_of_their_own) {
     std::vector<fs::path> directories;
     for (const char* name : {"labels/a", "labels/b", "labels/other/a", "labels/c"}) {

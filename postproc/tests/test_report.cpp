@@ -27,6 +27,15 @@ bool contains(const std::string& text, const std::string& word) {
     return text.find(word) != std::string::npos;
 }
 
+/// Leaves the header and the first rows of ledger.csv.
+void shorten_ledger(const SmallRun& run, int rows) {
+    const std::filesystem::path file = run.directory / "postProcessing/rock/0/ledger.csv";
+    const std::string text = read_text(file);
+    std::size_t end = 0;
+    for (int line = 0; line <= rows; ++line) end = text.find('\n', end) + 1;
+    testing::write_text(file, text.substr(0, end));
+}
+
 /// The page without the scripts at its end.
 std::string without_scripts(const std::string& page) {
     return page.substr(0, page.find("<script>"));
@@ -63,6 +72,58 @@ TEST(WriteReport, page_gives_the_answer_first_with_bounds_error_and_cost) {
     }
     for (const NotModelled& item : not_modelled({true, false})) EXPECT_TRUE(contains(page, item.name)) << item.name;
     EXPECT_FALSE(contains(page, "is not finished"));
+}
+
+// 10 kg/s are fed and 60 % of them delivered; the head holds 5 kg.
+TEST(WriteReport, of_a_fed_head_gives_production_and_spillage_with_interval_and_hold_up_first) {
+    SmallRun run("report_fed");
+    run.write();
+    testing::make_fed(run, 5.0);
+    const ReportSummary summary = write_report(run.directory);
+    const auto production = nlohmann::json::parse(read_text(summary.results_file)).at("production");
+    EXPECT_NEAR(production.at("share").get<double>(), 0.6, 0.01);
+    EXPECT_NEAR(production.at("spillage").get<double>(), 0.4, 0.01);
+    EXPECT_GT(production.at("share_half_interval").get<double>(), 0.0);
+    EXPECT_LT(production.at("share_half_interval").get<double>(), 0.05);
+    EXPECT_NEAR(production.at("hold_up_kg").get<double>(), 5.0, 1e-6);
+    EXPECT_NEAR(production.at("fed_kg_s").get<double>(), 10.0, 1e-6);
+    EXPECT_FALSE(production.at("head_is_full").get<bool>());
+    const std::string page = read_text(summary.page_file);
+    std::size_t last = page.find("<body>");
+    for (const char* part : {"Production: delivered / fed", " ± ", "Spillage: 1 − delivered / fed", " ± ", "Hold-up", "5 kg", "not full",
+                             "steady production", "do not feel the bank yet", "Where the rock goes"}) {
+        const std::size_t at = page.find(part, last);
+        ASSERT_NE(at, std::string::npos) << part;
+        last = at;
+    }
+    EXPECT_FALSE(contains(page, "spilled / (spilled + sucked up)")) << "a ratio without its hold-up";
+    EXPECT_FALSE(contains(page, "one batch of rock"));
+}
+
+TEST(WriteReport, of_a_fed_head_that_still_fills_gives_bounds) {
+    SmallRun run("report_filling");
+    run.write();
+    testing::make_fed(run, 5.0, 0.2);
+    const ReportSummary summary = write_report(run.directory);
+    const auto production = nlohmann::json::parse(read_text(summary.results_file)).at("production");
+    EXPECT_TRUE(production.at("spillage").is_null());
+    EXPECT_NEAR(production.at("spillage_min").get<double>(), 0.32, 0.01);
+    EXPECT_NEAR(production.at("spillage_max").get<double>(), 0.52, 0.01);
+    EXPECT_NEAR(production.at("hold_up_change_share").get<double>(), 0.2, 0.01);
+    EXPECT_TRUE(contains(read_text(summary.page_file), "bounds: what the head holds still changes"));
+}
+
+TEST(WriteReport, of_a_fed_head_without_a_window_gives_masses_and_no_ratio) {
+    SmallRun run("report_early");
+    run.write();
+    testing::make_fed(run, 1000.0);
+    shorten_ledger(run, 200);
+    const ReportSummary summary = write_report(run.directory);
+    EXPECT_TRUE(nlohmann::json::parse(read_text(summary.results_file)).at("production").is_null());
+    const std::string page = read_text(summary.page_file);
+    for (const char* part : {"Production and spillage", "not known yet", "Delivered so far", "Spilled so far", "In the cutter"})
+        EXPECT_TRUE(contains(page, part)) << part;
+    EXPECT_FALSE(contains(page, "spilled / (spilled + sucked up)"));
 }
 
 /// Pieces of a page from one figure's beginning to the next.
