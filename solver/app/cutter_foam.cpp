@@ -86,8 +86,8 @@ void replay(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
 }
 
 void solve(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
-    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches);
-    run_coupled(session, dictionary, fluid, fluid.fluid_properties(), flow_models(fluid));
+    foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches, dictionary.coupling.soil);
+    run_coupled(session, dictionary, fluid, fluid.fluid_properties(), flow_models(fluid, dictionary.coupling.soil));
 }
 
 void run(int argc, char** argv) {

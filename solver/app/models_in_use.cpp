@@ -40,11 +40,14 @@ void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::
 
 }  // namespace
 
-std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid) {
+std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid, const std::optional<coupling::SoilSettings>& soil) {
     std::vector<coupling::ModelNote> notes;
     notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
     for (const coupling::ZoneMotion& zone : fluid.moving_zones())
         notes.push_back({fmt::format("sliding mesh: {} at {:.6g} rad/s", zone.name, zone.speed), "constant/dynamicMeshDict turns it"});
+    if (soil)
+        notes.push_back({fmt::format("soil: {}, permeability {:.3g} m2", soil->surface.string(), soil->permeability),
+                         "section soil; water is at rest in it"});
     return notes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// \file The sub-models of a run, and why each is on: the run's first lines, and the report's table.
+#include <optional>
 #include <vector>
 
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
@@ -9,7 +10,7 @@
 namespace cutterflow {
 
 /// Of a flow that is solved, and of one that is played.
-std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid);
+std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid, const std::optional<coupling::SoilSettings>& soil);
 std::vector<coupling::ModelNote> recorded_flow_models(const foam::CouplingDictionary& dictionary);
 
 /// Of rock, in the order of the equations; none without rock.

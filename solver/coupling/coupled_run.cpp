@@ -253,6 +253,7 @@ void CoupledRun::report_loads_and_balance() {
     const double speed = moving.empty() ? 0.0 : moving[0].speed;
     LoadsRow row{fluid_.time(), now().rotor_angle, loads.torque_pressure, loads.torque_viscous, moved_.cutter_torque, 0.0};
     row.power = -(row.torque_pressure + row.torque_viscous + row.torque_rock) * speed;
+    row.soil_force = loads.soil_force;
     recorder_.loads(row);
 
     BalanceRow balance;

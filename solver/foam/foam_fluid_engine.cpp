@@ -82,14 +82,18 @@ void add_up_wall_motion(const Foam::fvMesh& mesh, std::vector<double>& of_cells)
     }
 }
 
+void append(const std::vector<coupling::SteelTriangle>& triangles, std::vector<coupling::SteelTriangle>& to) {
+    to.insert(to.end(), triangles.begin(), triangles.end());
+}
+
 }  // namespace
 
 struct FoamFluidEngine::Parts {
-    Parts(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches)
+    Parts(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches, const std::optional<coupling::SoilSettings>& soil)
         : time(session.time()),
           zones(read_moving_zones(session.mesh())),
           roles(find_patch_roles(session.mesh(), patches)),
-          fluid(session.mesh(), zones, with_rock ? RockPresence::present : RockPresence::absent),
+          fluid(session.mesh(), zones, with_rock ? RockPresence::present : RockPresence::absent, soil),
           centres(centres_in_zone_frame(session.mesh(), zones)),
           volumes(session.mesh().V().begin(), session.mesh().V().end()),
           sizes(smooth_cell_sizes(session.mesh())),
@@ -113,8 +117,9 @@ struct FoamFluidEngine::Parts {
     std::unique_ptr<VelocitySampler> sampler;
 };
 
-FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches)
-    : parts_(with_case_errors(ThrownErrors::all, [&] { return std::make_unique<Parts>(session, with_rock, patches); })) {
+FoamFluidEngine::FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches,
+                                 const std::optional<coupling::SoilSettings>& soil)
+    : parts_(with_case_errors(ThrownErrors::all, [&] { return std::make_unique<Parts>(session, with_rock, patches, soil); })) {
     Parts& p = *parts_;
     p.sampler = std::make_unique<VelocitySampler>(p.fluid.mesh(), p.cells(), p.zones.motion);
 }
@@ -126,7 +131,10 @@ coupling::Cells FoamFluidEngine::cells() const {
 }
 coupling::Steel FoamFluidEngine::steel() const {
     Parts& p = *parts_;
-    if (p.steel.empty()) p.steel = gather_steel_faces(p.fluid.mesh(), p.roles.steel, p.zones, time());
+    if (p.steel.empty()) {
+        p.steel = gather_steel_faces(p.fluid.mesh(), p.roles.steel, p.zones, time());
+        if (p.fluid.soil() != nullptr) append(p.fluid.soil()->surface().triangles(), p.steel[coupling::k_still_zone]);
+    }
     return {{p.steel.begin(), p.steel.end()}};
 }
 gsl::span<const coupling::ZoneMotion> FoamFluidEngine::moving_zones() const {

@@ -14,9 +14,11 @@ class FoamSession;
 class FoamFluidEngine final : public coupling::FluidEngine {
 public:
     /// \param with_rock  false: a pure flow; void fraction and exchange of end_step are then not looked at and may be empty
+    /// \param soil  hides the fluid in it from rock, as steel does
     /// \throws UserError  when dynamicMeshDict moves the mesh otherwise than by a rotor, a named patch is not there, or fvSchemes does not
-    /// suit rock
-    FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches = {});
+    /// suit rock, or the soil's surface is not closed or holds no cell
+    FoamFluidEngine(FoamSession& session, bool with_rock, const coupling::PatchSettings& patches = {},
+                    const std::optional<coupling::SoilSettings>& soil = {});
     ~FoamFluidEngine() override;
 
     coupling::Cells cells() const override;

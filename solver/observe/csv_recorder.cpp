@@ -30,8 +30,9 @@ std::string optional_number(const std::optional<double>& value) {
 }  // namespace
 
 CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time)
-    : root_(case_folder / "postProcessing"), start_(time_name(start_time)) {
-    loads_ = open("loads", "loads.csv", "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w");
+    : root_(case_folder / "postProcessing"), start_(time_name(start_time)), with_soil_(settings.soil.has_value()) {
+    const std::string soil = with_soil_ ? ",soil_force_x_n,soil_force_y_n,soil_force_z_n" : "";
+    loads_ = open("loads", "loads.csv", "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w" + soil);
     balance_ = open("balance", "balance.csv",
                     "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_turned,"
                     "momentum_carried,"
@@ -116,8 +117,11 @@ void CsvRecorder::outflow(double time, gsl::span<const double> radial_velocity) 
 }
 
 void CsvRecorder::loads(const LoadsRow& row) {
-    fmt::print(loads_, "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.time, row.rotor_angle, row.torque_pressure, row.torque_viscous,
+    fmt::print(loads_, "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", row.time, row.rotor_angle, row.torque_pressure, row.torque_viscous,
                row.torque_rock, row.power);
+    const Vec3 force = row.soil_force.value_or(Vec3::Zero());
+    if (with_soil_) fmt::print(loads_, ",{:.9g},{:.9g},{:.9g}", force.x(), force.y(), force.z());
+    loads_ << '\n';
 }
 
 void CsvRecorder::balance(const BalanceRow& row) {

@@ -44,6 +44,7 @@ private:
 
     std::filesystem::path root_;
     std::string start_;
+    bool with_soil_;
     std::ofstream events_, rejected_, fates_, ledger_, outflow_, loads_, balance_, cost_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;

@@ -100,6 +100,7 @@ struct LoadsRow {
     double time = 0.0, rotor_angle = 0.0;
     double torque_pressure = 0.0, torque_viscous = 0.0, torque_rock = 0.0;  ///< on the cutter about +z [N m]
     double power = 0.0;                                                     ///< of the drive [W]
+    std::optional<Vec3> soil_force{};                                       ///< of the water on the soil [N]
 };
 
 struct BalanceRow {

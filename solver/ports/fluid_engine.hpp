@@ -77,8 +77,10 @@ struct FluidLoads {
     double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / (2 through_flow) [-]
     double domain_surplus = 0.0;       ///< of a closed domain: |volume that a step's continuity has too much| / volume; 0 of an open one
     double courant_max = 0.0;
+    std::optional<Vec3> soil_force;  ///< of the water on the soil, by p* and stress [N]; none without soil
     // With rock only, over the last step:
-    Vec3 boundary_impulse = Vec3::Zero();   ///< on the fluid by pressure, stress and through-flow of patches that are no interface [N s]
+    Vec3 boundary_impulse =
+        Vec3::Zero();  ///< on the fluid by pressure, stress and through-flow of patches that are no interface, and by soil [N s]
     Vec3 interface_impulse = Vec3::Zero();  ///< the same of both sides of all sliding interfaces: 0 where they conserve [N s]
     Vec3 replaced_momentum = Vec3::Zero();  ///< [N s] of fluid that took the place of rock that left, less that of fluid it pushed aside
                                             ///< (also below rock where the mesh turns), without a source in the equations

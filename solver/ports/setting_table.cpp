@@ -171,6 +171,15 @@ SettingTable<QueueSettings> queue_rows() {
         .take();
 }
 
+SettingTable<SoilSettings> soil_rows() {
+    return Rows<SoilSettings>()
+        .add(&SoilSettings::permeability,
+             number("permeability", "m2", "Permeability of the soil by Darcy's law; sand 1e-11, gravel 1e-8. 0: no water moves in it.")
+                 .at_least(0.0)
+                 .at_most(1e-3))
+        .take();
+}
+
 SettingTable<CheckpointSettings> checkpoint_rows() {
     using S = CheckpointSettings;
     return Rows<S>()
@@ -218,6 +227,7 @@ void Setting<Settings>::assign(Settings& settings, const ParameterValue& value) 
 template struct Setting<OutflowSettings>;
 template struct Setting<StopSettings>;
 template struct Setting<QueueSettings>;
+template struct Setting<SoilSettings>;
 template struct Setting<CheckpointSettings>;
 template struct Setting<RecordSettings>;
 template struct Setting<KernelSettings>;
@@ -240,6 +250,12 @@ const SettingTable<StopSettings>& setting_table<StopSettings>() {
 template <>
 const SettingTable<QueueSettings>& setting_table<QueueSettings>() {
     static const SettingTable<QueueSettings> table = queue_rows();
+    return table;
+}
+
+template <>
+const SettingTable<SoilSettings>& setting_table<SoilSettings>() {
+    static const SettingTable<SoilSettings> table = soil_rows();
     return table;
 }
 

@@ -82,6 +82,7 @@ void check_replay(Mistakes& mistakes, const CouplingSettings& settings) {
             mistakes.add(what + " with section replay", "A recording holds velocity and its material derivative in cells", "Remove it");
     };
     if (!settings.has_rock) mistakes.add("section replay without section rock", "Only rock moves in a recorded flow", "Add rock");
+    refuse(settings.soil.has_value(), "section soil");
     refuse(settings.outflow.has_value(), "section outflow");
     refuse(settings.velocity.has_value(), "section velocity");
     refuse(settings.checkpoint.has_value(), "section checkpoint");
@@ -102,6 +103,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         if (settings.queue) mistakes.add(setting_mistakes(*settings.queue, "rock.queue", where));
         if (settings.rock_feed.empty()) mistakes.add("rock.feed is missing", "Rock enters through a feed file", "Name a CSV file");
     }
+    if (settings.soil) mistakes.add(setting_mistakes(*settings.soil, "soil", where));
     if (settings.fates)
         check_fates(mistakes, *settings.fates);
     else if (settings.outflow)

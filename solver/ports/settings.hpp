@@ -136,11 +136,21 @@ struct QueueSettings {
 template <>
 const SettingTable<QueueSettings>& setting_table<QueueSettings>();
 
+/// Soil that stands in the water: a bank, a bed.
+struct SoilSettings {
+    std::filesystem::path surface;  ///< STL [m] that closes it, absolute frame
+    double permeability = 0.0;      ///< [m2]; 0: solid
+};
+
+template <>
+const SettingTable<SoilSettings>& setting_table<SoilSettings>();
+
 /// All settings of couplingProperties for the coupled algorithm. `kernel`, `closures`, `fates` and `stop` count with rock only, but for
 /// the contour of `fates`, which `outflow` needs too.
 struct CouplingSettings {
     bool has_rock = false;
     PatchSettings patches;
+    std::optional<SoilSettings> soil;
     std::filesystem::path rock_feed;     ///< CSV, with rock
     std::optional<QueueSettings> queue;  ///< none: the feed's rock comes in batches
     KernelSettings kernel;

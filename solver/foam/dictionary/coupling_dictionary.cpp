@@ -222,6 +222,10 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
         section.read("outlet", settings.patches.outlet, k_optional);
         section.read("steel", settings.patches.steel, k_optional);
     });
+    read_optional(file, "soil", settings.soil, [&](DictionarySection& section, coupling::SoilSettings& soil) {
+        section.read("surface", soil.surface, folder, k_required);
+        read_settings(section, soil);
+    });
     read_section(file, "rock", k_optional, [&](DictionarySection& section) { read_rock(section, folder, result); });
     read_section(file, "kernel", k_optional, [&](DictionarySection& section) { read_settings(section, settings.kernel); });
     read_section(file, "closures", k_optional, [&](DictionarySection& section) { read_settings(section, settings.closures); });

@@ -22,6 +22,7 @@ struct CouplingDictionary {
 /// Usage
 /// \verbatim
 /// patches { outlet top; steel (blades floor); }               // optional
+/// soil { surface "constant/triSurface/bank.stl"; permeability 0; }                       // optional
 /// rock                                                        // optional
 /// {
 ///     feed     "constant/rockFeed.csv";

@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "solver/foam/session/case_times.hpp"
 #include "solver/foam/single_phase/fields.hpp"
+#include "solver/foam/soil/soil_turbulence.hpp"
 
 #include "directionMixedFvPatchFields.H"
 #include "findRefCell.H"
@@ -40,7 +41,8 @@ double read_density(const dictionary& transport, RockPresence rock) {
 
 }  // namespace
 
-CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock)
+CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock,
+                         const std::optional<coupling::SoilSettings>& soil)
     : mesh_(mesh),
       zones_(zones),
       rotation_(mesh, zones),
@@ -70,6 +72,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
       half_turn_(zones.motion.empty() || word(mesh.ddtScheme("ddt(U)")) != "Euler" ? 0 : mesh.nCells(), Zero),
       state_(IOobject("fluidState", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)) {
     require_supported_case();
+    if (soil) put_in_soil(*soil);
     if (rock_ == RockPresence::present) require_case_for_rock();
     setRefCell(p_, pimple_.dict(), p_ref_cell_, p_ref_value_);
     mesh_.setFluxRequired(p_.name());
@@ -79,6 +82,11 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
     turbulence_.validate();
     restore_state();
     if (rock_ == RockPresence::present && !DuDt_.headerOk()) update_material_acceleration();
+}
+
+void CutterFluid::put_in_soil(const coupling::SoilSettings& settings) {
+    soil_ = std::make_unique<Soil>(mesh_, zones_, settings);
+    sources_.append(new SoilTurbulence(mesh_, soil_->sink()));
 }
 
 void CutterFluid::create_face_velocity() {
@@ -125,6 +133,9 @@ void CutterFluid::begin_step(double travel_limit, double stop_time) {
     Info << "Time = " << time_.timeName() << nl << endl;
     move_mesh();
     update_half_turns();
+    if (!soil_) return;
+    soil_->follow_mesh();
+    soil_->update_sink(time_.deltaTValue(), viscosity_);
 }
 
 void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<const double> void_fraction_new,
@@ -138,6 +149,7 @@ void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<
     while (pimple_.loop()) {
         const tmp<fvVectorMatrix> stress = viscous_matrix();
         tmp<fvVectorMatrix> momentum = momentum_matrix(stress());
+        if (soil_) soil_->update_mobility(momentum().A(), U_);
         predict_velocity(momentum.ref());
         while (pimple_.correct()) correct_pressure(momentum.ref());
         if (rock_ == RockPresence::present && pimple_.finalIter()) update_received(stress());

@@ -1,5 +1,6 @@
 #pragma once
 /// \file The fluid solver: volume-averaged incompressible flow on a moving mesh. Only for .cpp files of this folder.
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "solver/foam/mesh_motion/rigid_rotation.hpp"
 #include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/single_phase/registered_turbulence.hpp"
+#include "solver/foam/soil/soil.hpp"
 #include "solver/ports/fluid_engine.hpp"
 
 #include "dynamicFvMesh.H"
@@ -26,7 +28,7 @@ enum class RockPresence { absent, present };
 
 /// Momentum that the fluid of the whole mesh got in the last step from elsewhere than rock, over density [m4/s].
 struct OutsideMomentum {
-    Foam::vector boundary = Foam::Zero;   ///< pressure, stress and through-flow of all patches that are no interface
+    Foam::vector boundary = Foam::Zero;   ///< pressure, stress and through-flow of all patches that are no interface, and the soil's sink
     Foam::vector interface = Foam::Zero;  ///< the same of both sides of all sliding interfaces
     Foam::vector replaced = Foam::Zero;   ///< of fluid that the step's old void fraction has more than the field before it
     Foam::vector turned = Foam::Zero;     ///< by pressure, stress and convection in turning cells, which the step turns by half its angle
@@ -47,10 +49,12 @@ struct OutsideMomentum {
 ///
 /// the pair {alpha_old*, alpha_f (phi - meshPhi)} obeys the same discrete continuity as {alpha_old, alpha_f phi}: a uniform velocity
 /// stays uniform, rock at rest in the turning zone causes no flow, and transport equations of turbulence have no source.
+///
+/// With soil (class Soil) the momentum has its sink, and its mobility is a factor on velocity, flux and the pressure's coefficient.
 class CutterFluid {
 public:
     /// \param zones  must outlive the fluid
-    CutterFluid(Foam::dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock);
+    CutterFluid(Foam::dynamicFvMesh& mesh, const MovingZones& zones, RockPresence rock, const std::optional<coupling::SoilSettings>& soil);
 
     bool running();
 
@@ -75,6 +79,7 @@ public:
     const Foam::volVectorField& material_acceleration() const { return DuDt_; }
     const Foam::vectorField& received() const { return received_; }
     const OutsideMomentum& outside_momentum() const { return outside_; }
+    const Soil* soil() const { return soil_.get(); }  ///< null without
     Foam::tmp<Foam::volScalarField> effective_viscosity() const { return turbulence_.nuEff(); }
     Foam::tmp<Foam::vectorField> vorticity() const;          ///< curl u [1/s]
     Foam::tmp<Foam::vectorField> stress_divergence() const;  ///< div(tau) [m/s2]
@@ -90,6 +95,7 @@ public:
     Foam::tmp<Foam::scalarField> continuity_residual() const;
 
 private:
+    void put_in_soil(const coupling::SoilSettings& settings);
     void create_face_velocity();
     void start_old_times();
     void evaluate_flux_conditions();
@@ -113,6 +119,8 @@ private:
     void add_exchange(Foam::fvVectorMatrix& momentum);
     void predict_velocity(Foam::fvVectorMatrix& momentum);
     void correct_pressure(Foam::fvVectorMatrix& momentum);
+    Foam::tmp<Foam::volVectorField> pressure_gradient() const;
+    Foam::tmp<Foam::volScalarField> free_time(const Foam::fvVectorMatrix& momentum) const;
     Foam::tmp<Foam::surfaceScalarField> predicted_flux(const Foam::volVectorField& HbyA, const Foam::volScalarField& rAU) const;
     void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
     void close_domain(Foam::surfaceScalarField& flux);
@@ -157,6 +165,8 @@ private:
     Foam::vectorField received_;
     OutsideMomentum outside_;
     Foam::vectorField half_turn_;  // tan(omega dt/2) n of each cell; empty unless an Euler step turns cells
+
+    std::unique_ptr<Soil> soil_;
 
     Foam::IOdictionary state_;
     Foam::label p_ref_cell_ = 0;

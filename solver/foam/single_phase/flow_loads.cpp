@@ -101,6 +101,7 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (2.0 * loads.through_flow);
     loads.domain_surplus = fluid.domain_surplus();
     loads.courant_max = fluid.courant_max();
+    if (fluid.soil() != nullptr) loads.soil_force = fluid.density() * to_vec3(fluid.soil()->force(fluid.velocity()));
     loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);
     loads.interface_impulse = fluid.density() * to_vec3(fluid.outside_momentum().interface);
     loads.replaced_momentum = fluid.density() * to_vec3(fluid.outside_momentum().replaced);

@@ -12,6 +12,7 @@ tmp<fvVectorMatrix> CutterFluid::momentum_matrix(const fvVectorMatrix& stress) {
     tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) +
                                stress);
     if (rock_ == RockPresence::present) add_exchange(matrix.ref());
+    if (soil_) matrix.ref() += fvm::Sp(soil_->sink().internalField(), U_);
     if (!sources_.empty()) matrix.ref() -= sources_(U_);
     matrix.ref().relax();
     sources_.constrain(matrix.ref());
@@ -30,9 +31,13 @@ void CutterFluid::add_exchange(fvVectorMatrix& momentum) {
     momentum -= explicit_source_ + drag_rate_ * U_.oldTime().internalField() + inertia_.internalField() * DuDt_.oldTime().internalField();
 }
 
+tmp<volVectorField> CutterFluid::pressure_gradient() const {
+    return soil_ ? soil_->gradient(p_) : fvc::grad(p_);
+}
+
 void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {
     if (!pimple_.momentumPredictor()) return;
-    solve(momentum == -fvc::grad(p_));
+    solve(momentum == -pressure_gradient());
     sources_.correct(U_);
 }
 

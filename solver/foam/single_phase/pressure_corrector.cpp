@@ -16,7 +16,7 @@ namespace cutterflow::foam {
 using namespace Foam;
 
 void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
-    const volScalarField rAU(1.0 / momentum.A());
+    const volScalarField rAU(free_time(momentum));
     volVectorField H(momentum.H());
     if (!half_turn_.empty()) {
         H.primitiveFieldRef() -= turning_force();
@@ -31,12 +31,17 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     if (pimple_.consistent()) {
         rAtU = 1.0 / max(1.0 / rAU - momentum.H1(), 0.1 / rAU);
         phiHbyA += fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
-        HbyA -= (rAU - rAtU()) * fvc::grad(p_);
+        HbyA -= (rAU - rAtU()) * pressure_gradient();
     }
     add_wall_forces(phiHbyA, rAtU());
     constrainPressure(p_, U_, phiHbyA, rAtU());
 
-    const surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
+    surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
+    if (soil_) {
+        soil_->set_drive(phiHbyA / (fvc::interpolate(rAtU()) * mesh_.magSf()));
+        phiHbyA *= soil_->face_mobility();
+        alpha_rAtUf *= soil_->face_mobility();
+    }
     close_interfaces(phiHbyA, alpha_rAtUf);
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * phiHbyA)().internalField() - surplus);
     while (pimple_.correctNonOrthogonal()) {
@@ -48,12 +53,18 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     }
     report_continuity();
     p_.relax();
-    U_ = HbyA - rAtU * fvc::grad(p_);
+    U_ = HbyA - rAtU * pressure_gradient();
+    if (soil_) U_.primitiveFieldRef() *= soil_->mobility().primitiveField();
     U_.correctBoundaryConditions();
     sources_.correct(U_);
     fvc::correctUf(Uf_, U_, phi_);
     fvc::makeRelative(phi_, U_);
     alphaPhi_ = alphaf_ * phi_;
+}
+
+/// 1/A, A the matrix' diagonal without the soil's sink [s].
+tmp<volScalarField> CutterFluid::free_time(const fvVectorMatrix& momentum) const {
+    return soil_ ? 1.0 / (momentum.A() - soil_->sink()) : 1.0 / momentum.A();
 }
 
 tmp<surfaceScalarField> CutterFluid::predicted_flux(const volVectorField& HbyA, const volScalarField& rAU) const {
@@ -83,8 +94,13 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
 }
 
 /// The two sides of a sliding interface are different polygons, so that their fluxes differ slightly. Half of the difference, shared out by
-/// area, is taken from either side of the predicted flux; the pressure's own part of it is that of the last pressure.
+/// area outside of soil, is taken from either side of the predicted flux; the pressure's own part of it is that of the last pressure.
 void CutterFluid::close_interfaces(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
+    const auto open_area = [this](label patch) {
+        scalarField area(mesh_.magSf().boundaryField()[patch]);
+        if (soil_) area *= soil_->face_mobility().boundaryField()[patch];
+        return area;
+    };
     for (const InterfacePair& pair : interface_pairs(mesh_)) {
         scalar difference = 0.0, area = 0.0;
         for (const label patch : {pair.owner, pair.neighbour}) {
@@ -92,12 +108,12 @@ void CutterFluid::close_interfaces(surfaceScalarField& flux, const surfaceScalar
             const scalarField gradient(p_.boundaryField()[patch].snGrad(mesh_.nonOrthDeltaCoeffs().boundaryField()[patch]));
             difference +=
                 sum(alphaf_.boundaryField()[patch] * flux.boundaryField()[patch] - alpha_rAtUf.boundaryField()[patch] * gradient * size);
-            area += sum(size);
+            area += sum(open_area(patch));
         }
         reduce(difference, sumOp<scalar>());
         reduce(area, sumOp<scalar>());
         for (const label patch : {pair.owner, pair.neighbour})
-            flux.boundaryFieldRef()[patch] -= difference / area * mesh_.magSf().boundaryField()[patch] / alphaf_.boundaryField()[patch];
+            flux.boundaryFieldRef()[patch] -= difference / area * open_area(patch) / alphaf_.boundaryField()[patch];
     }
 }
 

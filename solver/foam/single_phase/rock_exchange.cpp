@@ -73,8 +73,9 @@ void CutterFluid::update_material_acceleration() {
 void CutterFluid::update_received(const fvVectorMatrix& stress) {
     const surfaceVectorField through(fvc::flux(alphaPhi_, U_, "div(phi,U)"));
     received_ = fvc::ddt(alpha_, U_)().primitiveField() + fvc::div(through)().primitiveField() -
-                continuity_residual() / mesh_.V().field() * U_.primitiveField() + fvc::grad(p_)().primitiveField() +
+                continuity_residual() / mesh_.V().field() * U_.primitiveField() + pressure_gradient()().primitiveField() +
                 (stress & U_)().primitiveField();
+    if (soil_) received_ += soil_->sink().primitiveField() * U_.primitiveField();
     update_outside_momentum(stress, through);
     turn_received();
 }
@@ -92,6 +93,7 @@ void CutterFluid::update_outside_momentum(const fvVectorMatrix& stress, const su
                                                      cmptMultiply(stress.boundaryCoeffs()[patch], beyond));
     }
     reduce(boundary, sumOp<vector>());
+    if (soil_) boundary -= soil_->force(U_);
     reduce(interface, sumOp<vector>());
     outside_.boundary = time_.deltaTValue() * boundary;
     outside_.interface = time_.deltaTValue() * interface;

@@ -13,9 +13,10 @@ namespace cutterflow::foam::testing {
 
 class FluidRun {
 public:
-    FluidRun(const std::filesystem::path& case_folder, bool with_rock, const coupling::PatchSettings& patches = {})
+    FluidRun(const std::filesystem::path& case_folder, bool with_rock, const coupling::PatchSettings& patches = {},
+             const std::optional<coupling::SoilSettings>& soil = {})
         : session_(case_folder),
-          engine_(session_, with_rock, patches),
+          engine_(session_, with_rock, patches, soil),
           source(cells(), Vec3::Zero()),
           drag_rate(cells(), 0.0),
           inertia(cells(), 0.0) {}

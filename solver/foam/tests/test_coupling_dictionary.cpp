@@ -78,6 +78,7 @@ void expect_same(const Settings& found, const Settings& written) {
 
 const char* const k_complete = R"(
 patches { outlet suction_end; steel (cutter "backplate"); }
+soil { surface "constant/triSurface/bank.stl"; permeability 1e-9; }
 rock
 {
     feed "constant/rockFeed.csv";
@@ -108,6 +109,9 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     const CouplingDictionary read_back = read("dictionary_complete", k_complete);
     const coupling::CouplingSettings& c = read_back.coupling;
     EXPECT_TRUE(c.has_rock);
+    ASSERT_TRUE(c.soil.has_value());
+    EXPECT_THAT(c.soil->surface.string(), HasSubstr("dictionary_complete"));
+    EXPECT_DOUBLE_EQ(c.soil->permeability, 1e-9);
     EXPECT_TRUE(c.rock_feed.is_absolute());
     EXPECT_THAT(c.rock_feed.string(), HasSubstr("dictionary_complete"));
     EXPECT_EQ(c.rock_feed.string().find("processor"), std::string::npos);

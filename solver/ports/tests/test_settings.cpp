@@ -39,9 +39,10 @@ TEST(Settings, of_a_replay_ask_for_nothing_that_a_recording_lacks) {
     settings.replay = "recording";
     settings.record = RecordSettings{0.0, 1.0, 48, 6};
     settings.velocity.emplace();
+    settings.soil = SoilSettings{"bank.stl", 0.0};
     settings.closures.lift = "mei";
     settings.closures.viscous_force = false;
-    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 6u);  // outflow, velocity, checkpoint, record, lift, viscous force
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 7u);  // soil, outflow, velocity, checkpoint, record, lift, viscous force
     CouplingSettings plain = good_settings();
     plain.replay = "recording";
     plain.outflow.reset();
@@ -71,9 +72,10 @@ TEST(Settings, name_every_mistake) {
     settings.fates->bin_width = 0.0;
     settings.stop->undecided = 1.5;
     settings.checkpoint->keep = 0;
+    settings.soil = SoilSettings{"bank.stl", -1.0};
     settings.rock_feed.clear();
     const auto mistakes = check_settings(settings, {0.0, 1e-6}, "constant/couplingProperties");
-    ASSERT_EQ(mistakes.size(), 8u);
+    ASSERT_EQ(mistakes.size(), 9u);
     for (const Mistake& mistake : mistakes) {
         const bool of_fluid = mistake.what.rfind("rho", 0) == 0;
         EXPECT_EQ(mistake.where, of_fluid ? "constant/transportProperties" : "constant/couplingProperties");
@@ -86,6 +88,7 @@ TEST(Settings, name_every_mistake) {
     EXPECT_TRUE(names("rho = 0"));
     EXPECT_TRUE(names("closures.drag = \"stokes\""));
     EXPECT_TRUE(names("kernel.gamma = 0"));
+    EXPECT_TRUE(names("soil.permeability = -1"));
     EXPECT_TRUE(names("checkpoint.keep = 0"));
 }
 

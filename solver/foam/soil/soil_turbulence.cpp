@@ -1,0 +1,31 @@
+#include "solver/foam/soil/soil_turbulence.hpp"
+
+#include "fvMatrices.H"
+#include "fvm.H"
+
+namespace cutterflow::foam {
+
+using namespace Foam;
+
+SoilTurbulence::SoilTurbulence(const fvMesh& mesh, const volScalarField& sink)
+    : fv::option("soil", "soilTurbulence", dictionary(), mesh), sink_(sink) {
+    DynamicList<word> fields;
+    for (const word& name : {word("k"), word("epsilon")})
+        if (mesh.foundObject<volScalarField>(name)) fields.append(name);
+    fieldNames_.transfer(fields);
+    applied_.setSize(fieldNames_.size(), false);
+}
+
+void SoilTurbulence::addSup(fvMatrix<scalar>& equation, const label) {
+    equation -= fvm::Sp(sink_.internalField(), equation.psi());
+}
+
+void SoilTurbulence::addSup(const volScalarField&, fvMatrix<scalar>& equation, const label field) {
+    addSup(equation, field);
+}
+
+void SoilTurbulence::addSup(const volScalarField&, const volScalarField&, fvMatrix<scalar>& equation, const label field) {
+    addSup(equation, field);
+}
+
+}  // namespace cutterflow::foam
