@@ -19,6 +19,9 @@ constexpr double k_carry_share = 0.5;
 /// Rock and interface travel at most this share of kernel width and cell size per step.
 constexpr double k_travel_share = 0.25;
 
+/// Walls take the rock that they sweep from a cell itself up to this share of the cell's volume, so that the cell keeps fluid.
+constexpr double k_swept_share = 0.25;
+
 std::vector<double> volumes_of(const Rocks& rocks) {
     std::vector<double> volumes;
     for (const double d : rocks.diameter) volumes.push_back(sphere_volume(d));
@@ -350,20 +353,26 @@ void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
         }
 }
 
-/// The old void fraction on the present cells. Walls move by sweeping cells: with the wall's void fraction alpha_w the fluid they
-/// displace is sum alpha_w v.S, and the rock of the swept space, sum (1 - alpha_w) v.S dt, was there before and is no more. So the old
-/// kernel of each rock holds, on the present cells, its volume less what was swept:
-///   V_old = V (1 + dt sum_c w_c v.S_c).
-/// Without it a blade that passes rock would be a source of fluid.
+/// The old void fraction on the present cells. Walls move by sweeping cells: with the void fraction alpha_c beside the wall the fluid they
+/// displace is alpha_c v.S_c, and the rock of the swept space, (1 - alpha_c) v.S_c dt, was there before and is no more. With s_c = dt v.S_c / V_c
+/// a cell held before the step what the old kernels laid there and what was swept of the present ones:
+///   solid_old_c = sum_p V_p (w_old_pc + w_pc s_c).
+/// What exceeds the largest share of a cell is laid over the rock's old kernel. Without the swept part a blade that passes rock would be a
+/// source of fluid; laid over the kernel as a whole, it would be one around the blade.
 std::vector<double> KernelCoupling::void_fraction_before(std::vector<double> volume) const {
     const gsl::span<const double> retreat = fluid_.wall_retreat();
-    std::vector<double> swept(volume.size(), 0.0);
+    const gsl::span<const double> cell_volume = mapping_.cells().volumes;
+    std::vector<double> solid_fraction(carry_.size(), 0.0), beyond(volume.size(), 0.0);
     for (std::size_t p = 0; p < present_.size(); ++p)
-        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i)
-            swept[p] += present_.deposit[i] * retreat[static_cast<std::size_t>(present_.cell[i])];
-    communicator_.sum(swept);
-    for (std::size_t p = 0; p < volume.size(); ++p) volume[p] *= 1.0 + fluid_.time_step() * swept[p];
-    std::vector<double> solid_fraction(retreat.size(), 0.0);
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(present_.cell[i]);
+            const double swept = fluid_.time_step() * retreat[c] / cell_volume[c];
+            const double here = std::clamp(swept, -k_swept_share, k_swept_share);
+            solid_fraction[c] += volume[p] * present_.deposit[i] * here;
+            beyond[p] += present_.deposit[i] * (swept - here) * cell_volume[c];
+        }
+    communicator_.sum(beyond);
+    for (std::size_t p = 0; p < volume.size(); ++p) volume[p] *= 1.0 + beyond[p];
     deposit(old_, volume, solid_fraction);
     return void_fraction_of(solid_fraction);
 }

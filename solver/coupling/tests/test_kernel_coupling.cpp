@@ -320,6 +320,27 @@ TEST(Rotor, takes_the_rock_of_the_space_its_blades_sweep_from_the_old_void_fract
     }
 }
 
+TEST(Rotor, takes_the_swept_rock_from_the_cells_that_the_blades_sweep) {
+    // Rock at rest: beside the steel the fluid that is displaced with the void fraction there and the void fraction's change add up to what
+    // the steel would displace of water alone, in each cell. Elsewhere nothing changes.
+    Rig rig(box(0.05, 0.01), {}, 2e-3);
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+        const Vec3& x = rig.fluid.mesh.centres[c];
+        if (x[2] < -0.04) rig.fluid.retreat[c] = x[0] < 0.0 ? -3e-5 : 2e-5;
+    }
+    rig.coupling.insert({rock(1, Vec3(-0.012, 0.003, -0.036), 0.02, Vec3::Zero())});
+    rig.step();
+    const double dt = rig.fluid.time_step();
+    double beside = 0.0;
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c) {
+        const double solid = 1.0 - rig.fluid.void_fraction[c];
+        const double change = rig.fluid.mesh.volumes[c] * (rig.fluid.void_fraction[c] - rig.fluid.void_fraction_old[c]) / dt;
+        EXPECT_NEAR(change, solid * rig.fluid.retreat[c], 1e-9 * 3e-5) << c;
+        beside = std::max(beside, std::abs(solid * rig.fluid.retreat[c]));
+    }
+    EXPECT_GT(beside, 1e-2 * 3e-5);
+}
+
 TEST(Exchange, counts_cells_that_hold_more_rock_than_is_allowed) {
     Rig rig(box(0.02, 0.01), {}, 1e-4);
     std::vector<FeedRock> due;
