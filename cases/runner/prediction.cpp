@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -22,8 +23,8 @@ constexpr double k_gravity = 9.81;
 constexpr double k_rock_share = 1.32;
 constexpr double k_flow_per_rank = 0.10;
 constexpr double k_rock_per_rank = 0.25;
-// Rock may travel this share of a cell in a step; the smallest cells that it meets at the cutter measure this share of
-// the background's (docs/design/003-meshing.md).
+// Rock may travel this share of its kernel width in a step. The smallest cells that it meets at the cutter measure this share of the
+// background's (docs/design/003-meshing.md).
 constexpr double k_travel_share = 0.25;
 constexpr double k_cell_at_rock = 0.387;
 
@@ -45,9 +46,18 @@ double first_release(const Study& study) {
     return first;
 }
 
-/// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed. Kernels are wider than a cell.
-double step_of_rock(double tip_speed, double cell_size) {
-    return k_travel_share * k_cell_at_rock * cell_size / tip_speed;
+double smallest_rock(const Study& study) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const FeedRequest& feed : study.feeds)
+        for (const FeedClass& each : feed.classes) smallest = std::min(smallest, each.diameter);
+    return smallest;
+}
+
+/// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed.
+double step_of_rock(double tip_speed, double cell_size, const Study& study) {
+    const double width =
+        std::max(study.kernel.gamma * smallest_rock(study), study.kernel.min_width_in_cells * k_cell_at_rock * cell_size);
+    return k_travel_share * width / tip_speed;
 }
 
 }  // namespace
@@ -76,7 +86,7 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     prediction.revolutions = study.run.max_revolutions;
     prediction.flow_step = std::min(plan.prediction.time_step, largest_time_step(omega));
     prediction.rock_step = prediction.flow_step;
-    if (!study.feeds.empty()) prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size));
+    if (!study.feeds.empty()) prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size, study));
     prediction.first_release = first_release(study);
     const double flow_revolutions = prediction.first_release / study.period();
     const double rock_revolutions = prediction.revolutions - flow_revolutions;

@@ -79,22 +79,20 @@ SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& 
             frames.to_absolute(nearest.zone, centres_[nearest.zone][nearest.index])};
 }
 
-double SizeField::interface_passage_time(gsl::span<const ZoneMotion> moving) const {
-    double shortest = std::numeric_limits<double>::infinity();
+double SizeField::interface_speed(gsl::span<const ZoneMotion> moving) const {
+    double fastest = 0.0;
     std::vector<Neighbour> found;
     for (Zone zone = 1; zone < trees_.size(); ++zone) {
         const ZoneMotion& motion = moving[zone - 1];
         if (motion.speed == 0.0) continue;
         for (std::size_t c = 0; c < centres_[zone].size(); ++c) {
             const Vec3& centre = centres_[zone][c];
-            const double size = sizes_[zone][c];
             trees_[k_still_zone].nearest(centre, 1, found);
-            if (found.empty() || found[0].squared_distance > std::pow(k_interface_reach * size, 2)) continue;
-            const double speed = std::abs(motion.speed) * motion.axis.direction.cross(centre - motion.axis.origin).norm();
-            if (speed > 0.0) shortest = std::min(shortest, size / speed);
+            if (found.empty() || found[0].squared_distance > std::pow(k_interface_reach * sizes_[zone][c], 2)) continue;
+            fastest = std::max(fastest, std::abs(motion.speed) * motion.axis.direction.cross(centre - motion.axis.origin).norm());
         }
     }
-    return shortest;
+    return fastest;
 }
 
 }  // namespace cutterflow::coupling

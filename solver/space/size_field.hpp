@@ -27,9 +27,8 @@ public:
 
     double smallest() const { return smallest_; }
 
-    /// Smallest size over speed [s] of a moving zone's cells along its interface: the time in which the interface turns by one cell;
-    /// infinity when nothing turns.
-    double interface_passage_time(gsl::span<const ZoneMotion> moving) const;
+    /// Largest speed [m/s] at which a moving zone's cells pass the still ones along their interface; 0 when nothing turns.
+    double interface_speed(gsl::span<const ZoneMotion> moving) const;
 
 private:
     std::vector<std::vector<Vec3>> centres_;  // by zone

@@ -16,7 +16,7 @@ namespace {
 /// as in a gas): with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
 constexpr double k_carry_share = 0.5;
 
-/// Rock and interface travel at most this share of kernel width and cell size per step.
+/// Rock and interface travel at most this share of the kernel width per step.
 constexpr double k_travel_share = 0.25;
 
 /// Walls take the rock that they sweep from a cell itself up to this share of the cell's volume, so that the cell keeps fluid.
@@ -91,7 +91,7 @@ KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProp
       hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
       lift_(physics::find_lift_law(settings.closures.lift)),
       mapping_(fluid.cells(), fluid.steel(), fluid.moving_zones(), settings.kernel, communicator),
-      interface_passage_time_(mapping_.sizes().interface_passage_time(fluid.moving_zones())),
+      interface_speed_(mapping_.sizes().interface_speed(fluid.moving_zones())),
       carry_(fluid.cells().centres.size(), Vec3::Zero()) {
     map_present_rock();
 }
@@ -211,18 +211,16 @@ void KernelCoupling::sample() {
 
 double KernelCoupling::travel_limit() const {
     const Rocks& rocks = dem_.rocks();
-    if (rocks.size() == 0) return std::numeric_limits<double>::infinity();
-    const bool feels = fluid_.feels_rock();
-    double limit = feels ? k_travel_share * interface_passage_time_ : std::numeric_limits<double>::infinity();
+    double limit = std::numeric_limits<double>::infinity();
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         Vec3 cell_velocity = Vec3::Zero();
         if (present_.zone[p] != k_still_zone) {
             const ZoneMotion& motion = fluid_.moving_zones()[present_.zone[p] - 1];
             cell_velocity = motion.speed * motion.axis.direction.cross(rocks.position[p] - motion.axis.origin);
         }
-        const double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
-        const double length = feels ? std::min(present_.width[p], present_.cell_size[p]) : present_.width[p];
-        if (speed > 0.0) limit = std::min(limit, k_travel_share * length / speed);
+        double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
+        if (fluid_.feels_rock()) speed = std::max(speed, interface_speed_);
+        if (speed > 0.0) limit = std::min(limit, k_travel_share * present_.width[p] / speed);
     }
     return limit;
 }

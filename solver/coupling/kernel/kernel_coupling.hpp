@@ -66,9 +66,9 @@ public:
     /// Samples the flow at every rock on the present mesh.
     void sample();
 
-    /// Longest step [s] in which rock travels a quarter of its kernel width and of the cells around it, relative to the cells of either
-    /// zone, and the rotor interface a quarter of a cell; infinity without rock. In a flow that does not feel rock a quarter of the kernel
-    /// alone: nothing is displaced, and fields that rock samples are smooth on it.
+    /// Longest step [s] in which rock travels a quarter of its kernel width, relative to the cells of either zone, and in a flow that feels
+    /// rock the rotor interface a quarter of the narrowest; infinity without rock. Kernels are at least 1.5 cells wide, and what moves with
+    /// the rock is smooth on them.
     double travel_limit() const;
 
     /// Moves the rocks over the fluid's time step with the sampled flow.
@@ -127,7 +127,7 @@ private:
     physics::HindranceLaw hindrance_;
     physics::LiftLaw lift_;  // null: none
     Mapping mapping_;
-    double interface_passage_time_;
+    double interface_speed_;
 
     Stencils present_;                       // of dem_.rocks() on the present mesh
     Stencils old_;                           // of the same rocks where they were when the step began
