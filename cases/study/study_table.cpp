@@ -230,7 +230,7 @@ ParameterTable run_rows() {
         number(k_case_stage, "run.max_courant", "-", "Largest Courant number of the flow relative to the mesh.")
             .at_least(0.01)
             .at_most(5.0)
-            .by_default(0.9),
+            .by_default(1.8),
         setting<coupling::CheckpointSettings>("run.checkpoint_interval_s", "interval").derived("a quarter of a revolution"),
         number(k_case_stage, "run.write_interval_s", "s",
                "Simulated time between fields and rock positions for ParaView; a run has at most 10,000 of them.")

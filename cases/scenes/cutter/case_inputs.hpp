@@ -29,7 +29,7 @@ enum class ConvectionScheme {
 /// How the transient flow is solved. docs/design/007-flow-settings.md has the measurements behind the defaults.
 struct FlowNumerics {
     ConvectionScheme convection = ConvectionScheme::linear_upwind;
-    double max_courant = 0.9;
+    double max_courant = 1.8;
     int outer_correctors = 1;
     int pressure_correctors = 2;
 };
