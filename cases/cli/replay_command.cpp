@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 struct ReplayOptions {
     std::vector<std::string> runs;
+    std::string study;
     int count = 20;
     std::string output;
     bool resume = false;
@@ -40,9 +41,9 @@ void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::
 
 }  // namespace
 
-std::string replay_lines(const std::vector<fs::path>& runs, int count, const fs::path& folder, bool resume) {
+std::string replay_lines(const std::vector<fs::path>& runs, const fs::path& study, int count, const fs::path& folder, bool resume) {
     const cases::ReplaySettings settings{
-        runs, count, folder, installation().programs / "cutterFoam", std::max(1, cases::available_cores()), resume};
+        runs, study, count, folder, installation().programs / "cutterFoam", std::max(1, cases::available_cores()), resume};
     try {
         const cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
@@ -63,13 +64,17 @@ void add_replay(CLI::App& app) {
         ->add_option("run_directories", options->runs,
                      "Runs with run.record_revolutions above 0, repeats of one study; the first one's flow is replayed")
         ->required();
+    command->add_option(
+        "--study", options->study,
+        "Study whose rock is replayed in the one run's flow; cutter, rotor, suction, tank, mesh and fluid may be left out");
     command->add_option("-n,--count", options->count, "Placements beside those of the runs")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("-o,--output", options->output, "Folder of the replays")->required();
     command->add_flag("--resume", options->resume, "Go on with a stopped call, or add placements to it");
     command->callback([options] {
-        std::cout << replay_lines({options->runs.begin(), options->runs.end()}, options->count, options->output, options->resume);
+        std::cout << replay_lines({options->runs.begin(), options->runs.end()}, options->study, options->count, options->output,
+                                  options->resume);
     });
 }
 

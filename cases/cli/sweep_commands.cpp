@@ -96,7 +96,7 @@ void replay_settings(const SweepOptions& options, const std::vector<cases::Sweep
     for (const auto& [name, runs] : runs_by_setting(points, done)) {
         const fs::path replays = folder / ("replays_" + name);
         say(fmt::format("{}: {} replays in {}", name, options.replays, replays.string()));
-        std::cout << name << '\n' << replay_lines(runs, options.replays, replays, fs::exists(replays));
+        std::cout << name << '\n' << replay_lines(runs, {}, options.replays, replays, fs::exists(replays));
     }
 }
 

@@ -70,6 +70,47 @@ void require_recordings(const std::vector<fs::path>& runs) {
     mistakes.refuse();
 }
 
+/// Relative difference of two numbers that were written as text.
+constexpr double k_same = 1e-9;
+
+bool same(const ParameterValue& a, const ParameterValue& b) {
+    const double *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
+    return x != nullptr && y != nullptr ? std::abs(*x - *y) <= k_same * std::max(std::abs(*x), std::abs(*y)) : a == b;
+}
+
+bool belongs_to_flow(const Parameter& parameter) {
+    if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage) return true;
+    const std::string section = parameter.key.substr(0, parameter.key.find('.'));
+    return section == "rotor" || section == "suction" || section == "fluid";
+}
+
+/// The table of a study of which all that belongs to the flow may be left out.
+ParameterTable rock_study_table() {
+    ParameterTable table = study_table();
+    for (Parameter& parameter : table) {
+        if (!belongs_to_flow(parameter)) continue;
+        parameter.default_value.reset();
+        parameter.optional = true;
+    }
+    return table;
+}
+
+/// The rock of another study in a run's flow.
+void take_study(RecordedRun& run, const fs::path& file) {
+    ParameterValues values = read_parameters(rock_study_table(), file);
+    // The steel is the run's own copy; a study names the file that it was made from, relative to itself.
+    if (values.has("cutter.file"))
+        values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
+    Mistakes mistakes(file.string());
+    mistakes.add(check_same_flow(run.values, values, file));
+    for (const Parameter& parameter : study_table())
+        if (belongs_to_flow(parameter) && run.values.has(parameter.key)) values.set(parameter.key, *run.values.find(parameter.key));
+    mistakes.add(check_file_rules(values, file));
+    mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
+    mistakes.refuse();
+    run.values = resolve_study(values, run.head.size);
+}
+
 /// The study of one replay. \param index  from 1 on; 0 is the run's own placement
 ParameterValues values_of(const RecordedRun& run, int index) {
     ParameterValues values = run.values;
@@ -115,7 +156,7 @@ void evaluate(const fs::path& folder, Replay& replay) {
 class Replays {
 public:
     Replays(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) : settings_(settings), runs_(runs) {
-        for (std::size_t r = 0; r < runs.size(); ++r) add(r, 0);
+        for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) add(r, 0);
         for (int index = 1; index <= settings.count; ++index) add(0, index);
     }
 
@@ -190,6 +231,7 @@ private:
 void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
     nlohmann::json plan;
     for (const RecordedRun& run : runs) plan["runs"].push_back(run.folder.string());
+    if (!settings.study.empty()) plan["runs"].push_back(fs::absolute(settings.study).lexically_normal().string());
     const fs::path file = settings.folder / k_plan;
     const bool is_there = fs::exists(settings.folder) && !fs::is_empty(settings.folder);
     if (is_there && !fs::exists(file))
@@ -246,11 +288,29 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
 
 }  // namespace
 
+std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const fs::path& file) {
+    std::vector<Mistake> mistakes;
+    for (const Parameter& parameter : study_table()) {
+        const ParameterValue *of_run = recorded.find(parameter.key), *of_study = study.find(parameter.key);
+        if (!belongs_to_flow(parameter) || of_run == nullptr || of_study == nullptr || same(*of_run, *of_study)) continue;
+        mistakes.push_back({file.string(), fmt::format("{} = {}", parameter.key, toml_text(*of_study)),
+                            fmt::format("A replay takes the flow as the run recorded it, with {}", toml_text(*of_run)),
+                            "Give the run's value, or run the study itself"});
+    }
+    return mistakes;
+}
+
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say) {
     require_openfoam_path(settings.folder);
     require_recordings(settings.runs);
     std::vector<RecordedRun> runs;
     for (const fs::path& run : settings.runs) runs.push_back(open_run(run));
+    if (!settings.study.empty()) {
+        if (runs.size() > 1)
+            throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow",
+                            "Name one run");
+        take_study(runs.front(), settings.study);
+    }
     open_folder(settings, runs);
 
     ReplayResults results;

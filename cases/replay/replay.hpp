@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/parameters/parameter.hpp"
 #include "postproc/analysis/replay_estimate.hpp"
 
 namespace cutterflow::cases {
 
 struct ReplaySettings {
     std::vector<std::filesystem::path> runs;  ///< run directories with a recording, repeats of one study; the first one's flow is replayed
+    std::filesystem::path study;              ///< whose rock is replayed, in the flow of the one run; empty: the runs' own
     int count = 20;                           ///< replays with placements of their own, beside one per run with that run's placement
     std::filesystem::path folder;             ///< of the results; new, or with `resume` that of an interrupted call
     std::filesystem::path solver;             ///< cutterFoam
@@ -37,8 +39,12 @@ struct ReplayResults {
     postproc::ReplayEstimate estimate;
 };
 
+/// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,
+/// and sections rotor, suction and fluid. Both are resolved. \param file  of the study, for messages
+std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const std::filesystem::path& file);
+
 /// Runs every replay and writes replays.csv and replays.json into the folder.
-/// \throws UserError    with every run that has no recording or is of another study, and as RunDirectory
+/// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, and as RunDirectory
 /// \throws ToolError    when a replay fails
 /// \throws Interrupted  when the user stops it; finished replays are kept
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);

@@ -1,0 +1,40 @@
+// Whose rock may be replayed in a recorded flow.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cases/replay/replay.hpp"
+#include "cases/study/study.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+ParameterValues study(const std::string& more) {
+    return parse_parameters(study_table(),
+                            "[cutter]\nfile = \"/head.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"
+                            "mouth_offset_m = 0.22\n" +
+                                more,
+                            "study.toml");
+}
+
+TEST(SameFlow, other_rock_another_ladder_and_a_longer_run_are_the_same_flow) {
+    const ParameterValues other = study(
+        "[ladder]\ninclination_deg = 30\n[run]\nmax_revolutions = 5\nmax_courant = 0.5\n[kernel]\ngamma = 2\n"
+        "[[feed]]\ncount = 7\n[[feed.class]]\ndiameter_m = 0.002\ndensity_kg_m3 = 1050\n");
+    EXPECT_THAT(check_same_flow(study(""), other, "other.toml"), ::testing::IsEmpty());
+}
+
+TEST(SameFlow, every_key_of_another_flow_is_named) {
+    ParameterValues other = study("[fluid]\ndensity_kg_m3 = 1025\n[mesh]\npreset = \"standard\"\n");
+    other.set("rotor.speed_rpm", 59.0);
+    other.set("cutter.file", std::string("/other.stl"));
+    other.set("suction.mouth_offset_m", 0.22 * (1.0 + 1e-12));  // written as text and read again
+    std::string all;
+    for (const Mistake& mistake : check_same_flow(study(""), other, "other.toml")) all += mistake.text() + "\n";
+    for (const char* part : {"rotor.speed_rpm = 59", "fluid.density_kg_m3 = 1025", "mesh.preset = \"standard\"",
+                             "cutter.file = \"/other.stl\"", "as the run recorded it, with 60"})
+        EXPECT_THAT(all, ::testing::HasSubstr(part));
+    EXPECT_THAT(all, ::testing::Not(::testing::HasSubstr("mouth_offset")));
+}
+
+}  // namespace
+}  // namespace cutterflow::cases
