@@ -64,9 +64,8 @@ void add_replay(CLI::App& app) {
         ->add_option("run_directories", options->runs,
                      "Runs with run.record_revolutions above 0, repeats of one study; the first one's flow is replayed")
         ->required();
-    command->add_option(
-        "--study", options->study,
-        "Study whose rock is replayed in the one run's flow; cutter, rotor, suction, tank, mesh and fluid may be left out");
+    command->add_option("--study", options->study,
+                        "Study whose rock is replayed in the one run's flow; cutter, rotor, suction, tank, mesh and fluid may be left out");
     command->add_option("-n,--count", options->count, "Placements beside those of the runs")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();

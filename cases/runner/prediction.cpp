@@ -55,8 +55,7 @@ double smallest_rock(const Study& study) {
 
 /// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed.
 double step_of_rock(double tip_speed, double cell_size, const Study& study) {
-    const double width =
-        std::max(study.kernel.gamma * smallest_rock(study), study.kernel.min_width_in_cells * k_cell_at_rock * cell_size);
+    const double width = std::max(study.kernel.gamma * smallest_rock(study), study.kernel.min_width_in_cells * k_cell_at_rock * cell_size);
     return k_travel_share * width / tip_speed;
 }
 
@@ -86,7 +85,8 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     prediction.revolutions = study.run.max_revolutions;
     prediction.flow_step = std::min(plan.prediction.time_step, largest_time_step(omega));
     prediction.rock_step = prediction.flow_step;
-    if (!study.feeds.empty()) prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size, study));
+    if (!study.feeds.empty())
+        prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size, study));
     prediction.first_release = first_release(study);
     const double flow_revolutions = prediction.first_release / study.period();
     const double rock_revolutions = prediction.revolutions - flow_revolutions;

@@ -352,8 +352,8 @@ void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
 }
 
 /// The old void fraction on the present cells. Walls move by sweeping cells: with the void fraction alpha_c beside the wall the fluid they
-/// displace is alpha_c v.S_c, and the rock of the swept space, (1 - alpha_c) v.S_c dt, was there before and is no more. With s_c = dt v.S_c / V_c
-/// a cell held before the step what the old kernels laid there and what was swept of the present ones:
+/// displace is alpha_c v.S_c, and the rock of the swept space, (1 - alpha_c) v.S_c dt, was there before and is no more. With s_c = dt v.S_c
+/// / V_c a cell held before the step what the old kernels laid there and what was swept of the present ones:
 ///   solid_old_c = sum_p V_p (w_old_pc + w_pc s_c).
 /// What exceeds the largest share of a cell is laid over the rock's old kernel. Without the swept part a blade that passes rock would be a
 /// source of fluid; laid over the kernel as a whole, it would be one around the blade.

@@ -16,7 +16,8 @@ using namespace cutterflow;
 using namespace cutterflow::validation;
 
 constexpr double k_diameter = 0.02, k_speed = 0.5;
-/// In it the interface, at 0.754 m/s, turns by a quarter of the kernel width, which is the rock's diameter: 0.43 cells, of the fine mesh 0.86.
+/// In it the interface, at 0.754 m/s, turns by a quarter of the kernel width, which is the rock's diameter: 0.43 cells, of the fine mesh
+/// 0.86.
 constexpr double k_longest_step = 6.5e-3;
 constexpr double k_setting_off = 0.015;  // [s] in which the impulse of setting off in water at rest dies out
 
