@@ -294,6 +294,11 @@ StageOutcome Pipeline::make_case() {
     for (const fs::path& file :
          write_case(directory_.path(), case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks)))
         written.push_back(file.string());
+    if (study.bank) {  // also to look at
+        geometry::write_stl(bank_surface(study, head.size, head.with_backplate(study.suction.gap)),
+                            directory_.path() / names::bank_surface);
+        written.emplace_back(names::bank_surface);
+    }
     write_resolved_study(head.size);
     const geometry::TriangleSurface cutter = geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface)));
     const Prediction prediction = predict(study, head.size, cutter, {settings_.ranks, machine_slowness()});

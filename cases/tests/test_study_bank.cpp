@@ -134,11 +134,26 @@ TEST(StudyBank, and_its_keys_need_each_other) {
     EXPECT_THROW(values_of("[swing]\nspeed_m_min = -1\n"), UserError);
 }
 
-TEST(StudyBank, is_warned_of_while_rock_and_water_do_not_feel_it) {
+constexpr const char* k_bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
+constexpr const char* k_rock = "[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\ndensity_kg_m3 = 2650\n";
+
+TEST(StudyBank, is_warned_of_while_rock_does_not_feel_it) {
     const auto warnings = [](const std::string& more) { return texts(study_warnings(resolved_of(more), head_size(model_head()))); };
     EXPECT_FALSE(has(warnings(""), "bank"));
-    EXPECT_TRUE(has(warnings("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n"),
-                    "study.toml:10: bank.model = \"wall\". Rock and water do not feel the bank yet"));
+    EXPECT_FALSE(has(warnings(k_bank), "bank"));
+    EXPECT_TRUE(has(warnings(std::string(k_bank) + k_rock),
+                    "study.toml:10: bank.model = \"wall\". Rock and the water of a run with rock do not feel the bank yet"));
+}
+
+TEST(StudyBank, is_felt_by_water_without_rock) {
+    const geometry::Head& head = model_head();
+    const auto feels = [&](const std::string& more) {
+        const Study study = make_study(resolved_of(more), "/tmp");
+        return solver_settings(case_inputs_of(study, head_size(head), head_contour(head, study.suction.gap), 1)).soil.has_value();
+    };
+    EXPECT_FALSE(feels(""));
+    EXPECT_TRUE(feels(k_bank));
+    EXPECT_FALSE(feels(std::string(k_bank) + k_rock));
 }
 
 }  // namespace

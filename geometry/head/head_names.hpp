@@ -20,6 +20,7 @@ inline constexpr const char* stator_interface_patch = "stator_interface";  ///< 
 inline constexpr const char* cutter_surface = "geometry/cutter.stl";  ///< in metres, in the run's frame
 inline constexpr const char* backplate_surface = "geometry/backplate.stl";
 inline constexpr const char* suction_pipe_surface = "geometry/suction_pipe.stl";
+inline constexpr const char* bank_surface = "geometry/bank.stl";  ///< soil that stands beside the head
 inline constexpr const char* contour_table = "geometry/contour.csv";
 inline constexpr const char* contour_for_solver = "constant/contour.csv";
 

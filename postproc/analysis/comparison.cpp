@@ -502,10 +502,11 @@ std::map<std::string, std::vector<std::string>> differing_keys(const Comparison&
 }
 
 Scope scope_of(const Comparison& comparison) {
-    Scope scope{false, true};
+    Scope scope{false, true, true};
     for (const ComparedRun& compared : comparison.runs) {
         const Scope run = scope_of(compared.run);
-        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting};
+        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting,
+                 scope.flow_feels_bank && run.flow_feels_bank};
     }
     return scope;
 }

@@ -3,8 +3,18 @@
 namespace cutterflow::postproc {
 
 Scope scope_of(const RunData& run) {
-    return {run.rock.has_value(), run.operating_point.fed_by_cutting};
+    return {run.rock.has_value(), run.operating_point.fed_by_cutting, !run.rock && run.operating_point.has_bank};
 }
+
+namespace {
+
+const char* breach(const Scope& scope) {
+    if (scope.flow_feels_bank) return "the bank stands still in the water as the swings before left it; it does not breach";
+    if (scope.fed_by_cutting) return "rock and water do not feel the bank yet; the open side lets rock out that a bank would hold back";
+    return "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back";
+}
+
+}  // namespace
 
 std::vector<NotModelled> not_modelled(const Scope& scope) {
     std::vector<NotModelled> table{
@@ -12,9 +22,7 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
          scope.fed_by_cutting
              ? "rock comes loose from the cut face ahead of the blades, as fast as the head swings; forces of cutting are not computed"
              : "rock is released loose between the blades; spillage by cutting (rock never taken into the head) is not counted"},
-        {"bank and breach", scope.fed_by_cutting
-                                ? "rock and water do not feel the bank yet; the open side lets rock out that a bank would hold back"
-                                : "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
+        {"bank and breach", breach(scope)},
         {"bed", "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
         {"hauling (swing motion)", "the head turns but does not travel; rock is not swept into the head by the swing"},
         {"pick points and adapters", "only what the cutter's surface file contains; teeth missing there affect neither flow nor rock"},
@@ -43,7 +51,11 @@ const std::string& scope_sentence(const Scope& scope) {
         "This is the flow of clear water through a turning head with imposed discharge, without bank, hauling and rock; it shows where "
         "water "
         "leaves the head, not how much rock would, and this report names no best speed.";
-    if (!scope.with_rock) return flow;
+    static const std::string flow_at_bank =
+        "This is the flow of clear water through a turning head with imposed discharge beside a bank that stands still, without hauling "
+        "and "
+        "rock; it shows where water leaves the head, not how much rock would, and this report names no best speed.";
+    if (!scope.with_rock) return scope.flow_feels_bank ? flow_at_bank : flow;
     return scope.fed_by_cutting ? cutting : rock;
 }
 

@@ -109,6 +109,7 @@ public:
         return text.str();
     }
     bool is_fed_by_cutting() const { return root_["feed"][0]["kind"].value_or(std::string()) == "cut_face"; }
+    bool has_bank() const { return root_["bank"]["model"].value_or(std::string()) == "wall"; }
     int seed() const { return root_["feed"][0]["seed"].value_or(0); }
     void require_all() {
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
@@ -165,6 +166,7 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.swing_direction = study.text("swing.direction", false);
     point.mesh_preset = study.text("mesh.preset", false);
     point.fed_by_cutting = study.is_fed_by_cutting();
+    point.has_bank = study.has_bank();
     return point;
 }
 

@@ -33,6 +33,7 @@ struct OperatingPoint {
     std::string swing_direction;  ///< may be empty
     std::string mesh_preset;      ///< may be empty
     bool fed_by_cutting = false;  ///< rock comes all the time, from a cut face
+    bool has_bank = false;        ///< soil stands beside the head
     double revolution_s() const { return 60.0 / speed_rpm; }
     double angular_speed() const { return rpm_to_rad_s(speed_rpm); }  ///< [rad/s], > 0
 };

@@ -60,6 +60,10 @@ meshing::FoamDictionary rock_section(const coupling::CouplingSettings& settings,
     return rock.add("contact", contact_section(dem.contact)).add("walls", wall_list(dem.walls)).add("domain", domain_section(dem.domain));
 }
 
+meshing::FoamDictionary soil_section(const coupling::SoilSettings& soil) {
+    return section_of(soil).add("surface", file_name(soil.surface));
+}
+
 meshing::FoamDictionary fates_section(const coupling::FateSettings& fates) {
     meshing::FoamDictionary mouth;
     mouth.add("centre", fates.mouth.centre)
@@ -134,6 +138,7 @@ meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
     const coupling::CouplingSettings settings = solver_settings(inputs);
     meshing::FoamDictionary coupling;
     coupling.add("patches", meshing::FoamDictionary().add("outlet", settings.patches.outlet));
+    if (settings.soil) coupling.add("soil", soil_section(*settings.soil));
     if (settings.has_rock)
         coupling.add("rock", rock_section(settings, dem_settings(inputs)))
             .add("kernel", section_of(settings.kernel))

@@ -84,6 +84,7 @@ struct CaseInputs {
     };
     std::optional<Rock> rock;                      ///< none: pure flow
     std::optional<coupling::QueueSettings> queue;  ///< of rock that comes all the time; none: batches
+    bool bank = false;                             ///< water feels the soil of names::bank_surface
 };
 
 /// What the solver reads in constant/couplingProperties, files relative to the run directory.

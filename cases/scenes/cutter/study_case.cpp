@@ -187,6 +187,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
         inputs.stop = study.run.stop;
         inputs.record = record_of(study, head);
     }
+    inputs.bank = study.bank && study.feeds.empty();  // rock that does not feel the soil would displace water within it
     fill_scaled_defaults(inputs);
     return inputs;
 }
