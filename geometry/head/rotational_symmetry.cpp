@@ -61,20 +61,30 @@ public:
 
     RotationalSymmetry find() const {
         RotationalSymmetry found = judge(best_principal_axis());
-        if (found.contrast >= k_contrast)
-            return found.blade_count == 0 ? found : judge(fitted(found.axis, found.blade_count, k_fit_samples));
+        if (found.contrast >= k_contrast) return found.blade_count == 0 ? found : refined(found);
         // Nearly equal moments of inertia give no axis.
         for (const Candidate& candidate : best_directions()) {
             const RotationalSymmetry symmetry = judge(fitted(candidate.axis, candidate.blades, k_scan_samples));
             if (symmetry.contrast > found.contrast) found = symmetry;
         }
-        if (found.contrast < k_contrast)
-            throw UserError("no axis of rotational symmetry was found", "A cutter head repeats itself 2 to 12 times around its axis",
-                            "Check that the file holds the whole head and nothing else");
-        return judge(fitted(found.axis, found.blade_count, k_fit_samples));
+        require_symmetry(found);
+        return refined(found);
     }
 
 private:
+    static void require_symmetry(const RotationalSymmetry& symmetry) {
+        if (symmetry.contrast < k_contrast)
+            throw UserError("no axis of rotational symmetry was found", "A cutter head repeats itself 2 to 12 times around its axis",
+                            "Check that the file holds the whole head and nothing else");
+    }
+
+    /// On more samples; a body with few faces may not determine the fit, which then runs away.
+    RotationalSymmetry refined(const RotationalSymmetry& found) const {
+        const RotationalSymmetry symmetry = judge(fitted(found.axis, found.blade_count, k_fit_samples));
+        require_symmetry(symmetry);
+        return symmetry;
+    }
+
     /// RMS distance of the turned samples from the surface, the worst tenth left out.
     double residual(const RotationAxis& axis, double angle, std::size_t samples = k_scan_samples) const {
         std::vector<double> distances;

@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/head/geometry_report.hpp"
 #include "geometry/head/head.hpp"
+#include "geometry/head/rotational_symmetry.hpp"
 #include "geometry/surface/revolve.hpp"
 #include "geometry/tests/solids.hpp"
 
@@ -187,6 +188,17 @@ TEST(GeometryReport, holds_what_was_found_with_units_in_the_keys) {
     EXPECT_FALSE(open.at("sound").get<bool>());
     EXPECT_FALSE(open.contains("head"));
     EXPECT_EQ(open.at("defects").at("border_edges").at("count").get<int>(), 3);
+}
+
+TEST(Head, of_a_body_whose_axis_fit_may_run_away_is_refused_or_stays_at_the_body) {
+    TriangleSurface pyramid{{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {10.5, 0.5, 1}},
+                            {{0, 1, 2}, {0, 2, 3}, {4, 0, 3}, {3, 2, 4}, {2, 1, 4}, {1, 0, 4}}};
+    for (Vec3& point : pyramid.points) point *= 0.0254;
+    try {
+        EXPECT_LT(find_rotational_symmetry(pyramid).axis.origin.norm(), 0.3);
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("no axis of rotational symmetry was found"), std::string::npos) << error.what();
+    }
 }
 
 }  // namespace
