@@ -109,7 +109,7 @@ TEST(CutFaceFeed, delivers_the_mass_rate_in_every_turn) {
     EXPECT_NEAR(asked.mass_rate, 0.1 * area * 2650.0 * 0.85, 1e-12);
     const double one_of_each = sphere_mass(0.02, k_density) + sphere_mass(0.03, k_density);
     for (const double sense : {1.0, -1.0}) {
-        const std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(sense));
+        const std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(sense)).rocks;
         EXPECT_LE(rate_error(asked, rocks, asked.begin, asked.end), k_rate_tolerance);
         for (double turn = asked.begin; turn < asked.end; turn += k_period)
             EXPECT_LE(rate_error(asked, rocks, turn, turn + k_period), one_of_each / (asked.mass_rate * k_period));
@@ -123,7 +123,7 @@ TEST(CutFaceFeed, delivers_the_mass_rate_in_every_turn) {
 TEST(CutFaceFeed, that_loses_a_fiftieth_of_its_rock_fails_the_check_of_the_rate) {
     CutRequest asked = request();
     asked.classes = {{0.02, k_density, 1.0}};
-    std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(1.0));
+    std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(1.0)).rocks;
     EXPECT_LE(rate_error(asked, rocks, asked.begin, asked.end), k_rate_tolerance);
     for (std::size_t i = rocks.size() / 50 * 50; i > 0; i -= 50) rocks.erase(rocks.begin() + static_cast<std::ptrdiff_t>(i) - 1);
     EXPECT_GT(rate_error(asked, rocks, asked.begin, asked.end), k_rate_tolerance);
@@ -134,21 +134,25 @@ TEST(CutFaceFeed, starts_every_rock_ahead_of_a_blade_within_the_head_and_outside
     const geometry::SolidSearch cutter(crown().surface);
     for (const double sense : {1.0, -1.0}) {
         const CuttingHead head = crown().head(sense);
-        const std::vector<CutRock> rocks = cut_face_schedule(asked, head);
+        const std::vector<CutRock> rocks = cut_face_schedule(asked, head).rocks;
         ASSERT_GT(rocks.size(), 500u);
         for (const CutRock& rock : rocks) {
             const double diameter = asked.classes[rock.rock_class].diameter;
-            const Vec3 in_rotor = rotate_about({}, -head.rotation_speed * rock.time, rock.position);
-            EXPECT_FALSE(cutter.contains(in_rotor));
-            EXPECT_GE(cutter.nearest(in_rotor).distance, 0.5 * diameter);
-            EXPECT_LE(crown().contour.signed_distance(rock.position.head<2>().norm(), rock.position[2]), -0.5 * diameter);
-            // Behind it, against the sense of rotation, is steel before the pitch of six blades is half over.
+            double radius = 1.0;
+            for (const Vec3& place : rock.places) {
+                const Vec3 in_rotor = rotate_about({}, -head.rotation_speed * rock.time, place);
+                EXPECT_FALSE(cutter.contains(in_rotor));
+                EXPECT_GE(cutter.nearest(in_rotor).distance, 0.5 * diameter);
+                EXPECT_LE(crown().contour.signed_distance(place.head<2>().norm(), place[2]), -0.5 * diameter);
+                EXPECT_LT(place.head<2>().norm(), radius - 0.99 * diameter * (radius < 1.0)) << "farther inwards by a diameter";
+                radius = place.head<2>().norm();
+            }
+            // Behind the first place, against the sense of rotation, is steel before the pitch of six blades is half over.
+            const Vec3 in_rotor = rotate_about({}, -head.rotation_speed * rock.time, rock.places.front());
             bool blade = false;
             for (double back = 0.0; back < k_pi / 6.0 && !blade; back += 0.005)
                 blade = cutter.contains(rotate_about({}, -sense * back, in_rotor));
-            EXPECT_TRUE(blade) << "at z " << rock.position[2];
-            const Vec3 swept = head.rotation_speed * Vec3::UnitZ().cross(rock.position);
-            EXPECT_NEAR((rock.velocity - 0.5 * swept).norm(), 0.0, 1e-12);
+            EXPECT_TRUE(blade) << "at z " << in_rotor.z();
         }
     }
 }
@@ -156,11 +160,11 @@ TEST(CutFaceFeed, starts_every_rock_ahead_of_a_blade_within_the_head_and_outside
 TEST(CutFaceFeed, places_follow_the_flux_areas) {
     CutRequest asked = request();
     asked.classes = {{0.02, k_density, 1.0}};
-    const std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(1.0));
+    const std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(1.0)).rocks;
     // 10 sectors of 15 degrees; the flux through each is the difference of cosines.
     std::vector<double> counts(10, 0.0), expected(10, 0.0);
     for (const CutRock& rock : rocks) {
-        const double azimuth = to_cylindrical({}, Vec3::UnitX(), rock.position).azimuth;
+        const double azimuth = to_cylindrical({}, Vec3::UnitX(), rock.places.front()).azimuth;
         counts.at(static_cast<std::size_t>(azimuth * 12.0 / k_pi)) += 1.0;
     }
     double area = 0.0;
@@ -176,6 +180,28 @@ TEST(CutFaceFeed, places_follow_the_flux_areas) {
     EXPECT_LE(chi_square, 21.7) << "1 % of fair draws exceed this, with 9 degrees of freedom";
 }
 
+TEST(CutFaceFeed, of_closed_steel_goes_in_beside_it) {
+    CutRequest asked = request();
+    asked.classes = {{0.02, k_density, 1.0}};
+    EXPECT_EQ(cut_face_schedule(asked, crown().head(1.0)).share_without_blade, 0.0);
+    const double open = asked.face.patches.back().depth_m;
+    // As if the nose were cut: the hub closes all azimuths from 0.4 m on.
+    for (geometry::CutFacePatch& patch : asked.face.patches) patch.depth_m += 0.485 - open;
+    const CutSchedule schedule = cut_face_schedule(asked, crown().head(1.0));
+    double closed = 0.0, all = 0.0, lowest = 0.0, highest = -1.0;
+    for (const geometry::CutFacePatch& patch : asked.face.patches) {
+        all += patch.flux_area_m2;
+        if (patch.depth_m > 0.4) closed += patch.flux_area_m2;
+    }
+    EXPECT_NEAR(schedule.share_without_blade, closed / all, 0.08);
+    for (const CutRock& rock : schedule.rocks) {
+        lowest = std::min(lowest, rock.places.front().z());
+        highest = std::max(highest, rock.places.front().z());
+    }
+    EXPECT_LT(lowest, -0.36);
+    EXPECT_GT(highest, -0.25);
+}
+
 TEST(CutFaceFeed, sizes_follow_their_law) {
     CutRequest asked = request();
     asked.mass_rate *= 4.0;
@@ -183,7 +209,7 @@ TEST(CutFaceFeed, sizes_follow_their_law) {
     constexpr int classes = 6;
     asked.classes.clear();
     for (const double diameter : equal_mass_diameters(sizes, classes)) asked.classes.push_back({diameter, k_density, 1.0});
-    const std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(1.0));
+    const std::vector<CutRock> rocks = cut_face_schedule(asked, crown().head(1.0)).rocks;
     // Numbers between the classes' bounds, against the law of mass over the mass of a rock there.
     std::vector<double> counts(classes, 0.0);
     for (const CutRock& rock : rocks) {
@@ -217,23 +243,24 @@ TEST(CutFaceFeed, of_a_study_follows_from_its_bank_and_soil) {
     for (const PlacedRock& rock : feeds[0].rocks) {
         const FeedClass& its = feeds[0].request.classes.at(rock.rock_class);
         EXPECT_EQ(its.density, 2700.0);
-        EXPECT_TRUE(rock.velocity);
+        for (const RockPlace& place : rock.places)
+            EXPECT_NEAR((*place.velocity - 0.5 * 2.0 * k_pi * Vec3::UnitZ().cross(place.position)).norm(), 0.0, 1e-12);
         mass += sphere_mass(its.diameter, its.density);
     }
     const geometry::Bank bank = bank_of(study, crown().contour);
     const double expected = 0.1 * bank.cut_section() * 2700.0 * 0.7 * 0.8 * 3.0;  // over the three turns after the first
     EXPECT_NEAR(mass, expected, 0.01 * expected);
     const std::string csv = rock_feed_csv(feeds);
-    EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s");
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s,place");
 }
 
 TEST(CutFaceFeed, a_seed_repeats_and_another_varies_the_places) {
     CutRequest asked = request();
     asked.end = asked.begin + 0.2;
-    const auto first = cut_face_schedule(asked, crown().head(1.0)).front().position;
-    EXPECT_EQ(cut_face_schedule(asked, crown().head(1.0)).front().position, first);
+    const auto first = cut_face_schedule(asked, crown().head(1.0)).rocks.front().places;
+    EXPECT_EQ(cut_face_schedule(asked, crown().head(1.0)).rocks.front().places, first);
     asked.seed = 4;
-    EXPECT_NE(cut_face_schedule(asked, crown().head(1.0)).front().position, first);
+    EXPECT_NE(cut_face_schedule(asked, crown().head(1.0)).rocks.front().places, first);
 }
 
 TEST(CutFaceFeed, refuses_rock_without_room_ahead_of_any_blade) {

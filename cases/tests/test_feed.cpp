@@ -69,7 +69,7 @@ TEST(RockFeed, rocks_touch_neither_steel_nor_each_other_when_the_cutter_has_turn
     ASSERT_EQ(feeds[0].rocks.size(), 368u);
     const RotationAxis axis;
     for (std::size_t i = 0; i < feeds[0].rocks.size(); ++i) {
-        const Vec3& place = feeds[0].rocks[i].position;
+        const Vec3& place = feeds[0].rocks[i].places.front().position;
         EXPECT_EQ(feeds[0].rocks[i].time, study.feeds[0].start);
         const Vec3 in_rotor = rotate_about(axis, -study.rotation_speed * study.feeds[0].start, place);
         const double gap =
@@ -79,14 +79,14 @@ TEST(RockFeed, rocks_touch_neither_steel_nor_each_other_when_the_cutter_has_turn
         EXPECT_LE(at.radius, 0.39 + 1e-9);
         const double from_centre = std::remainder(at.azimuth - study.feeds[0].azimuth_centre, 2.0 * k_pi);
         EXPECT_LE(std::abs(from_centre), 0.5 * study.feeds[0].azimuth_width + 1e-9);
-        for (std::size_t j = 0; j < i; ++j) EXPECT_GE((place - feeds[0].rocks[j].position).norm(), 0.03 - 1e-9);
+        for (std::size_t j = 0; j < i; ++j) EXPECT_GE((place - feeds[0].rocks[j].places.front().position).norm(), 0.03 - 1e-9);
     }
 }
 
 TEST(RockFeed, a_seed_repeats_and_another_varies_the_placement) {
     const auto positions = [](const char* seed) {
         const Study study = study_of(std::string("[[feed]]\ncount = 50\nseed = ") + seed + "\n[[feed.class]]\ndiameter_m = 0.02\n");
-        return place_feeds(study, scene())[0].rocks.front().position;
+        return place_feeds(study, scene())[0].rocks.front().places.front().position;
     };
     EXPECT_EQ(positions("1"), positions("1"));
     EXPECT_NE(positions("1"), positions("2"));

@@ -79,8 +79,8 @@ cases::PlacedFeed feed_from(const geometry::Bank& bank, const geometry::Contour&
     cases::PlacedFeed feed;
     feed.request.kind = cases::FeedKind::cut_face;
     feed.request.classes = cut.classes;
-    for (const cases::CutRock& rock : cut_face_schedule(cut, {head, cutter, k_speed}))
-        feed.rocks.push_back({rock.time, rock.position, rock.rock_class, rock.velocity});
+    for (const cases::CutRock& rock : cut_face_schedule(cut, {head, cutter, k_speed}).rocks)
+        feed.rocks.push_back(cases::placed_rock(rock, 0.5 * k_speed));
     return feed;
 }
 

@@ -22,17 +22,21 @@ struct CutRequest {
     geometry::CutFace face;
     double mass_rate = 0.0;         ///< of dry rock [kg/s]
     double begin = 0.0, end = 0.0;  ///< [s]
-    double velocity_share = 0.5;    ///< c_v: rock starts with c_v (omega x r)
     std::uint64_t seed = 0;         ///< of the places
     std::vector<FeedClass> classes;
 };
 
-/// One rock of the schedule, just ahead of a blade.
+/// One rock of the schedule.
 struct CutRock {
-    double time = 0.0;  ///< [s]
-    Vec3 position = Vec3::Zero();
-    Vec3 velocity = Vec3::Zero();
+    double time = 0.0;         ///< [s]
+    std::vector<Vec3> places;  ///< just ahead of a blade; the first one at the contour, those after it farther inwards
     std::size_t rock_class = 0;
+};
+
+/// Rock of a cut face.
+struct CutSchedule {
+    std::vector<CutRock> rocks;        ///< in the order of time
+    double share_without_blade = 0.0;  ///< of the cut face's flux: at heights where the steel closes the circumference
 };
 
 /// Mass rate of dry rock [kg/s] that a cut section gives:  v_h A_cut rho_grain (1 - n).
@@ -42,9 +46,11 @@ double cut_mass_rate(const geometry::CutFace& face, double swing_speed, double g
 /// Rock in the order of time, from `begin` to `end`. A leading face that passes a patch of the face takes what the patch gave since the
 /// passing before, v_h (n.e_s) times its area. These masses are added up in the order of time, for each class its share, and what does not
 /// make a whole rock is carried on: at any time the rock so far is within one rock of each class of what the passings so far took.
-/// The seed draws which passing a rock comes with. It starts with its surface 0.05 d within the contour, ahead of the steel by 0.05 d or
-/// more, at any height where a leading face exists (the nearest one where the ring or the hub closes the circumference). \throws UserError
-/// when no blade has a leading face with room for a rock of some class, or the rocks are too many
-std::vector<CutRock> cut_face_schedule(const CutRequest& request, const CuttingHead& head);
+/// The seed draws which passing a rock comes with. Its place has its surface 0.05 d within the contour, ahead of the steel by 0.05 d or
+/// more, at a height where a leading face exists: rock of patches where the ring or the hub closes the circumference goes in as far within
+/// the nearest such height as it was cut beyond it. For rock that finds its place taken there are more, by whole diameters farther inwards,
+/// to half the contour's radius or to where the blade ends.
+/// \throws UserError  when no blade has a leading face with room for a rock of some class, or the rocks are too many
+CutSchedule cut_face_schedule(const CutRequest& request, const CuttingHead& head);
 
 }  // namespace cutterflow::cases

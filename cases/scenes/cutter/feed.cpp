@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cases/scenes/cutter/cut_face_feed.hpp"
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
@@ -24,6 +23,7 @@ namespace {
 // Rock starts clear of steel by this share of its diameter, so that no contact is under way at the release.
 constexpr double k_clearance_per_diameter = 0.05;
 constexpr double k_patch_per_ring_radius = 0.02;  // of the cut face
+constexpr double k_share_without_blade = 0.05;
 
 double mass_of(const FeedClass& rock) {
     return sphere_mass(rock.diameter, rock.density);
@@ -88,7 +88,7 @@ PlacedFeed place_batch(const FeedRequest& request, const Study& study, const Fee
     PlacedFeed feed{request, placement.requested, {}, {}};
     const std::vector<std::size_t> classes = shuffled_classes(counts, request.seed);
     for (std::size_t i = 0; i < placement.positions.size(); ++i)
-        feed.rocks.push_back({request.start, placement.positions[i], classes[i], std::nullopt});
+        feed.rocks.push_back({request.start, {{placement.positions[i], std::nullopt}}, classes[i]});
     if (placement.rejected() > 0) feed.reasons.push_back(placement.rejection_reason());
     return feed;
 }
@@ -101,17 +101,28 @@ PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const 
     cut.mass_rate = request.disintegration * cut_mass_rate(cut.face, bank.swing_speed, bank.grain_density, bank.porosity);
     cut.begin = request.start;
     cut.end = request.end;
-    cut.velocity_share = request.velocity_share;
     cut.seed = static_cast<std::uint64_t>(request.seed);
     cut.classes = request.classes;
     PlacedFeed feed{request, 0, {}, {}};
-    for (const CutRock& rock : cut_face_schedule(cut, {scene.head, scene.cutter, study.rotation_speed}))
-        feed.rocks.push_back({rock.time, rock.position, rock.rock_class, rock.velocity});
+    const CutSchedule schedule = cut_face_schedule(cut, {scene.head, scene.cutter, study.rotation_speed});
+    for (const CutRock& rock : schedule.rocks) feed.rocks.push_back(placed_rock(rock, request.velocity_share * study.rotation_speed));
+    if (schedule.share_without_blade > k_share_without_blade)
+        feed.reasons.push_back(
+            fmt::format("{:.0f} % of the cut face is passed by closed steel, a hub or a ring, where no blade takes rock in. "
+                        "Its rock starts ahead of the blades beside it; look at the cutter's lowest part, or choose a "
+                        "longer bank.step_m",
+                        100.0 * schedule.share_without_blade));
     feed.requested = feed.rocks.size();
     return feed;
 }
 
 }  // namespace
+
+PlacedRock placed_rock(const CutRock& rock, double angular_velocity) {
+    PlacedRock placed{rock.time, {}, rock.rock_class};
+    for (const Vec3& place : rock.places) placed.places.push_back({place, angular_velocity * Vec3::UnitZ().cross(place)});
+    return placed;
+}
 
 std::vector<std::size_t> rocks_per_class(const FeedRequest& request) {
     std::vector<double> numbers;  // of rocks per kilogram of the feed, times the sum of the shares
@@ -155,19 +166,22 @@ std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) 
 
 std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds) {
     // Batches, which start with the water, and a cut face are not in one study.
-    const bool with_velocity = !feeds.empty() && feeds.front().request.kind == FeedKind::cut_face;
+    const bool of_cut_face = !feeds.empty() && feeds.front().request.kind == FeedKind::cut_face;
     std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3";
-    text += with_velocity ? ",vx_m_s,vy_m_s,vz_m_s\n" : "\n";
+    text += of_cut_face ? ",vx_m_s,vy_m_s,vz_m_s,place\n" : "\n";
     std::size_t id = 0;
-    for (const PlacedFeed& feed : feeds) {
+    for (const PlacedFeed& feed : feeds)
         for (const PlacedRock& rock : feed.rocks) {
+            ++id;
             const FeedClass& rock_class = feed.request.classes[rock.rock_class];
-            text += fmt::format("{},{},{},{},{},{},{}", ++id, rock.time, rock.position.x(), rock.position.y(), rock.position.z(),
-                                rock_class.diameter, rock_class.density);
-            if (rock.velocity) text += fmt::format(",{},{},{}", rock.velocity->x(), rock.velocity->y(), rock.velocity->z());
-            text += "\n";
+            for (std::size_t i = 0; i < rock.places.size(); ++i) {
+                const auto& [position, velocity] = rock.places[i];
+                text += fmt::format("{},{},{},{},{},{},{}", id, rock.time, position.x(), position.y(), position.z(), rock_class.diameter,
+                                    rock_class.density);
+                if (of_cut_face) text += fmt::format(",{},{},{},{}", velocity->x(), velocity->y(), velocity->z(), i);
+                text += "\n";
+            }
         }
-    }
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/scenes/cutter/cut_face_feed.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/head/contour.hpp"
 #include "geometry/soil/cut_face.hpp"
@@ -12,20 +13,28 @@
 
 namespace cutterflow::cases {
 
-/// One rock of constant/rockFeed.csv.
-struct PlacedRock {
-    double time = 0.0;  ///< [s]
+/// Where a rock may go in.
+struct RockPlace {
     Vec3 position = Vec3::Zero();
-    std::size_t rock_class = 0;    ///< index in the feed's classes
     std::optional<Vec3> velocity;  ///< [m/s]; none: that of the water there
 };
+
+/// One rock of constant/rockFeed.csv.
+struct PlacedRock {
+    double time = 0.0;              ///< [s]
+    std::vector<RockPlace> places;  ///< one or more, the best first
+    std::size_t rock_class = 0;     ///< index in the feed's classes
+};
+
+/// Rock of a cut face that starts with the velocity of a body which turns about z. \param angular_velocity  [rad/s]
+PlacedRock placed_rock(const CutRock& rock, double angular_velocity);
 
 /// What became of one [[feed]].
 struct PlacedFeed {
     FeedRequest request;
     std::size_t requested = 0;
     std::vector<PlacedRock> rocks;
-    std::vector<std::string> reasons;  ///< why rocks were rejected
+    std::vector<std::string> reasons;  ///< why rocks were rejected or start elsewhere
 };
 
 /// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses are in proportion to the shares.

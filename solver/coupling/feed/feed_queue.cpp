@@ -61,37 +61,55 @@ std::vector<FeedRock> FeedQueue::next_packet(double time, double tolerance, cons
 /// \param due  what is left of it has no room
 std::vector<FeedRock> FeedQueue::choose_places(std::vector<Waiting>& due, double time, const RoomFor& room_for) {
     std::vector<FeedRock> chosen;
-    const double reach = queue_ ? queue_->reach : 0.0;
-    for (int diameters = 0; !due.empty(); ++diameters) {
-        std::vector<FeedRock> tried = chosen;
-        std::vector<std::size_t> in_reach;
-        for (std::size_t i = 0; i < due.size(); ++i) {
-            const FeedRock& rock = due[i].rock;
-            const double radius = rotor_.axis.direction.cross(rock.position - rotor_.axis.origin).norm();
-            const double ahead = diameters == 0 ? 0.0 : diameters * rock.diameter / radius;
-            if (ahead > reach) continue;
-            tried.push_back(turned(due[i], time, ahead));
-            in_reach.push_back(i);
-        }
-        if (in_reach.empty()) break;
-        const std::vector<bool> room = room_for(tried);
-        const std::size_t before = chosen.size();
-        std::set<std::size_t> placed;
-        for (std::size_t k = 0; k < in_reach.size(); ++k) {
-            if (!room[before + k]) continue;
-            chosen.push_back(tried[before + k]);
-            placed.insert(in_reach[k]);
-        }
-        std::vector<Waiting> rest;
-        for (std::size_t i = 0; i < due.size(); ++i)
-            if (placed.count(i) == 0) rest.push_back(due[i]);
-        due = std::move(rest);
+    std::size_t most_places = 1;
+    for (const Waiting& waiting : due) most_places = std::max(most_places, waiting.rock.elsewhere.size() + 1);
+    bool in_reach = true;
+    for (int diameters = 0; in_reach; ++diameters) {
+        in_reach = false;
+        for (std::size_t place = 0; place < most_places; ++place) in_reach |= try_places(due, place, diameters, time, room_for, chosen);
     }
     return chosen;
 }
 
-FeedRock FeedQueue::turned(const Waiting& waiting, double time, double ahead) const {
+/// Moves the rock of `due` that has room at its place of this number, so many diameters ahead, to `chosen`. \return whether any was tried
+bool FeedQueue::try_places(std::vector<Waiting>& due, std::size_t place, int diameters, double time, const RoomFor& room_for,
+                           std::vector<FeedRock>& chosen) const {
+    std::vector<FeedRock> tried = chosen;
+    std::vector<std::size_t> asked;
+    for (std::size_t i = 0; i < due.size(); ++i)
+        if (const auto there = turned(due[i], place, diameters, time)) {
+            tried.push_back(*there);
+            asked.push_back(i);
+        }
+    if (asked.empty()) return false;
+    const std::vector<bool> room = room_for(tried);
+    const std::size_t before = chosen.size();
+    std::set<std::size_t> placed;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        if (!room[before + k]) continue;
+        chosen.push_back(tried[before + k]);
+        placed.insert(asked[k]);
+    }
+    std::vector<Waiting> rest;
+    for (std::size_t i = 0; i < due.size(); ++i)
+        if (placed.count(i) == 0) rest.push_back(std::move(due[i]));
+    due = std::move(rest);
+    return true;
+}
+
+/// A rock at one of its places, some diameters ahead, as the rotor has turned it since it was due; none where it has no such place or that
+/// lies beyond the reach.
+std::optional<FeedRock> FeedQueue::turned(const Waiting& waiting, std::size_t place, int diameters, double time) const {
     FeedRock rock = waiting.rock;
+    if (place > rock.elsewhere.size()) return std::nullopt;
+    if (place > 0) {
+        rock.position = rock.elsewhere[place - 1].position;
+        rock.velocity = rock.elsewhere[place - 1].velocity;
+    }
+    rock.elsewhere.clear();
+    const double radius = rotor_.axis.direction.cross(rock.position - rotor_.axis.origin).norm();
+    const double ahead = diameters == 0 ? 0.0 : diameters * rock.diameter / radius;
+    if (ahead > (queue_ ? queue_->reach : 0.0)) return std::nullopt;
     if (!queue_) return rock;
     const double angle = rotor_.speed * (time - *waiting.due) + std::copysign(ahead, rotor_.speed);
     rock.position = rotate_about(rotor_.axis, angle, rock.position);

@@ -30,8 +30,9 @@ struct FeedState {
 ///
 /// A batch (no queue settings) is put in at its time and place; rock without room there stays owed. With a queue, rock goes in by packets,
 /// at the first step that begins `interval` after the packet before; its place and velocity turn with the rotor from its time on, so that
-/// it stays where it is due relative to the steel. Rock without room there is tried farther ahead, in the sense of rotation, by whole
-/// diameters up to `reach`; without room there too it is due again `retry_interval` later, at its first place.
+/// it stays where it is due relative to the steel. Rock without room there is tried at its further places, then at all of them farther
+/// ahead, in the sense of rotation, by whole diameters up to `reach`; without room there too it is due again `retry_interval` later, at its
+/// first place.
 class FeedQueue {
 public:
     FeedQueue() = default;
@@ -62,7 +63,9 @@ private:
         std::optional<double> due;
         bool tried = false;
     };
-    FeedRock turned(const Waiting& waiting, double time, double ahead) const;
+    std::optional<FeedRock> turned(const Waiting& waiting, std::size_t place, int diameters, double time) const;
+    bool try_places(std::vector<Waiting>& due, std::size_t place, int diameters, double time, const RoomFor& room_for,
+                    std::vector<FeedRock>& chosen) const;
     std::vector<FeedRock> choose_places(std::vector<Waiting>& due, double time, const RoomFor& room_for);
 
     std::vector<FeedRock> upcoming_;  // sorted by time

@@ -14,8 +14,26 @@ namespace {
 
 const std::vector<std::string> k_required{"id", "time_s", "x_m", "y_m", "z_m", "diameter_m", "density_kg_m3"};
 const std::vector<std::string> k_velocity{"vx_m_s", "vy_m_s", "vz_m_s"};
+constexpr const char* k_place = "place";
+const std::vector<std::string> k_optional{"vx_m_s", "vy_m_s", "vz_m_s", k_place};
+
+/// Whether a row is a further place of the rock in the row before it.
+bool is_further_place(const CsvTable& table, std::size_t row) {
+    return table.has(k_place) && row > 0 && table.at(row, k_place) != 0.0 && table.at(row, "id") == table.at(row - 1, "id");
+}
+
+void check_further_place(const CsvTable& table, std::size_t row, std::vector<Mistake>& mistakes) {
+    if (const double place = table.at(row, k_place), before = table.at(row - 1, k_place); place != before + 1.0)
+        mistakes.push_back({table.where(row), fmt::format("place = {} follows {} of rock {}", place, before, table.at(row, "id")),
+                            "The places of a rock are numbered from 0", "Correct the field"});
+    for (const char* column : {"time_s", "diameter_m", "density_kg_m3"})
+        if (const double value = table.at(row, column), first = table.at(row - 1, column); value != first)
+            mistakes.push_back({table.where(row), fmt::format("{} = {} after {} in the row before", column, value, first),
+                                "Rows of one rock differ only in place and velocity", "Correct the field, or give the rock another id"});
+}
 
 void check_row(const CsvTable& table, std::size_t row, std::map<double, std::string>& seen, std::vector<Mistake>& mistakes) {
+    if (is_further_place(table, row)) return check_further_place(table, row, mistakes);
     const std::string where = table.where(row);
     const double id = table.at(row, "id");
     if (!(id > 0.0) || id != std::floor(id) || id > std::numeric_limits<int>::max())
@@ -23,6 +41,9 @@ void check_row(const CsvTable& table, std::size_t row, std::map<double, std::str
     else if (const auto [first, fresh] = seen.emplace(id, where); !fresh)
         mistakes.push_back(
             {where, fmt::format("id = {} stands in {} too", id, first->second), "Ids are unique", "Give the rock another id"});
+    if (table.has(k_place) && table.at(row, k_place) != 0.0)
+        mistakes.push_back({where, fmt::format("place = {} is the first row of rock {}", table.at(row, k_place), id),
+                            "The places of a rock are numbered from 0", "Correct the field"});
     for (const char* column : {"diameter_m", "density_kg_m3"})
         if (!(table.at(row, column) > 0.0))
             mistakes.push_back({where, fmt::format("{} = {}", column, table.at(row, column)), "It must be above 0", "Correct the field"});
@@ -44,14 +65,19 @@ void check_place(const CsvTable& table, std::size_t row, const std::function<boo
          "Rock leaves the run outside its domain", "Correct the place, or enlarge rock.domain within the mesh"});
 }
 
-FeedRock rock_of(const CsvTable& table, std::size_t row, bool with_velocity) {
+std::optional<Vec3> velocity_of(const CsvTable& table, std::size_t row) {
+    if (!table.has(k_velocity.front())) return std::nullopt;
+    return Vec3(table.at(row, k_velocity[0]), table.at(row, k_velocity[1]), table.at(row, k_velocity[2]));
+}
+
+FeedRock rock_of(const CsvTable& table, std::size_t row) {
     FeedRock rock;
     rock.id = static_cast<int>(table.at(row, "id"));
     rock.time = table.at(row, "time_s");
     rock.position = place_of(table, row);
     rock.diameter = table.at(row, "diameter_m");
     rock.density = table.at(row, "density_kg_m3");
-    if (with_velocity) rock.velocity = Vec3(table.at(row, "vx_m_s"), table.at(row, "vy_m_s"), table.at(row, "vz_m_s"));
+    rock.velocity = velocity_of(table, row);
     return rock;
 }
 
@@ -59,7 +85,7 @@ FeedRock rock_of(const CsvTable& table, std::size_t row, bool with_velocity) {
 
 std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const std::function<bool(const Vec3&)>& in_domain) {
     std::vector<Mistake> mistakes;
-    const CsvTable table(file, k_required, k_velocity, mistakes);
+    const CsvTable table(file, k_required, k_optional, mistakes);
     const auto velocities = std::count_if(k_velocity.begin(), k_velocity.end(), [&](const std::string& name) { return table.has(name); });
     if (velocities != 0 && velocities != 3)
         mistakes.push_back({file.string() + ":1", fmt::format("{} of the 3 velocity columns are there", velocities),
@@ -75,7 +101,11 @@ std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const st
     if (!mistakes.empty()) throw UserError(mistakes);
 
     std::vector<FeedRock> rocks;
-    for (std::size_t row = 0; row < table.rows(); ++row) rocks.push_back(rock_of(table, row, velocities == 3));
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        if (is_further_place(table, row))
+            rocks.back().elsewhere.push_back({place_of(table, row), velocity_of(table, row)});
+        else
+            rocks.push_back(rock_of(table, row));
     std::sort(rocks.begin(), rocks.end(),
               [](const FeedRock& a, const FeedRock& b) { return a.time != b.time ? a.time < b.time : a.id < b.id; });
     return rocks;

@@ -9,20 +9,28 @@
 
 namespace cutterflow::coupling {
 
-/// One rock to be placed.
-struct FeedRock {
-    int id = 0;                    ///< > 0, unique
-    double time = 0.0;             ///< [s]
+/// Where a rock may go in.
+struct FeedPlace {
     Vec3 position = Vec3::Zero();  ///< [m]
-    double diameter = 0.0;         ///< [m]
-    double density = 0.0;          ///< [kg/m3]
     std::optional<Vec3> velocity;  ///< [m/s]; absent: the local fluid velocity
 };
 
-/// Reads `id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3[,vx_m_s,vy_m_s,vz_m_s]`, sorted by time, then id.
+/// One rock to be placed.
+struct FeedRock {
+    int id = 0;                          ///< > 0, unique
+    double time = 0.0;                   ///< [s]
+    Vec3 position = Vec3::Zero();        ///< [m]
+    double diameter = 0.0;               ///< [m]
+    double density = 0.0;                ///< [kg/m3]
+    std::optional<Vec3> velocity;        ///< [m/s]; absent: the local fluid velocity
+    std::vector<FeedPlace> elsewhere{};  ///< where else it may go in, the best place first
+};
+
+/// Reads `id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3[,vx_m_s,vy_m_s,vz_m_s][,place]`, sorted by time, then id. With `place` a rock may
+/// have several rows, one below the other and alike but for place and velocity, numbered from 0.
 /// \param in_domain  whether a rock may be placed there; without it, anywhere
 /// \throws UserError  with every mistake of the file: missing column, not a number, id repeated or not positive, diameter or density not
-/// positive, place outside the domain
+/// positive, place outside the domain or out of order
 std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const std::function<bool(const Vec3&)>& in_domain = {});
 
 }  // namespace cutterflow::coupling

@@ -90,6 +90,32 @@ TEST(Queue, goes_ahead_by_whole_diameters_where_a_place_is_taken) {
     EXPECT_NEAR(azimuth_of(in[0]), -3.0 * step, 1e-12) << "ahead is where the rotor goes, here to negative azimuths";
 }
 
+TEST(Queue, goes_to_its_further_places_before_it_goes_ahead) {
+    FeedRock one = rock(1, 0.0);
+    one.elsewhere = {{Vec3(0.3, 0.0, -0.1), Vec3(0.0, -0.75, 0.0)}, {Vec3(0.2, 0.0, -0.1), Vec3(0.0, -0.5, 0.0)}};
+    for (const double innermost : {0.45, 0.35, 0.25}) {
+        FeedQueue feed({one}, k_queue, rotor());
+        const auto in = feed.next_packet(0.0, k_tolerance, [&](const std::vector<FeedRock>& rocks) {
+            std::vector<bool> room;
+            for (const FeedRock& asked : rocks) room.push_back(asked.position.norm() < innermost);
+            return room;
+        });
+        ASSERT_EQ(in.size(), 1u);
+        EXPECT_NEAR(azimuth_of(in[0]), 0.0, 1e-12);
+        EXPECT_NEAR(in[0].position.head<2>().norm(), innermost - 0.05, 1e-12);
+        EXPECT_NEAR(in[0].velocity->norm(), 2.5 * (innermost - 0.05), 1e-12) << "each place has its velocity";
+    }
+    FeedQueue feed({one}, k_queue, rotor());
+    int asked = 0;
+    const auto in = feed.next_packet(0.0, k_tolerance, [&](const std::vector<FeedRock>& rocks) {
+        ++asked;
+        return std::vector<bool>(rocks.size(), azimuth_of(rocks.back()) < -1e-9);
+    });
+    ASSERT_EQ(in.size(), 1u);
+    EXPECT_EQ(asked, 4) << "its three places, then the first one a diameter ahead";
+    EXPECT_NEAR(azimuth_of(in[0]), -0.02 / 0.4, 1e-12);
+}
+
 TEST(Queue, does_not_go_farther_ahead_than_its_reach_and_comes_back_at_the_next_blade) {
     FeedQueue feed({rock(1, 0.0, 0.5)}, k_queue, rotor());
     int tried = 0;

@@ -33,6 +33,25 @@ TEST(RockFeed, takes_velocities_when_all_three_are_there) {
     EXPECT_THROW(read_rock_feed(folder.write("two.csv", columns + "vx_m_s,vy_m_s\n1,0,0,0,0,0.02,2650,1,-2\n")), UserError);
 }
 
+TEST(RockFeed, reads_the_places_of_a_rock) {
+    const testing::TemporaryFolder folder;
+    const std::string head = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s,place\n";
+    const auto rocks = read_rock_feed(folder.write("feed.csv", head + "2,0.5,0,0,0,0.02,2650,1,0,0,0\n2,0.5,0,0,3,0.02,2650,4,0,0,1\n"
+                                                                      "1,0.1,0,0,7,0.02,2650,5,0,0,0\n"));
+    ASSERT_EQ(rocks.size(), 2u);
+    EXPECT_TRUE(rocks[0].elsewhere.empty());
+    ASSERT_EQ(rocks[1].elsewhere.size(), 1u);
+    EXPECT_EQ(rocks[1].elsewhere[0].position, Vec3(0, 0, 3));
+    EXPECT_EQ(*rocks[1].elsewhere[0].velocity, Vec3(4, 0, 0));
+    try {
+        read_rock_feed(folder.write("wrong.csv", head + "1,0,0,0,0,0.02,2650,0,0,0,0\n1,0.1,0,0,0,0.03,2650,0,0,0,1\n"
+                                                        "1,0.1,0,0,0,0.03,2650,0,0,0,3\n3,0,0,0,0,0.02,2650,0,0,0,1\n"));
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 4u) << error.what();  // another time, another diameter, a gap, no first place
+    }
+}
+
 TEST(RockFeed, names_every_mistake_with_its_line) {
     const testing::TemporaryFolder folder;
     const auto file = folder.write("feed.csv",
