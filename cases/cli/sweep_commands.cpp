@@ -172,10 +172,14 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
 struct CompareOptions {
     std::vector<std::string> runs;
     std::optional<std::string> output, still_folder;
+    std::vector<std::string> measured;
+    bool measured_template = false;
     bool json = false;
 };
 
 void compare_surfaces(const CompareOptions& options) {
+    if (!options.measured.empty())
+        throw UserError("--measured with free-surface runs", "Measured points are spillage and production of cutters", "Leave it out");
     if (options.still_folder) throw UserError("--static with free-surface runs", "Their page has no script to leave out", "Use --output");
     const auto settings = postproc::compare_surface_runs({options.runs.begin(), options.runs.end()});
     std::cout << (options.json ? postproc::surface_comparison_json(settings).dump(2) + "\n" : postproc::surface_comparison_text(settings));
@@ -183,9 +187,14 @@ void compare_surfaces(const CompareOptions& options) {
 }
 
 void compare(const CompareOptions& options) {
+    if (options.measured_template) {
+        std::cout << postproc::measured_template() << std::flush;
+        return;
+    }
     if (std::any_of(options.runs.begin(), options.runs.end(), [](const std::string& run) { return postproc::is_surface_run(run); }))
         return compare_surfaces(options);
-    const postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
+    postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
+    postproc::add_measured(comparison, {options.measured.begin(), options.measured.end()});
     if (options.output && options.still_folder) require_different_places("--output", *options.output, "--static", *options.still_folder);
     for (const auto& folder : {options.output, options.still_folder})
         if (folder) postproc::require_own_comparison(comparison, *folder);
@@ -235,9 +244,11 @@ void add_sweep(CLI::App& app) {
 void add_compare(CLI::App& app) {
     auto* command = app.add_subcommand("compare", "Compare runs: designs, speeds, discharges, repeats; differences from the first.");
     const auto options = std::make_shared<CompareOptions>();
-    command->add_option("run_directories", options->runs, "Run directories; repeats of one study are combined")->required();
+    command->add_option("run_directories", options->runs, "Run directories; repeats of one study are combined");
     command->add_option("-o,--output", options->output, "Folder for the page and comparison.json");
     command->add_option("--static", options->still_folder, "Folder for comparison.json and a page without scripts, to publish");
+    command->add_option("--measured", options->measured, "CSV files of measured spillage or production, to stand beside the runs");
+    command->add_flag("--measured-template", options->measured_template, "Print such a CSV file to fill in");
     command->add_flag("--json", options->json, "Print comparison.json");
     command->callback([options] { compare(*options); });
 }

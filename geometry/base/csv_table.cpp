@@ -42,29 +42,38 @@ CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::str
     : name_(file.string()) {
     std::ifstream stream(file);
     std::string line;
-    if (!stream || !std::getline(stream, line)) {
+    int number = 0;
+    /// The next line that is neither empty nor a comment.
+    const auto next_line = [&] {
+        while (std::getline(stream, line)) {
+            ++number;
+            if (const std::string text = trimmed(line); !text.empty() && text.front() != '#') return true;
+        }
+        return false;
+    };
+    if (!stream || !next_line()) {
         mistakes.push_back({name_, "the file cannot be read or is empty",
                             fmt::format("It must hold the columns {}", fmt::join(required, ",")),
                             "Check the path in constant/couplingProperties"});
         return;
     }
+    const int header = number;
     columns_ = split(line);
     for (const std::string& column : required)
         if (!has(column))
-            mistakes.push_back({name_ + ":1", fmt::format("column '{}' is missing", column),
+            mistakes.push_back({fmt::format("{}:{}", name_, header), fmt::format("column '{}' is missing", column),
                                 fmt::format("The header line must name {}", fmt::join(required, ",")), "Add the column"});
     for (const std::string& column : columns_) {
         const auto known = [&](const std::vector<std::string>& names) {
             return std::find(names.begin(), names.end(), column) != names.end();
         };
         if (!known(required) && !known(optional))
-            mistakes.push_back({name_ + ":1", fmt::format("column '{}' is not known", column),
+            mistakes.push_back({fmt::format("{}:{}", name_, header), fmt::format("column '{}' is not known", column),
                                 fmt::format("Columns are {}{}{}", fmt::join(required, ","), optional.empty() ? "" : " and optionally ",
                                             fmt::join(optional, ",")),
                                 "Rename or remove it"});
     }
-    for (int number = 2; std::getline(stream, line); ++number) {
-        if (trimmed(line).empty()) continue;
+    while (next_line()) {
         const std::vector<std::string> fields = split(line);
         std::vector<double> row(columns_.size());
         bool good = fields.size() == columns_.size();

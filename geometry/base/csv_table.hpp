@@ -8,7 +8,7 @@
 
 namespace cutterflow {
 
-/// The numbers of a CSV file by column.
+/// The numbers of a CSV file by column. Empty lines and lines that begin with # are left out.
 class CsvTable {
 public:
     /// Reads the columns `required` (all) and `optional` (those present); others are refused.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/sample.hpp"
 #include "postproc/analysis/text.hpp"
@@ -347,6 +348,25 @@ ComparisonVerdict verdict_of(const Estimate& difference, bool of_rock) {
     return std::abs(*difference.value) > *difference.half_width ? ComparisonVerdict::differs : ComparisonVerdict::equal;
 }
 
+constexpr double k_same_operating_point = 0.005;
+
+bool is_at(const OperatingPoint& run, const MeasuredPoint& test) {
+    const auto near = [](double value, double wanted) { return std::abs(value - wanted) <= k_same_operating_point * wanted; };
+    return near(run.speed_rpm, test.speed_rpm) && (!test.discharge || near(run.discharge, *test.discharge));
+}
+
+/// Setting less test.
+Difference difference_from(const Estimate& model, const MeasuredShare& test) {
+    Difference difference;
+    Estimate& estimate = difference.estimate;
+    if (model.value) estimate.value = *model.value - test.value;
+    if (model.low) estimate.low = *model.low - test.value;
+    if (model.high) estimate.high = *model.high - test.value;
+    if (model.half_width && test.error) estimate.half_width = std::hypot(*model.half_width, *test.error);
+    difference.verdict = verdict_of(estimate, true);
+    return difference;
+}
+
 json or_null(const std::optional<double>& value) {
     return value ? json(*value) : json(nullptr);
 }
@@ -451,6 +471,37 @@ Difference difference_of(const Comparison& comparison, const Quantity& quantity,
     return difference;
 }
 
+const Quantity* find_quantity(const Comparison& comparison, const std::string& key) {
+    const auto found =
+        std::find_if(comparison.quantities.begin(), comparison.quantities.end(), [&](const Quantity& q) { return q.key == key; });
+    return found == comparison.quantities.end() ? nullptr : &*found;
+}
+
+void add_measured(Comparison& comparison, const std::vector<std::filesystem::path>& files) {
+    Mistakes mistakes;
+    for (const auto& file : files) mistakes.gather([&] { comparison.measured.push_back(read_measured_points(file)); });
+    if (!files.empty() && !find_quantity(comparison, "ratio"))
+        mistakes.add({"", "measured points beside runs without rock", "They are spillage and production", "Compare runs with rock"});
+    mistakes.refuse();
+}
+
+std::vector<MeasuredDifference> measured_differences(const Comparison& comparison) {
+    std::vector<MeasuredDifference> differences;
+    for (const MeasuredSeries& series : comparison.measured)
+        for (const MeasuredPoint& point : series.points)
+            for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
+                if (!is_at(comparison.runs[comparison.settings[i].runs.front()].run.operating_point, point)) continue;
+                const auto add = [&](const char* key, const std::optional<MeasuredShare>& share) {
+                    if (share)
+                        differences.push_back(
+                            {series.name, key, i, *share, difference_from(find_quantity(comparison, key)->settings[i], *share)});
+                };
+                add("ratio", point.spillage);
+                add("production", point.production);
+            }
+    return differences;
+}
+
 std::string bin_key(const std::string& what, const std::string& bin, const std::string& unit) {
     return fmt::format("{}_{}_{}", what, bin, unit);
 }
@@ -537,6 +588,16 @@ json comparison_json(const Comparison& comparison) {
     document["differing_batches"] = differing_batches(comparison);
     document["equal_time_s"] = or_null(comparison.equal_time);
     document["equal_revolutions"] = or_null(comparison.equal_revolutions);
+    document["measured"] = json::array();
+    for (const MeasuredDifference& beside : measured_differences(comparison)) {
+        json entry{{"series", beside.series},
+                   {"quantity", beside.key},
+                   {"setting", beside.setting},
+                   {"measured", {{"value", beside.measured.value}, {"error", or_null(beside.measured.error)}}},
+                   {"difference", estimate_json(beside.difference.estimate)}};
+        entry["difference"]["verdict"] = verdict_text(beside.difference.verdict);
+        document["measured"].push_back(entry);
+    }
     document["not_modelled"] = json::array();
     for (const NotModelled& item : not_modelled(scope_of(comparison))) document["not_modelled"].push_back(item.name);
     return document;
@@ -558,6 +619,9 @@ std::string comparison_text(const Comparison& comparison) {
             text += "\n";
         }
     }
+    for (const MeasuredDifference& beside : measured_differences(comparison))
+        text += fmt::format("{} less {} of {}: {}, {}\n", comparison.settings[beside.setting].label, beside.key, beside.series,
+                            estimate_text(beside.difference.estimate), verdict_text(beside.difference.verdict));
     return text +
            "value ± half the 95 % interval (batch means in time; Student's t over three or more repeats) [bounds: whatever the undecided "
            "rock does]\n";

@@ -8,6 +8,7 @@
 
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/results.hpp"
+#include "postproc/run/measured_points.hpp"
 
 namespace cutterflow::postproc {
 
@@ -64,15 +65,35 @@ struct Comparison {
     std::vector<Quantity> quantities;
     std::optional<double> equal_time;         ///< [s] since the first rock that all runs reached
     std::optional<double> equal_revolutions;  ///< since the first rock that all runs reached
+    std::vector<MeasuredSeries> measured;     ///< tests beside the runs
 };
 
 /// \param directories  of at least two runs
 /// \throws UserError  when there are fewer than two, or a directory holds no run (all at once)
 Comparison compare_runs(const std::vector<std::filesystem::path>& directories);
 
+/// The quantity of a key; null when the comparison has none.
+const Quantity* find_quantity(const Comparison& comparison, const std::string& key);
+
 /// Difference of setting `index` from setting 0. Repeats are paired when both settings have the same seeds, else taken as independent
 /// (Welch).
 Difference difference_of(const Comparison& comparison, const Quantity& quantity, std::size_t index);
+
+/// A setting beside a test of its speed and discharge.
+struct MeasuredDifference {
+    std::string series;
+    std::string key;  ///< of the quantity: "ratio" or "production"
+    std::size_t setting = 0;
+    MeasuredShare measured;
+    Difference difference;  ///< setting less test; its interval is known when both errors are
+};
+
+/// Adds the tests of files to a comparison.
+/// \throws UserError  when a file has mistakes, or the runs have no rock (all at once)
+void add_measured(Comparison& comparison, const std::vector<std::filesystem::path>& files);
+
+/// Every test with every setting whose speed, and discharge where the test has one, is within 0.5 % of it.
+std::vector<MeasuredDifference> measured_differences(const Comparison& comparison);
 
 /// Keys of the studies in which settings differ, with the value of each setting (empty: the study has none).
 std::map<std::string, std::vector<std::string>> differing_keys(const Comparison& comparison);

@@ -144,6 +144,33 @@ Plot trend_plot(const Comparison& comparison, const Quantity& operating, const s
     return plot;
 }
 
+void add_measured_point(Series& series, const std::string& test, double speed, const std::optional<MeasuredShare>& share) {
+    if (!share) return;
+    const double error = share->error.value_or(0.0);
+    series.x.push_back(speed);
+    series.y.push_back(100.0 * share->value);
+    series.y_low.push_back(100.0 * (share->value - error));
+    series.y_high.push_back(100.0 * (share->value + error));
+    series.point_names.push_back(fmt::format("measured: {}", test));
+}
+
+/// Tests against the rotor's speed, as open marks in the colours of the shares.
+void add_measured_points(Plot& plot, const Comparison& comparison) {
+    constexpr Mark marks[] = {Mark::ring, Mark::open_square};
+    std::size_t count = 0;
+    for (const MeasuredSeries& measured : comparison.measured) {
+        Series spillage{"spillage, " + measured.name, palette::spilled, {}, {}};
+        Series production{"production, " + measured.name, palette::sucked_up, {}, {}};
+        spillage.mark = production.mark = marks[count++ % std::size(marks)];
+        for (const MeasuredPoint& point : measured.points) {
+            add_measured_point(spillage, measured.name, point.speed_rpm, point.spillage);
+            add_measured_point(production, measured.name, point.speed_rpm, point.production);
+        }
+        for (const Series& series : {spillage, production})
+            if (!series.x.empty()) plot.series.push_back(series);
+    }
+}
+
 std::vector<std::string> bins_of(const Comparison& comparison, const std::string& what, const std::string& unit) {
     std::vector<std::string> names;
     for (const geometry::AxialBin& bin : comparison.runs.front().run.bins) {
@@ -240,9 +267,11 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
             : "; bars are bounds: what the undecided rock could still do.";
     std::vector<Figure> figures{{shares_plot(comparison), shares + ", of every setting" + bars, ""}};
     const Quantity &speed = *find_quantity(comparison, "speed_rpm"), &flow_number = *find_quantity(comparison, "flow_number");
-    if (varies(speed)) {
-        figures.push_back(with_legend_that_fits(trend_plot(comparison, speed, "speed", "rotor speed, rpm", {".3g", " rpm"}),
-                                                shares + ", against the rotor’s speed" + bars));
+    if (varies(speed) || !comparison.measured.empty()) {
+        Plot plot = trend_plot(comparison, speed, "speed", "rotor speed, rpm", {".3g", " rpm"});
+        add_measured_points(plot, comparison);
+        figures.push_back(with_legend_that_fits(
+            plot, shares + ", against the rotor’s speed" + bars + (comparison.measured.empty() ? "" : " Open marks are measured.")));
     }
     if (varies(flow_number)) {
         figures.push_back(with_legend_that_fits(trend_plot(comparison, flow_number, "flow_number", "flow number Q / (ω R³)", {".4f", ""}),
@@ -269,12 +298,6 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
 
 const char* setting_colour(std::size_t setting) {
     return k_colours[setting % std::size(k_colours)];
-}
-
-const Quantity* find_quantity(const Comparison& comparison, const std::string& key) {
-    const auto found =
-        std::find_if(comparison.quantities.begin(), comparison.quantities.end(), [&](const Quantity& q) { return q.key == key; });
-    return found == comparison.quantities.end() ? nullptr : &*found;
 }
 
 std::vector<Figure> comparison_figures(const Comparison& comparison) {

@@ -15,7 +15,4 @@ std::vector<Figure> comparison_figures(const Comparison& comparison);
 /// Colour of a setting, by its number from 0.
 const char* setting_colour(std::size_t setting);
 
-/// The quantity of a key; null when the comparison has none.
-const Quantity* find_quantity(const Comparison& comparison, const std::string& key);
-
 }  // namespace cutterflow::postproc

@@ -69,6 +69,24 @@ std::string differences_table(const Comparison& comparison) {
     return html::scrolling(html::table(header, rows, true));
 }
 
+/// Settings beside tests of the same speed and discharge; nothing without tests.
+std::string measured_section(const Comparison& comparison) {
+    if (comparison.measured.empty()) return "";
+    std::vector<std::vector<std::string>> rows;
+    for (const MeasuredDifference& beside : measured_differences(comparison)) {
+        const Quantity& quantity = *find_quantity(comparison, beside.key);
+        const Estimate test{beside.measured.value, std::nullopt, std::nullopt, beside.measured.error};
+        rows.push_back({fmt::format("{}", beside.setting + 1), escape(beside.series), escape(quantity.name), estimate_markup(test),
+                        estimate_markup(quantity.settings[beside.setting]),
+                        estimate_markup(beside.difference.estimate) + "<br>" + verdict_text(beside.difference.verdict)});
+    }
+    const std::string content =
+        rows.empty()
+            ? std::string("<p>No setting has the speed (and discharge) of a test within 0.5 %.</p>")
+            : html::scrolling(html::table({"setting", "test", "quantity", "measured", "computed", "computed − measured"}, rows, true));
+    return html::section("Beside the tests", content);
+}
+
 std::string settings_table(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
@@ -180,6 +198,7 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder, 
                           quantities_table(comparison) +
                               "<p>± half the 95 % interval: Student’s t over repeats for what rock does, batch means in time for the flow. "
                               "Second line: bounds, whatever the undecided rock does.</p>");
+    body += measured_section(comparison);
     body += html::section("Differences from setting 1", differences_table(comparison));
     body += html::section("What the studies differ in", studies_table(comparison));
     std::vector<fs::path> directories;

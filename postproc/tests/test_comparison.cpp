@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -209,6 +210,72 @@ TEST(Comparison, refuses_a_finished_run_that_lost_a_part_of_its_tables) {
         testing::write_text(broken / "postProcessing" / table, text);
         EXPECT_THROW(compare_runs({whole, broken}), UserError) << table;
     }
+}
+
+fs::path measured_file(const std::string& name, const std::string& text) {
+    const fs::path file = fs::path(::testing::TempDir()) / (name + ".csv");
+    std::ofstream(file) << text;
+    return file;
+}
+
+TEST(Measured, points_stand_beside_the_settings_of_their_speed) {
+    Comparison comparison =
+        compare_runs({variant("test_1", {}), variant("test_2", {4}), variant("test_3", {4, 5}), variant("other", {}, 2.0)});
+    const double speed = comparison.runs[0].run.operating_point.speed_rpm;
+    const auto tests = measured_file(
+        "tests", fmt::format("# by hand\nspeed_rpm,spillage,spillage_error\n{},0.5,0.01\n{},0.4,0.1\n", 1.004 * speed, 1.01 * speed));
+    add_measured(comparison, {tests});
+    const auto differences = measured_differences(comparison);
+    ASSERT_EQ(differences.size(), 2u) << "the second test is 1 % faster than both settings";
+    EXPECT_EQ(differences[0].series, "tests");
+    EXPECT_EQ(differences[0].key, "ratio");
+    const Estimate& ratio = quantity_of(comparison, "ratio").settings[0];
+    const Estimate& difference = differences[0].difference.estimate;
+    EXPECT_NEAR(*difference.value, *ratio.value - 0.5, 1e-12);
+    EXPECT_NEAR(*difference.low, 12.0 / 16.0 - 0.5, 1e-9);
+    EXPECT_NEAR(*difference.high, 14.0 / 16.0 - 0.5, 1e-9);
+    EXPECT_NEAR(*difference.half_width, std::hypot(*ratio.half_width, 0.01), 1e-12);
+    EXPECT_EQ(differences[0].difference.verdict, ComparisonVerdict::differs);
+    EXPECT_EQ(differences[1].difference.verdict, ComparisonVerdict::no_replicate) << "one run: its scatter is not known";
+    EXPECT_EQ(comparison_json(comparison)["measured"].size(), 2u);
+    EXPECT_THAT(comparison_text(comparison), HasSubstr("ratio of tests"));
+    for (const Figure& figure : comparison_figures(comparison)) {
+        if (figure.plot.name != "speed") continue;
+        const Series& series = figure.plot.series.back();
+        EXPECT_EQ(series.name, "spillage, tests");
+        EXPECT_NEAR(series.x.at(1), 1.01 * speed, 1e-3);
+        EXPECT_NEAR(series.y.at(1), 40.0, 1e-12);
+        EXPECT_NEAR(series.y_high.at(1), 50.0, 1e-12);
+        return;
+    }
+    FAIL() << "no figure against the speed";
+}
+
+TEST(Measured, points_of_another_discharge_are_not_compared) {
+    Comparison comparison = compare_runs({variant("discharge_1", {}), variant("discharge_2", {}, 2.0)});
+    const OperatingPoint& run = comparison.runs[0].run.operating_point;
+    add_measured(comparison, {measured_file("points", fmt::format("speed_rpm,discharge_m3_s,production\n{0},{1},0.5\n{0},{2},0.5\n",
+                                                                  run.speed_rpm, run.discharge, 1.2 * run.discharge))});
+    const auto differences = measured_differences(comparison);
+    ASSERT_FALSE(differences.empty());
+    for (const MeasuredDifference& difference : differences) EXPECT_EQ(difference.key, "production");
+    EXPECT_LE(differences.size(), 2u);
+}
+
+TEST(Measured, files_name_every_mistake) {
+    const auto wrong = measured_file("wrong", "speed_rpm,spillage,production_error\n0,35,0.1\n60,0.3,-0.1\n");
+    try {
+        read_measured_points(wrong);
+        FAIL();
+    } catch (const UserError& error) {
+        // An error without its share, speed 0, percent, a negative error.
+        EXPECT_EQ(error.mistakes().size(), 4u) << error.what();
+        EXPECT_THAT(error.what(), HasSubstr("Divide percent by 100"));
+    }
+    EXPECT_THROW(read_measured_points("no_such.csv"), UserError);
+    EXPECT_THROW(read_measured_points(measured_file("empty", measured_template())), UserError) << "a template has no points";
+    const auto filled = read_measured_points(measured_file("filled", measured_template() + "60,0.12,0.3,0.02,0.7,0.02\n"));
+    EXPECT_EQ(filled.points.at(0).production->value, 0.7);
 }
 
 TEST(Comparison, draws_one_curve_along_the_discharges_of_one_speed) {
