@@ -129,6 +129,14 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
     return rules;
 }
 
+/// Delivered volume of soil as it was in the bank [m3/h], at lengths `ratio` times the model's by Froude's law.
+std::optional<double> in_situ_rate(const ComparedRun& compared, double ratio) {
+    const double density = compared.run.operating_point.in_situ_density;
+    if (!compared.results.fed || !(density > 0.0)) return std::nullopt;
+    const Production& production = compared.results.fed->production;
+    return 3600.0 * production.delivered / (production.to - production.from) / density * std::pow(ratio, 2.5);
+}
+
 /// Of heads that are fed all the time: no ratio without its hold-up.
 std::vector<QuantityRule> fed_rules() {
     const auto of = [](const std::function<Estimate(const FedHead&)>& evaluate) -> Evaluate {
@@ -145,6 +153,10 @@ std::vector<QuantityRule> fed_rules() {
              of([](const FedHead& head) { return plain(head.production.held_change / head.production.fed); })},
             {"fed_kg_s", "fed", "kg/s", true, rate(&Production::fed)},
             {"delivered_kg_s", "delivered", "kg/s", true, rate(&Production::delivered)},
+            {"delivered_in_situ_m3_h", "delivered, soil in situ", "m³/h", true,
+             [](const ComparedRun& r) { return plain(in_situ_rate(r, 1.0)); }},
+            {"prototype_delivered_in_situ_m3_h", "delivered, soil in situ, prototype", "m³/h", true,
+             [](const ComparedRun& r) { return plain(in_situ_rate(r, r.run.operating_point.length_ratio)); }},
             {"head_is_full", "head is full (1: yes)", "-", true, of([](const FedHead& head) { return plain(head.is_full ? 1.0 : 0.0); })}};
 }
 

@@ -234,7 +234,7 @@ json series_json(const std::vector<RatiosAt>& series, const char* key) {
     return list;
 }
 
-json fed_json(const FedHead& head) {
+json fed_json(const FedHead& head, double in_situ_density) {
     const Production& production = head.production;
     const double duration = production.to - production.from;
     json object{{"start_s", or_null(production.start)},
@@ -242,6 +242,8 @@ json fed_json(const FedHead& head) {
                 {"window_end_s", production.to},
                 {"fed_kg_s", production.fed / duration},
                 {"delivered_kg_s", production.delivered / duration},
+                {"delivered_in_situ_m3_h",
+                 in_situ_density > 0.0 ? json(3600.0 * production.delivered / duration / in_situ_density) : json(nullptr)},
                 {"share", production.delivered / production.fed},
                 {"share_half_interval", production.share ? json(production.share->half_interval) : json(nullptr)},
                 {"hold_up_kg", production.held},
@@ -384,7 +386,7 @@ json results_json(const Results& results, const RunData& run) {
     const auto of_mixing = [&](double Mixing::*member) { return results.mixing ? json((*results.mixing).*member) : json(nullptr); };
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},
                           {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)}};
-    document["production"] = results.fed ? fed_json(*results.fed) : json(nullptr);
+    document["production"] = results.fed ? fed_json(*results.fed, run.operating_point.in_situ_density) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},
                              {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};

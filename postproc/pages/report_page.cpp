@@ -156,19 +156,59 @@ std::string early_answers(const Fates& fates) {
     return blocks + answer(palette::in_cutter, "In the cutter", mass(fates.in_cutter), fate_detail(fates.in_cutter));
 }
 
-/// Window and rates of a head that is fed all the time.
-std::string production_table(const FedHead& head, double revolution) {
-    const Production& production = head.production;
+/// N m as kN m, W as kW.
+std::optional<double> scaled_down(const std::optional<double>& value) {
+    return value ? std::optional<double>(1e-3 * *value) : std::nullopt;
+}
+
+/// A quantity of the model and how it grows with the length ratio under Froude's law.
+struct ScaledValue {
+    const char* name;
+    const char* unit;
+    std::optional<double> model;
+    double exponent;
+};
+
+/// What a head that is fed all the time does, in the model and, where there is one, in the prototype: rates with lengths to the power 2.5,
+/// speeds 0.5, torque 4, power 3.5.
+std::string production_table(const Results& results, const RunData& run) {
+    const Production& production = results.fed->production;
+    const OperatingPoint& point = run.operating_point;
     const double duration = production.to - production.from;
-    const auto rate = [&](double mass) { return fmt::format("{} kg/s", number(mass / duration)); };
-    const std::string window = fmt::format("{:.0f} revolutions, {:.3f} to {:.3f} s", duration / revolution, production.from, production.to);
-    return html::table({"steady production", ""},
-                       {{"window", window + (production.start ? "" : "; start-up never ended")},
-                        {"fed", rate(production.fed)},
-                        {"delivered", rate(production.delivered)},
-                        {"spilled", rate(production.spilled)},
-                        {"hold-up grows by", rate(production.held_change)}},
-                       true);
+    const auto tonnes = [&](double mass) { return 3.6 * mass / duration; };
+    const auto in_situ = [&](double mass) {
+        return point.in_situ_density > 0.0 ? std::optional<double>(3600.0 * mass / duration / point.in_situ_density) : std::nullopt;
+    };
+    const auto mean = [](const std::optional<TimeAverage>& average) {
+        return average ? std::optional<double>(average->mean) : std::nullopt;
+    };
+    const std::vector<ScaledValue> values{
+        {"rotor speed", "rpm", point.speed_rpm, -0.5},
+        {"swing speed", "m/min", point.swing_speed > 0.0 ? std::optional<double>(60.0 * point.swing_speed) : std::nullopt, 0.5},
+        {"discharge of the mixture", "m³/h", 3600.0 * point.discharge, 2.5},
+        {"speed in the suction mouth", "m/s", results.delivery.pipe_velocity, 0.5},
+        {"fed, dry", "t/h", tonnes(production.fed), 2.5},
+        {"fed, soil in situ", "m³/h", in_situ(production.fed), 2.5},
+        {"delivered, dry", "t/h", tonnes(production.delivered), 2.5},
+        {"delivered, soil in situ", "m³/h", in_situ(production.delivered), 2.5},
+        {"spilled, dry", "t/h", tonnes(production.spilled), 2.5},
+        {"hold-up grows by", "t/h", tonnes(production.held_change), 2.5},
+        {"torque of the flow", "kN m", scaled_down(mean(results.rotor.torque_flow)), 4.0},
+        {"torque of the rock", "kN m", scaled_down(mean(results.rotor.torque_rock)), 4.0},
+        {"power of the drive, cutting excluded", "kW", scaled_down(mean(results.rotor.power)), 3.5}};
+    const bool has_prototype = point.length_ratio != 1.0;
+    std::vector<std::vector<std::string>> rows;
+    for (const ScaledValue& value : values) {
+        if (!value.model) continue;
+        rows.push_back({value.name, number(value.model, value.unit)});
+        if (has_prototype) rows.back().push_back(number(*value.model * std::pow(point.length_ratio, value.exponent), value.unit));
+    }
+    std::vector<std::string> header{"steady production", "model"};
+    if (has_prototype) header.push_back(fmt::format("prototype, {:g} times as long", point.length_ratio));
+    return fmt::format("<p>Means over {:.0f} revolutions, {:.3f} to {:.3f} s{}.{}</p>\n", duration / point.revolution_s(), production.from,
+                       production.to, production.start ? "" : "; start-up never ended",
+                       has_prototype ? " The prototype’s by Froude’s law in the same water." : "") +
+           html::table(header, rows, true);
 }
 
 /// The mean of an average and, in small print, its error.
@@ -244,7 +284,7 @@ std::string answers(const Results& results, const RunData& run) {
     if (!results.spillage) return blocks(flow_answers(results));
     if (!run.operating_point.fed_by_cutting) return blocks(rock_answers(results, revolution));
     if (!results.fed) return blocks(early_answers(results.spillage->fates));
-    return blocks(fed_answers(*results.fed)) + production_table(*results.fed, revolution);
+    return blocks(fed_answers(*results.fed)) + production_table(results, run);
 }
 
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {

@@ -167,6 +167,8 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.mesh_preset = study.text("mesh.preset", false);
     point.fed_by_cutting = study.is_fed_by_cutting();
     point.has_bank = study.has_bank();
+    point.swing_speed = study.number_or("swing.speed_m_min", 0.0) / 60.0;
+    point.in_situ_density = study.number_or("soil.grain_density_kg_m3", 0.0) * (1.0 - study.number_or("soil.porosity", 0.0));
     return point;
 }
 

@@ -27,13 +27,15 @@ struct OperatingPoint {
     double mouth_offset = 0.0;  ///< of the mouth's centre from the rotor's axis [m]
     double mouth_azimuth_deg = 0.0;
     double inclination_deg = 0.0;
-    double fluid_density = 0.0;   ///< [kg/m3], > 0
-    double outflow_start = 0.0;   ///< start of the averaging window of outflow and loads [s]
-    double length_ratio = 1.0;    ///< prototype length over model length, > 0
-    std::string swing_direction;  ///< may be empty
-    std::string mesh_preset;      ///< may be empty
-    bool fed_by_cutting = false;  ///< rock comes all the time, from a cut face
-    bool has_bank = false;        ///< soil stands beside the head
+    double fluid_density = 0.0;    ///< [kg/m3], > 0
+    double outflow_start = 0.0;    ///< start of the averaging window of outflow and loads [s]
+    double length_ratio = 1.0;     ///< prototype length over model length, > 0
+    std::string swing_direction;   ///< may be empty
+    std::string mesh_preset;       ///< may be empty
+    bool fed_by_cutting = false;   ///< rock comes all the time, from a cut face
+    bool has_bank = false;         ///< soil stands beside the head
+    double swing_speed = 0.0;      ///< [m/s]; 0: not given
+    double in_situ_density = 0.0;  ///< dry grains per volume of soil, rho_grain (1 - n) [kg/m3]; 0: not given
     double revolution_s() const { return 60.0 / speed_rpm; }
     double angular_speed() const { return rpm_to_rad_s(speed_rpm); }  ///< [rad/s], > 0
 };

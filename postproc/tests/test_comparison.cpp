@@ -94,6 +94,10 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     EXPECT_NEAR(*held.settings[0].value, 5.0, 1e-6);
     EXPECT_GT(*held.settings[1].value, 10.0);
     EXPECT_NEAR(*quantity_of(comparison, "hold_up_change_share").settings[1].value, 0.2, 0.01);
+    // 6 kg/s of soil with 2000 kg/m3 of grains; 2 times as long: 2^2.5 times as much.
+    EXPECT_NEAR(*quantity_of(comparison, "delivered_in_situ_m3_h").settings[0].value, 10.8, 0.2);
+    EXPECT_NEAR(*quantity_of(comparison, "prototype_delivered_in_situ_m3_h").settings[1].value,
+                5.656854 * *quantity_of(comparison, "delivered_in_situ_m3_h").settings[1].value, 1e-3);
     const Difference difference = difference_of(comparison, production, 1);
     EXPECT_NEAR(*difference.estimate.half_width, std::hypot(*production.settings[0].half_width, *production.settings[1].half_width), 1e-12);
     EXPECT_EQ(difference.verdict, ComparisonVerdict::differs);

@@ -77,6 +77,7 @@ TEST(WriteReport, page_gives_the_answer_first_with_bounds_error_and_cost) {
 // 10 kg/s are fed and 60 % of them delivered; the head holds 5 kg.
 TEST(WriteReport, of_a_fed_head_gives_production_and_spillage_with_interval_and_hold_up_first) {
     SmallRun run("report_fed");
+    run.length_ratio = 4.0;
     run.write();
     testing::make_fed(run, 5.0);
     const ReportSummary summary = write_report(run.directory);
@@ -96,6 +97,10 @@ TEST(WriteReport, of_a_fed_head_gives_production_and_spillage_with_interval_and_
         ASSERT_NE(at, std::string::npos) << part;
         last = at;
     }
+    // 10 kg/s are 36 t/h, and 32 times as much at four times the size; of 2000 kg/m3 in the bank.
+    EXPECT_TRUE(contains(page, "36 t/h")) << page.substr(page.find("steady production"), 2000);
+    EXPECT_TRUE(contains(page, "18 m³/h"));
+    EXPECT_TRUE(contains(page, "prototype, 4 times as long"));
     EXPECT_FALSE(contains(page, "spilled / (spilled + sucked up)")) << "a ratio without its hold-up";
     EXPECT_FALSE(contains(page, "one batch of rock"));
 }
