@@ -1,6 +1,5 @@
 #include "solver/replay/frozen_fluid.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,9 +7,6 @@
 
 namespace cutterflow::coupling {
 namespace {
-
-/// Times are sums of steps: this share of a step or of an interval is rounding.
-constexpr double k_time_tolerance = 1e-6;
 
 Vec3 between(const std::vector<float>& values, std::size_t before, std::size_t after, double share) {
     const Eigen::Map<const Eigen::Vector3f> first(&values[before]), second(&values[after]);
@@ -23,38 +19,14 @@ Vec3 between(const std::vector<float>& values, std::size_t before, std::size_t a
 
 }  // namespace
 
-FrozenFluid::FrozenFluid(FlowRecording recording, const ReplayTimes& times)
+FrozenFluid::FrozenFluid(FlowRecording recording, const RunTimes& times)
     : recording_(std::move(recording)),
-      times_(times),
-      longest_step_(2.0 * k_pi / (recording_.blades * recording_.phases * std::abs(recording_.moving.front().speed))),
-      time_(times.start),
+      clock_(times, 2.0 * k_pi / (recording_.blades * recording_.phases * std::abs(recording_.moving.front().speed))),
       velocity_(recording_.cells.size()),
       acceleration_(recording_.cells.size()),
       void_fraction_(recording_.cells.size(), 1.0),
       zero_(recording_.cells.size(), 0.0) {
     set_fields();
-}
-
-std::string FrozenFluid::time_name() const {
-    return fmt::format("{:.6g}", time_);
-}
-
-bool FrozenFluid::running() {
-    return times_.end - time_ > k_time_tolerance * longest_step_;
-}
-
-/// The next multiple of the write interval, or the end when that is earlier.
-double FrozenFluid::next_write_time() const {
-    if (!times_.write_interval) return times_.end;
-    const double interval = *times_.write_interval;
-    return std::min(times_.end, interval * (std::floor(time_ / interval + k_time_tolerance) + 1.0));
-}
-
-void FrozenFluid::begin_step(double travel_limit, double stop_time) {
-    const double ahead = std::min(next_write_time(), stop_time) - time_;
-    const double longest = std::min(longest_step_, travel_limit);
-    step_ = ahead / std::ceil(ahead / longest - k_time_tolerance);
-    time_ += step_;
 }
 
 void FrozenFluid::end_step(gsl::span<const double>, gsl::span<const double> void_fraction_new, const MomentumExchange&) {
@@ -68,7 +40,7 @@ void FrozenFluid::reset_void_fraction(gsl::span<const double> void_fraction) {
 
 void FrozenFluid::set_fields() {
     const ZoneMotion& rotor = recording_.moving.front();
-    const double angle = rotor.angle(time_);
+    const double angle = rotor.angle(time());
     const Eigen::Matrix3d from_rotor(Eigen::AngleAxisd(angle, rotor.axis.direction));
     const PhasePlace places[] = {phase_place(recording_, 0, angle), phase_place(recording_, 1, angle)};
     const std::size_t cells = recording_.cells.size();
@@ -82,12 +54,6 @@ void FrozenFluid::set_fields() {
         velocity_[c] = from_rotor * velocity_[c];
         acceleration_[c] = from_rotor * acceleration_[c];
     }
-}
-
-bool FrozenFluid::write_if_due() {
-    if (!times_.write_interval) return false;
-    const double intervals = time_ / *times_.write_interval;
-    return std::abs(intervals - std::round(intervals)) <= k_time_tolerance;
 }
 
 gsl::span<const Vec3> FrozenFluid::vorticity() {
