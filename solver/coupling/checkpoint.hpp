@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solver/coupling/feed/feed_queue.hpp"
-#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/coupling/rock_coupling.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
 #include "solver/ports/communicator.hpp"

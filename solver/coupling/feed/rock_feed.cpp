@@ -111,4 +111,23 @@ std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const st
     return rocks;
 }
 
+Rocks as_listed(const std::vector<FeedRock>& feed) {
+    Rocks rocks;
+    for (const FeedRock& rock : feed) {
+        rocks.id.push_back(rock.id);
+        rocks.position.push_back(rock.position);
+        rocks.velocity.push_back(rock.velocity.value_or(Vec3::Zero()));
+        rocks.angular_velocity.push_back(Vec3::Zero());
+        rocks.diameter.push_back(rock.diameter);
+        rocks.density.push_back(rock.density);
+    }
+    return rocks;
+}
+
+Rocks rocks_of(const std::vector<FeedRock>& feed) {
+    std::vector<FeedRock> sorted = feed;
+    std::sort(sorted.begin(), sorted.end(), [](const FeedRock& a, const FeedRock& b) { return a.id < b.id; });
+    return as_listed(sorted);
+}
+
 }  // namespace cutterflow::coupling

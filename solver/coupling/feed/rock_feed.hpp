@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::coupling {
 
@@ -32,5 +33,10 @@ struct FeedRock {
 /// \throws UserError  with every mistake of the file: missing column, not a number, id repeated or not positive, diameter or density not
 /// positive, place outside the domain or out of order
 std::vector<FeedRock> read_rock_feed(const std::filesystem::path& file, const std::function<bool(const Vec3&)>& in_domain = {});
+
+/// Rock of the feed for the DEM, in the order of the list; rock without a velocity is at rest.
+Rocks as_listed(const std::vector<FeedRock>& feed);
+/// The same, sorted by id.
+Rocks rocks_of(const std::vector<FeedRock>& feed);
 
 }  // namespace cutterflow::coupling

@@ -59,25 +59,6 @@ void require_room(double largest_solid_fraction, double limit) {
          "Place less rock there, or widen kernel.gamma"});
 }
 
-void append(Rocks& rocks, const FeedRock& rock) {
-    rocks.id.push_back(rock.id);
-    rocks.position.push_back(rock.position);
-    rocks.velocity.push_back(rock.velocity.value_or(Vec3::Zero()));
-    rocks.angular_velocity.push_back(Vec3::Zero());
-    rocks.diameter.push_back(rock.diameter);
-    rocks.density.push_back(rock.density);
-}
-
-/// The rocks to place, sorted by id.
-Rocks rocks_of(const std::vector<FeedRock>& due) {
-    std::vector<const FeedRock*> sorted;
-    for (const FeedRock& rock : due) sorted.push_back(&rock);
-    std::sort(sorted.begin(), sorted.end(), [](const FeedRock* a, const FeedRock* b) { return a->id < b->id; });
-    Rocks rocks;
-    for (const FeedRock* rock : sorted) append(rocks, *rock);
-    return rocks;
-}
-
 }  // namespace
 
 KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
@@ -139,9 +120,7 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
 }
 
 std::vector<bool> KernelCoupling::room_for(const std::vector<FeedRock>& rocks) const {
-    Rocks candidates;
-    for (const FeedRock& rock : rocks) append(candidates, rock);
-    return dem_.room_for(candidates);
+    return dem_.room_for(as_listed(rocks));
 }
 
 void KernelCoupling::remove(gsl::span<const int> ids) {

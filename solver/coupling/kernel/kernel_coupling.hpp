@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/coupling/feed/rock_feed.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/coupling/rock_coupling.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/dem_engine.hpp"
@@ -24,20 +24,6 @@ struct FlowAtRock {
     Vec3 stress_divergence = Vec3::Zero();  ///< div(tau) [m/s2], without viscous force only
 };
 
-/// Conservation errors and maximum solid fraction of one step.
-struct ExchangeBalance {
-    double solid_volume_error = 0.0;  ///< |solid volume of mapping and of the fluid's cells - volume of rock| / volume of rock
-    double deposit_error = 0.0;  ///< |momentum laid into cells - that of the rocks| / (sum |impulse| + carry); says nothing of the fluid
-    double solid_fraction_max = 0.0;
-    int overfull_cells = 0;  ///< of the whole mesh, with more than kernel.maxSolidFraction: no cell in reach had room
-};
-
-/// Fluid displaced at insertion of rock, less fluid that replaced removed rock; no source in the fluid's equations.
-struct BookedExchange {
-    double volume = 0.0;           ///< [m3]
-    Vec3 momentum = Vec3::Zero();  ///< of that fluid [N s]
-};
-
 /// One step's exchange. Call in order: insert (when rock is due), sample, move, map, book.
 ///
 /// With D the drag per slip velocity, V a rock's volume, J the impulse of drag and Du/Dt parts on it over the step, dv the change of its
@@ -47,7 +33,7 @@ struct BookedExchange {
 /// the cells of a rock. The fluid receives target - K (u_new - u_old) - M (Du/Dt_new - Du/Dt_old), K = sum_p w_p D_p / rho_f, M = (1 +
 /// C_AM) solid fraction, because drag and Du/Dt parts lagged by a step would be unstable. What is still owed, carry = carry_old / 2 +
 /// (target - received) dt, goes into the next targets by halves: momentum is exchanged to the last bit, part of it some steps late.
-class KernelCoupling {
+class KernelCoupling final : public RockCoupling {
 public:
     KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
                    Communicator& communicator);
@@ -55,46 +41,44 @@ public:
     /// Puts rock into the run at the present time; rock without a velocity gets the local fluid velocity. The void fraction is replaced
     /// with that of all rock, without a source. \return ids of `due` that found no place
     /// \throws CheckFailure  when cells are so full of rock that no fluid is left (also of map)
-    std::vector<int> insert(const std::vector<FeedRock>& due);
+    std::vector<int> insert(const std::vector<FeedRock>& due) override;
 
-    /// Whether rock of the feed has room in the DEM.
-    std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const;
+    std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const override;
 
     /// Takes rock out of the run. The fluid takes its place without a source: the volume flow of fluid and rock together does not change.
-    void remove(gsl::span<const int> ids);
+    void remove(gsl::span<const int> ids) override;
 
     /// Samples the flow at every rock on the present mesh.
-    void sample();
+    void sample() override;
 
     /// Longest step [s] in which rock travels a quarter of its kernel width, relative to the cells of either zone, and in a flow that feels
     /// rock the rotor interface a quarter of the narrowest; infinity without rock. Kernels are at least 1.5 cells wide, and what moves with
     /// the rock is smooth on them.
-    double travel_limit() const;
+    double travel_limit() const override;
 
-    /// Moves the rocks over the fluid's time step with the sampled flow.
-    const DemStep& move();
+    const DemStep& move() override;
 
     /// Builds both void fractions and the momentum exchange on the moved mesh; for a flow that does not feel rock the new void fraction
     /// alone.
-    void map();
+    void map() override;
 
-    gsl::span<const double> void_fraction_old() const { return void_fraction_old_; }
-    gsl::span<const double> void_fraction_new() const { return void_fraction_new_; }
-    MomentumExchange exchange() const { return {source_, drag_rate_, inertia_}; }
+    gsl::span<const double> void_fraction_old() const override { return void_fraction_old_; }
+    gsl::span<const double> void_fraction_new() const override { return void_fraction_new_; }
+    MomentumExchange exchange() const override { return {source_, drag_rate_, inertia_}; }
 
     /// Updates the carry from the momentum that the fluid received. MomentumBalance tells whether it did.
-    ExchangeBalance book();
+    ExchangeBalance book() override;
 
     /// New warnings since the last call: closures outside their range, rock whose centre lies in steel.
-    std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
+    std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
 
     const std::vector<FlowAtRock>& flow() const { return flow_; }
     const Mapping& mapping() const { return mapping_; }
-    const BookedExchange& booked() const { return booked_; }
+    const BookedExchange& booked() const override { return booked_; }
 
     /// Momentum per mixture volume over rho_f that this rank's cells have yet to receive [m/s]; with `booked` all that a checkpoint needs.
-    const std::vector<Vec3>& carry() const { return carry_; }
-    void restore(std::vector<Vec3> carry, const BookedExchange& booked);
+    const std::vector<Vec3>& carry() const override { return carry_; }
+    void restore(std::vector<Vec3> carry, const BookedExchange& booked) override;
 
 private:
     std::vector<double> spread_present_rock();
