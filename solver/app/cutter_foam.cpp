@@ -12,6 +12,7 @@
 #include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
+#include "solver/coupling/dry/no_fluid.hpp"
 #include "solver/coupling/feed/rock_feed.hpp"
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 #include "solver/foam/foam_fluid_engine.hpp"
@@ -85,6 +86,17 @@ void replay(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
     run_coupled(session, dictionary, fluid, dictionary.dem->fluid, recorded_flow_models(dictionary));
 }
 
+/// Rock without a medium. The time of a checkpoint is its own: there are no time folders.
+void move_rock_alone(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
+    if (foam::PstreamCommunicator().size() > 1)
+        throw UserError("medium none on several ranks", "Rock without a medium moves on one", "Start it without -parallel");
+    const foam::CaseTimes times = foam::case_times(session.time());
+    const auto checkpoint = newest_checkpoint(session.case_folder());
+    const double start = checkpoint.empty() ? times.start : coupling::read_state(checkpoint).time;
+    coupling::NoFluid fluid({start, times.end, times.write_interval}, times.step);
+    run_coupled(session, dictionary, fluid, {}, no_flow_models());
+}
+
 void solve(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
     foam::FoamFluidEngine fluid(session, dictionary.coupling.has_rock, dictionary.coupling.patches, dictionary.coupling.soil);
     run_coupled(session, dictionary, fluid, fluid.fluid_properties(), flow_models(fluid, dictionary.coupling.soil));
@@ -95,7 +107,9 @@ void run(int argc, char** argv) {
     foam::FoamSession session(argc, argv);
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
     require_feed_in_domain(dictionary);
-    if (dictionary.coupling.replay.empty())
+    if (!dictionary.coupling.has_medium)
+        move_rock_alone(session, dictionary);
+    else if (dictionary.coupling.replay.empty())
         solve(session, dictionary);
     else
         replay(session, dictionary);

@@ -55,10 +55,14 @@ std::vector<coupling::ModelNote> recorded_flow_models(const foam::CouplingDictio
     return {{"recorded flow: " + dictionary.coupling.replay.string(), "section replay; rock does not change it"}};
 }
 
+std::vector<coupling::ModelNote> no_flow_models() {
+    return {{"no fluid: weight and contacts alone", "medium none"}};
+}
+
 std::vector<coupling::ModelNote> rock_models(const foam::CouplingDictionary& dictionary) {
     std::vector<coupling::ModelNote> notes;
     if (!dictionary.coupling.has_rock) return notes;
-    add_coupling_models(dictionary.coupling, notes);
+    if (dictionary.coupling.has_medium) add_coupling_models(dictionary.coupling, notes);
     add_contact_models(*dictionary.dem, notes);
     return notes;
 }

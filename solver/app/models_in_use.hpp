@@ -9,9 +9,10 @@
 
 namespace cutterflow {
 
-/// Of a flow that is solved, and of one that is played.
+/// Of a flow that is solved, of one that is played, and of none.
 std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid, const std::optional<coupling::SoilSettings>& soil);
 std::vector<coupling::ModelNote> recorded_flow_models(const foam::CouplingDictionary& dictionary);
+std::vector<coupling::ModelNote> no_flow_models();
 
 /// Of rock, in the order of the equations; none without rock.
 std::vector<coupling::ModelNote> rock_models(const foam::CouplingDictionary& dictionary);

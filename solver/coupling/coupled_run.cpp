@@ -9,6 +9,8 @@
 
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
+#include "solver/coupling/dry/free_rock.hpp"
+#include "solver/coupling/kernel/kernel_coupling.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -88,7 +90,10 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     if (settings.velocity && mistakes.empty()) mistakes.gather([&] { velocity_.emplace(*settings.velocity, fluid); });
     mistakes.refuse();
     if (settings.has_rock) {
-        rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
+        if (fluid.has_medium())
+            rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
+        else
+            rock_ = std::make_unique<FreeRock>(fluid, *dem);
         if (fluid.feels_rock()) momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
     }
     if (settings.record && !fs::exists(case_folder_ / names::recording)) phases_ = std::make_unique<PhaseRecorder>(*settings.record, fluid);

@@ -8,7 +8,7 @@
 
 #include "solver/coupling/checkpoint.hpp"
 #include "solver/coupling/feed/feed_queue.hpp"
-#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/coupling/rock_coupling.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/head/outflow_places.hpp"
 #include "solver/observe/momentum_balance.hpp"
@@ -35,7 +35,8 @@ namespace cutterflow::coupling {
 ///   end_fluid_step    momentum, pressure with d(alpha)/dt, turbulence
 ///   book              impulse of the rocks that the fluid did not receive is carried to the next step; fates, balances
 ///   report            rows, fields, checkpoint
-/// Without rock only the fluid's two stages and their reports remain. A fluid that does not feel rock gets no momentum exchange.
+/// Without rock only the fluid's two stages and their reports remain. A fluid that does not feel rock gets no momentum exchange; without
+/// a medium rock is moved and reported alone.
 class CoupledRun {
 public:
     /// \param dem       null without rock
@@ -93,7 +94,7 @@ private:
     RunRecorder& recorder_;
     std::filesystem::path case_folder_;
 
-    std::unique_ptr<KernelCoupling> rock_;
+    std::unique_ptr<RockCoupling> rock_;
     std::unique_ptr<MomentumBalance> momentum_;
     std::optional<FateTracker> fates_;
     std::optional<VelocitySets> velocity_;

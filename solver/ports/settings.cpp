@@ -91,15 +91,35 @@ void check_replay(Mistakes& mistakes, const CouplingSettings& settings) {
     refuse(!settings.closures.viscous_force, "closures.viscousForce no");
 }
 
+/// Nothing flows where there is no medium.
+void check_without_medium(Mistakes& mistakes, const CouplingSettings& settings) {
+    const auto refuse = [&](bool wrong, const std::string& what) {
+        if (wrong) mistakes.add(what + " with medium none", "Without a medium nothing flows", "Remove it, or the line: medium none;");
+    };
+    if (!settings.has_rock) mistakes.add("medium none without section rock", "Without a medium only rock moves", "Add rock");
+    refuse(settings.fates.has_value(), "section fates");
+    refuse(settings.outflow.has_value(), "section outflow");
+    refuse(settings.velocity.has_value(), "section velocity");
+    refuse(settings.record.has_value(), "section record");
+    refuse(!settings.replay.empty(), "section replay");
+    refuse(settings.soil.has_value(), "section soil");
+    refuse(!settings.patches.outlet.empty() || !settings.patches.steel.empty(), "section patches");
+}
+
 }  // namespace
 
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where) {
     Mistakes mistakes(where);
-    mistakes.add(fluid_mistakes(fluid));
+    if (settings.has_medium)
+        mistakes.add(fluid_mistakes(fluid));
+    else
+        check_without_medium(mistakes, settings);
     if (settings.has_rock) {
-        mistakes.add(setting_mistakes(settings.kernel, "kernel", where));
-        mistakes.add(setting_mistakes(settings.closures, "closures", where));
-        check_hindrance(mistakes, settings.closures);
+        if (settings.has_medium) {
+            mistakes.add(setting_mistakes(settings.kernel, "kernel", where));
+            mistakes.add(setting_mistakes(settings.closures, "closures", where));
+            check_hindrance(mistakes, settings.closures);
+        }
         if (settings.queue) mistakes.add(setting_mistakes(*settings.queue, "rock.queue", where));
         if (settings.rock_feed.empty()) mistakes.add("rock.feed is missing", "Rock enters through a feed file", "Name a CSV file");
     }

@@ -149,6 +149,7 @@ const SettingTable<SoilSettings>& setting_table<SoilSettings>();
 /// the contour of `fates`, which `outflow` needs too.
 struct CouplingSettings {
     bool has_rock = false;
+    bool has_medium = true;  ///< false: rock moves by weight and contacts alone, without mesh and fields
     PatchSettings patches;
     std::optional<SoilSettings> soil;
     std::filesystem::path rock_feed;     ///< CSV, with rock

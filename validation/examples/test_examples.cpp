@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -16,10 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A copy of an example, meshed and run.
-fs::path run_example(const std::string& name) {
+fs::path copy_example(const std::string& name) {
     const fs::path folder = scratch_folder("example_" + name);
     fs::copy(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples" / name, folder, fs::copy_options::recursive);
+    return folder;
+}
+
+/// A copy of an example, meshed and run.
+fs::path run_example(const std::string& name) {
+    const fs::path folder = copy_example(name);
     run_in_case(folder, {"blockMesh"});
     run_cutter_foam(folder);
     return folder;
@@ -40,6 +46,38 @@ TEST(RockInABox, falls_as_its_force_balance_says) {
     EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-10);
     EXPECT_LE(largest(balance.at("momentum_error")), 1e-5);
     EXPECT_FALSE(fs::exists(folder / "postProcessing/rock/0/fates.csv"));
+}
+
+constexpr double k_fall_height = 0.2, k_restitution = 0.8, k_gravity = 9.81;  // of bouncing_rock [m], [-], [m/s2]
+
+/// Height [m] above the floor and upward velocity [m/s], after the first bounce.
+std::pair<double, double> bounce(double time) {
+    const double fall = std::sqrt(2.0 * k_fall_height / k_gravity), rise = time - fall;
+    const double start = k_restitution * k_gravity * fall;
+    return {start * rise - 0.5 * k_gravity * rise * rise, start - k_gravity * rise};
+}
+
+void expect_bounced(const RockSnapshot& rock) {
+    EXPECT_NEAR(rock.time, 0.4, 1e-9);
+    const auto [height, velocity] = bounce(rock.time);
+    EXPECT_NEAR(rock.position.at(0).z() - 0.005, height, 0.01 * k_fall_height);
+    EXPECT_NEAR(rock.velocity.at(0).z(), velocity, 0.01 * k_gravity * 0.2);
+    EXPECT_LT(rock.position.at(0).head<2>().norm(), 1e-12);
+}
+
+TEST(BouncingRock, without_a_medium_keeps_its_restitution_also_when_it_is_resumed) {
+    const fs::path folder = copy_example("bouncing_rock");
+    run_cutter_foam(folder);
+    expect_bounced(last_rocks(folder));
+    EXPECT_FALSE(fs::exists(folder / "constant/polyMesh"));
+
+    const RockSnapshot whole = last_rocks(folder);
+    for (const char* time : {"0.3", "0.4"}) fs::remove_all(folder / "checkpoints" / time);
+    fs::remove_all(folder / "postProcessing");
+    run_cutter_foam(folder);
+    const RockSnapshot resumed = last_rocks(folder);
+    EXPECT_LT((resumed.position.at(0) - whole.position.at(0)).norm(), 1e-9);
+    EXPECT_LT((resumed.velocity.at(0) - whole.velocity.at(0)).norm(), 1e-7);
 }
 
 /// Force on the bed from the pressure under it, at the end of each step [N].

@@ -11,6 +11,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupled_run.hpp"
+#include "solver/coupling/dry/no_fluid.hpp"
 #include "solver/observe/csv_recorder.hpp"
 #include "solver/ports/testing/fake_engines.hpp"
 #include "solver/ports/testing/temporary_folder.hpp"
@@ -495,6 +496,127 @@ void expect_same_to_the_bit(CouplingSettings settings, const TemporaryFolder& fo
     EXPECT_NEAR(ledger.delivered, through.ledgers.back().delivered, 1e-15);
     EXPECT_NEAR(ledger.spilled_cutting, through.ledgers.back().spilled_cutting, 1e-15);
     for (const RockLedger& one : after.ledgers) EXPECT_LE(one.error(), 1e-12);
+}
+
+/// Rock without a medium: three rocks on their ways, one of which comes in between two pictures.
+struct DryRig {
+    DryRig(const TemporaryFolder& folder, RunRecorder& recorder, double start) : fluid({start, 0.1, 0.025}, 2e-3) {
+        CouplingSettings settings;
+        settings.has_rock = true;
+        settings.has_medium = false;
+        settings.checkpoint = CheckpointSettings{0.05, 2};
+        settings.rock_feed = folder.write("feed.csv",
+                                          "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n"
+                                          "2,0,0,0,1,0.01,2650,0,0,0\n1,0,0.1,0,2,0.02,2650,1,0,3\n3,0.0333,0.2,0,1,0.01,1500,0,0,0\n");
+        dem.gravity = k_gravity;
+        run.emplace(settings, FluidProperties{}, fluid, &dem, serial, recorder, folder.path());
+    }
+    void go_to_the_end() {
+        while (fluid.running()) run->step();
+    }
+    inline static const Vec3 k_gravity{0.0, 0.0, -9.81};
+
+    /// Its walls do not turn.
+    struct StillDem final : FakeDem {
+        StillDem() : FakeDem(k_still, 0.5, 0.0) {}
+        std::vector<double> zone_angles() const override { return {}; }
+    };
+    NoFluid fluid;
+    StillDem dem;
+    SerialCommunicator serial;
+    std::optional<CoupledRun> run;
+};
+
+TEST(WithoutAMedium, rock_falls_freely_from_its_time_to_the_end) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    DryRig rig(folder, recorder, 0.0);
+    rig.go_to_the_end();
+    EXPECT_NEAR(rig.fluid.time(), 0.1, 1e-12);
+    const Rocks& rocks = rig.dem.rocks();
+    ASSERT_EQ(rocks.id, (std::vector<int>{1, 2, 3}));
+    const auto expect_place = [&](std::size_t p, const Vec3& start, const Vec3& velocity, double release) {
+        const double way = 0.1 - release;
+        EXPECT_LT((rocks.position[p] - (start + way * velocity + 0.5 * way * way * DryRig::k_gravity)).norm(), 1e-12) << rocks.id[p];
+        EXPECT_LT((rocks.velocity[p] - (velocity + way * DryRig::k_gravity)).norm(), 1e-12) << rocks.id[p];
+    };
+    expect_place(0, Vec3(0.1, 0, 2), Vec3(1, 0, 3), 0.0);
+    expect_place(1, Vec3(0, 0, 1), Vec3::Zero(), 0.0);
+    expect_place(2, Vec3(0.2, 0, 1), Vec3::Zero(), 0.0333);
+    EXPECT_EQ(recorder.pictures.size(), 4u);
+    EXPECT_EQ(recorder.events.size(), 3u);
+    EXPECT_TRUE(recorder.balance_rows.empty());
+    EXPECT_TRUE(recorder.load_rows.empty());
+}
+
+TEST(WithoutAMedium, resumes_to_the_bit) {
+    const TemporaryFolder folder;
+    MemoryRecorder through, after;
+    DryRig whole(folder, through, 0.0);
+    while (newest_checkpoint(folder.path()).empty()) whole.run->step();
+    const std::filesystem::path checkpoint = folder.path() / "kept";
+    std::filesystem::copy(newest_checkpoint(folder.path()), checkpoint, std::filesystem::copy_options::recursive);
+    const double saved = whole.fluid.time();
+    EXPECT_NEAR(saved, 0.05, 2e-3);
+    EXPECT_EQ(read_state(checkpoint).time, saved);
+    whole.go_to_the_end();
+
+    DryRig resumed(folder, after, saved);
+    resumed.run->resume(checkpoint);
+    resumed.go_to_the_end();
+    ASSERT_EQ(resumed.dem.rocks().id, whole.dem.rocks().id);
+    for (std::size_t p = 0; p < 3; ++p) {
+        EXPECT_EQ(resumed.dem.rocks().position[p], whole.dem.rocks().position[p]);
+        EXPECT_EQ(resumed.dem.rocks().velocity[p], whole.dem.rocks().velocity[p]);
+    }
+    EXPECT_TRUE(after.events.empty());
+}
+
+TEST(WithoutAMedium, an_engine_that_loses_a_rock_ends_the_run) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    struct Thief final : FakeDem {
+        Thief() : FakeDem(k_still, 0.5, 0.0) {}
+        std::vector<double> zone_angles() const override { return {}; }
+        DemStep advance(double duration, const HydrodynamicForce& force) override {
+            const DemStep step = FakeDem::advance(duration, force);
+            const std::vector<int> first{rocks_.id.front()};
+            remove(first);
+            return step;
+        }
+    } dem;
+    NoFluid fluid({0.0, 0.1, {}}, 2e-3);
+    SerialCommunicator serial;
+    CouplingSettings settings;
+    settings.has_rock = true;
+    settings.has_medium = false;
+    settings.rock_feed =
+        folder.write("feed.csv", "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3\n1,0,0,0,1,0.01,2650\n2,0,1,0,1,0.01,2650\n");
+    CoupledRun run(settings, FluidProperties{}, fluid, &dem, serial, recorder, folder.path());
+    EXPECT_THROW(run.step(), CheckFailure);
+}
+
+TEST(WithoutAMedium, what_needs_a_flow_is_refused_all_at_once) {
+    CouplingSettings settings;
+    settings.has_medium = false;
+    settings.fates.emplace();
+    settings.outflow.emplace();
+    settings.velocity.emplace();
+    settings.record.emplace();
+    settings.replay = "somewhere";
+    settings.patches.outlet = "top";
+    settings.soil.emplace();
+    std::string all;
+    for (const Mistake& mistake : check_settings(settings, FluidProperties{}, "here")) all += mistake.text() + "\n";
+    for (const char* what : {"medium none without section rock", "section fates with medium none", "section outflow with medium none",
+                             "section velocity with medium none", "section record with medium none", "section replay with medium none",
+                             "section patches with medium none", "section soil with medium none"})
+        EXPECT_NE(all.find(what), std::string::npos) << what << " is not in\n" << all;
+    settings = CouplingSettings();
+    settings.has_medium = false;
+    settings.has_rock = true;
+    settings.rock_feed = "feed.csv";
+    EXPECT_TRUE(check_settings(settings, FluidProperties{}, "here").empty());
 }
 
 TEST(Checkpoint, resumes_to_the_bit) {

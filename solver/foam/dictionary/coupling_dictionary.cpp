@@ -177,10 +177,11 @@ bool can_read(const std::string& name, const std::string& content, const Foam::T
     return false;
 }
 
-/// Gravity and the fluid; the other keys of these files are OpenFOAM's.
-void read_surroundings(const Foam::Time& time, coupling::DemSettings& dem, Findings& findings) {
+/// Gravity and, with a medium, the fluid; the other keys of these files are OpenFOAM's.
+void read_surroundings(const Foam::Time& time, bool has_medium, coupling::DemSettings& dem, Findings& findings) {
     if (can_read("g", "the gravity [m/s2]", time, findings))
         dem.gravity = to_vec3(Foam::uniformDimensionedVectorField(in_constant("g", time)).value());
+    if (!has_medium) return;
     if (!can_read("transportProperties", "rho [kg/m3] and nu [m2/s]", time, findings)) {
         dem.fluid = k_any_fluid;
         return;
@@ -218,6 +219,11 @@ std::unique_ptr<Foam::IOdictionary> open_coupling_properties(const FoamSession& 
 
 void read_file(DictionarySection& file, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::CouplingSettings& settings = result.coupling;
+    settings.has_medium = file.read_choice("medium", {"fluid", "none"}, k_optional) != "none";
+    if (!settings.has_medium)
+        for (const char* key : {"kernel", "closures"})
+            if (file.section(key, k_optional))
+                file.report(key, "with medium none", "Without a medium rock is neither mapped nor dragged", "Remove the section");
     read_section(file, "patches", k_optional, [&](DictionarySection& section) {
         section.read("outlet", settings.patches.outlet, k_optional);
         section.read("steel", settings.patches.steel, k_optional);
@@ -248,7 +254,7 @@ void check_values(const CouplingDictionary& result, Findings& findings) {
     if (!result.dem) return;
     coupling::DemSettings dem = *result.dem;
     dem.added_mass = coupling::ClosureSettings().added_mass;  // its mistakes and the fluid's are among those above
-    dem.fluid = k_any_fluid;
+    if (result.coupling.has_medium) dem.fluid = k_any_fluid;
     findings.add_of_values(coupling::check_settings(dem, names::coupling_properties));
 }
 
@@ -262,7 +268,7 @@ void read_case(FoamSession& session, CouplingDictionary& result, Findings& findi
     file.finish();
     if (result.dem) {
         result.dem->added_mass = result.coupling.closures.added_mass;
-        read_surroundings(time, *result.dem, findings);
+        read_surroundings(time, result.coupling.has_medium, *result.dem, findings);
     }
     check_values(result, findings);
 }

@@ -15,12 +15,13 @@ struct CouplingDictionary {
     std::optional<coupling::DemSettings> dem;  ///< with rock; without a log
 };
 
-/// Reads constant/couplingProperties and, with rock, constant/g and rho and nu of constant/transportProperties. A case without the file is
-/// a pure flow. What sets the time step in system/controlDict is checked too. Collective. Every section and key, with default, unit and
-/// bounds: docs/user/your_own_case.md.
+/// Reads constant/couplingProperties and, with rock, constant/g and (but for medium none) rho and nu of constant/transportProperties. A
+/// case without the file is a pure flow. What sets the time step in system/controlDict is checked too. Collective. Every section and key,
+/// with default, unit and bounds: docs/user/your_own_case.md.
 ///
 /// Usage
 /// \verbatim
+/// medium     fluid;                                            // or none: rock moves by weight and contacts alone
 /// patches { outlet top; steel (blades floor); }               // optional
 /// soil { surface "constant/triSurface/bank.stl"; permeability 0; }                       // optional
 /// rock                                                        // optional

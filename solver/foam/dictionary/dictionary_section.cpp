@@ -191,8 +191,8 @@ DictionarySection DictionarySection::below(const Foam::dictionary& dict, const s
     return DictionarySection(dict, full_name(key), file_, findings_);
 }
 
-void DictionarySection::report(const std::string& key, const std::string& what, const std::string& rule) {
-    findings_.add(full_name(key), {where(key), fmt::format("{} {}", full_name(key), what), rule, "Correct the value"});
+void DictionarySection::report(const std::string& key, const std::string& what, const std::string& rule, const std::string& remedy) {
+    findings_.add(full_name(key), {where(key), fmt::format("{} {}", full_name(key), what), rule, remedy});
 }
 
 void DictionarySection::refuse(const std::string& key, const std::string& rule, const std::string& remedy) {

@@ -68,7 +68,7 @@ public:
     DictionarySection below(const Foam::dictionary& dict, const std::string& key);
 
     /// Adds a mistake about the value of a key.
-    void report(const std::string& key, const std::string& what, const std::string& rule);
+    void report(const std::string& key, const std::string& what, const std::string& rule, const std::string& remedy = "Correct the value");
 
     /// Adds a mistake when the section has this key, which it had in an earlier version.
     void refuse(const std::string& key, const std::string& rule, const std::string& remedy);

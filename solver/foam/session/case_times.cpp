@@ -14,7 +14,7 @@ std::optional<double> write_interval_of(const Foam::dictionary& control) {
 }  // namespace
 
 CaseTimes case_times(const Foam::Time& time) {
-    return {time.value(), time.endTime().value(), write_interval_of(time.controlDict())};
+    return {time.deltaTValue(), time.value(), time.endTime().value(), write_interval_of(time.controlDict())};
 }
 
 }  // namespace cutterflow::foam

@@ -9,6 +9,7 @@ class Time;
 namespace cutterflow::foam {
 
 struct CaseTimes {
+    double step = 0.0;                     ///< deltaT [s]
     double start = 0.0, end = 0.0;         ///< [s]
     std::optional<double> write_interval;  ///< of simulated time [s]; none when the case counts otherwise
 };

@@ -310,6 +310,37 @@ TEST(CouplingDictionary, NamesAMissingFileOfRockAsAMistake) {
     EXPECT_THAT(mistakes_of([&] { read(tiny); }), ElementsAre(AllOf(HasSubstr("constant/g"), HasSubstr("missing"))));
 }
 
+const char* const k_dry = R"(
+medium none;
+rock
+{
+    feed "f.csv";
+    contact { youngsModulus 1e8; maxSpeed 1; wetRestitution false; }
+    domain { type box; lower (0 0 0); upper (1 1 1); walls (zMin); }
+}
+)";
+
+TEST(CouplingDictionary, ReadsNoFluidWithoutAMedium) {
+    testing::TinyCase tiny = case_with("dictionary_dry", k_dry);
+    tiny.files.erase("constant/transportProperties");
+    const CouplingDictionary found = read(tiny);
+    EXPECT_FALSE(found.coupling.has_medium);
+    EXPECT_EQ(found.dem->fluid.density, 0.0);
+    EXPECT_EQ(found.dem->gravity, Vec3(6.9, 0.0, -6.9));
+}
+
+TEST(CouplingDictionary, RefusesWhatNeedsAFluidWithoutAMedium) {
+    std::string text = k_dry;
+    text.replace(text.find("false"), 5, "true");
+    EXPECT_THAT(mistakes_of([&] {
+                    read("dictionary_wet",
+                         text + "kernel { gamma 2; }\nclosures { addedMass 0; }\nrecord { startTime 1; endTime 2; blades 6; }");
+                }),
+                ::testing::UnorderedElementsAre(HasSubstr("wet restitution with density 0"), HasSubstr("kernel with medium none"),
+                                                HasSubstr("closures with medium none"), HasSubstr("section record with medium none")));
+    EXPECT_THAT(mistakes_of([&] { read("dictionary_air", "medium air;"); }), ElementsAre(HasSubstr("medium = air")));
+}
+
 TEST(CouplingDictionary, RefusesTimeStepsThatAreNotAboveZeroInAPureFlow) {
     testing::TinyCase tiny = case_with("control_values", "");
     tiny.files["system/controlDict"] += "deltaT 0; maxCo abc; maxDeltaT -2;";
