@@ -39,7 +39,7 @@ struct SweepOptions {
     std::string study;
     std::optional<std::string> output;
     cases::SweepAxes axes;
-    std::vector<std::string> set;  ///< keys of a free-surface study
+    std::vector<std::string> set;  ///< other keys of the study
     int ranks = 1;
     bool resume = false;
     std::string launcher = "local";
@@ -103,15 +103,16 @@ void replay_settings(const SweepOptions& options, const std::vector<cases::Sweep
 /// The points of a study, of whichever kind it is.
 std::vector<cases::SweepPoint> points_of(const SweepOptions& options, const fs::path& folder) {
     if (!is_surface(options)) {
-        if (!options.set.empty())
-            throw UserError("--set in a sweep of a cutter", "It changes keys of free-surface studies",
-                            "Use --rpm, --discharge or --design");
-        return cases::sweep_points(options.study, options.axes, folder);
+        cases::SweepAxes axes = options.axes;
+        axes.keys = cases::key_axes(cases::study_table(), options.set, "cutterflow params");
+        return cases::sweep_points(options.study, axes, folder);
     }
     if (!options.axes.speeds.empty() || !options.axes.discharges.empty() || !options.axes.designs.empty() || options.ranks != 1)
         throw UserError("--rpm, --discharge, --design or --ranks in a sweep of a free-surface study", "They belong to cutters",
                         "Use --set KEY=a,b and --repeats");
-    return cases::surface_sweep_points(options.study, cases::surface_axes(options.set), options.axes.repeats);
+    return cases::surface_sweep_points(options.study,
+                                       cases::key_axes(cases::surface_study_table(), options.set, "cutterflow params --kind free_surface"),
+                                       options.axes.repeats);
 }
 
 fs::path write_comparison(const std::vector<fs::path>& runs, bool surface, const fs::path& folder) {
@@ -214,8 +215,7 @@ void add_sweep(CLI::App& app) {
     command->add_option("--rpm", options->axes.speeds, "Rotor speeds, as 30,60,90")->delimiter(',')->check(k_positive);
     command->add_option("--discharge", options->axes.discharges, "Discharges [m3/s], as 0.08,0.12")->delimiter(',')->check(k_positive);
     command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
-    command->add_option("--set", options->set, "Values of a key of a free-surface study, as solid.hole_m=0,0.001; may be given again")
-        ->take_all();
+    command->add_option("--set", options->set, "Values of a key of the study, as swing.speed_m_min=4,8; may be given again")->take_all();
     command
         ->add_option("--repeats", options->axes.repeats,
                      "Repeats that differ by placement and angle of release; three or more give intervals")

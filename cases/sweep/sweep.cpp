@@ -31,13 +31,6 @@ namespace fs = std::filesystem;
 constexpr const char* k_studies = "studies";
 constexpr const char* k_logs = "logs";
 
-/// OpenFOAM takes few characters in a path.
-std::string safe(std::string name) {
-    for (char& c : name)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
-    return name;
-}
-
 /// The values of an axis, or one absent value that keeps the study's.
 template <typename T>
 std::vector<std::optional<T>> or_own(const std::vector<T>& values) {
@@ -49,34 +42,59 @@ std::vector<std::optional<T>> or_own(const std::vector<T>& values) {
 struct Combination {
     std::optional<std::string> design;
     std::optional<double> speed, discharge;
+    std::size_t keys = 0;  ///< index of the setting of other keys
     int repeat = 0;
 };
 
-std::vector<Combination> combinations_of(const SweepAxes& axes) {
+std::vector<Combination> combinations_of(const SweepAxes& axes, std::size_t key_settings) {
     std::vector<Combination> all;
     for (const auto& design : or_own(axes.designs))
         for (const auto& speed : or_own(axes.speeds))
             for (const auto& discharge : or_own(axes.discharges))
-                for (int repeat = 0; repeat < axes.repeats; ++repeat) all.push_back({design, speed, discharge, repeat});
+                for (std::size_t keys = 0; keys < key_settings; ++keys)
+                    for (int repeat = 0; repeat < axes.repeats; ++repeat) all.push_back({design, speed, discharge, keys, repeat});
     return all;
 }
 
 /// "a_60rpm_0.12m3_s": common part of the names of a point's repeats.
-std::string setting_name(const Combination& combination, const std::string& study) {
+std::string setting_name(const Combination& combination, const std::string& keys, const std::string& study) {
     std::vector<std::string> parts;
-    if (combination.design) parts.push_back(safe(fs::path(*combination.design).stem().string()));
+    if (combination.design) parts.push_back(safe_name(fs::path(*combination.design).stem().string()));
     if (combination.speed) parts.push_back(fmt::format("{:g}rpm", *combination.speed));
     if (combination.discharge) parts.push_back(fmt::format("{:g}m3_s", *combination.discharge));
-    if (parts.empty()) parts.push_back(safe(study));
-    return fmt::format("{}", fmt::join(parts, "_"));
+    if (parts.empty()) parts.push_back(safe_name(study));
+    return fmt::format("{}{}", fmt::join(parts, "_"), keys);
 }
 
-ParameterValues values_of(const Combination& combination, ParameterValues values, const std::string& setting) {
-    if (combination.design || combination.speed || combination.discharge)
+ParameterValues values_of(const Combination& combination, ParameterValues values, const std::string& setting, bool has_keys) {
+    if (combination.design || combination.speed || combination.discharge || has_keys)
         values.set("name", fmt::format("{}: {}", values.text("name"), setting));
     if (combination.speed) values.set("rotor.speed_rpm", *combination.speed);
     if (combination.discharge) values.set("suction.discharge_m3_s", *combination.discharge);
     return values;
+}
+
+/// What tells apart points of one cutter that cannot share geometry and mesh.
+std::string shape_of(const ParameterValues& values, const std::vector<KeyAxis>& axes) {
+    std::string shape;
+    for (const KeyAxis& axis : axes) {
+        const Parameter& parameter = *find_parameter(study_table(), axis.key);
+        if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage)
+            shape += fmt::format("|{}={}", axis.key, toml_text(*values.find(axis.key)));
+    }
+    return shape;
+}
+
+/// \throws UserError  for keys that other options vary
+void require_other_keys(const std::vector<KeyAxis>& axes) {
+    static const std::map<std::string, std::string> options{
+        {"rotor.speed_rpm", "--rpm"}, {"suction.discharge_m3_s", "--discharge"}, {"cutter.file", "--design"},
+        {"feed.seed", "--repeats"},   {"feed.start_revolution", "--repeats"},    {"name", "separate studies"}};
+    Mistakes mistakes;
+    for (const KeyAxis& axis : axes)
+        if (const auto option = options.find(axis.key); option != options.end())
+            mistakes.add("--set " + axis.key, "The sweep has a way of its own to vary it", "Use " + option->second);
+    mistakes.refuse();
 }
 
 /// A path of the user's (relative to where the command was given) as the studies in the sweep's folder name it.
@@ -322,7 +340,7 @@ fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSe
     }
     fs::create_directories(absolute.folder / k_logs);
     const fs::path script = free_script(settings.folder, what == "run" ? "sweep" : "mesh");
-    write_file(script, slurm_script(fmt::format("cutterflow_{}", safe(absolute.folder.filename().string())), tasks, settings.ranks));
+    write_file(script, slurm_script(fmt::format("cutterflow_{}", safe_name(absolute.folder.filename().string())), tasks, settings.ranks));
     return script;
 }
 
@@ -428,16 +446,23 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     for (const std::string& design : axes.designs)
         early.require(fs::exists(design), fmt::format("--design {} does not exist", design), "Its path is relative to the current folder",
                       "Check the path");
+    early.gather([&] { require_other_keys(axes.keys); });
     ParameterValues base;
-    if (!early.gather([&] { base = read_study(study); })) early.refuse();
+    std::vector<KeySetting> settings;
+    if (!early.gather([&] {
+            base = read_study(study);
+            settings = key_settings(study_table(), base, axes.keys);
+        }))
+        early.refuse();
     std::vector<Mistake> mistakes = early.take();
     std::vector<SweepPoint> points;
     Designs designs;
-    for (const Combination& combination : combinations_of(axes)) {
+    for (const Combination& combination : combinations_of(axes, settings.size())) {
         if (combination.design && !fs::exists(*combination.design)) continue;
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
-        std::string name = setting_name(combination, study.stem().string());
-        ParameterValues values = values_of(combination, base, name);
+        const KeySetting& keys = settings[combination.keys];
+        std::string name = setting_name(combination, keys.name, study.stem().string());
+        ParameterValues values = values_of(combination, keys.values, name, !axes.keys.empty());
         const std::string first = name + "_repeat1";
         if (axes.repeats > 1) name += fmt::format("_repeat{}", combination.repeat + 1);
         try {
@@ -449,7 +474,8 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
                 values.set("report.adv_points", from_studies(study.parent_path() / base.text("report.adv_points"), folder));
             const std::string text = commented_toml(study_table(), &values);
             parse_parameters(study_table(), text, name);  // bounds of what the axes set
-            points.push_back({name, text, cutter.lexically_normal().string(), combination.repeat > 0 ? first : std::string()});
+            points.push_back({name, text, cutter.lexically_normal().string() + shape_of(values, axes.keys),
+                              combination.repeat > 0 ? first : std::string()});
             for (Mistake mistake : check_study(resolve_study(values, head_size(head)), head_size(head))) {
                 mistake.where = name;
                 add_once(mistake, mistakes);

@@ -1,10 +1,12 @@
 #pragma once
-/// \file Many points of one study: speeds, discharges, designs, repeats. A folder of run directories, filled by as many parallel runs as
-/// the cores carry.
+/// \file Many points of one study: speeds, discharges, designs, other keys, repeats. A folder of run directories, filled by as many
+/// parallel runs as the cores carry.
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "cases/sweep/key_axes.hpp"
 
 namespace cutterflow::cases {
 
@@ -14,6 +16,7 @@ struct SweepAxes {
     std::vector<double> discharges;    ///< [m3/s]
     std::vector<std::string> designs;  ///< surfaces of cutters
     int repeats = 1;
+    std::vector<KeyAxis> keys{};  ///< other keys of the study
 };
 
 struct SweepPoint {

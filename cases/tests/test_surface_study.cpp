@@ -107,7 +107,7 @@ TEST_F(SurfaceStudy, bodies_of_a_file_go_into_the_run_and_into_sweeps) {
     write("run/bodies_1.csv", list);
     EXPECT_EQ(check_surface_study(write("run/scene.toml", inputs.study)).scene.at("bodies"), 2);
 
-    const auto points = surface_sweep_points(study, surface_axes({"contact.friction=0.1,0.2"}), 1);
+    const auto points = surface_sweep_points(study, key_axes(surface_study_table(), {"contact.friction=0.1,0.2"}, "params"), 1);
     ASSERT_EQ(points.size(), 2u);
     EXPECT_EQ(check_surface_study(write("elsewhere/point.toml", points[1].text)).scene.at("bodies"), 2);
 }
@@ -130,7 +130,8 @@ TEST_F(SurfaceStudy, refuses_what_the_memory_does_not_hold) {
 
 TEST_F(SurfaceStudy, sweep_sets_the_tables_that_give_a_key_and_pairs_the_seeds) {
     const fs::path example = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/fall_pipe/perforated.toml";
-    const auto points = surface_sweep_points(example, surface_axes({"solid.hole_m=0,0.002", "contact.friction=0.1"}), 2);
+    const auto points =
+        surface_sweep_points(example, key_axes(surface_study_table(), {"solid.hole_m=0,0.002", "contact.friction=0.1"}, "params"), 2);
     ASSERT_EQ(points.size(), 4u);
     EXPECT_EQ(points[1].name, "perforated_hole_m_0_friction_0.1_repeat2");
     const auto values = [&](std::size_t n) { return parse_parameters(surface_study_table(), points[n].text, "point"); };
@@ -151,13 +152,16 @@ TEST_F(SurfaceStudy, sweep_names_wrong_keys_and_values) {
         }
         return std::string();
     };
-    const std::string axes = text_of([] { surface_axes({"solid.hole_mm=1", "contact.friction"}); });
+    const std::string axes = text_of([] { key_axes(surface_study_table(), {"solid.hole_mm=1", "contact.friction"}, "params"); });
     EXPECT_THAT(axes, HasSubstr("Did you mean solid.hole_m"));
     EXPECT_THAT(axes, HasSubstr("KEY=a,b"));
     const fs::path study = write("dam.toml", surface_study_template("dam"));
-    EXPECT_THAT(text_of([&] { surface_sweep_points(study, surface_axes({"solid.hole_m=0"}), 1); }), HasSubstr("no table"));
-    EXPECT_THAT(text_of([&] { surface_sweep_points(study, surface_axes({"contact.friction=much"}), 1); }), HasSubstr("a number"));
-    EXPECT_THAT(text_of([&] { surface_sweep_points(study, surface_axes({"contact.gap_m=0.00001"}), 1); }), HasSubstr("quarter of a cell"));
+    EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"solid.hole_m=0"}, "params"), 1); }),
+                HasSubstr("no table"));
+    EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"contact.friction=much"}, "params"), 1); }),
+                HasSubstr("a number"));
+    EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"contact.gap_m=0.00001"}, "params"), 1); }),
+                HasSubstr("quarter of a cell"));
 }
 
 TEST(RepeatMean, has_students_interval_and_none_for_what_never_came) {

@@ -79,6 +79,40 @@ TEST_F(Sweep, has_a_point_for_every_combination_and_pairs_repeats) {
     EXPECT_NEAR(second.tables("feed")[0].number("feed.start_revolution"), 1.0 + 1.0 / 12.0, 1e-12);
 }
 
+TEST_F(Sweep, varies_any_key_and_shares_the_mesh_where_the_key_leaves_it_as_it_is) {
+    SweepAxes axes;
+    axes.speeds = {30, 60};
+    axes.keys =
+        key_axes(study_table(), {"ladder.inclination_deg=30,45", "mesh.preset=draft,standard", "feed.class.diameter_m=0.03"}, "params");
+    const std::vector<SweepPoint> all = points(axes);
+    ASSERT_EQ(all.size(), 8u);
+    EXPECT_EQ(all[0].name, "30rpm_inclination_deg_30_preset_draft_class.diameter_m_0.03");
+    const ParameterValues values = parse_parameters(study_table(), all[3].text, "point");
+    EXPECT_EQ(values.number("ladder.inclination_deg"), 45.0);
+    EXPECT_EQ(values.text("mesh.preset"), "standard");
+    EXPECT_EQ(values.tables("feed")[0].tables("feed.class")[0].number("feed.class.diameter_m"), 0.03);
+    EXPECT_EQ(all[0].design, all[2].design) << "the inclination only turns gravity";
+    EXPECT_NE(all[0].design, all[1].design) << "another mesh";
+}
+
+TEST_F(Sweep, refuses_keys_that_other_options_vary_and_values_out_of_bounds) {
+    const auto text_of = [&](const std::vector<std::string>& words) {
+        SweepAxes axes;
+        try {
+            axes.keys = key_axes(study_table(), words, "params");
+            points(axes);
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string ways = text_of({"rotor.speed_rpm=30", "cutter.file=b.stl"});
+    EXPECT_THAT(ways, HasSubstr("Use --rpm"));
+    EXPECT_THAT(ways, HasSubstr("Use --design"));
+    EXPECT_THAT(text_of({"ladder.inclination_deg=300"}), HasSubstr("ladder.inclination_deg"));
+    EXPECT_THAT(text_of({"ladder.inclination=30"}), HasSubstr("Did you mean ladder.inclination_deg?"));
+}
+
 TEST_F(Sweep, reports_the_mistakes_of_all_points_before_anything_runs) {
     try {
         points({{60, 6000}, {}, {(folder_ / "a.stl").string(), (folder_ / "absent.stl").string()}, 1});

@@ -84,10 +84,17 @@ std::optional<double> as_number(const std::optional<int>& value) {
     return value ? std::optional<double>(*value) : std::nullopt;
 }
 
+/// [m/min]; none of a head that does not swing.
+std::optional<double> swing_speed(const ComparedRun& compared) {
+    const double speed = compared.run.operating_point.swing_speed;
+    return speed > 0.0 ? std::optional<double>(60.0 * speed) : std::nullopt;
+}
+
 std::vector<QuantityRule> operating_rules() {
     return {{"speed_rpm", "rotor speed", "rpm", false, [](const ComparedRun& r) { return plain(r.run.operating_point.speed_rpm); }},
             {"discharge_m3_s", "discharge of the mixture", "m³/s", false,
              [](const ComparedRun& r) { return plain(r.run.operating_point.discharge); }},
+            {"swing_speed_m_min", "swing speed", "m/min", false, [](const ComparedRun& r) { return plain(swing_speed(r)); }},
             {"flow_number", "flow number Q / (ω R³)", "-", false, [](const ComparedRun& r) { return plain(r.results.scale.flow_number); }},
             {"cells", "cells", "-", false, [](const ComparedRun& r) { return plain(as_number(r.results.cost.cells)); }}};
 }

@@ -57,6 +57,7 @@ Figure with_legend_that_fits(Plot plot, const std::string& caption) {
 }
 
 constexpr const char* k_share_title = "% by mass";
+constexpr const char* k_swing_speed = "swing_speed_m_min";
 
 struct Share {
     const char* key;
@@ -92,14 +93,18 @@ bool varies(const Quantity& quantity) {
     return values.size() > 1;
 }
 
-/// What tells the curves of a trend apart: cutter, discharge, mesh, each only where settings differ in it. At one speed the flow number
-/// varies with the discharge, along a curve.
-std::vector<std::string> groups_of(const Comparison& comparison) {
+/// What tells the curves of a trend against `operating` apart: cutter, mesh, speed of swing and rotor, discharge, each only where settings
+/// differ in it and it is not what the trend is against. At one speed the flow number varies with the discharge, along a curve.
+std::vector<std::string> groups_of(const Comparison& comparison, const Quantity& operating) {
     using Describe = std::string (*)(const RunData&);
     std::vector<Describe> parts{
         [](const RunData& run) { return std::filesystem::path(run.geometry.value("file", std::string())).filename().string(); },
         [](const RunData& run) { return run.operating_point.mesh_preset.empty() ? "" : run.operating_point.mesh_preset + " mesh"; }};
-    if (varies(*find_quantity(comparison, "speed_rpm")))
+    const bool against_swing = operating.key == k_swing_speed;
+    if (!against_swing)
+        parts.push_back([](const RunData& run) { return fmt::format("swing {:g} m/min", 60.0 * run.operating_point.swing_speed); });
+    if (against_swing) parts.push_back([](const RunData& run) { return fmt::format("{:g} rpm", run.operating_point.speed_rpm); });
+    if (against_swing || varies(*find_quantity(comparison, "speed_rpm")))
         parts.push_back([](const RunData& run) { return fmt::format("{:g} m³/s", run.operating_point.discharge); });
     std::vector<std::string> groups(comparison.settings.size());
     for (const Describe part : parts) {
@@ -127,7 +132,7 @@ Plot trend_plot(const Comparison& comparison, const Quantity& operating, const s
     constexpr Mark marks[] = {Mark::disc, Mark::diamond, Mark::square, Mark::triangle};
     Plot plot = share_plot(name, x_title, k_share_title);
     plot.x.tip = x_tip;
-    const std::vector<std::string> groups = groups_of(comparison);
+    const std::vector<std::string> groups = groups_of(comparison, operating);
     std::size_t count = 0;
     for (const std::string& group : std::set<std::string>(groups.begin(), groups.end())) {
         const Mark mark = marks[count++ % std::size(marks)];
@@ -273,6 +278,9 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
         figures.push_back(with_legend_that_fits(
             plot, shares + ", against the rotor’s speed" + bars + (comparison.measured.empty() ? "" : " Open marks are measured.")));
     }
+    if (const Quantity& swing = *find_quantity(comparison, k_swing_speed); varies(swing))
+        figures.push_back(with_legend_that_fits(trend_plot(comparison, swing, "swing_speed", "swing speed, m/min", {".3g", " m/min"}),
+                                                shares + ", against the swing speed" + bars));
     if (varies(flow_number)) {
         figures.push_back(with_legend_that_fits(trend_plot(comparison, flow_number, "flow_number", "flow number Q / (ω R³)", {".4f", ""}),
                                                 shares + ", against the flow number (discharge Q, rotor speed ω, ring radius R)" + bars));

@@ -8,7 +8,7 @@
 
 namespace cutterflow::postproc {
 
-/// Spillage and production by setting, against speed and against flow number (where settings differ in them), outflow and spillage by
+/// Spillage and production by setting, against speed, swing speed and flow number (where settings differ in them), outflow and spillage by
 /// axial bin, spillage of the top bin against its outflow. Plots of rock are left out when a run has none.
 std::vector<Figure> comparison_figures(const Comparison& comparison);
 

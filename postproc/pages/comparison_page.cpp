@@ -51,8 +51,8 @@ std::string quantities_table(const Comparison& comparison) {
 
 std::string differences_table(const Comparison& comparison) {
     static const std::set<std::string> given{
-        "speed_rpm", "discharge_m3_s",        "flow_number",           "cells", "placed", "revolutions_since_feed",
-        "undecided", "core_s_per_revolution", "flow_balance_max_error"};
+        "speed_rpm", "discharge_m3_s",         "swing_speed_m_min", "flow_number",           "cells",
+        "placed",    "revolutions_since_feed", "undecided",         "core_s_per_revolution", "flow_balance_max_error"};
     std::vector<std::string> header{"quantity"};
     for (std::size_t i = 1; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{} − 1", i + 1));
     std::vector<std::vector<std::string>> rows;

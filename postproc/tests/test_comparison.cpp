@@ -105,6 +105,29 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     for (const Quantity& quantity : comparison.quantities) EXPECT_NE(quantity.key, "ratio_at_equal_time");
 }
 
+fs::path swinging(const std::string& name, double swing_m_min) {
+    const fs::path directory = fed(name, 0.0, 1.0);
+    std::string study = testing::read_text(directory / "study.resolved.toml");
+    const std::string section = "[swing]\n";
+    study.insert(study.find(section) + section.size(), fmt::format("speed_m_min = {}\n", swing_m_min));
+    testing::write_text(directory / "study.resolved.toml", study);
+    return directory;
+}
+
+TEST(Comparison, of_fed_heads_is_drawn_against_the_swing_speed) {
+    const Comparison comparison = compare_runs({swinging("swing_8", 8.0), swinging("swing_4", 4.0), swinging("swing_6", 6.0)});
+    EXPECT_NEAR(*quantity_of(comparison, "swing_speed_m_min").settings[0].value, 8.0, 1e-12);
+    int drawn = 0;
+    for (const Figure& figure : comparison_figures(comparison)) {
+        if (figure.plot.name != "swing_speed") continue;
+        ++drawn;
+        ASSERT_EQ(figure.plot.series.size(), 2u) << "one curve of spillage, one of production";
+        EXPECT_THAT(figure.plot.series[1].x, ::testing::ElementsAre(4.0, 6.0, 8.0));
+        EXPECT_NEAR(figure.plot.series[1].y[0], 60.0, 1.0);
+    }
+    EXPECT_EQ(drawn, 1);
+}
+
 TEST(Comparison, of_a_batch_and_a_fed_head_is_refused) {
     EXPECT_THROW(compare_runs({variant("batch", {}), fed("not_a_batch", 0.0, 2.0)}), UserError);
 }
