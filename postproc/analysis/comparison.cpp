@@ -136,12 +136,17 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
     return rules;
 }
 
-/// Delivered volume of soil as it was in the bank [m3/h], at lengths `ratio` times the model's by Froude's law.
-std::optional<double> in_situ_rate(const ComparedRun& compared, double ratio) {
+/// Delivered volume of soil as it was in the bank [m3/h], at lengths `ratio` times the model's by Froude's law; its interval is that of the
+/// share of what was fed.
+Estimate in_situ_rate(const ComparedRun& compared, double ratio) {
     const double density = compared.run.operating_point.in_situ_density;
-    if (!compared.results.fed || !(density > 0.0)) return std::nullopt;
+    if (!compared.results.fed || !(density > 0.0)) return {};
     const Production& production = compared.results.fed->production;
-    return 3600.0 * production.delivered / (production.to - production.from) / density * std::pow(ratio, 2.5);
+    const double per_share = 3600.0 * production.fed / (production.to - production.from) / density * std::pow(ratio, 2.5);
+    Estimate estimate = share_of(production);
+    estimate.value = per_share * *estimate.value;
+    if (estimate.half_width) estimate.half_width = per_share * *estimate.half_width;
+    return estimate;
 }
 
 /// Of heads that are fed all the time: no ratio without its hold-up.
@@ -160,10 +165,9 @@ std::vector<QuantityRule> fed_rules() {
              of([](const FedHead& head) { return plain(head.production.held_change / head.production.fed); })},
             {"fed_kg_s", "fed", "kg/s", true, rate(&Production::fed)},
             {"delivered_kg_s", "delivered", "kg/s", true, rate(&Production::delivered)},
-            {"delivered_in_situ_m3_h", "delivered, soil in situ", "m³/h", true,
-             [](const ComparedRun& r) { return plain(in_situ_rate(r, 1.0)); }},
+            {"delivered_in_situ_m3_h", "delivered, soil in situ", "m³/h", true, [](const ComparedRun& r) { return in_situ_rate(r, 1.0); }},
             {"prototype_delivered_in_situ_m3_h", "delivered, soil in situ, prototype", "m³/h", true,
-             [](const ComparedRun& r) { return plain(in_situ_rate(r, r.run.operating_point.length_ratio)); }},
+             [](const ComparedRun& r) { return in_situ_rate(r, r.run.operating_point.length_ratio); }},
             {"head_is_full", "head is full (1: yes)", "-", true, of([](const FedHead& head) { return plain(head.is_full ? 1.0 : 0.0); })}};
 }
 

@@ -25,13 +25,13 @@ std::pair<double, double> range_of(const Estimate& estimate) {
     return {*estimate.value - half, *estimate.value + half};
 }
 
-/// A point with the range of its value.
-void add_point(Series& series, const Comparison& comparison, std::size_t setting, double x, const Estimate& share) {
-    const auto [low, high] = range_of(share);
+/// A point with the range of its value. \param factor  from the quantity's unit to the plot's
+void add_point(Series& series, const Comparison& comparison, std::size_t setting, double x, const Estimate& estimate, double factor) {
+    const auto [low, high] = range_of(estimate);
     series.x.push_back(x);
-    series.y.push_back(100.0 * *share.value);
-    series.y_low.push_back(100.0 * low);
-    series.y_high.push_back(100.0 * high);
+    series.y.push_back(factor * *estimate.value);
+    series.y_low.push_back(factor * low);
+    series.y_high.push_back(factor * high);
     series.point_names.push_back(fmt::format("setting {}: {}", setting + 1, comparison.settings[setting].label));
 }
 
@@ -57,6 +57,8 @@ Figure with_legend_that_fits(Plot plot, const std::string& caption) {
 }
 
 constexpr const char* k_share_title = "% by mass";
+constexpr double k_percent = 100.0;
+constexpr const char* k_delivered = "delivered_in_situ_m3_h";
 constexpr const char* k_swing_speed = "swing_speed_m_min";
 
 struct Share {
@@ -75,7 +77,8 @@ Plot shares_plot(const Comparison& comparison) {
         series.mark = Mark::disc;
         const Quantity& quantity = *find_quantity(comparison, share.key);
         for (std::size_t i = 0; i < comparison.settings.size(); ++i)
-            if (quantity.settings[i].value) add_point(series, comparison, i, static_cast<double>(i + 1) + shift, quantity.settings[i]);
+            if (quantity.settings[i].value)
+                add_point(series, comparison, i, static_cast<double>(i + 1) + shift, quantity.settings[i], k_percent);
         if (!series.x.empty()) plot.series.push_back(series);
         shift = 0.06;
     }
@@ -126,26 +129,58 @@ std::vector<std::size_t> members(const std::vector<std::string>& groups, const s
     return settings;
 }
 
-/// Spillage and production against an operating quantity, a curve for every group of settings.
-Plot trend_plot(const Comparison& comparison, const Quantity& operating, const std::string& name, const std::string& x_title,
-                const TipFormat& x_tip) {
+/// A quantity as it is drawn in a trend.
+struct Drawn {
+    const char* key;
+    std::string name;
+    const char* colour;
+    double factor;  ///< from the quantity's unit to the plot's
+};
+
+/// Quantities against an operating one, a curve for every group of settings; marks tell groups apart, and colours too where one quantity
+/// is drawn.
+void add_trends(Plot& plot, const Comparison& comparison, const Quantity& operating, const std::vector<Drawn>& quantities) {
     constexpr Mark marks[] = {Mark::disc, Mark::diamond, Mark::square, Mark::triangle};
-    Plot plot = share_plot(name, x_title, k_share_title);
-    plot.x.tip = x_tip;
     const std::vector<std::string> groups = groups_of(comparison, operating);
     std::size_t count = 0;
     for (const std::string& group : std::set<std::string>(groups.begin(), groups.end())) {
-        const Mark mark = marks[count++ % std::size(marks)];
-        for (const Share& share : k_shares) {
-            Series series{share.name + group, share.colour, {}, {}};
-            series.mark = mark;
+        for (const Drawn& drawn : quantities) {
+            Series series{drawn.name + group, quantities.size() > 1 ? drawn.colour : setting_colour(count), {}, {}};
+            series.mark = marks[count % std::size(marks)];
             series.line_width = 1.2;
-            const Quantity& quantity = *find_quantity(comparison, share.key);
+            const Quantity& quantity = *find_quantity(comparison, drawn.key);
             for (const std::size_t i : members(groups, group, operating))
-                if (quantity.settings[i].value) add_point(series, comparison, i, *operating.settings[i].value, quantity.settings[i]);
+                if (quantity.settings[i].value)
+                    add_point(series, comparison, i, *operating.settings[i].value, quantity.settings[i], drawn.factor);
             if (!series.x.empty()) plot.series.push_back(series);
         }
+        ++count;
     }
+}
+
+/// Spillage and production.
+Plot trend_plot(const Comparison& comparison, const Quantity& operating, const std::string& name, const std::string& x_title,
+                const TipFormat& x_tip) {
+    Plot plot = share_plot(name, x_title, k_share_title);
+    plot.x.tip = x_tip;
+    std::vector<Drawn> quantities;
+    for (const Share& share : k_shares) quantities.push_back({share.key, share.name, share.colour, k_percent});
+    add_trends(plot, comparison, operating, quantities);
+    return plot;
+}
+
+/// What heads that are fed all the time deliver, as soil in the bank.
+Plot delivered_plot(const Comparison& comparison, const Quantity& operating, const std::string& name, const std::string& x_title,
+                    const TipFormat& x_tip) {
+    Plot plot;
+    plot.name = name;
+    plot.tips = Tips::at_point;
+    plot.x.title = x_title;
+    plot.x.tip = x_tip;
+    plot.y.title = "delivered, soil in situ, m³/h";
+    plot.y.tip = {".3g", " m³/h"};
+    plot.y.from = 0.0;
+    add_trends(plot, comparison, operating, {{k_delivered, "delivered", palette::sucked_up, 1.0}});
     return plot;
 }
 
@@ -248,7 +283,7 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
         if (!x.value || !y.value) continue;
         Series series{fmt::format("{}", i + 1), setting_colour(i), {}, {}};
         series.mark = Mark::disc;
-        add_point(series, comparison, i, *x.value, y);
+        add_point(series, comparison, i, *x.value, y, k_percent);
         const double half = x.half_width.value_or(0.0);
         series.x_low = {*x.value - half};
         series.x_high = {*x.value + half};
@@ -272,19 +307,29 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
             : "; bars are bounds: what the undecided rock could still do.";
     std::vector<Figure> figures{{shares_plot(comparison), shares + ", of every setting" + bars, ""}};
     const Quantity &speed = *find_quantity(comparison, "speed_rpm"), &flow_number = *find_quantity(comparison, "flow_number");
-    if (varies(speed) || !comparison.measured.empty()) {
-        Plot plot = trend_plot(comparison, speed, "speed", "rotor speed, rpm", {".3g", " rpm"});
-        add_measured_points(plot, comparison);
+    const Quantity* delivered = find_quantity(comparison, k_delivered);
+    const bool drawn_delivery = delivered && std::any_of(delivered->settings.begin(), delivered->settings.end(),
+                                                         [](const Estimate& estimate) { return estimate.value.has_value(); });
+    const auto add_trend = [&](const Quantity& operating, const std::string& name, const std::string& x_title, const TipFormat& tip,
+                               const std::string& what, bool with_measured) {
+        Plot plot = trend_plot(comparison, operating, name, x_title, tip);
+        if (with_measured) add_measured_points(plot, comparison);
         figures.push_back(with_legend_that_fits(
-            plot, shares + ", against the rotor’s speed" + bars + (comparison.measured.empty() ? "" : " Open marks are measured.")));
-    }
+            plot,
+            shares + ", against " + what + bars + (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "")));
+        if (drawn_delivery)
+            figures.push_back(
+                with_legend_that_fits(delivered_plot(comparison, operating, "delivered_" + name, x_title, tip),
+                                      "Soil delivered per hour, in its volume in the bank and in the model’s scale, against " + what +
+                                          "; bars are 95 % intervals."));
+    };
+    if (varies(speed) || !comparison.measured.empty())
+        add_trend(speed, "speed", "rotor speed, rpm", {".3g", " rpm"}, "the rotor’s speed", true);
     if (const Quantity& swing = *find_quantity(comparison, k_swing_speed); varies(swing))
-        figures.push_back(with_legend_that_fits(trend_plot(comparison, swing, "swing_speed", "swing speed, m/min", {".3g", " m/min"}),
-                                                shares + ", against the swing speed" + bars));
-    if (varies(flow_number)) {
+        add_trend(swing, "swing_speed", "swing speed, m/min", {".3g", " m/min"}, "the swing speed", false);
+    if (varies(flow_number))
         figures.push_back(with_legend_that_fits(trend_plot(comparison, flow_number, "flow_number", "flow number Q / (ω R³)", {".4f", ""}),
                                                 shares + ", against the flow number (discharge Q, rotor speed ω, ring radius R)" + bars));
-    }
     const std::string top = top_bin(comparison);
     const Quantity *spilled = find_quantity(comparison, bin_key("spilled", top, "share")),
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));

@@ -119,13 +119,19 @@ TEST(Comparison, of_fed_heads_is_drawn_against_the_swing_speed) {
     EXPECT_NEAR(*quantity_of(comparison, "swing_speed_m_min").settings[0].value, 8.0, 1e-12);
     int drawn = 0;
     for (const Figure& figure : comparison_figures(comparison)) {
+        if (figure.plot.name == "delivered_swing_speed") {
+            ++drawn;
+            EXPECT_THAT(figure.plot.series.at(0).x, ::testing::ElementsAre(4.0, 6.0, 8.0));
+            EXPECT_NEAR(figure.plot.series[0].y[0], 10.8, 0.2);
+            EXPECT_GT(figure.plot.series[0].y_high[0], figure.plot.series[0].y[0]);
+        }
         if (figure.plot.name != "swing_speed") continue;
         ++drawn;
         ASSERT_EQ(figure.plot.series.size(), 2u) << "one curve of spillage, one of production";
         EXPECT_THAT(figure.plot.series[1].x, ::testing::ElementsAre(4.0, 6.0, 8.0));
         EXPECT_NEAR(figure.plot.series[1].y[0], 60.0, 1.0);
     }
-    EXPECT_EQ(drawn, 1);
+    EXPECT_EQ(drawn, 2);
 }
 
 TEST(Comparison, of_a_batch_and_a_fed_head_is_refused) {
