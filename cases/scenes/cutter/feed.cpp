@@ -110,7 +110,7 @@ PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const 
         feed.reasons.push_back(
             fmt::format("{:.0f} % of the cut face is passed by closed steel, a hub or a ring, where no blade takes rock in. "
                         "Its rock starts ahead of the blades beside it; look at the cutter's lowest part, or choose a "
-                        "longer bank.step_m",
+                        "longer bank.step_m or a flatter ladder",
                         100.0 * schedule.share_without_blade));
     feed.requested = feed.rocks.size();
     return feed;
