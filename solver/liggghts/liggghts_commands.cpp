@@ -1,24 +1,10 @@
 #include "solver/liggghts/liggghts_commands.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "solver/liggghts/contacts/contact_registration.hpp"
 
 namespace cutterflow::liggghts::commands {
-
-namespace {
-
-/// Triangles that meet at less than this count as one plane, and nothing happens at their edge. By LIGGGHTS' own 0.26 degrees a rock above
-/// a convex edge of less, which no triangle faces, falls through. At 1e-5 degrees that wedge is narrower than the tolerance of the search.
-constexpr double k_coplanar_deg = 1e-5;
-
-std::string vector_text(const Vec3& v) {
-    return fmt::format("{:.17g} {:.17g} {:.17g}", v.x(), v.y(), v.z());
-}
-
-}  // namespace
 
 std::vector<std::string> basics() {
     return {"units si",       "atom_style granular", "atom_modify map array sort 0 0",
@@ -58,30 +44,6 @@ std::string rock_property(const std::string& name, int columns) {
     std::string zeros;
     for (int k = 0; k < columns; ++k) zeros += " 0.0";
     return fmt::format("fix {0} all property/atom {0} vector yes no no{1}", name, zeros);
-}
-
-std::string mesh(const std::string& id, const std::filesystem::path& stl) {
-    return fmt::format("fix {} all mesh/surface file \"{}\" type 2 curvature {:g} curvature_tolerant yes", id, stl.string(),
-                       k_coplanar_deg);
-}
-
-std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const RotationAxis& axis, double speed) {
-    const Vec3 direction = speed > 0.0 ? axis.direction : Vec3(-axis.direction);
-    return fmt::format("fix {} all move/mesh mesh {} rotate origin {} axis {} period {:.17g}", id, mesh_id, vector_text(axis.origin),
-                       vector_text(direction), 2.0 * k_pi / std::fabs(speed));
-}
-
-std::string move_mesh(const std::string& id, const std::string& mesh_id, const Vec3& velocity) {
-    return fmt::format("fix {} all move/mesh mesh {} linear {}", id, mesh_id, vector_text(velocity));
-}
-
-std::string unfix(const std::string& id) {
-    return "unfix " + id;
-}
-
-std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids) {
-    return fmt::format("fix {} all wall/gran {} mesh n_meshes {} meshes {}", id, k_contact_model, mesh_ids.size(),
-                       fmt::join(mesh_ids, " "));
 }
 
 std::string plane_wall(const std::string& id, int axis, double position) {

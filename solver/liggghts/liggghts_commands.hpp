@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/vec3.hpp"
 
 namespace cutterflow::liggghts::commands {
 
@@ -23,18 +23,11 @@ std::string write_restart(const std::filesystem::path& file);
 std::vector<std::string> contact_model();
 std::string timestep(double seconds);
 std::string run(int steps, bool set_up);
-/// Neighbour lists that hold until rock or wall moved half of `skin`; bins of `bin_size`.
+/// Neighbour lists that hold until a rock moved half of `skin`; bins of `bin_size`.
 std::vector<std::string> neighbours(double skin, double bin_size);
 
 /// One property per rock with `columns` >= 2 values, 0 at the start, kept in restart files.
 std::string rock_property(const std::string& name, int columns);
-std::string mesh(const std::string& id, const std::filesystem::path& stl);
-/// Right-handed rotation; a negative speed turns about the reversed axis.
-std::string rotate_mesh(const std::string& id, const std::string& mesh_id, const RotationAxis& axis, double speed);
-/// A constant velocity [m/s] from now on.
-std::string move_mesh(const std::string& id, const std::string& mesh_id, const Vec3& velocity);
-std::string unfix(const std::string& id);
-std::string mesh_walls(const std::string& id, const std::vector<std::string>& mesh_ids);
 /// \param axis  0 x, 1 y, 2 z: normal of the plane
 std::string plane_wall(const std::string& id, int axis, double position);
 /// A fix without effect that keeps a place in the list of fixes.

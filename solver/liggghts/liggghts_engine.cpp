@@ -19,12 +19,10 @@
 #include "atom_vec.h"
 #include "domain.h"
 #include "fix_contact_history.h"
-#include "fix_mesh_surface.h"
 #include "fix_property_atom.h"
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
-#include "tri_mesh.h"
 #include "update.h"
 
 #include "geometry/base/error.hpp"
@@ -36,7 +34,7 @@
 #include "solver/liggghts/rock_grid.hpp"
 #include "solver/liggghts/rock_motion.hpp"
 #include "solver/liggghts/settings_check.hpp"
-#include "solver/liggghts/wall_surface.hpp"
+#include "solver/liggghts/steel_wall.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts {
@@ -71,25 +69,6 @@ double half_width(const coupling::DomainSettings& domain) {
     const commands::Box box = bounds(domain);
     return 0.5 * (box.high - box.low).head<2>().maxCoeff();
 }
-
-/// A wall and what LIGGGHTS calls it.
-struct Wall {
-    std::string id;
-    std::filesystem::path file;
-    bool of_rotor = false;
-    WallSurface surface;  ///< at rotor angle 0, before it travels
-    coupling::WallTravel travel;
-    bool travels = false;  ///< now, in LIGGGHTS
-    std::string motion() const { return "move_" + id; }
-};
-
-/// One corner of the rotating steel by which its angle is measured: the one farthest from the axis.
-struct Marker {
-    std::string mesh;
-    int triangle = 0;
-    int corner = 0;
-    Vec3 start = Vec3::Zero();
-};
 
 /// Redirects standard output and error during its lifetime: some output of LIGGGHTS has no switch.
 class QuietOutput {
@@ -129,20 +108,16 @@ public:
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force);
     std::vector<double> zone_angles() const {
         if (!has_rotor_) return {};
-        return {rotor_angle()};
+        return {rotor_.angle(time_)};
     }
     void write_checkpoint(const std::filesystem::path& folder);
     void read_checkpoint(const std::filesystem::path& folder);
 
 private:
-    double rotor_angle() const;
-    void read_walls();
-    bool turns() const { return rotor_.speed != 0.0; }
     void start_liggghts();
     void declare(const std::optional<std::filesystem::path>& restart);
     void declare_walls();
     void declare_motion();
-    void start_and_stop_walls(double time);
     void command(const std::string& text) { lammps_->input->one(text.c_str()); }
     void commands(const std::vector<std::string>& texts) {
         for (const std::string& text : texts) command(text);
@@ -152,7 +127,7 @@ private:
     void set_up();
     void gather();
     void require_all_rocks(const std::vector<int>& before) const;
-    bool overlaps_wall(const Vec3& centre, double radius, double angle) const;
+    bool overlaps_wall(const Vec3& centre, double radius) const;
     void create_rock(const Rocks& rocks, std::size_t k);
     void delete_rocks(const std::vector<int>& sorted_ids);
     void after_change_of_rocks();
@@ -167,8 +142,7 @@ private:
     MPI_Comm communicator_ = MPI_COMM_NULL;
     ContactContext context_;
     std::optional<WallContacts> wall_contacts_;
-    std::vector<Wall> walls_;
-    std::optional<Marker> marker_;
+    std::vector<SteelWall> walls_;
     std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
     RockMotion* motion_ = nullptr;  // LIGGGHTS owns it
     LAMMPS_NS::FixPropertyAtom* contact_forces_ = nullptr;
@@ -196,7 +170,7 @@ LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& sett
       rotor_(has_rotor_ ? moving.front() : coupling::ZoneMotion{}),
       context_(settings, rotor_) {
     Expects(moving.size() <= 1);
-    read_walls();
+    for (const coupling::WallSettings& wall : settings_.walls) walls_.emplace_back(wall, static_cast<int>(walls_.size()), rotor_);
     MPI_Comm_dup(communicator, &communicator_);
     register_contact_models();
     start_liggghts();
@@ -209,50 +183,10 @@ LiggghtsEngine::Implementation::~Implementation() {
     MPI_Comm_free(&communicator_);
 }
 
-void LiggghtsEngine::Implementation::read_walls() {
-    double farthest = 0.0;
-    for (std::size_t w = 0; w < settings_.walls.size(); ++w) {
-        const coupling::WallSettings& given = settings_.walls[w];
-        Wall wall{fmt::format("wall_{}", w), std::filesystem::absolute(given.file), given.rotating, WallSurface(read_stl(given.file)),
-                  given.travel};
-        for (std::size_t t = 0; wall.of_rotor && turns() && t < wall.surface.triangles().size(); ++t) {
-            for (int corner = 0; corner < 3; ++corner) {
-                const Vec3& point = wall.surface.triangles()[t][corner];
-                const double radius = rotor_.axis.direction.cross(point - rotor_.axis.origin).norm();
-                if (radius <= farthest) continue;
-                farthest = radius;
-                marker_ = Marker{wall.id, static_cast<int>(t), corner, point};
-            }
-        }
-        walls_.push_back(std::move(wall));
-    }
-}
-
-/// Encloses the domain with room for rock that is leaving, and all steel in every position, because LIGGGHTS drops triangles outside.
+/// Encloses the domain with room for rock that is leaving.
 commands::Box LiggghtsEngine::Implementation::box() const {
     const double margin = k_margin_in_radii * half_width(settings_.domain);
     commands::Box box = bounds(settings_.domain);
-    for (const Wall& wall : walls_) {
-        for (const Triangle& triangle : wall.surface.triangles()) {
-            for (const Vec3& corner : triangle) {
-                Vec3 low = corner, high = corner;
-                if (wall.of_rotor) {
-                    // The circle that the corner runs about the axis.
-                    const Vec3& axis = rotor_.axis.direction;
-                    const Vec3 arm = corner - rotor_.axis.origin;
-                    const Vec3 along = axis.dot(arm) * axis;
-                    const Vec3 reach = (arm - along).norm() * (1.0 - axis.array().square()).max(0.0).sqrt();
-                    low = rotor_.axis.origin + along - reach;
-                    high = rotor_.axis.origin + along + reach;
-                }
-                const Vec3 way = wall.travel.way(wall.travel.end);
-                low += way.cwiseMin(0.0);
-                high += way.cwiseMax(0.0);
-                box.low = box.low.cwiseMin(low);
-                box.high = box.high.cwiseMax(high);
-            }
-        }
-    }
     box.low.array() -= margin;
     box.high.array() += margin;
     return box;
@@ -287,20 +221,12 @@ void LiggghtsEngine::Implementation::declare(const std::optional<std::filesystem
 }
 
 void LiggghtsEngine::Implementation::declare_walls() {
-    std::vector<std::string> mesh_ids;
-    context_.bodies.clear();
-    const auto add_body = [&](const std::string& id, bool rotating) {
-        context_.bodies[id] = WallBody{static_cast<int>(context_.bodies.size()), rotating};
-    };
-    for (const Wall& wall : walls_) {
-        add_body(wall.id, wall.of_rotor);
-        mesh_ids.push_back(wall.id);
-    }
+    context_.planes.clear();
     std::vector<std::string> planes;
     for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
         if (!settings_.domain.side_is_wall[side]) continue;
         const std::string id = fmt::format("plane_{}", coupling::k_domain_sides[side]);
-        add_body(id, false);
+        context_.planes[id] = static_cast<int>(walls_.size() + planes.size());
         planes.push_back(commands::plane_wall(id, static_cast<int>(side / 2), settings_.domain.position_of(side)));
     }
 
@@ -313,12 +239,6 @@ void LiggghtsEngine::Implementation::declare_walls() {
     wall_contacts_.emplace(lammps_.get(), context_, records, rolling);
     context_.wall_contacts = &*wall_contacts_;
     contact_forces_ = property(k_contact_forces, 6);
-    for (Wall& wall : walls_) {
-        command(commands::mesh(wall.id, wall.file));
-        wall.travels = false;
-        if (wall.of_rotor && turns()) command(commands::rotate_mesh(wall.motion(), wall.id, rotor_.axis, rotor_.speed));
-    }
-    if (!mesh_ids.empty()) command(commands::mesh_walls("steel", mesh_ids));
     commands(planes);
 }
 
@@ -331,7 +251,7 @@ void LiggghtsEngine::Implementation::declare_motion() {
     modify.fix[place] = nullptr;
     std::string id = k_motion, group = "all", style = "cutterflow/motion";
     char* arguments[] = {id.data(), group.data(), style.data()};
-    motion_ = new RockMotion(lammps_.get(), 3, arguments, context_, settings_.gravity);
+    motion_ = new RockMotion(lammps_.get(), 3, arguments, context_, walls_, settings_.gravity);
     modify.fix[place] = motion_;
     modify.fmask[place] = motion_->setmask();
 }
@@ -346,6 +266,7 @@ void LiggghtsEngine::Implementation::set_neighbours() {
 /// Updates LIGGGHTS' lists after rocks were added or removed; the forces of existing contacts are kept.
 void LiggghtsEngine::Implementation::set_up() {
     store_contact_forces();
+    context_.time = time_;
     command(commands::run(0, true));
     restore_contact_forces();
     set_up_needed_ = false;
@@ -434,19 +355,18 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
     return contact.time_step_fraction * shortest;
 }
 
-bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double radius, double angle) const {
+bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double radius) const {
     const coupling::DomainSettings& domain = settings_.domain;
     for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
         if (!domain.side_is_wall[side]) continue;
         const double outward = side % 2 == 0 ? -1.0 : 1.0;
         if (outward * (centre[static_cast<Eigen::Index>(side / 2)] - domain.position_of(side)) + radius > 0.0) return true;
     }
-    const Vec3 in_rotor = rotate_about(rotor_.axis, -angle, centre);
     double turns_of_rotor = 0.0, turns_of_stator = 0.0;
-    for (const Wall& wall : walls_) {
-        const Vec3 point = (wall.of_rotor ? in_rotor : centre) - wall.travel.way(time_);
-        if (wall.surface.is_within(point, radius)) return true;
-        (wall.of_rotor ? turns_of_rotor : turns_of_stator) += wall.surface.winding_number(point);
+    for (const SteelWall& wall : walls_) {
+        const Vec3 point = wall.pose(time_).into_frame(centre);
+        if (wall.surface().is_within(point, radius)) return true;
+        (wall.rotating() ? turns_of_rotor : turns_of_stator) += wall.surface().winding_number(point);
     }
     return is_inside(turns_of_rotor) || is_inside(turns_of_stator);
 }
@@ -457,13 +377,11 @@ std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidat
         for (const double diameter : *diameters) largest = std::max(largest, diameter);
     RockGrid grid(largest);
     for (std::size_t k = 0; k < rocks_.size(); ++k) grid.add(rocks_.position[k], rocks_.diameter[k]);
-    const double angle = rotor_angle();
     std::vector<bool> room(candidates.size(), false);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const Vec3& centre = candidates.position[k];
         const double diameter = candidates.diameter[k];
-        if (!contains(settings_.domain, centre) || grid.overlaps(centre, diameter) || overlaps_wall(centre, 0.5 * diameter, angle))
-            continue;
+        if (!contains(settings_.domain, centre) || grid.overlaps(centre, diameter) || overlaps_wall(centre, 0.5 * diameter)) continue;
         room[k] = true;
         grid.add(centre, diameter);
     }
@@ -543,9 +461,9 @@ void LiggghtsEngine::Implementation::after_change_of_rocks() {
 
 coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const coupling::HydrodynamicForce& force) {
     const int steps = std::max(1, static_cast<int>(std::ceil(duration / largest_time_step() * (1.0 - 1e-12))));
-    start_and_stop_walls(time_ + 0.5 * duration);
     if (set_up_needed_) set_up();
     command(commands::timestep(duration / steps));
+    context_.time = time_;
     motion_->begin(rocks_, force);
     command(commands::run(steps, false));
     time_ += duration;
@@ -578,18 +496,6 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     return done;
 }
 
-/// A wall travels in the whole of a call or not at all.
-void LiggghtsEngine::Implementation::start_and_stop_walls(double time) {
-    for (Wall& wall : walls_) {
-        const bool travels = !wall.travel.velocity.isZero(0.0) && time > wall.travel.begin && time < wall.travel.end;
-        if (travels == wall.travels) continue;
-        store_contact_forces();
-        command(travels ? commands::move_mesh(wall.motion(), wall.id, wall.travel.velocity) : commands::unfix(wall.motion()));
-        wall.travels = travels;
-        set_up_needed_ = true;
-    }
-}
-
 /// LIGGGHTS drops a rock outside its box, or at no position, without a word.
 void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& before) const {
     if (rocks_.id != before)
@@ -597,26 +503,6 @@ void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& b
     for (std::size_t k = 0; k < rocks_.size(); ++k)
         if (!rocks_.position[k].allFinite())
             throw std::logic_error(fmt::format("the position of rock {} is not a number; so was a force on it", rocks_.id[k]));
-}
-
-double LiggghtsEngine::Implementation::rotor_angle() const {
-    if (!marker_) return rotor_.angle(time_);
-    auto* fix = static_cast<LAMMPS_NS::FixMeshSurface*>(lammps_->modify->find_fix_id(marker_->mesh.c_str()));
-    LAMMPS_NS::TriMesh* mesh = fix->triMesh();
-    double found[4] = {0.0, 0.0, 0.0, 0.0};
-    for (int t = 0; t < mesh->sizeLocal(); ++t) {
-        if (mesh->id(t) != marker_->triangle) continue;
-        mesh->node_slow(t, marker_->corner, found);
-        found[3] = 1.0;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, found, 4, MPI_DOUBLE, MPI_SUM, communicator_);
-    if (found[3] != 1.0) throw std::logic_error("the triangle that marks the rotor's angle is not on exactly one rank");
-    const Vec3 start = marker_->start - rotor_.axis.origin;
-    const Vec3 now = Vec3(found) - rotor_.axis.origin;
-    const Vec3& axis = rotor_.axis.direction;
-    const double within_turn = std::atan2(axis.dot(start.cross(now)), (start - axis * axis.dot(start)).dot(now));
-    const double turns = std::round((rotor_.angle(time_) - within_turn) / (2.0 * k_pi));
-    return within_turn + 2.0 * k_pi * turns;
 }
 
 void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::path& folder) {

@@ -15,7 +15,7 @@ namespace cutterflow::liggghts {
 /// is therefore checked before.
 class LiggghtsEngine final : public coupling::DemEngine {
 public:
-    /// \param moving  of the fluid's mesh, one at most; rotating walls turn with it
+    /// \param moving  of the fluid's mesh, one at most; rotating walls turn with it by its speed times the time
     /// \throws UserError  with every mistake of the settings: bounds, walls that cannot be read
     LiggghtsEngine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving, MPI_Comm communicator);
     ~LiggghtsEngine() override;
@@ -26,7 +26,6 @@ public:
     std::vector<int> insert(const coupling::Rocks& rocks) override;
     void remove(gsl::span<const int> ids) override;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override;
-    /// Measured on the corner of the rotating steel farthest from the axis; speed times time when the zone has no steel.
     std::vector<double> zone_angles() const override;
     void write_checkpoint(const std::filesystem::path& folder) override;
     void read_checkpoint(const std::filesystem::path& folder) override;

@@ -10,8 +10,9 @@
 
 namespace cutterflow::liggghts {
 
-RockMotion::RockMotion(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, ContactContext& context, const Vec3& gravity)
-    : Fix(lammps, narg, arg), context_(context), gravity_(gravity) {
+RockMotion::RockMotion(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, ContactContext& context, std::vector<SteelWall>& walls,
+                       const Vec3& gravity)
+    : Fix(lammps, narg, arg), context_(context), walls_(walls), gravity_(gravity) {
     time_integrate = 1;
     create_attribute = 1;
     grow_arrays(atom->nmax);
@@ -52,8 +53,9 @@ Vec3 RockMotion::spin_acceleration(int rock) const {
     return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
 }
 
-/// Runs after the walls' post_force, because the walls were declared before.
+/// Runs after the planes' post_force, because the planes were declared before.
 void RockMotion::post_force(int) {
+    for (SteelWall& wall : walls_) wall.find_touches(*atom, context_.time, *context_.wall_contacts);
     context_.wall_contacts->resolve();
 }
 
@@ -71,6 +73,7 @@ void RockMotion::initial_integrate(int) {
         spin += step * state.spin_acceleration;
     }
     angular_impulse_ += 0.5 * step * context_.tally.torque;
+    context_.time += step;
 }
 
 void RockMotion::final_integrate() {

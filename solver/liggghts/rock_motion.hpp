@@ -5,6 +5,7 @@
 #include "fix.h"
 
 #include "solver/liggghts/contacts/contact_context.hpp"
+#include "solver/liggghts/steel_wall.hpp"
 #include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::liggghts {
@@ -19,7 +20,8 @@ namespace cutterflow::liggghts {
 /// has one added-mass ratio for all rocks, lags half a step in the velocity and writes to a screen that other ranks than 0 do not have.
 class RockMotion final : public LAMMPS_NS::Fix {
 public:
-    RockMotion(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg, ContactContext& context, const Vec3& gravity);
+    /// \param walls  of triangles; they turn and travel with the context's time
+    RockMotion(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg, ContactContext& context, std::vector<SteelWall>& walls, const Vec3& gravity);
     ~RockMotion() override;
 
     /// Starts a call of advance: the rocks present (sorted by id) and their force law.
@@ -59,6 +61,7 @@ private:
     Vec3 spin_acceleration(int rock) const;
 
     ContactContext& context_;
+    std::vector<SteelWall>& walls_;
     Vec3 gravity_;
     const coupling::Rocks* rocks_ = nullptr;
     const coupling::HydrodynamicForce* force_ = nullptr;

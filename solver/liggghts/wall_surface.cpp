@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -72,6 +71,12 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
 }
 
+std::vector<coupling::SteelTriangle> as_steel(const std::vector<Triangle>& triangles) {
+    std::vector<coupling::SteelTriangle> steel;
+    for (const Triangle& t : triangles) steel.push_back({t[0], t[1], t[2]});
+    return steel;
+}
+
 Vec3 closest_on_segment(const Vec3& a, const Vec3& b, const Vec3& point) {
     const Vec3 along = b - a;
     const double length2 = along.squaredNorm();
@@ -88,27 +93,23 @@ std::vector<Triangle> read_stl(const std::filesystem::path& file) {
     return triangles;
 }
 
-double distance_to(const Triangle& triangle, const Vec3& point) {
+Vec3 nearest_point(const Triangle& triangle, const Vec3& point) {
     const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     const double area2 = normal.squaredNorm();
     bool above = area2 > 0.0;
-    double nearest2 = std::numeric_limits<double>::max();
-    for (int k = 0; k < 3; ++k) {
-        const Vec3& a = triangle[k];
-        const Vec3& b = triangle[(k + 1) % 3];
-        above = above && normal.dot((b - a).cross(point - a)) >= 0.0;
-        nearest2 = std::min(nearest2, (point - closest_on_segment(a, b, point)).squaredNorm());
+    for (int k = 0; k < 3; ++k) above = above && normal.dot((triangle[(k + 1) % 3] - triangle[k]).cross(point - triangle[k])) >= 0.0;
+    if (above) return point - normal * (normal.dot(point - triangle[0]) / area2);
+    Vec3 nearest = closest_on_segment(triangle[0], triangle[1], point);
+    for (int k = 1; k < 3; ++k) {
+        const Vec3 on_edge = closest_on_segment(triangle[k], triangle[(k + 1) % 3], point);
+        if ((point - on_edge).squaredNorm() < (point - nearest).squaredNorm()) nearest = on_edge;
     }
-    if (above) return std::fabs(normal.dot(point - triangle[0])) / std::sqrt(area2);
-    return std::sqrt(nearest2);
+    return nearest;
 }
 
 WallSurface::WallSurface(std::vector<Triangle> triangles)
-    : triangles_(std::move(triangles)), low_(triangles_.at(0)[0]), high_(triangles_.at(0)[0]) {
+    : triangles_(std::move(triangles)), tree_(as_steel(triangles_)), low_(triangles_.at(0)[0]), high_(triangles_.at(0)[0]) {
     for (const Triangle& t : triangles_) {
-        const Vec3 centre = (t[0] + t[1] + t[2]) / 3.0;
-        const double radius = std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()});
-        balls_.push_back({centre, radius});
         for (const Vec3& corner : t) {
             low_ = low_.cwiseMin(corner);
             high_ = high_.cwiseMax(corner);
@@ -116,12 +117,10 @@ WallSurface::WallSurface(std::vector<Triangle> triangles)
     }
 }
 
-bool WallSurface::is_within(const Vec3& point, double distance) const {
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        const double reach = balls_[t].radius + distance;
-        if ((balls_[t].centre - point).squaredNorm() <= reach * reach && distance_to(triangles_[t], point) < distance) return true;
-    }
-    return false;
+std::vector<Triangle> WallSurface::near(const Vec3& point, double distance) const {
+    std::vector<Triangle> found;
+    tree_.each_within(point, distance, [&](const coupling::SteelTriangle& t, double) { found.push_back({t.a, t.b, t.c}); });
+    return found;
 }
 
 double WallSurface::winding_number(const Vec3& point) const {

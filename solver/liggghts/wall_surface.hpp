@@ -1,11 +1,11 @@
 #pragma once
-/// \file The triangles of a wall as its STL has them: for the box of the simulation, the measured rotor angle and where rock may not be
-/// put.
+/// \file The triangles of a wall as its STL has them, and where they are near a point.
 #include <array>
 #include <filesystem>
 #include <vector>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/space/steel_tree.hpp"
 
 namespace cutterflow::liggghts {
 
@@ -15,31 +15,27 @@ using Triangle = std::array<Vec3, 3>;
 /// \throws UserError  when the file cannot be read, has no triangle or ends early
 std::vector<Triangle> read_stl(const std::filesystem::path& file);
 
-/// Distance [m] of a point to a triangle.
-double distance_to(const Triangle& triangle, const Vec3& point);
+/// The point of a triangle that is nearest to `point`. Beside a triangle without area that of its edges.
+Vec3 nearest_point(const Triangle& triangle, const Vec3& point);
 
 /// The triangles of one wall.
 class WallSurface {
 public:
     explicit WallSurface(std::vector<Triangle> triangles);
 
-    const std::vector<Triangle>& triangles() const { return triangles_; }
-
     /// Whether a triangle is nearer to `point` than `distance` [m].
-    bool is_within(const Vec3& point, double distance) const;
+    bool is_within(const Vec3& point, double distance) const { return tree_.distance(point, distance) < distance; }
+
+    /// The triangles nearer to `point` than `distance` [m]. Any two of them are in the same order in every answer.
+    std::vector<Triangle> near(const Vec3& point, double distance) const;
 
     /// Sum of the triangles' solid angles seen from `point` over 4 pi: +-1 inside a closed surface, 0 outside of it. Taken as 0 outside the
     /// surface's box.
     double winding_number(const Vec3& point) const;
 
 private:
-    struct Ball {
-        Vec3 centre;
-        double radius;
-    };
-
     std::vector<Triangle> triangles_;
-    std::vector<Ball> balls_;  // around each triangle
+    coupling::SteelTree tree_;
     Vec3 low_, high_;
 };
 

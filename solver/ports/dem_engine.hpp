@@ -70,7 +70,7 @@ public:
     /// Advances by `duration` [s] in a whole number of equal steps, at most largest_time_step() long; the rotor turns along.
     virtual DemStep advance(double duration, const HydrodynamicForce& force) = 0;
 
-    /// Angle [rad] that the walls of each moving zone have turned since time 0, measured on the walls themselves.
+    /// Angle [rad] that the walls of each moving zone have turned since time 0, as the rock meets them.
     virtual std::vector<double> zone_angles() const = 0;
 
     /// Writes rocks with their contact history into an existing folder / reads them back (before any insert).

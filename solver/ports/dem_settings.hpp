@@ -81,6 +81,7 @@ struct WallTravel {
     Vec3 velocity = Vec3::Zero();   ///< [m/s]
     double begin = 0.0, end = 0.0;  ///< [s]
     Vec3 way(double time) const { return velocity * std::clamp(time - begin, 0.0, end - begin); }
+    Vec3 velocity_at(double time) const { return time > begin && time <= end ? velocity : Vec3(Vec3::Zero()); }
 };
 
 /// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels is given where

@@ -65,7 +65,7 @@ const std::vector<Layer> k_layers = {
     {"solver/foam/soil/",
      {k_base, "solver/ports/", "solver/space/steel_tree.hpp", "solver/foam/session/", "solver/foam/mesh_motion/", "solver/foam/soil/"}},
     {"solver/foam/", {k_base, "solver/ports/", "solver/foam/"}},
-    {"solver/liggghts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/"}},
+    {"solver/liggghts/", {k_base, "solver/physics/", "solver/ports/", "solver/space/steel_tree.hpp", "solver/liggghts/"}},
     {"solver/liggghts/contacts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/contacts/"}},
     {"solver/free_surface/cut_cells/",
      {k_base, "solver/ports/", "solver/free_surface/grid.hpp", "solver/free_surface/cell_lists.hpp", "solver/free_surface/kernel.hpp",

@@ -21,12 +21,6 @@ namespace cutterflow::liggghts {
 /// Impact speed of a contact that begins without approach; its damping is that of the smallest restitution.
 inline constexpr double k_smallest_impact_speed = 1e-12;  // [m/s]
 
-/// A body of steel: all triangles of one STL, or one plane.
-struct WallBody {
-    int index = 0;
-    bool rotating = false;
-};
-
 /// Sums over the contacts of one force evaluation, this rank's share.
 struct ContactTally {
     double torque = 0.0;         ///< of the rock on the rotating steel about the axis [N m]
@@ -63,9 +57,10 @@ struct ContactContext {
     std::optional<LinearLaw> linear;  ///< in place of Hertz'
     coupling::RockShape shape = coupling::RockShape::sphere;
     double cylinder_length = 0.0;
-    double half_gap = 0.0;                                ///< by which LIGGGHTS' radii are larger than the rocks' [m]
-    std::map<std::string, WallBody, std::less<>> bodies;  ///< by the id of the STL's or plane's fix
+    double half_gap = 0.0;                           ///< by which LIGGGHTS' radii are larger than the rocks' [m]
+    std::map<std::string, int, std::less<>> planes;  ///< number of each plane among the bodies of steel, by the id of its fix
     WallContacts* wall_contacts = nullptr;
+    double time = 0.0;  ///< at which forces are evaluated [s]
     ContactTally tally;
 
     ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor);

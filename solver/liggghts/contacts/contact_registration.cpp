@@ -28,10 +28,10 @@ using namespace LIGGGHTS::ContactModels;
 using RockStyle = GranStyle<ROCK_PAIR>;
 using RockPair = LIGGGHTS::PairStyles::Granular<ContactModel<RockStyle>>;
 
-/// Hands every touch that LIGGGHTS finds to WallContacts.
-class RockWall final : public LIGGGHTS::Walls::IGranularWall {
+/// Hands every touch of a plane that LIGGGHTS finds to WallContacts.
+class PlaneWall final : public LIGGGHTS::Walls::IGranularWall {
 public:
-    RockWall(ContactContext& context, LAMMPS_NS::FixWallGran* owner) : context_(context), owner_(owner) {}
+    PlaneWall(ContactContext& context, LAMMPS_NS::FixWallGran* owner) : context_(context), owner_(owner) {}
 
     void settings(int, char**, LIGGGHTS::IContactHistorySetup*) override {}
     void init_granular() override {}
@@ -39,17 +39,14 @@ public:
     int get_history_offset(std::string) override { return -1; }
     bool contact_match(const std::string, const std::string) override { return false; }
 
-    void compute_force(LAMMPS_NS::FixWallGran*, SurfacesIntersectData& found, bool touches, double* wall_velocity,
-                       LAMMPS_NS::FixMeshSurface* fix_mesh, int, LAMMPS_NS::TriMesh*, int) override {
+    void compute_force(LAMMPS_NS::FixWallGran*, SurfacesIntersectData& found, bool touches, double*, LAMMPS_NS::FixMeshSurface*, int,
+                       LAMMPS_NS::TriMesh*, int) override {
         if (!touches) return;
-        const WallBody& body = context_.bodies.find(fix_mesh ? fix_mesh->id : owner_->id)->second;
         WallTouch touch;
         touch.rock = found.i;
-        touch.body = body.index;
-        touch.rotating = body.rotating;
+        touch.body = context_.planes.find(owner_->id)->second;
         touch.normal = Vec3(found.delta).normalized();
         touch.overlap = found.deltan;
-        touch.wall_velocity = Vec3(wall_velocity);
         context_.wall_contacts->add(touch);
     }
 
@@ -63,7 +60,7 @@ LIGGGHTS::PairStyles::IGranularPairStyle* create_pair(LAMMPS_NS::LAMMPS* lammps,
 }
 
 LIGGGHTS::Walls::IGranularWall* create_wall(LAMMPS_NS::LAMMPS* lammps, LAMMPS_NS::FixWallGran* owner, std::int64_t) {
-    return new RockWall(ContactContext::of(lammps), owner);
+    return new PlaneWall(ContactContext::of(lammps), owner);
 }
 
 bool register_once() {

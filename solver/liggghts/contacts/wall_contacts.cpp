@@ -66,7 +66,7 @@ void WallContacts::resolve() {
     const auto by_rock_and_depth = [](const WallTouch& a, const WallTouch& b) {
         return a.rock != b.rock ? a.rock < b.rock : a.overlap > b.overlap;
     };
-    std::sort(touches_.begin(), touches_.end(), by_rock_and_depth);
+    std::stable_sort(touches_.begin(), touches_.end(), by_rock_and_depth);
     for (auto first = touches_.begin(); first != touches_.end();) {
         const auto last = std::find_if(first, touches_.end(), [&](const WallTouch& touch) { return touch.rock != first->rock; });
         apply(merge({first, last}));

@@ -1,6 +1,6 @@
 #pragma once
-/// \file Contacts of rocks with steel: LIGGGHTS finds the triangles that a rock touches; this class merges them into contacts and applies
-/// the law.
+/// \file Contacts of rocks with steel: SteelWall finds the triangles that a rock touches, LIGGGHTS the planes; this class merges them into
+/// contacts and applies the law.
 #include <vector>
 
 #include "solver/liggghts/contacts/contact_context.hpp"
@@ -27,7 +27,7 @@ struct WallContactRecord {
     SlipMemory slip;
 };
 
-/// LIGGGHTS itself makes one contact of every touched triangle and keeps its history per triangle. On a curved blade, whose facets are
+/// One contact of every touched triangle, with a history per triangle, is LIGGGHTS' own way. On a curved blade, whose facets are
 /// often smaller than the region that touches, stiffness then jumps with the number of touched triangles (a rock at 1 m/s on facets of 1 to
 /// 3 mm returned 0.80 to 1.14 of its speed where 0.90 was set), and spring and impact speed are lost at every edge. Here
 ///

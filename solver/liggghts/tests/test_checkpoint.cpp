@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <memory>
+
 #include "solver/liggghts/tests/engine_fixture.hpp"
 
 namespace cutterflow::liggghts::tests {
@@ -94,6 +97,33 @@ TEST(Checkpoint, rocks_in_contact_and_the_rotor_go_on_as_if_never_stopped) {
     EXPECT_NEAR(second.zone_angles().at(0), through.zone_angles().at(0), 1e-13);
     EXPECT_EQ(last_second.contacts, last_through.contacts);
     EXPECT_NEAR(last_second.cutter_torque, last_through.cutter_torque, 1e-9 * std::abs(last_through.cutter_torque));
+}
+
+// Nothing but steel touches the rock; the wall's angle is that of the time.
+TEST(Checkpoint, a_rock_before_a_turning_wall_goes_on_to_the_bit) {
+    const Mill mill;
+    const auto start = [&] {
+        auto engine = std::make_unique<LiggghtsEngine>(mill.settings, std::vector{mill.rotor}, MPI_COMM_WORLD);
+        EXPECT_EQ(engine->insert(one_rock(Vec3(0.15, 0.03, -0.05))).size(), 1u);
+        return engine;
+    };
+    const auto through = start(), first = start();
+    for (int call = 0; call < 25; ++call) first->advance(duration(call), drag);
+    first->write_checkpoint(mill.folder);
+    LiggghtsEngine second(mill.settings, {mill.rotor}, MPI_COMM_WORLD);
+    second.read_checkpoint(mill.folder);
+    double torque = 0.0;
+    for (int call = 0; call < 50; ++call) torque = std::min(torque, through->advance(duration(call), drag).cutter_torque);
+    EXPECT_LT(torque, -0.01);
+    for (int call = 25; call < 50; ++call) {
+        first->advance(duration(call), drag);
+        second.advance(duration(call), drag);
+    }
+    for (const auto* engine : {first.get(), &second}) {
+        EXPECT_EQ(engine->rocks().position, through->rocks().position);
+        EXPECT_EQ(engine->rocks().velocity, through->rocks().velocity);
+        EXPECT_EQ(engine->rocks().angular_velocity, through->rocks().angular_velocity);
+    }
 }
 
 TEST(Checkpoint, can_be_read_on_another_number_of_ranks) {

@@ -40,6 +40,13 @@ TEST_P(RotorAngle, is_speed_times_time_when_the_steps_differ) {
         time += uneven_duration(call);
         ASSERT_NEAR(engine.zone_angles().at(0), paddle.rotor.angle(time), 1e-9) << "call " << call;
     }
+    // The paddle's face stands there: a rock beside it has room, one a nanometre closer has none.
+    const auto has_room = [&](double distance) {
+        const Vec3 place = rotate_about(paddle.rotor.axis, paddle.rotor.angle(time), Vec3(0.2, 0.02 + distance, 0.0));
+        return bool(engine.room_for(one_rock(place)).at(0));
+    };
+    EXPECT_TRUE(has_room(1e-9));
+    EXPECT_FALSE(has_room(-1e-9));
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, RotorAngle, ::testing::Values(60.0, -60.0),

@@ -1,0 +1,81 @@
+#include "solver/liggghts/steel_wall.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include "atom.h"
+
+namespace cutterflow::liggghts {
+
+namespace {
+
+constexpr double k_skin_in_radii = 0.25;  // a rock's neighbourhood serves until it has moved by this in the wall's frame
+constexpr double k_same_point_in_radii = 1e-6;
+
+}  // namespace
+
+std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius) {
+    std::vector<SteelPoint> reached;
+    std::vector<const Triangle*> owners;
+    for (const Triangle& triangle : triangles) {
+        const Vec3 place = nearest_point(triangle, centre);
+        const double distance = (centre - place).norm();
+        if (distance >= radius) continue;
+        reached.push_back({place, distance});
+        owners.push_back(&triangle);
+    }
+    std::vector<SteelPoint> minima;
+    for (const SteelPoint& point : reached) {
+        bool is_minimum = true;
+        for (std::size_t k = 0; k < reached.size() && is_minimum; ++k)
+            is_minimum = reached[k].distance >= point.distance ||
+                         (nearest_point(*owners[k], point.place) - point.place).norm() > k_same_point_in_radii * radius;
+        if (is_minimum) minima.push_back(point);
+    }
+    return minima;
+}
+
+SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupling::ZoneMotion& rotor)
+    : surface_(read_stl(given.file)), body_(body), rotating_(given.rotating), travel_(given.travel), rotor_(rotor) {}
+
+WallPose SteelWall::pose(double time) const {
+    WallPose pose;
+    pose.way = travel_.way(time);
+    pose.travel = travel_.velocity_at(time);
+    if (!rotating_) return pose;
+    pose.turn = Eigen::AngleAxisd(rotor_.angle(time), rotor_.axis.direction).toRotationMatrix();
+    pose.origin = rotor_.axis.origin;
+    pose.spin = rotor_.speed * rotor_.axis.direction;
+    return pose;
+}
+
+const std::vector<Triangle>& SteelWall::near(Neighbourhood& last, const Vec3& centre, double radius) const {
+    if ((centre - last.centre).norm() + radius > last.reach) {
+        const double reach = (1.0 + k_skin_in_radii) * radius;
+        last = {centre, reach, surface_.near(centre, reach)};
+    }
+    return last.triangles;
+}
+
+void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallContacts& contacts) {
+    const WallPose now = pose(time);
+    const auto count = static_cast<std::size_t>(atom.nlocal);
+    if (neighbourhoods_.size() < count) neighbourhoods_.resize(count);
+    for (std::size_t rock = 0; rock < count; ++rock) {
+        const Vec3 position(atom.x[rock]), centre = now.into_frame(position);
+        const double radius = atom.radius[rock];
+        for (const SteelPoint& point : reached_points(near(neighbourhoods_[rock], centre, radius), centre, radius)) {
+            WallTouch touch;
+            touch.rock = static_cast<int>(rock);
+            touch.body = body_;
+            touch.rotating = rotating_;
+            touch.normal = now.turn * (centre - point.place).normalized();
+            touch.overlap = radius - point.distance;
+            touch.wall_velocity = now.velocity_at(position - point.distance * touch.normal);
+            contacts.add(touch);
+        }
+    }
+}
+
+}  // namespace cutterflow::liggghts

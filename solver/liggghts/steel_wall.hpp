@@ -1,0 +1,73 @@
+#pragma once
+/// \file Walls of triangles. Each stands still in a frame of its own, in which the rocks that touch it are sought.
+#include <vector>
+
+#include "geometry/base/axis_frame.hpp"
+#include "solver/liggghts/contacts/wall_contacts.hpp"
+#include "solver/liggghts/wall_surface.hpp"
+#include "solver/ports/dem_settings.hpp"
+#include "solver/ports/fluid_engine.hpp"
+
+namespace LAMMPS_NS {
+class Atom;
+}  // namespace LAMMPS_NS
+
+namespace cutterflow::liggghts {
+
+/// Where a wall is at one time, and how it moves.
+struct WallPose {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< since time 0
+    Vec3 origin = Vec3::Zero();                          ///< of the turn [m]
+    Vec3 way = Vec3::Zero();                             ///< travelled since time 0 [m]
+    Vec3 spin = Vec3::Zero();                            ///< [rad/s]
+    Vec3 travel = Vec3::Zero();                          ///< [m/s]
+
+    Vec3 into_frame(const Vec3& point) const { return origin + turn.transpose() * (point - way - origin); }
+    Vec3 velocity_at(const Vec3& point) const { return travel + spin.cross(point - origin); }
+};
+
+/// A place of steel that a sphere reaches.
+struct SteelPoint {
+    Vec3 place = Vec3::Zero();  ///< [m]
+    double distance = 0.0;      ///< from the sphere's centre [m]
+};
+
+/// Where triangles are nearest to a sphere's centre and within its radius: of each triangle its nearest point, unless another triangle has
+/// that point too and comes nearer. So the distance to the surface has a minimum there, and no seam of a plane counts.
+std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius);
+
+/// A wall given as STL. It turns with the rotor, travels or stands; the rocks are taken into its frame, so that its triangles are never
+/// moved and are sorted once.
+class SteelWall {
+public:
+    /// \param body  its number among the bodies of steel
+    /// \param rotor  with which a rotating wall turns
+    /// \throws UserError  when its file cannot be read
+    SteelWall(const coupling::WallSettings& given, int body, const coupling::ZoneMotion& rotor);
+
+    bool rotating() const { return rotating_; }
+    const WallSurface& surface() const { return surface_; }
+    WallPose pose(double time) const;
+
+    /// Hands the touches of this rank's rocks at `time` [s] to `contacts`.
+    void find_touches(const LAMMPS_NS::Atom& atom, double time, WallContacts& contacts);
+
+private:
+    /// All triangles nearer to `centre` than `reach`, in the wall's frame.
+    struct Neighbourhood {
+        Vec3 centre = Vec3::Zero();
+        double reach = 0.0;
+        std::vector<Triangle> triangles;
+    };
+
+    const std::vector<Triangle>& near(Neighbourhood& last, const Vec3& centre, double radius) const;
+
+    WallSurface surface_;
+    int body_;
+    bool rotating_;
+    coupling::WallTravel travel_;
+    coupling::ZoneMotion rotor_;
+    std::vector<Neighbourhood> neighbourhoods_;  // of the rocks, in LIGGGHTS' order
+};
+
+}  // namespace cutterflow::liggghts
