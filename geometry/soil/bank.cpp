@@ -108,13 +108,16 @@ Eigen::Affine3d Bank::to_run_frame() const {
     return Eigen::Affine3d(Eigen::Matrix3d(rows.transpose()));  // orthonormal
 }
 
+Vec3 Bank::corner(const MeridianPoint& at, int k) const {
+    return seen(on_circle(at, corner_azimuth(k, parameters_.segments), corner_stretch(parameters_.segments)));
+}
+
 std::vector<Vec3> Bank::body() const {
-    const int segments = parameters_.segments;
     std::vector<Vec3> points;
     for (const MeridianPoint& at : section_)
-        for (int k = 0; k < segments; ++k) {
+        for (int k = 0; k < parameters_.segments; ++k) {
             if (at.r == 0.0 && k > 0) break;
-            points.push_back(seen(on_circle(at, corner_azimuth(k, segments), corner_stretch(segments))));
+            points.push_back(corner(at, k));
         }
     return points;
 }
@@ -141,7 +144,6 @@ double Bank::cut_section() const {
 
 CutFace Bank::cut_face(double length) const {
     const int segments = parameters_.segments;
-    const double stretch = corner_stretch(segments);
     const PlanarLoop cut_before = moved(outline_, {-parameters_.step, 0.0});
     const double least_area = k_least_share * moment_of(outline_).area;
     const Eigen::Affine3d back = to_run_frame();
@@ -151,9 +153,8 @@ CutFace Bank::cut_face(double length) const {
     CutFace face;
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
         for (int k = 0; k < segments; ++k) {
-            const double from = corner_azimuth(k, segments), to = corner_azimuth(k + 1, segments);
-            const std::array<Vec3, 4> corners{seen(on_circle(points[i], from, stretch)), seen(on_circle(points[i], to, stretch)),
-                                              seen(on_circle(points[i + 1], to, stretch)), seen(on_circle(points[i + 1], from, stretch))};
+            const std::array<Vec3, 4> corners{corner(points[i], k), corner(points[i], k + 1), corner(points[i + 1], k + 1),
+                                              corner(points[i + 1], k)};
             // Seen against the swing a facet of the front goes counter-clockwise; the mirrored frame of the other swing turns it round.
             const Vec3 normal = parameters_.swing_sign * (corners[2] - corners[0]).cross(corners[3] - corners[1]);
             if (!(normal.z() > 0.0)) continue;

@@ -21,6 +21,13 @@ struct BankParameters {
     int segments = 96;         ///< edges around the axis, a multiple of 4
 };
 
+/// Of a soil's surface for a DEM. Lengths in metres.
+struct WallBounds {
+    double reach = 0.0;        ///< as of the soil
+    double tolerance = 0.0;    ///< by which the body's section may lie within the right one; what is narrower is left out
+    double edge_length = 0.0;  ///< largest
+};
+
 /// Soil as the sweeps of a convex body leave it.
 ///
 /// The body B is the convex hull of the contour, picks and clearance added (they end at the clearance above the ring plane), turned about
@@ -60,9 +67,20 @@ public:
     /// \throws CheckFailure  when the bank overhangs so that parts of it meet at an edge only
     TriangleSurface soil(double reach) const;
 
+    /// The surface of the soil that rock can reach, for a DEM: triangles of 5 degrees and more, cut from the sweeps' own facets, facing the
+    /// water. It is open where the soil's box ends, triangles need not share corners, and slits narrower than the tolerance may be left.
+    TriangleSurface wall(const WallBounds& bounds) const;
+
+    /// Hausdorff distance of a wall to the surface of the soil it was made for, but for the soil's box [m]: largest distance from one to
+    /// the other of points `spacing` [m] apart.
+    double wall_error(const TriangleSurface& wall, const TriangleSurface& soil, double reach, double spacing) const;
+
 private:
+    class WallMaker;
+
     Vec3 seen(const Vec3& point) const;  ///< run's frame -> (along f, along k, along e)
     Eigen::Affine3d to_run_frame() const;
+    Vec3 corner(const MeridianPoint& at, int k) const;  ///< of B on the k-th plane about the axis, as seen
     // As seen:
     std::vector<Vec3> body() const;                         ///< corners of B
     TriangleSurface swept(double length) const;             ///< P0

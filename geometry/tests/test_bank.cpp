@@ -10,6 +10,7 @@
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/head.hpp"
 #include "geometry/soil/bank.hpp"
+#include "geometry/surface/contact_surface.hpp"
 #include "geometry/surface/soundness.hpp"
 #include "geometry/tests/solids.hpp"
 
@@ -231,6 +232,52 @@ TEST(Soil, of_the_other_swing_is_the_mirrored_one) {
     const Vec3 beside(0.0, -0.9, -0.45);
     EXPECT_TRUE(in_a.contains(beside));
     EXPECT_FALSE(SolidSearch(under.soil(1.0)).contains(beside));
+}
+
+constexpr double k_reach = 1.2, k_tolerance = 2e-4;
+
+TriangleSurface without(const TriangleSurface& surface, const Vec3& centre, double radius) {
+    TriangleSurface left{surface.points, {}};
+    for (const Triangle& triangle : surface.triangles)
+        if ((centroid_of(surface, triangle) - centre).norm() > radius) left.triangles.push_back(triangle);
+    return left;
+}
+
+// For a DEM: no thin triangle, on the exact soil within two tolerances, facing the water, away from the head.
+TEST(Wall, is_the_soils_surface_with_good_triangles) {
+    for (const auto& [inclination, swing] : {std::pair(20.0, -1.0), std::pair(45.0, 1.0)}) {
+        const BankParameters parameters = model_bank(inclination, swing);
+        const Bank bank(model_head(), parameters);
+        const TriangleSurface wall = bank.wall({k_reach, k_tolerance, 0.1});
+        const TriangleSurface soil = bank.soil(k_reach);
+        EXPECT_GE(smallest_angle_of(wall), 5.0 * k_degree);
+        EXPECT_LT(wall.triangles.size(), 30000u);
+        EXPECT_LT(bank.wall_error(wall, soil, k_reach, 0.005), 2.0 * k_tolerance) << inclination << " " << swing;
+        const SolidSearch search(soil);
+        for (const Triangle& triangle : wall.triangles) {
+            const Vec3 ahead = 1e-3 * area_vector(wall, triangle).normalized(), centre = centroid_of(wall, triangle);
+            EXPECT_FALSE(search.contains(centre + ahead));
+            EXPECT_TRUE(search.contains(centre - ahead));
+        }
+        const SolidSearch from_head(wall);
+        double nearest = 1.0;
+        for (std::size_t i = 0; i < model_head().z().size(); ++i)
+            for (int k = 0; k < 72; ++k) {
+                const double azimuth = 5.0 * k_degree * k, r = model_head().radius()[i];
+                nearest =
+                    std::min(nearest, from_head.nearest({r * std::cos(azimuth), r * std::sin(azimuth), model_head().z()[i]}).distance);
+            }
+        EXPECT_GT(nearest, parameters.pick_length + parameters.clearance - k_tolerance);
+    }
+}
+
+TEST(Wall, with_a_hole_is_no_surface_of_its_soil) {
+    const Bank bank(model_head(), model_bank(45.0, 1.0));
+    const TriangleSurface wall = bank.wall({k_reach, k_tolerance, 0.1}), soil = bank.soil(k_reach);
+    // In the cut face, as large as a rock of 20 mm.
+    const TriangleSurface broken = without(wall, wall.points[wall.triangles.front()[0]], 0.02);
+    ASSERT_LT(broken.triangles.size(), wall.triangles.size());
+    EXPECT_GT(bank.wall_error(broken, soil, k_reach, 0.005), 10.0 * k_tolerance);
 }
 
 TEST(Bank, knows_where_it_would_overhang) {
