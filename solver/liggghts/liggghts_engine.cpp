@@ -235,7 +235,10 @@ void LiggghtsEngine::Implementation::declare_walls() {
         return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps_->modify->find_fix_id(name));
     };
     auto* records = property(k_wall_contacts, WallContacts::columns);
-    auto* rolling = context_.rock_steel.resists_rolling() ? property(k_wall_rolling, WallContacts::rolling_columns) : nullptr;
+    const bool resists_rolling = context_.rock_steel.resists_rolling() ||
+                                 std::any_of(walls_.begin(), walls_.end(),
+                                             [&](const SteelWall& wall) { return context_.law_on(wall.material()).resists_rolling(); });
+    auto* rolling = resists_rolling ? property(k_wall_rolling, WallContacts::rolling_columns) : nullptr;
     wall_contacts_.emplace(lammps_.get(), context_, records, rolling);
     context_.wall_contacts = &*wall_contacts_;
     contact_forces_ = property(k_contact_forces, 6);
@@ -362,13 +365,14 @@ bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double ra
         const double outward = side % 2 == 0 ? -1.0 : 1.0;
         if (outward * (centre[static_cast<Eigen::Index>(side / 2)] - domain.position_of(side)) + radius > 0.0) return true;
     }
-    double turns_of_rotor = 0.0, turns_of_stator = 0.0;
+    double turns_of_rotor = 0.0, turns_of_stator = 0.0, turns_of_soil = 0.0;
     for (const SteelWall& wall : walls_) {
         const Vec3 point = wall.pose(time_).into_frame(centre);
         if (wall.surface().is_within(point, radius)) return true;
-        (wall.rotating() ? turns_of_rotor : turns_of_stator) += wall.surface().winding_number(point);
+        const bool soil = wall.material() == coupling::WallMaterial::soil;  // may be open
+        (soil ? turns_of_soil : wall.rotating() ? turns_of_rotor : turns_of_stator) += wall.surface().winding_number(point);
     }
-    return is_inside(turns_of_rotor) || is_inside(turns_of_stator);
+    return is_inside(turns_of_rotor) || is_inside(turns_of_stator) || is_inside(turns_of_soil);
 }
 
 std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidates) const {

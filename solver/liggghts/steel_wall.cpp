@@ -37,7 +37,12 @@ std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, c
 }
 
 SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupling::ZoneMotion& rotor)
-    : surface_(read_stl(given.file)), body_(body), rotating_(given.rotating), travel_(given.travel), rotor_(rotor) {}
+    : surface_(read_stl(given.file)),
+      body_(body),
+      rotating_(given.rotating),
+      material_(given.material),
+      travel_(given.travel),
+      rotor_(rotor) {}
 
 WallPose SteelWall::pose(double time) const {
     WallPose pose;
@@ -70,6 +75,7 @@ void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallConta
             touch.rock = static_cast<int>(rock);
             touch.body = body_;
             touch.rotating = rotating_;
+            touch.material = material_;
             touch.normal = now.turn * (centre - point.place).normalized();
             touch.overlap = radius - point.distance;
             touch.wall_velocity = now.velocity_at(position - point.distance * touch.normal);

@@ -36,8 +36,8 @@ struct SteelPoint {
 /// that point too and comes nearer. So the distance to the surface has a minimum there, and no seam of a plane counts.
 std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius);
 
-/// A wall given as STL. It turns with the rotor, travels or stands; the rocks are taken into its frame, so that its triangles are never
-/// moved and are sorted once.
+/// A wall of steel or soil given as STL. It turns with the rotor, travels or stands; the rocks are taken into its frame, so that its
+/// triangles are never moved and are sorted once.
 class SteelWall {
 public:
     /// \param body  its number among the bodies of steel
@@ -46,6 +46,7 @@ public:
     SteelWall(const coupling::WallSettings& given, int body, const coupling::ZoneMotion& rotor);
 
     bool rotating() const { return rotating_; }
+    coupling::WallMaterial material() const { return material_; }
     const WallSurface& surface() const { return surface_; }
     WallPose pose(double time) const;
 
@@ -65,6 +66,7 @@ private:
     WallSurface surface_;
     int body_;
     bool rotating_;
+    coupling::WallMaterial material_;
     coupling::WallTravel travel_;
     coupling::ZoneMotion rotor_;
     std::vector<Neighbourhood> neighbourhoods_;  // of the rocks, in LIGGGHTS' order

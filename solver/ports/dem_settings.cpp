@@ -78,8 +78,8 @@ void check_fluid(Mistakes& mistakes, const DemSettings& settings) {
 
 const std::array<PairPreset, 2>& pair_presets() {
     static const ContactSettings gravel;
-    static const std::array<PairPreset, 2> presets{
-        {{k_gravel_pairs, gravel.rock_rock, gravel.rock_steel}, {k_paper_pairs, {0.15, 0.97, 0.0}, {0.15, 0.97, 0.0}}}};
+    static const std::array<PairPreset, 2> presets{{{k_gravel_pairs, gravel.rock_rock, gravel.rock_steel, gravel.rock_soil},
+                                                    {k_paper_pairs, {0.15, 0.97, 0.0}, {0.15, 0.97, 0.0}, {0.15, 0.97, 0.0}}}};
     return presets;
 }
 
@@ -89,6 +89,7 @@ void use_preset(ContactSettings& settings, const std::string& name) {
     Expects(found != presets.end());
     settings.rock_rock = found->rock_rock;
     settings.rock_steel = found->rock_steel;
+    settings.rock_soil = found->rock_soil;
 }
 
 bool contains(const DomainSettings& domain, const Vec3& centre) {

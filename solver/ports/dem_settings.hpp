@@ -19,19 +19,21 @@ struct PairSettings {
     double rolling_friction = 0.1;  ///< largest rolling couple over normal force and rolling radius [-]
 };
 
-/// Contact law of rock on rock and rock on steel (docs/theory/contact.md). Both materials have the same Young's modulus.
+/// Contact law of rock on rock, on steel and on soil (docs/theory/contact.md). All materials have the same Young's modulus, soil has the
+/// rock's Poisson ratio.
 struct ContactSettings {
     double youngs_modulus = 0.0;  ///< [Pa]
     double poisson_rock = 0.24;   ///< [-]
     double poisson_steel = 0.27;  ///< [-]
     PairSettings rock_rock;
     PairSettings rock_steel{0.35, 0.97, 0.1};
+    PairSettings rock_soil{0.6, 0.97, 0.15};
     std::string rolling_law = "spring";  ///< or "constant"
     bool wet_restitution = true;         ///< e after Legendre from the impact speed
     double time_step_fraction = 0.1;     ///< of the smaller of Rayleigh and Hertz time
     double max_speed = 0.0;              ///< impact speed for the Hertz time [m/s]
 
-    void set_every_pair(const PairSettings& pair) { rock_rock = rock_steel = pair; }
+    void set_every_pair(const PairSettings& pair) { rock_rock = rock_steel = rock_soil = pair; }
 };
 
 /// A pair of materials that can touch: rock and another one.
@@ -40,13 +42,14 @@ struct MaterialPair {
     const char* other;  ///< material
     PairSettings ContactSettings::*settings;
 };
-inline constexpr std::array<MaterialPair, 2> k_material_pairs{
-    {{"rock_rock", "rock", &ContactSettings::rock_rock}, {"rock_steel", "steel", &ContactSettings::rock_steel}}};
+inline constexpr std::array<MaterialPair, 3> k_material_pairs{{{"rock_rock", "rock", &ContactSettings::rock_rock},
+                                                               {"rock_steel", "steel", &ContactSettings::rock_steel},
+                                                               {"rock_soil", "soil", &ContactSettings::rock_soil}}};
 
 /// Coefficients of every pair under one name.
 struct PairPreset {
     const char* name;
-    PairSettings rock_rock, rock_steel;
+    PairSettings rock_rock, rock_steel, rock_soil;
 };
 inline constexpr const char* k_gravel_pairs = "gravel";  ///< angular gravel; the default
 inline constexpr const char* k_paper_pairs = "paper";    ///< [NieuwboerVanRheeKeetels2023]
@@ -84,6 +87,10 @@ struct WallTravel {
     Vec3 velocity_at(double time) const { return time > begin && time <= end ? velocity : Vec3(Vec3::Zero()); }
 };
 
+/// What a wall is made of: which pair of materials its contacts with rock follow.
+enum class WallMaterial { steel, soil };
+inline constexpr std::array<const char*, 2> k_wall_materials{"steel", "soil"};  ///< in the order of WallMaterial
+
 /// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels is given where
 /// it stands at first.
 struct WallSettings {
@@ -91,6 +98,7 @@ struct WallSettings {
     std::filesystem::path file;
     bool rotating = false;
     WallTravel travel{};
+    WallMaterial material = WallMaterial::steel;
 };
 
 enum class DomainShape { box, cylinder };

@@ -74,6 +74,9 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
     section.read("name", wall.name, k_required);
     section.read("file", wall.file, folder, k_required);
     section.read("rotating", wall.rotating, k_required);
+    const std::string material =
+        section.read_choice("material", {coupling::k_wall_materials.begin(), coupling::k_wall_materials.end()}, k_optional);
+    if (material == coupling::k_wall_materials[1]) wall.material = coupling::WallMaterial::soil;
     return wall;
 }
 

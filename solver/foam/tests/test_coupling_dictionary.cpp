@@ -83,11 +83,12 @@ rock
 {
     feed "constant/rockFeed.csv";
     contact { youngsModulus 1.1e8; poissonRock 0.25; poissonSteel 0.3; wetRestitution false; timeStepFraction 0.05; maxSpeed 4;
-              rollingLaw constant; pairs { rock_steel { friction 0.2; restitution 0.9; rollingFriction 0.3; } } }
+              rollingLaw constant; pairs { rock_steel { friction 0.2; restitution 0.9; rollingFriction 0.3; } rock_soil { friction 0.7; } } }
     walls
     (
         { name cutter; file "constant/triSurface/cutter_dem.stl"; rotating true; }
         { name backplate; file "constant/triSurface/backplate_dem.stl"; rotating no; }
+        { name bank; file "constant/triSurface/bank_dem.stl"; rotating no; material soil; }
     );
     domain { type cylinder; axisPoint (0.1 0 0); radius 2.5; zMin -0.875; zMax 0.435; walls (zMin); }
 }
@@ -148,8 +149,11 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_FALSE(read_back.dem->contact.wet_restitution);
     EXPECT_EQ(read_back.dem->contact.rolling_law, "constant");
     expect_same(read_back.dem->contact.rock_steel, {0.2, 0.9, 0.3});
+    expect_same(read_back.dem->contact.rock_soil, {0.7, 0.97, 0.15});
     expect_same(read_back.dem->contact.rock_rock, coupling::PairSettings{});
-    ASSERT_EQ(read_back.dem->walls.size(), 2u);
+    ASSERT_EQ(read_back.dem->walls.size(), 3u);
+    EXPECT_EQ(read_back.dem->walls[0].material, coupling::WallMaterial::steel);
+    EXPECT_EQ(read_back.dem->walls[2].material, coupling::WallMaterial::soil);
     EXPECT_EQ(read_back.dem->walls[0].name, "cutter");
     EXPECT_TRUE(read_back.dem->walls[0].rotating);
     EXPECT_FALSE(read_back.dem->walls[1].rotating);
@@ -190,7 +194,7 @@ std::string section_of(Settings& settings, std::size_t choice) {
 TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
     for (const std::size_t choice : {0, 1, 2}) {
         coupling::ContactSettings contact;
-        coupling::PairSettings rock_rock, rock_steel = contact.rock_steel;
+        coupling::PairSettings rock_rock, rock_steel = contact.rock_steel, rock_soil = contact.rock_soil;
         coupling::KernelSettings kernel;
         coupling::ClosureSettings closures;
         coupling::OutflowSettings outflow;
@@ -198,9 +202,10 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         coupling::CheckpointSettings checkpoint;
         coupling::RecordSettings record;
         const std::string rock = fmt::format(
-            "rock {{ feed \"f.csv\"; contact {{ {} pairs {{ rock_rock {{ {} }} rock_steel {{ {} }} }} }} "
+            "rock {{ feed \"f.csv\"; contact {{ {} pairs {{ rock_rock {{ {} }} rock_steel {{ {} }} rock_soil {{ {} }} }} }} "
             "domain {{ type box; lower (0 0 0); upper (1 1 1); }} }}",
-            section_of(contact, choice), section_of(rock_rock, choice), section_of(rock_steel, (choice + 1) % 3));
+            section_of(contact, choice), section_of(rock_rock, choice), section_of(rock_steel, (choice + 1) % 3),
+            section_of(rock_soil, (choice + 2) % 3));
         const std::string record_section = section_of(record, choice);
         // Any end is later than this start.
         const std::string text = fmt::format(
@@ -213,6 +218,7 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         expect_same(found.dem->contact, contact);
         expect_same(found.dem->contact.rock_rock, rock_rock);
         expect_same(found.dem->contact.rock_steel, rock_steel);
+        expect_same(found.dem->contact.rock_soil, rock_soil);
         expect_same(found.coupling.kernel, kernel);
         expect_same(found.coupling.closures, closures);
         expect_same(*found.coupling.outflow, outflow);

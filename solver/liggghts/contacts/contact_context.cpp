@@ -29,6 +29,7 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const coup
       rotor_spin(rotor.speed * rotor.axis.direction),
       rock_rock(law_of(settings.contact.rock_rock, settings.contact, settings.contact.poisson_rock)),
       rock_steel(law_of(settings.contact.rock_steel, settings.contact, settings.contact.poisson_steel)),
+      rock_soil(law_of(settings.contact.rock_soil, settings.contact, settings.contact.poisson_rock)),
       rolling_law(settings.contact.rolling_law == "constant" ? RollingLaw::constant : RollingLaw::spring),
       shape(settings.shape),
       cylinder_length(settings.cylinder_length),

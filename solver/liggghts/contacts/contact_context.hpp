@@ -44,7 +44,7 @@ struct PairLaw {
     bool resists_rolling() const { return settings.rolling_friction > 0.0; }
 };
 
-/// The law for rock on rock and rock on steel with one Young's modulus.
+/// The law for rock on rock, steel and soil with one Young's modulus.
 struct ContactContext {
     bool wet_restitution = true;
     coupling::FluidProperties fluid;
@@ -53,6 +53,7 @@ struct ContactContext {
     Vec3 rotor_spin = Vec3::Zero();  ///< of rotating steel [rad/s]
     PairLaw rock_rock;
     PairLaw rock_steel;
+    PairLaw rock_soil;
     RollingLaw rolling_law = RollingLaw::spring;
     std::optional<LinearLaw> linear;  ///< in place of Hertz'
     coupling::RockShape shape = coupling::RockShape::sphere;
@@ -65,6 +66,10 @@ struct ContactContext {
 
     ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor);
 
+    /// Rock on a wall.
+    const PairLaw& law_on(coupling::WallMaterial material) const {
+        return material == coupling::WallMaterial::soil ? rock_soil : rock_steel;
+    }
     /// Radius [m] of a rock whose radius in LIGGGHTS is `contact_radius`.
     double radius_of(double contact_radius) const { return contact_radius - half_gap; }
     /// Mass [kg] of a rock of this radius [m].

@@ -109,7 +109,7 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
         taken[k]->body = touch.body;
         taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
         taken[k]->damping_factor =
-            context_.damping_factor(context_.rock_steel, taken[k]->impact_speed, 2.0 * atom.radius[rock], atom.density[rock]);
+            context_.damping_factor(context_.law_on(touch.material), taken[k]->impact_speed, 2.0 * atom.radius[rock], atom.density[rock]);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k], roll_of(taken[k]));
 }
@@ -132,6 +132,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     const Vec3 centre_velocity = Vec3(atom.v[rock]) - touch.wall_velocity;
     const Vec3 surface_velocity = centre_velocity + Vec3(atom.omega[rock]).cross(arm);
 
+    const PairLaw& law = context_.law_on(touch.material);
     Contact contact;
     contact.normal = touch.normal;
     contact.overlap = touch.overlap;
@@ -140,10 +141,10 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     contact.slip_velocity = surface_velocity - touch.normal * touch.normal.dot(surface_velocity);
     contact.radius = radius;
     contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius);
-    contact.elastic = context_.rock_steel.elastic;
+    contact.elastic = law.elastic;
     contact.damping_factor = record.damping_factor;
-    contact.friction = context_.rock_steel.settings.friction;
-    contact.rolling_friction = context_.rock_steel.settings.rolling_friction;
+    contact.friction = law.settings.friction;
+    contact.rolling_friction = law.settings.rolling_friction;
 
     const bool setting_up = lammps_->update->setupflag != 0;
     const double time_step = setting_up ? 0.0 : lammps_->update->dt;

@@ -82,6 +82,31 @@ TEST_P(Rolling, goes_on_from_a_checkpoint_as_if_never_stopped) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, Rolling, ::testing::Values("spring", "constant"));
 
+// A rock that rolls freely on steel comes to rest on soil that resists.
+TEST(RollingOnSoil, is_resisted_by_the_soils_own_coefficient) {
+    coupling::DemSettings settings = still_water();
+    settings.fluid = {0.0, 0.0};
+    settings.added_mass = 0.0;
+    settings.contact.wet_restitution = false;
+    settings.contact.rock_steel = {0.5, 0.5, 0.0};
+    settings.contact.rock_soil = {0.5, 0.5, 0.1};
+    settings.walls = {
+        {"floor", write_stl(scratch_folder() / "floor.stl", sheet(Vec3(-0.2, -0.2, 0), Vec3(0.4, 0, 0), Vec3(0, 0.4, 0), 4, 4)), false}};
+    const auto speed_after = [&](coupling::WallMaterial material) {
+        settings.walls.front().material = material;
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
+        coupling::Rocks rolling;
+        add_rock(rolling, 1, Vec3(-0.1, 0, 0.01), Vec3(0.1, 0, 0));
+        rolling.angular_velocity = {Vec3(0, 10.0, 0)};
+        engine.insert(rolling);
+        for (int call = 0; call < 100; ++call) engine.advance(1e-3, no_force);
+        return engine.rocks().velocity[0].x();
+    };
+    EXPECT_NEAR(speed_after(coupling::WallMaterial::steel), 0.1, 0.002);
+    // 5/7 g mu_r for 0.1 s would take 0.07 m/s.
+    EXPECT_NEAR(speed_after(coupling::WallMaterial::soil), 0.1 - 5.0 / 7.0 * 9.81 * 0.1 * 0.1, 0.01);
+}
+
 // What contacts remember differs: LIGGGHTS would read one as the other.
 TEST(RollingCheckpoint, is_refused_where_rolling_friction_came_or_went) {
     const RoughHeap heap("spring");
