@@ -32,7 +32,7 @@ void CutterFluid::add_exchange(fvVectorMatrix& momentum) {
 }
 
 tmp<volVectorField> CutterFluid::pressure_gradient() const {
-    return soil_ ? soil_->gradient(p_) : fvc::grad(p_);
+    return soil_ ? fvc::grad(soil_->at_faces(p_)) : fvc::grad(p_);
 }
 
 void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {

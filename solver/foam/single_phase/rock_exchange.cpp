@@ -83,12 +83,17 @@ void CutterFluid::update_received(const fvVectorMatrix& stress) {
 /// Sums over boundary faces, but for the explicit part of the stress: a sum over cells, in which the faces between them cancel.
 void CutterFluid::update_outside_momentum(const fvVectorMatrix& stress, const surfaceVectorField& through) {
     vector boundary(sum(stress.source())), interface(Zero);
+    // Beside soil the two sides of an interface have pressures of their own.
+    tmp<surfaceScalarField> beside_soil;
+    if (soil_) beside_soil = soil_->at_faces(p_);
     forAll(mesh_.boundary(), patch) {
         const fvPatchVectorField& u = U_.boundaryField()[patch];
         const bool is_interface = isA<cyclicAMIFvPatch>(u.patch());
         if (u.coupled() && !is_interface) continue;
         const vectorField beyond(is_interface ? vectorField(u.patchNeighbourField()) : vectorField(u.size(), vector::one));
-        (is_interface ? interface : boundary) -= sum(through.boundaryField()[patch] + p_.boundaryField()[patch] * u.patch().Sf() +
+        const scalarField& pressure = soil_ ? static_cast<const scalarField&>(beside_soil().boundaryField()[patch])
+                                            : static_cast<const scalarField&>(p_.boundaryField()[patch]);
+        (is_interface ? interface : boundary) -= sum(through.boundaryField()[patch] + pressure * u.patch().Sf() +
                                                      cmptMultiply(stress.internalCoeffs()[patch], vectorField(u.patchInternalField())) -
                                                      cmptMultiply(stress.boundaryCoeffs()[patch], beyond));
     }

@@ -158,12 +158,12 @@ void Soil::update_mobility(const volScalarField& diagonal, const volVectorField&
         1.0;
 }
 
-tmp<volVectorField> Soil::gradient(const volScalarField& pressure) const {
+tmp<surfaceScalarField> Soil::at_faces(const volScalarField& pressure) const {
     const surfaceScalarField& weight = mesh_.weights();
     const surfaceScalarField& per_distance = mesh_.nonOrthDeltaCoeffs();
     const surfaceScalarField slope(fv::snGradScheme<scalar>::snGrad(mobility_, per_distance, "mobility"));
     const surfaceScalarField jump(slope * weight * (1.0 - weight) / sqr(per_distance));
-    return fvc::grad((fvc::interpolate(mobility_ * pressure) - jump * drive_) / fvc::interpolate(mobility_));
+    return (fvc::interpolate(mobility_ * pressure) - jump * drive_) / fvc::interpolate(mobility_);
 }
 
 vector Soil::force(const volVectorField& velocity) const {

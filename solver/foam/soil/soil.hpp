@@ -46,8 +46,8 @@ public:
 
     /// \param drive  what moves water through faces but the pressure: predicted flux without soil over area and 1/A [m/s2]
     void set_drive(const Foam::surfaceScalarField& drive) { drive_ == drive; }
-    /// Of the pressure, with the faces' pressure as above.
-    Foam::tmp<Foam::volVectorField> gradient(const Foam::volScalarField& pressure) const;
+    /// Of the pressure, as above.
+    Foam::tmp<Foam::surfaceScalarField> at_faces(const Foam::volScalarField& pressure) const;
 
     /// Force of the water on the soil of the whole mesh over density [m4/s2]; collective.
     Foam::vector force(const Foam::volVectorField& velocity) const;
