@@ -290,14 +290,16 @@ meshing::MeshReport Pipeline::make_mesh_of(const meshing::MeshPlan& plan, const 
 StageOutcome Pipeline::make_case() {
     const RunHead head = read_run_head(directory_);
     const Study study = resolved_study(head.size);
+    const geometry::Contour contour = head.with_backplate(study.suction.gap);
     std::vector<std::string> written;
-    for (const fs::path& file :
-         write_case(directory_.path(), case_inputs_of(study, head.size, head.with_backplate(study.suction.gap), settings_.ranks)))
+    for (const fs::path& file : write_case(directory_.path(), case_inputs_of(study, head.size, contour, settings_.ranks)))
         written.push_back(file.string());
-    if (study.bank) {  // also to look at
-        geometry::write_stl(bank_surface(study, head.size, head.with_backplate(study.suction.gap)),
-                            directory_.path() / names::bank_surface);
+    std::vector<MadeWall> walls_of_soil;
+    if (study.bank) {
+        const geometry::TriangleSurface soil = bank_surface(study, head.size, contour);
+        geometry::write_stl(soil, directory_.path() / names::bank_surface);
         written.emplace_back(names::bank_surface);
+        if (!study.feeds.empty()) walls_of_soil.push_back(bank_contact_wall(study, head.size, contour, soil));
     }
     write_resolved_study(head.size);
     const geometry::TriangleSurface cutter = geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface)));
@@ -305,13 +307,13 @@ StageOutcome Pipeline::make_case() {
     write_file(directory_.file(names::prediction), to_json(prediction).dump(2) + "\n");
     written.insert(written.end(), {names::resolved_study, names::prediction});
     if (!study.feeds.empty()) {
-        const std::vector<PlacedFeed> feeds =
-            place_feeds(study, feed_scene(study, head.size, head.with_backplate(study.suction.gap), cutter));
+        const std::vector<PlacedFeed> feeds = place_feeds(study, feed_scene(study, head.size, contour, cutter));
         for (const std::string& line : feed_lines(feeds)) say_(line);
         write_file(directory_.file(names::rock_feed), rock_feed_csv(feeds));
         write_file(directory_.file(names::feed_report), feed_json(feeds, study));
         written.insert(written.end(), {names::rock_feed, names::feed_report});
-        for (const WallSurfaceReport& wall : write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius))
+        for (const WallSurfaceReport& wall :
+             write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius, walls_of_soil))
             say_(wall.text());
         written.emplace_back(k_contact_surface_report);
     }

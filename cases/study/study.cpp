@@ -592,9 +592,6 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
 
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
-    rules.require(!has_bank(resolved) || resolved.tables("feed").empty(), "bank.model",
-                  "Rock and the water of a run with rock do not feel the bank yet; it says how much rock comes, where and when",
-                  "Expect more spillage than beside a bank that holds rock back");
     const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
     const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
     const char* place = passage < mouth ? "between the blades" : "the suction mouth";

@@ -95,9 +95,8 @@ ParameterTable bank_rows() {
             .at_most(1000.0)
             .derived("nothing; a bank needs it"),
         choice(k_case_stage, "bank.model", {k_no_bank, k_wall_bank},
-               "Soil beside the head: none, or the bank that earlier swings left standing. It says how much rock comes from the cut face, "
-               "where "
-               "and when; the water of a run without rock feels it, rock and water with rock do not yet.")
+               "Soil beside the head: none, or the bank that earlier swings left standing. Water and rock feel it, "
+               "and it says how much rock comes from the cut face, where and when.")
             .by_default(std::string(k_no_bank)),
         length(k_case_stage, "bank.cut_height_m", k_largest_length,
                "Height of the bank's level top above the lowest point of the head with picks and clearance, vertical.")

@@ -73,8 +73,8 @@ TEST_F(StudyFile, keys_that_became_those_of_pairs_are_refused_with_their_success
     const std::vector<Mistake> mistakes = mistakes_of(minimal("[rock]\nfriction = 0.3\nrestitution = 0.9\n"));
     ASSERT_EQ(mistakes.size(), 2u);
     EXPECT_TRUE(any_contains(mistakes, "key rock.friction is unknown"));
-    EXPECT_TRUE(any_contains(mistakes, "Did you mean rock.friction_rock and rock.friction_steel?"));
-    EXPECT_TRUE(any_contains(mistakes, "Did you mean rock.restitution_rock and rock.restitution_steel?"));
+    EXPECT_TRUE(any_contains(mistakes, "Did you mean rock.friction_rock and rock.friction_steel and rock.friction_soil?"));
+    EXPECT_TRUE(any_contains(mistakes, "Did you mean rock.restitution_rock and rock.restitution_steel and rock.restitution_soil?"));
 }
 
 TEST_F(StudyFile, a_feeds_quantity_is_given_once_and_its_rock_sinks) {
@@ -208,7 +208,9 @@ TEST(Study, pairs_of_materials_come_from_the_preset_where_the_file_is_silent) {
     EXPECT_EQ(gravel.rock_rock.friction, 0.5);
     EXPECT_EQ(gravel.rock_steel.friction, 0.35);
     EXPECT_EQ(gravel.rock_steel.rolling_friction, 0.1);
-    for (const coupling::PairSettings& pair : {paper.rock_rock, paper.rock_steel}) {
+    EXPECT_EQ(gravel.rock_soil.friction, 0.6);
+    EXPECT_EQ(gravel.rock_soil.rolling_friction, 0.15);
+    for (const coupling::PairSettings& pair : {paper.rock_rock, paper.rock_steel, paper.rock_soil}) {
         EXPECT_EQ(pair.friction, 0.15);
         EXPECT_EQ(pair.restitution, 0.97);
         EXPECT_EQ(pair.rolling_friction, 0.0);

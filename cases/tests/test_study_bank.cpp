@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/crown_cutter.hpp"
 #include "geometry/surface/soundness.hpp"
@@ -137,23 +140,60 @@ TEST(StudyBank, and_its_keys_need_each_other) {
 constexpr const char* k_bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
 constexpr const char* k_rock = "[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\ndensity_kg_m3 = 2650\n";
 
-TEST(StudyBank, is_warned_of_while_rock_does_not_feel_it) {
-    const auto warnings = [](const std::string& more) { return texts(study_warnings(resolved_of(more), head_size(model_head()))); };
-    EXPECT_FALSE(has(warnings(""), "bank"));
-    EXPECT_FALSE(has(warnings(k_bank), "bank"));
-    EXPECT_TRUE(has(warnings(std::string(k_bank) + k_rock),
-                    "study.toml:10: bank.model = \"wall\". Rock and the water of a run with rock do not feel the bank yet"));
+TEST(StudyBank, is_felt_by_water_and_by_rock) {
+    const geometry::Head& head = model_head();
+    const auto inputs_of = [&](const std::string& more) {
+        const Study study = make_study(resolved_of(more), "/tmp");
+        return case_inputs_of(study, head_size(head), head_contour(head, study.suction.gap), 1);
+    };
+    EXPECT_FALSE(solver_settings(inputs_of("")).soil);
+    EXPECT_FALSE(solver_settings(inputs_of(k_rock)).soil);
+    EXPECT_EQ(dem_settings(inputs_of(k_rock)).walls.size(), 3u);
+    EXPECT_TRUE(solver_settings(inputs_of(k_bank)).soil);
+    const CaseInputs both = inputs_of(std::string(k_bank) + k_rock + "[rock]\nfriction_soil = 0.7\n");
+    EXPECT_TRUE(solver_settings(both).soil);
+    const coupling::DemSettings dem = dem_settings(both);
+    ASSERT_EQ(dem.walls.size(), 4u);
+    EXPECT_EQ(dem.walls[0].material, coupling::WallMaterial::steel);
+    EXPECT_EQ(dem.walls[3].material, coupling::WallMaterial::soil);
+    EXPECT_FALSE(dem.walls[3].rotating);
+    EXPECT_EQ(dem.contact.rock_soil.friction, 0.7);
+    EXPECT_EQ(dem.contact.rock_soil.rolling_friction, 0.15);
 }
 
-TEST(StudyBank, is_felt_by_water_without_rock) {
-    const geometry::Head& head = model_head();
-    const auto feels = [&](const std::string& more) {
-        const Study study = make_study(resolved_of(more), "/tmp");
-        return solver_settings(case_inputs_of(study, head_size(head), head_contour(head, study.suction.gap), 1)).soil.has_value();
-    };
-    EXPECT_FALSE(feels(""));
-    EXPECT_TRUE(feels(k_bank));
-    EXPECT_FALSE(feels(std::string(k_bank) + k_rock));
+// Half a millimetre at 0.4 m is what rock may feel wrong; LIGGGHTS ends below 0.06 degrees.
+TEST(StudyBank, has_a_surface_for_rock_on_its_soil) {
+    const Study study = study_of(k_bank);
+    const HeadSize size = head_size(model_head());
+    const geometry::TriangleSurface soil = bank_surface(study, size, contour_of(study));
+    const MadeWall wall = bank_contact_wall(study, size, contour_of(study), soil);
+    EXPECT_EQ(wall.file, bank_wall().file);
+    EXPECT_GT(wall.report.smallest_angle, 4.9 * k_pi / 180.0);
+    EXPECT_LT(wall.report.deviation, 5e-4);
+    EXPECT_LT(wall.report.triangles, 20000u);
+    geometry::TriangleSurface half = soil;  // what a bank with a hole would be held against
+    half.triangles.resize(soil.triangles.size() / 2);
+    EXPECT_THROW(bank_contact_wall(study, size, contour_of(study), half), CheckFailure);
+}
+
+// Rock is fed within the head's contour, from which soil keeps its distance.
+TEST(StudyBank, has_no_fed_rock_in_its_soil) {
+    const std::string keys = std::string(k_bank) + "[run]\nmax_revolutions = 2\n[[feed]]\n";
+    const Study without = study_of(k_bank);
+    const HeadSize size = head_size(model_head());
+    const geometry::SolidSearch soil(bank_surface(without, size, contour_of(without)));
+    for (const char* feed : {"count = 200\n[[feed.class]]\ndiameter_m = 0.02\ndensity_kg_m3 = 2650\n",
+                             "kind = \"cut_face\"\n[[feed.class]]\ndiameter_m = 0.02\n"}) {
+        const Study study = study_of(keys + feed);
+        const auto feeds = place_feeds(study, feed_scene(study, size, contour_of(study), model_head().surface));
+        ASSERT_EQ(feeds.size(), 1u);
+        ASSERT_GT(feeds.front().rocks.size(), 20u);
+        for (const PlacedRock& rock : feeds.front().rocks)
+            for (const RockPlace& place : rock.places) {
+                EXPECT_FALSE(soil.contains(place.position));
+                EXPECT_GT(soil.nearest(place.position).distance, 0.01);
+            }
+    }
 }
 
 }  // namespace

@@ -579,8 +579,7 @@ Scope scope_of(const Comparison& comparison) {
     Scope scope{false, true, true};
     for (const ComparedRun& compared : comparison.runs) {
         const Scope run = scope_of(compared.run);
-        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting,
-                 scope.flow_feels_bank && run.flow_feels_bank};
+        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting, scope.feels_bank && run.feels_bank};
     }
     return scope;
 }

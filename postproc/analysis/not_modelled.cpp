@@ -3,18 +3,8 @@
 namespace cutterflow::postproc {
 
 Scope scope_of(const RunData& run) {
-    return {run.rock.has_value(), run.operating_point.fed_by_cutting, !run.rock && run.operating_point.has_bank};
+    return {run.rock.has_value(), run.operating_point.fed_by_cutting, run.operating_point.has_bank};
 }
-
-namespace {
-
-const char* breach(const Scope& scope) {
-    if (scope.flow_feels_bank) return "the bank stands still in the water as the swings before left it; it does not breach";
-    if (scope.fed_by_cutting) return "rock and water do not feel the bank yet; the open side lets rock out that a bank would hold back";
-    return "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back";
-}
-
-}  // namespace
 
 std::vector<NotModelled> not_modelled(const Scope& scope) {
     std::vector<NotModelled> table{
@@ -22,8 +12,11 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
          scope.fed_by_cutting
              ? "rock comes loose from the cut face ahead of the blades, as fast as the head swings; forces of cutting are not computed"
              : "rock is released loose between the blades; spillage by cutting (rock never taken into the head) is not counted"},
-        {"bank and breach", breach(scope)},
-        {"bed", "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
+        {"bank and breach", scope.feels_bank
+                                ? "the bank stands still as the swings before left it; it does not breach"
+                                : "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
+        {"bed", scope.feels_bank ? "rock that is left on what the swings cut stays there; the next swing does not pick it up"
+                                 : "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
         {"hauling (swing motion)", "the head turns but does not travel; rock is not swept into the head by the swing"},
         {"pick points and adapters", "only what the cutter's surface file contains; teeth missing there affect neither flow nor rock"},
         {"lift and rock spin forces",
@@ -41,22 +34,23 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
 
 const std::string& scope_sentence(const Scope& scope) {
     static const std::string cutting =
-        "Rock comes from the cut face as fast as the head swings. Rock and water do not feel the bank yet, and bed and hauling are not "
-        "modelled, so this report names no best speed.";
+        "Rock comes from the cut face as fast as the head swings, beside a bank that stands still. Hauling is not modelled, nor what a "
+        "later swing picks up of the bed, so this report names no best speed.";
     static const std::string rock =
         "This is spillage by mixing of loose rock in a turning head with imposed discharge: cutting, bank, hauling and continuous feed are "
-        "not "
-        "modelled, so there is no optimum over speed here as there is in practice, and this report names no best speed.";
+        "not modelled, so there is no optimum over speed here as there is in practice, and this report names no best speed.";
+    static const std::string rock_at_bank =
+        "This is spillage by mixing of loose rock in a turning head with imposed discharge beside a bank that stands still: cutting, "
+        "hauling and continuous feed are not modelled, so this report names no best speed.";
     static const std::string flow =
         "This is the flow of clear water through a turning head with imposed discharge, without bank, hauling and rock; it shows where "
-        "water "
-        "leaves the head, not how much rock would, and this report names no best speed.";
+        "water leaves the head, not how much rock would, and this report names no best speed.";
     static const std::string flow_at_bank =
         "This is the flow of clear water through a turning head with imposed discharge beside a bank that stands still, without hauling "
-        "and "
-        "rock; it shows where water leaves the head, not how much rock would, and this report names no best speed.";
-    if (!scope.with_rock) return scope.flow_feels_bank ? flow_at_bank : flow;
-    return scope.fed_by_cutting ? cutting : rock;
+        "and rock; it shows where water leaves the head, not how much rock would, and this report names no best speed.";
+    if (!scope.with_rock) return scope.feels_bank ? flow_at_bank : flow;
+    if (scope.fed_by_cutting) return cutting;
+    return scope.feels_bank ? rock_at_bank : rock;
 }
 
 }  // namespace cutterflow::postproc

@@ -15,8 +15,8 @@ struct NotModelled {
 /// What a run was asked for.
 struct Scope {
     bool with_rock = false;
-    bool fed_by_cutting = false;   ///< rock comes all the time, from a cut face
-    bool flow_feels_bank = false;  ///< that of a run without rock
+    bool fed_by_cutting = false;  ///< rock comes all the time, from a cut face
+    bool feels_bank = false;      ///< soil stands beside the head
 };
 
 Scope scope_of(const RunData& run);

@@ -401,7 +401,7 @@ void make_fed(const SmallRun& run, double held, double stuck) {
     constexpr double rate = 10.0, begin = 1.0, wave = 0.1;  // [kg/s], [s], [kg]
     write_text(run.directory / "study.resolved.toml",
                read_text(run.directory / "study.resolved.toml") +
-                   "\n[soil]\ngrain_density_kg_m3 = 2500\nporosity = 0.2\n[[feed]]\nkind = \"cut_face\"\n");
+                   "\n[bank]\nmodel = \"wall\"\n[soil]\ngrain_density_kg_m3 = 2500\nporosity = 0.2\n[[feed]]\nkind = \"cut_face\"\n");
     std::string text =
         "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error\n";
     for (int step = 1; step <= 3100; ++step) {

@@ -92,7 +92,7 @@ TEST(WriteReport, of_a_fed_head_gives_production_and_spillage_with_interval_and_
     const std::string page = read_text(summary.page_file);
     std::size_t last = page.find("<body>");
     for (const char* part : {"Production: delivered / fed", " ± ", "Spillage: 1 − delivered / fed", " ± ", "Hold-up", "5 kg", "not full",
-                             "steady production", "do not feel the bank yet", "Where the rock goes"}) {
+                             "steady production", "beside a bank that stands still", "Where the rock goes"}) {
         const std::size_t at = page.find(part, last);
         ASSERT_NE(at, std::string::npos) << part;
         last = at;

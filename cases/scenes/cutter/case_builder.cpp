@@ -30,8 +30,11 @@ meshing::FoamValue file_name(const fs::path& file) {
 meshing::FoamValue wall_list(const std::vector<coupling::WallSettings>& walls) {
     std::vector<meshing::FoamValue> items;
     for (const coupling::WallSettings& wall : walls)
-        items.emplace_back(
-            meshing::FoamDictionary().add("name", wall.name).add("file", file_name(wall.file)).add("rotating", wall.rotating));
+        items.emplace_back(meshing::FoamDictionary()
+                               .add("name", wall.name)
+                               .add("file", file_name(wall.file))
+                               .add("rotating", wall.rotating)
+                               .add("material", coupling::k_wall_materials[static_cast<std::size_t>(wall.material)]));
     return meshing::FoamValue::list(items);
 }
 
@@ -163,6 +166,12 @@ std::vector<coupling::WallSettings> standard_walls() {
     std::vector<coupling::WallSettings> walls;
     for (const WallSource& source : wall_sources()) walls.push_back(source.wall);
     return walls;
+}
+
+coupling::WallSettings bank_wall() {
+    coupling::WallSettings wall{"bank", "constant/triSurface/bank_dem.stl", false};
+    wall.material = coupling::WallMaterial::soil;
+    return wall;
 }
 
 std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs& inputs) {

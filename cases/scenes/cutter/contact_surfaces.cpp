@@ -39,19 +39,24 @@ std::string WallSurfaceReport::text() const {
                        triangles, wall, triangles_given, 1e3 * deviation, 1e3 * allowed_deviation, smallest_angle * k_degrees);
 }
 
-std::vector<WallSurfaceReport> write_contact_surfaces(const fs::path& run_directory, double smallest_diameter, double ring_radius) {
+std::vector<WallSurfaceReport> write_contact_surfaces(const fs::path& run_directory, double smallest_diameter, double ring_radius,
+                                                      const std::vector<MadeWall>& made) {
     const geometry::ContactSurfaceBounds bounds{k_deviation_per_diameter * smallest_diameter, k_edge_per_ring_radius * ring_radius};
     std::vector<WallSurfaceReport> reports;
     json walls = json::object();
     for (const WallSource& source : wall_sources()) {
         const geometry::TriangleSurface given = geometry::welded(geometry::read_surface(run_directory / source.surface));
-        const geometry::ContactSurface made = geometry::contact_surface(given, bounds);
+        const geometry::ContactSurface contact = geometry::contact_surface(given, bounds);
         fs::create_directories((run_directory / source.wall.file).parent_path());
-        geometry::write_stl(made.surface, run_directory / source.wall.file);
-        reports.push_back({source.wall.name, given.triangles.size(), made.surface.triangles.size(), geometry::smallest_angle_of(given),
-                           made.smallest_angle, made.deviation, bounds.deviation, made.kept_because});
-        walls[source.wall.name] = to_json(reports.back());
+        geometry::write_stl(contact.surface, run_directory / source.wall.file);
+        reports.push_back({source.wall.name, given.triangles.size(), contact.surface.triangles.size(), geometry::smallest_angle_of(given),
+                           contact.smallest_angle, contact.deviation, bounds.deviation, contact.kept_because});
     }
+    for (const MadeWall& wall : made) {
+        geometry::write_stl(wall.surface, run_directory / wall.file);
+        reports.push_back(wall.report);
+    }
+    for (const WallSurfaceReport& report : reports) walls[report.wall] = to_json(report);
     write_file(run_directory / k_contact_surface_report, walls.dump(2) + "\n");
     return reports;
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/surface/surface.hpp"
+
 namespace cutterflow::cases {
 
 inline constexpr const char* k_contact_surface_report = "contact_surfaces.json";
@@ -18,9 +20,16 @@ struct WallSurfaceReport {
     std::string text() const;                                 ///< one line for the user
 };
 
+/// A wall whose surface need not be made.
+struct MadeWall {
+    std::filesystem::path file;  ///< in the run directory
+    geometry::TriangleSurface surface;
+    WallSurfaceReport report;
+};
+
 /// Writes the surface of every standard wall that rock of `smallest_diameter` [m] touches, no farther than 1 % of that from the surface in
-/// geometry/, and contact_surfaces.json. write_case has named the files. \return one report per wall
+/// geometry/, those that are made, and contact_surfaces.json. write_case has named the files. \return one report per wall
 std::vector<WallSurfaceReport> write_contact_surfaces(const std::filesystem::path& run_directory, double smallest_diameter,
-                                                      double ring_radius);
+                                                      double ring_radius, const std::vector<MadeWall>& made);
 
 }  // namespace cutterflow::cases

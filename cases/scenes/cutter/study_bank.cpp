@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/stationary_steel.hpp"
+#include "geometry/surface/contact_surface.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -18,9 +20,17 @@ namespace {
 // Rock that far from the axis has left the head for good.
 constexpr double k_reach_per_ring_radius = 3.0;
 constexpr double k_seconds_per_hour = 3600.0;
+// Of the surface that rock touches: a fifth of a millimetre on a ring radius of 0.4 m. Its measured error may be twice as large.
+constexpr double k_tolerance_per_ring_radius = 5e-4, k_tolerance_per_distance = 0.25;
+constexpr double k_edge_per_ring_radius = 0.25;
+constexpr double k_measured_per_ring_radius = 0.0125;
 
 Mistake broken(const ParameterValues& resolved, const char* key, const std::string& rule, const std::string& remedy) {
     return {resolved.where(key), fmt::format("{} = {:.6g}", key, resolved.number(key)), rule, remedy};
+}
+
+double reach_of_soil(const HeadSize& size) {
+    return k_reach_per_ring_radius * std::max(size.ring_radius, size.tip_radius);
 }
 
 /// Height along the vertical of the highest point of the water's cylinder.
@@ -85,7 +95,28 @@ geometry::Bank bank_of(const Study& study, const geometry::Contour& contour) {
 }
 
 geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size, const geometry::Contour& contour) {
-    return bank_of(study, contour).soil(k_reach_per_ring_radius * std::max(size.ring_radius, size.tip_radius));
+    return bank_of(study, contour).soil(reach_of_soil(size));
+}
+
+MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geometry::Contour& contour,
+                           const geometry::TriangleSurface& soil) {
+    const geometry::Bank bank = bank_of(study, contour);
+    const double reach = reach_of_soil(size), distance = study.bank->pick_length + study.bank->clearance;
+    const double tolerance = std::min(k_tolerance_per_ring_radius * size.ring_radius, k_tolerance_per_distance * distance);
+    const coupling::WallSettings settings = bank_wall();
+    MadeWall made{settings.file, bank.wall({reach, tolerance, k_edge_per_ring_radius * size.ring_radius}), {}};
+    WallSurfaceReport& report = made.report;
+    report.wall = settings.name;
+    report.triangles_given = soil.triangles.size();
+    report.triangles = made.surface.triangles.size();
+    report.smallest_angle_given = geometry::smallest_angle_of(soil);
+    report.smallest_angle = geometry::smallest_angle_of(made.surface);
+    report.deviation = bank.wall_error(made.surface, soil, reach, k_measured_per_ring_radius * size.ring_radius);
+    report.allowed_deviation = 2.0 * tolerance;
+    if (report.deviation <= report.allowed_deviation) return made;
+    throw CheckFailure({"", fmt::format("the bank that rock touches lies {:.3g} m off its soil", report.deviation),
+                        fmt::format("It may lie {:.3g} m off", report.allowed_deviation),
+                        "Send the study and the cutter's file to the maintainers"});
 }
 
 std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const geometry::Head& head) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cases/scenes/cutter/contact_surfaces.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/head/head.hpp"
 #include "geometry/soil/bank.hpp"
@@ -16,6 +17,10 @@ geometry::Bank bank_of(const Study& study, const geometry::Contour& contour);
 
 /// Soil as far from the axis as rock matters, in the run's frame. \pre the study has a bank that can stand
 geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size, const geometry::Contour& contour);
+
+/// What rock touches of that soil, with its error. \throws CheckFailure  when it lies farther from the soil than it may
+MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geometry::Contour& contour,
+                           const geometry::TriangleSurface& soil);
 
 /// Rules that a bank breaks beside this head, its steel and its water: higher than head or water, steps longer than the head, overhanging,
 /// steel in the soil. None for a study without a bank. \param resolved  from which the study was made; its lines are named

@@ -32,6 +32,7 @@ CaseInputs::Rock rock_of(const Study& study) {
         for (const FeedClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
     rock.contact = study.contact;
     rock.walls = standard_walls();
+    if (study.bank) rock.walls.push_back(bank_wall());
     return rock;
 }
 
@@ -187,7 +188,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
         inputs.stop = study.run.stop;
         inputs.record = record_of(study, head);
     }
-    inputs.bank = study.bank && study.feeds.empty();  // rock that does not feel the soil would displace water within it
+    inputs.bank = study.bank.has_value();
     fill_scaled_defaults(inputs);
     return inputs;
 }
