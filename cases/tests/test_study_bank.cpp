@@ -161,7 +161,7 @@ TEST(StudyBank, is_felt_by_water_and_by_rock) {
     EXPECT_EQ(dem.contact.rock_soil.rolling_friction, 0.15);
 }
 
-// Half a millimetre at 0.4 m is what rock may feel wrong; LIGGGHTS ends below 0.06 degrees.
+// Half a millimetre at 0.4 m is what rock may feel wrong.
 TEST(StudyBank, has_a_surface_for_rock_on_its_soil) {
     const Study study = study_of(k_bank);
     const HeadSize size = head_size(model_head());
