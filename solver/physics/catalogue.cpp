@@ -33,43 +33,9 @@ double& member_of(DragState& state, ClosureArgument argument) {
     throw std::logic_error(fmt::format("a drag law does not take {}", argument_symbol(argument)));
 }
 
-}  // namespace
-
-const std::vector<Closure>& catalogue() {
+std::vector<Closure> other_closures() {
     using A = ClosureArgument;
-    static const std::vector<Closure> table{
-        {"brown_lawler",
-         ClosureKind::drag,
-         "Cd = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re)",
-         brown_lawler_drag_coefficient,
-         {{A::reynolds, 1e-3, 2e5}},
-         "BrownLawler2003"},
-        {"schiller_naumann",
-         ClosureKind::drag,
-         "Cd = 24/Re (1 + 0.15 Re^0.687), 0.44 from Re = 1000 on",
-         schiller_naumann_drag_coefficient,
-         {{A::reynolds, 1e-3, 2e5}},
-         "SchillerNaumann1935"},
-        {"haider_levenspiel",
-         ClosureKind::drag,
-         "Cd = 24/Re (1 + A Re^B) + C/(1 + D/Re), A = 8.1716 e^(-4.0655 psi), B = 0.0964 + 0.5565 psi, C = 73.69 e^(-5.0748 psi), "
-         "D = 5.378 e^(6.2122 psi)",
-         haider_levenspiel_drag_coefficient,
-         {{A::reynolds, 1e-3, 2.5e4}, {A::sphericity, 0.6, 1.0}},
-         "HaiderLevenspiel1989"},
-        {"gidaspow",
-         ClosureKind::drag,
-         "Cd = 4/3 (150 (1 - a)/(a^2 Re) + 1.75/a) up to a = 0.8, Cd0(a Re) a^-2.65 above, Cd0 of Schiller and Naumann",
-         gidaspow_drag_coefficient,
-         {{A::reynolds, 1e-3, 2e5}, {A::void_fraction, 0.3, 1.0}},
-         "Gidaspow1994"},
-        {"koch_hill",
-         ClosureKind::drag,
-         "Cd = 24/Re a (F0 + F3 a Re/2), F3 = 0.0673 + 0.212 s + 0.0232/a^5, s = 1 - a, F0 = [1 + 3 sqrt(s/2) + 135/64 s ln s + 16.14 s]/"
-         "[1 + 0.681 s - 8.48 s^2 + 8.16 s^3], 10 s/a^3 from s = 0.4 on",
-         koch_hill_drag_coefficient,
-         {{A::reynolds, 1e-3, 150.0}, {A::void_fraction, 0.35, 1.0}},
-         "KochHill2001"},
+    return {
         {"di_felice",
          ClosureKind::hindrance,
          "void_fraction^(1 - beta), beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_p)^2/2)",
@@ -90,6 +56,17 @@ const std::vector<Closure>& catalogue() {
          {{A::dry_restitution, 0.0, 1.0}, {A::stokes, 0.0, 1e5}},
          "Legendre2006"},
     };
+}
+
+}  // namespace
+
+const std::vector<Closure>& catalogue() {
+    static const std::vector<Closure> table = [] {
+        std::vector<Closure> closures = drag_laws();
+        const std::vector<Closure> others = other_closures();
+        closures.insert(closures.end(), others.begin(), others.end());
+        return closures;
+    }();
     return table;
 }
 

@@ -65,6 +65,9 @@ struct Closure {
     bool depends_on(ClosureArgument argument) const;
 };
 
+/// The rows of drag_laws.cpp.
+std::vector<Closure> drag_laws();
+
 /// Every closure there is.
 const std::vector<Closure>& catalogue();
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file Settling of one rock in still water from its force balance.
-#include "solver/physics/drag.hpp"
+#include "solver/physics/catalogue.hpp"
 
 namespace cutterflow::physics {
 
@@ -9,7 +9,7 @@ struct SettlingRock {
     RockInFluid rock;
     double density = 0.0;   ///< [kg/m3]
     double gravity = 9.81;  ///< [m/s2]
-    DragLaw drag = brown_lawler_drag_coefficient;
+    DragLaw drag = find_drag_law("brown_lawler");
     HindranceLaw hindrance = di_felice_factor;
 };
 

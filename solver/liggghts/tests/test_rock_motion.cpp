@@ -3,7 +3,7 @@
 #include <random>
 
 #include "solver/liggghts/tests/engine_fixture.hpp"
-#include "solver/physics/drag.hpp"
+#include "solver/physics/catalogue.hpp"
 
 namespace cutterflow::liggghts::tests {
 
@@ -20,7 +20,7 @@ coupling::HydrodynamicForce sphere_drag(double diameter) {
         const double speed = velocity.norm();
         if (speed == 0.0) return Vec3(0, 0, 0);
         const double area = k_pi / 4.0 * diameter * diameter;
-        const double coefficient = physics::brown_lawler_drag_coefficient({speed * diameter / k_water_viscosity});
+        const double coefficient = physics::find_drag_law("brown_lawler")({speed * diameter / k_water_viscosity});
         return Vec3(-0.5 * coefficient * area * k_water_density * speed * velocity);
     };
 }
