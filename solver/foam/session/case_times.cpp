@@ -7,7 +7,7 @@ namespace {
 
 std::optional<double> write_interval_of(const Foam::dictionary& control) {
     const Foam::word kind(control.lookupOrDefault<Foam::word>("writeControl", "timeStep"));
-    if (kind != "adjustable" && kind != "adjustableRunTime") return std::nullopt;
+    if (kind != "runTime" && kind != "adjustable" && kind != "adjustableRunTime") return std::nullopt;
     return control.get<Foam::scalar>("writeInterval");
 }
 
