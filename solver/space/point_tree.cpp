@@ -1,8 +1,12 @@
 #include "solver/space/point_tree.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
+#include <optional>
 
+#include <Eigen/Geometry>
 #include <nanoflann.hpp>
 
 namespace cutterflow::coupling {
@@ -21,23 +25,51 @@ struct Points {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
 constexpr std::size_t k_leaf_size = 24;
 
-/// Collects what lies within a radius without the sorting and the pairs of nanoflann's own set.
-class RadiusSet {
+/// Boxes around runs of points that follow each other in memory, and a binary tree of them. A run lies in one place in space because the
+/// points are in the order of the k-d tree.
+class Runs {
 public:
-    RadiusSet(double squared_radius, const std::vector<std::int32_t>& indices, std::vector<Neighbour>& found)
-        : squared_radius_(squared_radius), indices_(indices), found_(found) {}
-    std::size_t size() const { return found_.size(); }
-    bool full() const { return true; }
-    bool addPoint(double squared_distance, std::uint32_t i) {
-        if (squared_distance < squared_radius_) found_.push_back({indices_[i], squared_distance});
-        return true;
+    explicit Runs(const std::vector<Vec3>& points) : points_(points.size()) {
+        for (int axis = 0; axis < 3; ++axis)
+            for (const Vec3& p : points) coordinates_[static_cast<std::size_t>(axis)].push_back(p[axis]);
+        const std::size_t runs = (points_ + k_length - 1) / k_length;
+        while (leaves_ < runs) leaves_ *= 2;
+        boxes_.resize(2 * leaves_);
+        for (std::size_t i = 0; i < points_; ++i) boxes_[leaves_ + i / k_length].extend(points[i]);
+        for (std::size_t node = leaves_ - 1; node > 0; --node) boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
     }
-    double worstDist() const { return squared_radius_; }
+
+    /// Calls `each(first, last)` for runs that may hold points nearer to `centre` than the radius, in the order of memory.
+    template <class Each>
+    void near(const Vec3& centre, double squared_radius, const Each& each) const {
+        std::array<std::size_t, 64> open;  // nodes to look at, the next one on top; one per level and the root
+        std::size_t count = 0;
+        open[count++] = 1;
+        while (count > 0) {
+            const std::size_t node = open[--count];
+            if (boxes_[node].isEmpty() || boxes_[node].squaredExteriorDistance(centre) >= squared_radius) continue;
+            if (node >= leaves_) {
+                const std::size_t first = (node - leaves_) * k_length;
+                each(first, std::min(first + k_length, points_));
+            } else {
+                open[count++] = 2 * node + 1;
+                open[count++] = 2 * node;
+            }
+        }
+    }
+
+    double squared_distance(std::size_t i, const Vec3& centre) const {
+        const double x = coordinates_[0][i] - centre[0], y = coordinates_[1][i] - centre[1], z = coordinates_[2][i] - centre[2];
+        return x * x + y * y + z * z;
+    }
+
+    static constexpr std::size_t k_length = 16;
 
 private:
-    double squared_radius_;
-    const std::vector<std::int32_t>& indices_;
-    std::vector<Neighbour>& found_;
+    std::size_t points_;
+    std::array<std::vector<double>, 3> coordinates_;  // x, y and z apart, so that a run's distances are computed together
+    std::size_t leaves_ = 1;
+    std::vector<Eigen::AlignedBox3d> boxes_;  // children of node n: 2 n and 2 n + 1; the runs' own from leaves_ on
 };
 
 /// Keeps the nearest points, nearest first.
@@ -69,6 +101,7 @@ struct PointTree::Index {
     Points points;
     std::vector<std::int32_t> indices;
     std::unique_ptr<Tree> tree;
+    std::optional<Runs> runs;
 
     void build() {
         tree = std::make_unique<Tree>(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(k_leaf_size));
@@ -100,6 +133,7 @@ PointTree::PointTree(std::vector<Vec3> points, std::vector<std::int32_t> indices
     index_->build();
     index_->reorder();
     index_->build();
+    index_->runs.emplace(index_->points.points);
 }
 
 PointTree::~PointTree() = default;
@@ -112,8 +146,21 @@ std::size_t PointTree::size() const {
 
 void PointTree::within(const Vec3& centre, double radius, std::vector<Neighbour>& found) const {
     if (!index_->tree) return;
-    RadiusSet set(radius * radius, index_->indices, found);
-    index_->tree->findNeighbors(set, centre.data(), nanoflann::SearchParams(0, 0.0f, false));
+    const Runs& runs = *index_->runs;
+    const std::int32_t* const indices = index_->indices.data();
+    const double squared_radius = radius * radius;
+    runs.near(centre, squared_radius, [&](std::size_t first, std::size_t last) {
+        std::array<double, Runs::k_length> squared;
+        for (std::size_t i = first; i < last; ++i) squared[i - first] = runs.squared_distance(i, centre);
+        const std::size_t before = found.size();
+        found.resize(before + last - first);
+        Neighbour* next = found.data() + before;
+        for (std::size_t i = first; i < last; ++i) {
+            *next = {indices[i], squared[i - first]};
+            if (squared[i - first] < squared_radius) ++next;
+        }
+        found.resize(static_cast<std::size_t>(next - found.data()));
+    });
 }
 
 void PointTree::nearest(const Vec3& centre, std::size_t count, std::vector<Neighbour>& found) const {

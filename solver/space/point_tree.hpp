@@ -16,7 +16,8 @@ struct Neighbour {
     double squared_distance;  ///< [m2]
 };
 
-/// k-d tree (nanoflann) over points, which it keeps in the tree's own order: neighbours in space are neighbours in memory.
+/// Points in the order of a k-d tree (nanoflann): neighbours in space are neighbours in memory. The tree finds the nearest points; for all
+/// points within a radius, which may be thousands, runs of points are taken together.
 class PointTree {
 public:
     /// \param points   [m]
@@ -28,7 +29,7 @@ public:
 
     std::size_t size() const;
 
-    /// Appends every point nearer than `radius` [m] to `found`, in no order.
+    /// Appends every point nearer than `radius` [m] to `found`, in the order of memory.
     void within(const Vec3& centre, double radius, std::vector<Neighbour>& found) const;
 
     /// The `count` nearest points, nearest first; fewer when the tree holds fewer.
