@@ -56,9 +56,12 @@ CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
 }
 
 Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames)
-    : trees_(trees), frames_(frames), nodes_(trees.zones()), touched_(trees.zones()) {
+    : trees_(trees),
+      frames_(frames),
+      nodes_(trees.zones()),
+      visible_(trees.cells().centres.size(), 1.0),
+      hidden_(trees.cells().centres.size(), 0.0) {
     for (const gsl::span<const SteelTriangle> of_zone : steel.of_zone) steel_.emplace_back(of_zone);
-    hidden_.assign(trees.zones(), std::vector<double>(trees.cells().centres.size(), 0.0));
 }
 
 void Visibility::set_frames(const ZoneFrames& frames) {
@@ -68,10 +71,20 @@ void Visibility::set_frames(const ZoneFrames& frames) {
 }
 
 void Visibility::forget() {
-    for (Zone zone = 0; zone < steel_.size(); ++zone) {
-        for (const std::int32_t c : touched_[zone]) hidden_[zone][static_cast<std::size_t>(c)] = 0.0;
-        touched_[zone].clear();
+    for (const std::int32_t c : dimmed_) visible_[static_cast<std::size_t>(c)] = 1.0;
+    dimmed_.clear();
+}
+
+/// Takes the share that the steel of one zone hides off the visible fractions.
+void Visibility::dim_touched() {
+    for (const std::int32_t cell : touched_) {
+        const auto c = static_cast<std::size_t>(cell);
+        if (visible_[c] == 1.0) dimmed_.push_back(cell);
+        visible_[c] *= 1.0 - hidden_[c];
+        if (visible_[c] <= k_rounding) visible_[c] = 0.0;
+        hidden_[c] = 0.0;
     }
+    touched_.clear();
 }
 
 void Visibility::look_from(const Vec3& position, double reach, double spacing) {
@@ -90,6 +103,7 @@ void Visibility::look_from_point(const Vec3& position, double reach) {
         SamplePoint point;
         point.position = frames_.from_absolute(zone, position);
         add_hidden(zone, point, 1.0, reach);
+        dim_touched();
         release(point);
     }
 }
@@ -130,6 +144,7 @@ void Visibility::look_past(Zone steel, const Vec3& position, double clearance, d
     }
     for (std::size_t i = 0; i < count; ++i)
         add_hidden(steel, *sources[i].point, sources[i].weight / sum, reach + (sources[i].point->position - position).norm());
+    dim_touched();
     release(centre);
 }
 
@@ -162,8 +177,8 @@ void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, doubl
     if (!point.shadows) point.shadows.emplace(steel_[steel], point.position, k_list_margin * point.clearance_limit);
     for (Zone cells = 0; cells < trees_.zones(); ++cells) {
         for (const std::int32_t c : hidden_cells(steel, point, cells, reach)) {
-            double& share = hidden_[steel][static_cast<std::size_t>(c)];
-            if (share == 0.0) touched_[steel].push_back(c);
+            double& share = hidden_[static_cast<std::size_t>(c)];
+            if (share == 0.0) touched_.push_back(c);
             share += weight;
         }
     }

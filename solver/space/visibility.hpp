@@ -50,13 +50,11 @@ public:
     /// As look_from, from the position alone (no lattice).
     void look_from_point(const Vec3& position, double reach);
 
+    /// Whether every cell within reach sees the whole rock.
+    bool sees_all() const { return dimmed_.empty(); }
+
     /// Visible fraction [-] of the rock from a cell of this rank within reach.
-    double visible_fraction(std::int32_t cell) const {
-        const auto c = static_cast<std::size_t>(cell);
-        double fraction = 1.0;
-        for (const std::vector<double>& hidden : hidden_) fraction *= 1.0 - hidden[c];
-        return fraction > k_rounding ? fraction : 0.0;
-    }
+    double visible_fraction(std::int32_t cell) const { return visible_[static_cast<std::size_t>(cell)]; }
 
     /// Numbers of stored nodes and of line-of-sight tests so far, for measurements.
     std::size_t kept_nodes() const {
@@ -88,6 +86,7 @@ private:
     using Lattice = std::unordered_map<std::uint64_t, SamplePoint>;
 
     void forget();
+    void dim_touched();
     void look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing);
     SamplePoint& node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing);
     double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const Vec3& node) const;
@@ -103,8 +102,10 @@ private:
     std::vector<Lattice> nodes_;  // by the steel's zone
     std::size_t kept_cells_ = 0;
     std::size_t tests_ = 0;
-    std::vector<std::vector<double>> hidden_;         // hidden share per cell, by the steel's zone
-    std::vector<std::vector<std::int32_t>> touched_;  // cells whose share is not 0
+    std::vector<double> visible_;        // per cell
+    std::vector<std::int32_t> dimmed_;   // cells whose visible fraction is below 1
+    std::vector<double> hidden_;         // share per cell behind the steel of the zone in hand
+    std::vector<std::int32_t> touched_;  // cells whose share is not 0
     std::vector<Neighbour> found_;
 };
 

@@ -28,6 +28,12 @@ void Stencils::clear() {
     sample.clear();
 }
 
+void Stencils::resize_entries(std::size_t count) {
+    cell.resize(count);
+    deposit.resize(count);
+    sample.resize(count);
+}
+
 Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
                  Communicator& communicator)
     : moving_(moving.begin(), moving.end()),
@@ -104,24 +110,30 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
 void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
     const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
+    const gsl::span<const double> volumes = trees_.cells().volumes;
+    const bool sees_all = visibility_.sees_all();
     double deposit_sum = 0.0, sample_sum = 0.0;
+    std::size_t entries = stencils.cell.size();
     for (Zone zone = 0; zone < frames_.zones(); ++zone) {
         found_.clear();
         trees_.of(zone).within(frames_.from_absolute(zone, rocks.position[rock]), physics::k_kernel_reach * width, found_);
+        stencils.resize_entries(entries + found_.size());
         for (const Neighbour& n : found_) {
-            const double visible = visibility_.visible_fraction(n.index);
+            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(n.index);
             if (visible == 0.0) continue;
             const double q = n.squared_distance * inverse_width2;
             const double gaussian = physics::gaussian_weight(q);
             const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(q, gaussian, quadratic_share);
-            const double volume = trees_.cells().volumes[static_cast<std::size_t>(n.index)];
-            stencils.cell.push_back(n.index);
-            stencils.deposit.push_back(deposit);
-            stencils.sample.push_back(sample);
+            const double volume = volumes[static_cast<std::size_t>(n.index)];
+            stencils.cell[entries] = n.index;
+            stencils.deposit[entries] = deposit;
+            stencils.sample[entries] = sample;
+            ++entries;
             deposit_sum += deposit * volume;
             sample_sum += sample * volume;
         }
     }
+    stencils.resize_entries(entries);
     stencils.first.push_back(stencils.cell.size());
     sums[2 * rock] = deposit_sum;
     sums[2 * rock + 1] = sample_sum;

@@ -31,6 +31,8 @@ struct Stencils {
     std::size_t size() const { return width.size(); }
     /// Empties the stencils but keeps their capacity.
     void clear();
+    /// Room for this many entries in all; those that are there stay.
+    void resize_entries(std::size_t count);
 };
 
 /// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock.
