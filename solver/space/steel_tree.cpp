@@ -124,6 +124,16 @@ bool SteelTree::blocks(const Vec3& a, const Vec3& b) const {
     return along(a, direction, [&](const Triangle& triangle) { return meets(triangle, a, direction, k_edge_slack); });
 }
 
+bool SteelTree::blocks(const Vec3& a, const Vec3& b, std::int32_t& last) const {
+    const Vec3 direction = b - a;
+    if (last >= 0 && meets(triangles_[static_cast<std::size_t>(last)], a, direction, k_edge_slack)) return true;
+    return along(a, direction, [&](const Triangle& triangle) {
+        if (!meets(triangle, a, direction, k_edge_slack)) return false;
+        last = static_cast<std::int32_t>(&triangle - triangles_.data());
+        return true;
+    });
+}
+
 bool SteelTree::contains(const Vec3& point) const {
     if (nodes_.empty()) return false;
     const Box& all = nodes_[0].box;

@@ -21,6 +21,10 @@ public:
     /// True when a triangle meets the segment from a to b [m]. Edges count, so that no segment passes between two triangles that share one.
     bool blocks(const Vec3& a, const Vec3& b) const;
 
+    /// The same. Looks first at the triangle that stopped the line before, because the next line is mostly stopped by the same one.
+    /// \param last  its number, or -1; set to the one that stops this line
+    bool blocks(const Vec3& a, const Vec3& b, std::int32_t& last) const;
+
     /// True when the point [m] lies inside the solid that the triangles bound: a ray from it crosses them an odd number of times. The ray
     /// rises by a thousandth, so that it does not meet floor and cover of a tank, which may be among the triangles.
     /// \pre  the triangles close their solids, except for openings above or below

@@ -37,6 +37,13 @@ const std::array<Vec3, 13>& view_points() {
 /// rounding would decide the visibility.
 const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);
 
+/// Whether the line from `start`, in the ball about a, to b lies in the balls about a and b, which hold no steel.
+bool lies_in_balls(const Vec3& start, const Vec3& a, double radius_a, const Vec3& b, double radius_b) {
+    const Vec3 from_b = start - b;
+    const double length = from_b.norm();
+    return length <= radius_b || (b + radius_b / length * from_b - a).norm() <= radius_a;
+}
+
 std::uint64_t key_of(int level, const std::array<std::int64_t, 3>& index) {
     std::uint64_t key = static_cast<std::uint64_t>(level + 128);
     for (const std::int64_t i : index) key = key << 18 | (static_cast<std::uint64_t>(i) & 0x3ffff);
@@ -131,7 +138,8 @@ void Visibility::look_past(Zone steel, const Vec3& position, double clearance, d
         }
         if (weight == 0.0) continue;
         SamplePoint& point = node(steel, level, index, h);
-        weight *= seen_share(steel, position, clearance, h, point.position);
+        measure_clearance(steel, point, reach + (point.position - position).norm());
+        weight *= seen_share(steel, position, clearance, h, point);
         if (weight == 0.0) continue;
         sources[count++] = {&point, weight};
         sum += weight;
@@ -158,21 +166,30 @@ Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::arra
 }
 
 /// Share of the points around the rock (in the steel-free ball about its centre) with a line of sight to a node.
-double Visibility::seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const Vec3& node) const {
-    if ((node - position).norm() <= clearance) return 1.0;
+double Visibility::seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const SamplePoint& node) const {
+    if ((node.position - position).norm() <= clearance) return 1.0;
     const double radius = std::min(clearance, spacing);
     int seen = 0;
-    for (const Vec3& direction : view_points())
-        if (!steel_[steel].blocks(position + radius * direction, node)) ++seen;
+    std::int32_t last = -1;
+    for (const Vec3& direction : view_points()) {
+        const Vec3 start = position + radius * direction;
+        const bool is_clear =
+            lies_in_balls(start, position, clearance, node.position, node.clearance) || !steel_[steel].blocks(start, node.position, last);
+        if (is_clear) ++seen;
+    }
     return static_cast<double>(seen) / static_cast<double>(view_points().size());
 }
 
+/// Sets the node's distance to the steel, up to `reach` at least.
+void Visibility::measure_clearance(Zone steel, SamplePoint& point, double reach) const {
+    if (point.clearance_limit >= reach) return;
+    point.clearance_limit = k_list_margin * reach;
+    point.clearance = steel_[steel].distance(point.position, point.clearance_limit);
+    point.shadows.reset();
+}
+
 void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, double reach) {
-    if (point.clearance_limit < reach) {
-        point.clearance_limit = k_list_margin * reach;
-        point.clearance = steel_[steel].distance(point.position, point.clearance_limit);
-        point.shadows.reset();
-    }
+    measure_clearance(steel, point, reach);
     if (point.clearance >= reach) return;
     if (!point.shadows) point.shadows.emplace(steel_[steel], point.position, k_list_margin * point.clearance_limit);
     for (Zone cells = 0; cells < trees_.zones(); ++cells) {

@@ -89,7 +89,8 @@ private:
     void dim_touched();
     void look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing);
     SamplePoint& node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing);
-    double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const Vec3& node) const;
+    void measure_clearance(Zone steel, SamplePoint& point, double reach) const;
+    double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const SamplePoint& node) const;
     void add_hidden(Zone steel, SamplePoint& point, double weight, double reach);
     const std::vector<std::int32_t>& hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach);
     void release(const SamplePoint& point);
