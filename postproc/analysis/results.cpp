@@ -136,6 +136,7 @@ Conservation worst_balance(const Table& balance, bool with_rock) {
     worst.interface_imbalance = largest_magnitude(balance.number("interface_imbalance"));
     worst.interface_mismatch = largest_magnitude(balance.number("interface_mismatch"));
     worst.domain_surplus = largest_magnitude(balance.number("domain_surplus"));
+    worst.clipped_cells = largest_magnitude(balance.number("clipped_cells"));
     if (!with_rock) return worst;
     worst.overfull_cells = largest_magnitude(balance.number("overfull_cells"));
     worst.solid_volume = largest_magnitude(balance.number("solid_volume_error"));
@@ -381,7 +382,8 @@ json results_json(const Results& results, const RunData& run) {
                                 {"interface_imbalance_max", or_null(results.conservation.interface_imbalance)},
                                 {"interface_mismatch_max", or_null(results.conservation.interface_mismatch)},
                                 {"domain_surplus_max", or_null(results.conservation.domain_surplus)},
-                                {"overfull_cells_max", or_null(results.conservation.overfull_cells)}};
+                                {"overfull_cells_max", or_null(results.conservation.overfull_cells)},
+                                {"clipped_cells_max", or_null(results.conservation.clipped_cells)}};
     document["rotor"] = rotor_json(results, run);
     const auto of_mixing = [&](double Mixing::*member) { return results.mixing ? json((*results.mixing).*member) : json(nullptr); };
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},

@@ -65,7 +65,7 @@ struct ScaleNumbers {
 /// Largest magnitude over all steps, relative. Absent where a run without rock has none.
 struct Conservation {
     std::optional<double> solid_volume, momentum, momentum_interface, flow_balance, interface_imbalance, interface_mismatch, domain_surplus;
-    std::optional<double> overfull_cells;  ///< largest number in a step
+    std::optional<double> overfull_cells, clipped_cells;  ///< largest number in a step
 };
 
 /// What was predicted before the run, for the time that it ran.

@@ -241,11 +241,15 @@ std::string conservation_text(const Conservation& conservation) {
     if (conservation.momentum)
         text += fmt::format("momentum of rock and water {} of what rock exchanged, and {} lost or gained at the rotor interface, ",
                             number(conservation.momentum, "", 2), number(conservation.momentum_interface, "", 2));
-    return text + fmt::format(
-                      "water balance {} of the discharge, rotor interface {} of the flow through it in sum and {} face by face: largest "
-                      "relative error of all steps",
-                      number(conservation.flow_balance, "", 2), number(conservation.interface_imbalance, "", 2),
-                      number(conservation.interface_mismatch, "", 2));
+    text += fmt::format(
+        "water balance {} of the discharge, rotor interface {} of the flow through it in sum and {} face by face: largest "
+        "relative error of all steps",
+        number(conservation.flow_balance, "", 2), number(conservation.interface_imbalance, "", 2),
+        number(conservation.interface_mismatch, "", 2));
+    if (conservation.clipped_cells.value_or(0.0) > 0.0)
+        text += fmt::format("; the turbulence model raised a field to its least value in up to {} cells of a step",
+                            number(conservation.clipped_cells, "", 3));
+    return text;
 }
 
 std::string cost_text(const Cost& cost) {

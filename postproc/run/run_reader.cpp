@@ -254,7 +254,7 @@ TableRules balance_rules() {
                                         "rocks",
                                         "contacts"};
     TableRules rules{{"time_s", "flow_balance_error", "interface_imbalance", "interface_mismatch", "continuity_error", "domain_surplus",
-                      "outlet_flow_m3_s", "outlet_pressure_m2_s2", "courant_max"},
+                      "clipped_cells", "outlet_flow_m3_s", "outlet_pressure_m2_s2", "courant_max"},
                      {},
                      rock,
                      k_rerun};

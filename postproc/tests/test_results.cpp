@@ -170,6 +170,7 @@ TEST(ResultsJson, conservation_is_the_largest_magnitude_of_all_steps) {
     EXPECT_DOUBLE_EQ(conservation.at("interface_mismatch_max").get<double>(), 4e-3);
     EXPECT_DOUBLE_EQ(conservation.at("domain_surplus_max").get<double>(), 3e-16);
     EXPECT_EQ(conservation.at("overfull_cells_max").get<double>(), 2.0);
+    EXPECT_EQ(conservation.at("clipped_cells_max").get<double>(), 7.0);
 }
 
 TEST(ResultsJson, cost_sums_the_steps) {

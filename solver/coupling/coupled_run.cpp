@@ -270,6 +270,7 @@ void CoupledRun::report_loads_and_balance() {
     balance.interface_mismatch = loads.interface_mismatch;
     balance.continuity_error = loads.continuity_error;
     balance.domain_surplus = loads.domain_surplus;
+    balance.clipped_cells = loads.clipped_cells;
     balance.outlet_flow = loads.outlet_flow;
     balance.outlet_pressure = loads.outlet_pressure;
     balance.solid_fraction_max = balance_.solid_fraction_max;

@@ -112,6 +112,7 @@ struct BalanceRow {
     double interface_imbalance = 0.0;
     double interface_mismatch = 0.0;
     double domain_surplus = 0.0;
+    int clipped_cells = 0;
     double continuity_error = 0.0;
     std::optional<double> outlet_flow, outlet_pressure;  ///< of the named outlet [m3/s], [m2/s2]
     double solid_fraction_max = 0.0;

@@ -76,6 +76,7 @@ struct FluidLoads {
     double interface_mismatch = 0.0;   ///< the same face by face, against the other side's overlapping parts / gross flow [-]
     double continuity_error = 0.0;     ///< sum |cell residual of d(alpha)/dt + div(alpha u)| V / (2 through_flow) [-]
     double domain_surplus = 0.0;       ///< of a closed domain: |volume that a step's continuity has too much| / volume; 0 of an open one
+    int clipped_cells = 0;             ///< in which a field of the turbulence model was raised to its least value, over all fields
     double courant_max = 0.0;
     std::optional<Vec3> soil_force;  ///< of the water on the soil, by p* and stress [N]; none without soil
     // With rock only, over the last step:

@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "solver/foam/session/case_times.hpp"
 #include "solver/foam/single_phase/fields.hpp"
+#include "solver/foam/single_phase/turbulence_clipping.hpp"
 #include "solver/foam/soil/soil_turbulence.hpp"
 
 #include "directionMixedFvPatchFields.H"
@@ -73,6 +74,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
       state_(IOobject("fluidState", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)) {
     require_supported_case();
     if (soil) put_in_soil(*soil);
+    watch_clipping();
     if (rock_ == RockPresence::present) require_case_for_rock();
     setRefCell(p_, pimple_.dict(), p_ref_cell_, p_ref_value_);
     mesh_.setFluxRequired(p_.name());
@@ -87,6 +89,13 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
 void CutterFluid::put_in_soil(const coupling::SoilSettings& settings) {
     soil_ = std::make_unique<Soil>(mesh_, zones_, settings);
     sources_.append(new SoilTurbulence(mesh_, soil_->sink()));
+}
+
+/// The list of sources owns it.
+void CutterFluid::watch_clipping() {
+    auto* clipping = new TurbulenceClipping(mesh_, phase_turbulence_(), soil_ ? &soil_->sink() : nullptr);
+    sources_.append(clipping);
+    clipping_ = clipping;
 }
 
 void CutterFluid::create_face_velocity() {
@@ -146,6 +155,7 @@ void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<
     }
     alphaPhi_ = alphaf_ * phi_;
     domain_surplus_ = 0.0;
+    clipped_cells_ = 0;
     while (pimple_.loop()) {
         const tmp<fvVectorMatrix> stress = viscous_matrix();
         tmp<fvVectorMatrix> momentum = momentum_matrix(stress());
@@ -185,6 +195,7 @@ void CutterFluid::correct_turbulence() {
     const bool moving = mesh_.moving(mesh_.moving() && !rotation_.is_rigid());
     turbulence_.correct();
     mesh_.moving(moving);
+    clipped_cells_ += returnReduce(clipping_->take_count(), sumOp<label>());
 }
 
 tmp<vectorField> CutterFluid::vorticity() const {

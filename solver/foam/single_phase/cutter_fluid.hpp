@@ -23,6 +23,8 @@
 
 namespace cutterflow::foam {
 
+class TurbulenceClipping;
+
 /// Whether rock shares the domain with the fluid. Without rock the void fraction stays 1 and no field of the exchange is kept.
 enum class RockPresence { absent, present };
 
@@ -90,6 +92,8 @@ public:
     double courant_max() const { return courant_max_; }
     /// Of a closed domain, largest of the last step's correctors: |volume too much in the sum of continuity| / volume; 0 of an open one.
     double domain_surplus() const { return domain_surplus_; }
+    /// Cells of the last step in which the turbulence model raised a field to its least value, over all fields and the whole mesh.
+    Foam::label clipped_cells() const { return clipped_cells_; }
 
     /// Residual of continuity in each cell, times its volume [m3/s].
     Foam::tmp<Foam::scalarField> continuity_residual() const;
@@ -128,6 +132,7 @@ private:
     Foam::dimensionedScalar find_surplus(const Foam::surfaceScalarField& flux);
     void report_continuity();
     void correct_turbulence();
+    void watch_clipping();
     void update_material_acceleration();
     void update_received(const Foam::fvVectorMatrix& stress);
     void update_outside_momentum(const Foam::fvVectorMatrix& stress, const Foam::surfaceVectorField& through);
@@ -173,6 +178,8 @@ private:
     Foam::scalar p_ref_value_ = 0.0;
     double courant_max_ = 0.0;
     double domain_surplus_ = 0.0;
+    TurbulenceClipping* clipping_ = nullptr;
+    Foam::label clipped_cells_ = 0;
     bool long_step_warned_ = false;
     double continuity_cumulative_ = 0.0;
 };

@@ -100,6 +100,7 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     loads.interface_mismatch = interfaces.mismatch / (0.5 * interfaces.gross + VSMALL);
     loads.continuity_error = gSum(mag(fluid.continuity_residual())) / (2.0 * loads.through_flow);
     loads.domain_surplus = fluid.domain_surplus();
+    loads.clipped_cells = static_cast<int>(fluid.clipped_cells());
     loads.courant_max = fluid.courant_max();
     if (fluid.soil() != nullptr) loads.soil_force = fluid.density() * to_vec3(fluid.soil()->force(fluid.velocity()));
     loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);

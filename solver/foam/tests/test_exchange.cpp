@@ -225,6 +225,28 @@ TEST(AddedMass, IsStableInTheMatrixWhereLaggedItBlowsUp) {
     EXPECT_GE(stirred_velocity("added_mass_lagged", false), 100.0);
 }
 
+// Foam::bound() raises a negative k and tells only the log.
+TEST(Turbulence, CountsTheCellsThatItsModelRaisesToALeastValue) {
+    testing::TinyCase tiny = closed_box("clipped", column(), "noSlip", 1e-4, 0.1);
+    testing::make_turbulent(tiny, 0.01, 0.1);
+    FluidRun run(testing::build_case(tiny), false);
+    const auto step = [&] {
+        run.begin();
+        run.end({}, {});
+        return run.engine().loads().clipped_cells;
+    };
+    EXPECT_EQ(step(), 0);
+    // four cells that touch no wall
+    const auto chosen = run.evaluate([](const Vec3& x) {
+        return std::abs(x.x() - 0.05) < 0.025 && std::abs(x.y() - 0.05) < 0.025 && std::abs(x.z() - 0.20625) < 1e-6 ? 1.0 : 0.0;
+    });
+    auto& k = run.session().mesh().lookupObjectRef<Foam::volScalarField>("k");
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (chosen[i] > 0.0) k[static_cast<Foam::label>(i)] = -0.1;
+    EXPECT_EQ(step(), 4);
+    EXPECT_EQ(step(), 0);
+}
+
 TEST(RockCase, RefusesWhatWouldBendItsBalance) {
     testing::TinyCase tiny = closed_box("refused", column(), "noSlip", 5e-3, 0.1);
     tiny.files["system/fvSchemes"] += "ddtSchemes { default backward; } divSchemes { div(phi,U) bounded Gauss upwind; }\n";
