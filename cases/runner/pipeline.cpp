@@ -140,6 +140,7 @@ std::map<std::string, std::string> stage_inputs(const ParameterValues& values, c
             inputs[parameter.key] = toml_text(*values.find(parameter.key));
     for (const std::string& section : repeated_sections(study_table(), "")) add_table_inputs(values, section, section, stage, inputs);
     if (stage == k_geometry_stage) inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
+    if (stage == k_case_stage && values.has("bank.file")) inputs["bank.file"] = sha256_of_file(study_folder / values.text("bank.file"));
     if (stage == k_case_stage && values.has("report.adv_points"))
         inputs["report.adv_points"] = adv_places_hash(study_folder / values.text("report.adv_points"));
     return inputs;
@@ -150,7 +151,8 @@ RunHead read_run_head(const RunDirectory& directory) {
                                                    {{"head/ring_radius_m", JsonKind::number, true},
                                                     {"head/blades", JsonKind::whole, true},
                                                     {"head/passage_m", JsonKind::number_or_null, true},
-                                                    {"head/thickness_m", JsonKind::number, true}},
+                                                    {"head/thickness_m", JsonKind::number, true},
+                                                    {"head/contour/error_m", JsonKind::number, true}},
                                                    "Start again in another directory with -o")
                                     .at("head");
     HeadSize size;
@@ -159,6 +161,7 @@ RunHead read_run_head(const RunDirectory& directory) {
     if (!head.at("passage_m").is_null()) size.passage = head.at("passage_m");
     size.thickness = head.at("thickness_m");
     geometry::RevolutionContour contour = read_contour_csv(directory.file(names::contour_table));
+    contour.error = head.at("contour").at("error_m");
     size.tip_radius = *std::max_element(contour.radius.begin(), contour.radius.end());
     size.depth = -contour.z.front();
     RunHead run_head{size, std::move(contour)};
@@ -217,7 +220,8 @@ StageOutcome Pipeline::make_geometry() {
     const HeadSize size = head_size(head);
     const Study study = resolved_study(size);
     const ParameterValues resolved = resolve_study(values_, size);
-    if (const std::vector<Mistake> mistakes = bank_mistakes(resolved, study, head); !mistakes.empty()) throw UserError(mistakes);
+    if (const std::vector<Mistake> mistakes = bank_mistakes(resolved, study, size, head.contour); !mistakes.empty())
+        throw UserError(mistakes);
     for (const Mistake& warning : study_warnings(resolved, size)) say_("warning: " + warning.text());
     for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
     for (const Mistake& warning : blade_warnings(study, head)) say_("warning: " + warning.text());
@@ -294,6 +298,10 @@ StageOutcome Pipeline::make_case() {
     std::vector<std::string> written;
     for (const fs::path& file : write_case(directory_.path(), case_inputs_of(study, head.size, contour, settings_.ranks)))
         written.push_back(file.string());
+    // Keys of the bank may have changed since the geometry was made.
+    if (const std::vector<Mistake> mistakes = bank_mistakes(resolve_study(values_, head.size), study, head.size, head.profile);
+        !mistakes.empty())
+        throw UserError(mistakes);
     std::vector<MadeWall> walls_of_soil;
     if (study.bank) {
         const geometry::TriangleSurface soil = bank_surface(study, head.size, contour);

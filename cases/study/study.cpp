@@ -79,8 +79,8 @@ double derived_outflow_start(const ParameterValues& values) {
 }
 
 /// Keys that say something of a bank or its soil.
-constexpr std::array<const char*, 7> k_bank_keys = {"swing.speed_m_min",  "bank.cut_height_m",        "bank.step_m",  "bank.clearance_m",
-                                                    "bank.pick_length_m", "soil.grain_density_kg_m3", "soil.porosity"};
+constexpr std::array<const char*, 8> k_bank_keys = {"swing.speed_m_min",  "bank.cut_height_m",        "bank.step_m",   "bank.clearance_m",
+                                                    "bank.pick_length_m", "soil.grain_density_kg_m3", "soil.porosity", "bank.file"};
 constexpr double k_wider_by_picks = 0.03;  // of the ring radius: a head that is wider than its ring by this has picks
 
 bool has_bank(const ParameterValues& values) {
@@ -98,10 +98,12 @@ void resolve_bank(ParameterValues& values, const HeadSize& head) {
     fill(values, "soil.porosity", 0.15);
 }
 
-Study::Bank make_bank(const ParameterValues& resolved) {
+Study::Bank make_bank(const ParameterValues& resolved, const std::filesystem::path& folder) {
     const auto number = [&](const char* key) { return resolved.number(key); };
-    return {number("swing.speed_m_min") / 60.0, number("bank.cut_height_m"),        number("bank.step_m"),  number("bank.clearance_m"),
-            number("bank.pick_length_m"),       number("soil.grain_density_kg_m3"), number("soil.porosity")};
+    std::optional<std::filesystem::path> file;
+    if (resolved.has("bank.file")) file = std::filesystem::absolute(folder / resolved.text("bank.file"));
+    return {number("swing.speed_m_min") / 60.0, number("bank.cut_height_m"),        number("bank.step_m"),   number("bank.clearance_m"),
+            number("bank.pick_length_m"),       number("soil.grain_density_kg_m3"), number("soil.porosity"), file};
 }
 
 void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
@@ -549,7 +551,7 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
                      number("suction.pipe_wall_m")};
     study.inclination = number("ladder.inclination_deg") * k_degree;
     study.swing_direction = resolved.text("swing.direction");
-    if (has_bank(resolved)) study.bank = make_bank(resolved);
+    if (has_bank(resolved)) study.bank = make_bank(resolved, folder);
     study.tank = {number("tank.radius_m"), number("tank.bed_clearance_m"), number("tank.height_m")};
     study.mesh_preset = resolved.text("mesh.preset");
     study.fluid = {number("fluid.density_kg_m3"), number("fluid.kinematic_viscosity_m2_s")};

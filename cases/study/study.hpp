@@ -90,6 +90,7 @@ struct Study {
         double cut_height = 0.0, step = 0.0, clearance = 0.0, pick_length = 0.0;  ///< [m]
         double grain_density = 0.0;                                               ///< of the soil [kg/m3]
         double porosity = 0.0;                                                    ///< of the soil
+        std::optional<std::filesystem::path> file;  ///< the soil's surface, absolute; none: what earlier swings left
     };
     std::optional<Bank> bank;
     struct Tank {

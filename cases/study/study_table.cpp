@@ -112,6 +112,12 @@ ParameterTable bank_rows() {
             .at_least(0.0)
             .at_most(k_largest_length)
             .derived("0 when the head is wider than its ring by 0.03 ring radius or more, as heads with picks are; else 0.1 ring radius"),
+        row(k_case_stage, "bank.file", ParameterKind::path, "-",
+            "Closed surface (STL, OBJ, PLY) of soil of your own in the run's frame, in metres: axis along z, ring plane at z = 0, the "
+            "swing "
+            "along y, lowest side of the head at positive x. Water and rock feel it in the place of the bank that earlier swings left; cut "
+            "face and production still follow from the other keys.")
+            .derived("what earlier swings left"),
         number(k_case_stage, "soil.grain_density_kg_m3", "kg/m3", "Density of the soil's grains.")
             .at_least(100.0)
             .at_most(30000.0)

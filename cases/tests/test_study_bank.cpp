@@ -12,6 +12,8 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/crown_cutter.hpp"
+#include "geometry/io/write_stl.hpp"
+#include "geometry/surface/simple_solids.hpp"
 #include "geometry/surface/soundness.hpp"
 
 namespace cutterflow::cases {
@@ -52,7 +54,7 @@ bool has(const std::vector<std::string>& all, const std::string& part) {
 
 std::vector<std::string> mistakes_of(const std::string& more) {
     const ParameterValues resolved = resolved_of(more);
-    return texts(bank_mistakes(resolved, make_study(resolved, "/tmp"), model_head()));
+    return texts(bank_mistakes(resolved, make_study(resolved, "/tmp"), head_size(model_head()), model_head().contour));
 }
 
 TEST(StudyBank, is_none_by_default_and_follows_the_ring_otherwise) {
@@ -174,6 +176,55 @@ TEST(StudyBank, has_a_surface_for_rock_on_its_soil) {
     geometry::TriangleSurface half = soil;  // what a bank with a hole would be held against
     half.triangles.resize(soil.triangles.size() / 2);
     EXPECT_THROW(bank_contact_wall(study, size, contour_of(study), half), CheckFailure);
+}
+
+geometry::TriangleSurface box_between(const Vec3& lower, const Vec3& upper) {
+    geometry::TriangleSurface box = geometry::generate_box(upper - lower, 1.0);
+    const Vec3 shift(0.5 * (lower.x() + upper.x()), 0.5 * (lower.y() + upper.y()), lower.z());
+    for (Vec3& point : box.points) point += shift;
+    return box;
+}
+
+/// Soil of a file: a box beside, in or above the head, or with a hole.
+class SoilOfAFile : public ::testing::Test {
+protected:
+    SoilOfAFile() : file_(std::filesystem::path(::testing::TempDir()) / "soil_of_a_file.stl") {}
+    ~SoilOfAFile() override { std::filesystem::remove(file_); }
+
+    /// \return a study's keys with this soil
+    std::string with(const geometry::TriangleSurface& soil) const {
+        geometry::write_stl(soil, file_);
+        return std::string(k_bank) + "file = \"" + file_.string() + "\"\n";
+    }
+
+    std::filesystem::path file_;
+};
+
+TEST_F(SoilOfAFile, stands_in_the_place_of_the_computed_one) {
+    const geometry::TriangleSurface box = box_between(Vec3(0.1, 0.6, -0.5), Vec3(0.8, 1.1, -0.05));
+    const std::string keys = with(box);
+    EXPECT_TRUE(mistakes_of(keys).empty()) << mistakes_of(keys).front();
+    const Study study = study_of(keys);
+    const HeadSize size = head_size(model_head());
+    const geometry::TriangleSurface soil = bank_surface(study, size, contour_of(study));
+    EXPECT_NEAR(geometry::inspect_surface(soil).volume, 0.7 * 0.5 * 0.45, 1e-7);  // STL has single precision
+    const MadeWall wall = bank_contact_wall(study, size, contour_of(study), soil);
+    EXPECT_EQ(wall.report.wall, "bank");
+    EXPECT_LE(wall.report.deviation, wall.report.allowed_deviation);
+    EXPECT_NEAR(geometry::inspect_surface(wall.surface).volume, 0.7 * 0.5 * 0.45, 1e-4);
+    EXPECT_DOUBLE_EQ(cut_figures(study, contour_of(study)).section, cut_figures(study_of(k_bank), contour_of(study)).section);
+    EXPECT_NE(bank_text(study, contour_of(study)).find("soil_of_a_file.stl"), std::string::npos);
+}
+
+TEST_F(SoilOfAFile, must_be_closed_beside_the_head_and_below_the_water) {
+    geometry::TriangleSurface open = box_between(Vec3(0.1, 0.6, -0.5), Vec3(0.8, 1.1, -0.05));
+    open.triangles.pop_back();
+    EXPECT_TRUE(has(mistakes_of(with(open)), "open")) << mistakes_of(with(open)).front();
+    EXPECT_TRUE(has(mistakes_of(with(box_between(Vec3(0.1, 0.0, -0.3), Vec3(0.8, 1.1, -0.05)))), "The soil cuts the head"));
+    const double inside = 0.01;  // a box within the head, which touches no wall of it
+    EXPECT_TRUE(has(mistakes_of(with(box_between(Vec3(0, 0, -0.1), Vec3(inside, inside, -0.1 + inside)))), "The soil cuts the head"));
+    EXPECT_TRUE(has(mistakes_of(with(box_between(Vec3(-9.0, 0.6, -0.5), Vec3(0.8, 1.1, -0.05)))), "m above the water"));
+    EXPECT_TRUE(has(texts(check_file_rules(values_of("[bank]\nfile = \"soil.stl\"\n"), "study.toml")), "It belongs to a bank"));
 }
 
 // Rock is fed within the head's contour, from which soil keeps its distance.

@@ -9,10 +9,13 @@
 
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/head/stationary_steel.hpp"
+#include "geometry/io/read_surface.hpp"
 #include "geometry/surface/contact_surface.hpp"
+#include "geometry/surface/soundness.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -66,9 +69,9 @@ void check_shape(const ParameterValues& resolved, const Study& study, const Head
 }
 
 /// Soil that comes nearer than the clearance to the steel that does not turn.
-void check_stationary_steel(const ParameterValues& resolved, const Study& study, const HeadSize& size, const geometry::Contour& contour,
-                            Mistakes& mistakes) {
-    const geometry::SolidSearch soil(bank_surface(study, size, contour));
+void check_stationary_steel(const ParameterValues& resolved, const Study& study, const HeadSize& size,
+                            const geometry::TriangleSurface& surface, Mistakes& mistakes) {
+    const geometry::SolidSearch soil(surface);
     const geometry::StationarySteel steel = geometry::generate_stationary_steel(stationary_steel_of(study, size));
     for (const auto& [name, part] : {std::pair("backplate", &steel.backplate), std::pair("suction pipe", &steel.suction_pipe)}) {
         double nearest = std::numeric_limits<double>::infinity();
@@ -77,8 +80,71 @@ void check_stationary_steel(const ParameterValues& resolved, const Study& study,
         mistakes.add(broken(resolved, "bank.clearance_m",
                             nearest > 0.0 ? fmt::format("The bank comes within {:.4g} m of the {}", nearest, name)
                                           : fmt::format("The {} would stand in the bank", name),
-                            "Lower bank.cut_height_m, make shorter steps, or shorten the steel behind the head"));
+                            study.bank->file ? "Cut the soil of bank.file back, or shorten the steel behind the head"
+                                             : "Lower bank.cut_height_m, make shorter steps, or shorten the steel behind the head"));
     }
+}
+
+/// Distance of soil from the head's body of revolution, 0 where they meet: from points of the body to the soil's surface, and whether
+/// corners of the soil lie in the body.
+double distance_from_head(const geometry::TriangleSurface& surface, const HeadSize& size, const geometry::RevolutionContour& profile) {
+    const auto radius_at = [&](double z) {
+        const auto above = std::upper_bound(profile.z.begin(), profile.z.end(), z);
+        if (above == profile.z.begin() || above == profile.z.end()) return -1.0;
+        const auto i = static_cast<std::size_t>(above - profile.z.begin());
+        const double share = (z - profile.z[i - 1]) / (profile.z[i] - profile.z[i - 1]);
+        return profile.radius[i - 1] + share * (profile.radius[i] - profile.radius[i - 1]);
+    };
+    for (const Vec3& corner : surface.points)
+        if (corner.head<2>().norm() <= radius_at(corner.z())) return 0.0;
+    const geometry::SolidSearch soil(surface);
+    const double spacing = k_measured_per_ring_radius * size.ring_radius;
+    const auto around = static_cast<int>(std::ceil(2.0 * k_pi * size.tip_radius / spacing));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < profile.z.size(); ++i) {
+        const double length = std::hypot(profile.z[i + 1] - profile.z[i], profile.radius[i + 1] - profile.radius[i]);
+        const int parts = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+        for (int part = 0; part < parts; ++part) {
+            const double share = (part + 0.5) / parts;
+            const double z = profile.z[i] + share * (profile.z[i + 1] - profile.z[i]);
+            const double radius = profile.radius[i] + share * (profile.radius[i + 1] - profile.radius[i]);
+            for (int k = 0; k < around; ++k) {
+                const double azimuth = 2.0 * k_pi * k / around;
+                const Vec3 point(radius * std::cos(azimuth), radius * std::sin(azimuth), z);
+                if (soil.contains(point)) return 0.0;
+                nearest = std::min(nearest, soil.nearest(point).distance);
+            }
+        }
+    }
+    return nearest;
+}
+
+/// Soil of the user's own beside the head and below the water.
+void check_soil_of_file(const ParameterValues& resolved, const Study& study, const HeadSize& size,
+                        const geometry::RevolutionContour& profile, const geometry::TriangleSurface& soil, Mistakes& mistakes) {
+    const auto refuse = [&](const std::string& rule, const std::string& remedy) {
+        mistakes.add({resolved.where("bank.file"), fmt::format("bank.file = \"{}\"", resolved.text("bank.file")), rule, remedy});
+    };
+    const double distance = distance_from_head(soil, size, profile);
+    if (distance == 0.0)
+        refuse("The soil cuts the head",
+               "Take the head with its clearance out of the soil; the run's frame has the axis along z and the ring plane at z = 0");
+    else if (!(distance > profile.error))
+        refuse(fmt::format("The soil comes within {:.3g} m of the head, whose contour is known to {:.3g} m", distance, profile.error),
+               "Cut the soil back");
+    const Vec3 up(-std::cos(study.inclination), 0.0, std::sin(study.inclination));
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Vec3& corner : soil.points) top = std::max(top, corner.dot(up));
+    if (!(top < height_of_water(study, size)))
+        refuse(fmt::format("Its top would stand {:.4g} m above the water", top - height_of_water(study, size)),
+               "Lower it, or make the tank larger");
+}
+
+/// \throws UserError  when the file holds no surface, or its surface does not close
+geometry::TriangleSurface soil_of_file(const std::filesystem::path& file) {
+    geometry::TriangleSurface soil = geometry::welded(geometry::read_surface(file));
+    geometry::require_sound(geometry::inspect_surface(soil), file.string());
+    return soil;
 }
 
 }  // namespace
@@ -95,8 +161,22 @@ geometry::Bank bank_of(const Study& study, const geometry::Contour& contour) {
 }
 
 geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size, const geometry::Contour& contour) {
-    return bank_of(study, contour).soil(reach_of_soil(size));
+    return study.bank->file ? soil_of_file(*study.bank->file) : bank_of(study, contour).soil(reach_of_soil(size));
 }
+
+namespace {
+
+/// Soil of a file is coarsened as steel is.
+MadeWall wall_of_file(const coupling::WallSettings& settings, const geometry::TriangleSurface& soil,
+                      const geometry::ContactSurfaceBounds& bounds) {
+    const geometry::ContactSurface contact = geometry::contact_surface(soil, bounds);
+    return {settings.file,
+            contact.surface,
+            {settings.name, soil.triangles.size(), contact.surface.triangles.size(), geometry::smallest_angle_of(soil),
+             contact.smallest_angle, contact.deviation, bounds.deviation, contact.kept_because}};
+}
+
+}  // namespace
 
 MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geometry::Contour& contour,
                            const geometry::TriangleSurface& soil) {
@@ -104,6 +184,7 @@ MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geome
     const double reach = reach_of_soil(size), distance = study.bank->pick_length + study.bank->clearance;
     const double tolerance = std::min(k_tolerance_per_ring_radius * size.ring_radius, k_tolerance_per_distance * distance);
     const coupling::WallSettings settings = bank_wall();
+    if (study.bank->file) return wall_of_file(settings, soil, {tolerance, k_edge_per_ring_radius * size.ring_radius});
     MadeWall made{settings.file, bank.wall({reach, tolerance, k_edge_per_ring_radius * size.ring_radius}), {}};
     WallSurfaceReport& report = made.report;
     report.wall = settings.name;
@@ -119,20 +200,25 @@ MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geome
                         "Send the study and the cutter's file to the maintainers"});
 }
 
-std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const geometry::Head& head) {
+std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const HeadSize& size,
+                                   const geometry::RevolutionContour& profile) {
     if (!study.bank) return {};
-    const HeadSize size = head_size(head);
-    const geometry::Contour contour = head_contour(head, study.suction.gap);
+    const geometry::Contour contour{profile.z, profile.radius, size.ring_radius, study.suction.gap};
     Mistakes mistakes;
     const double standing_out = study.bank->pick_length + study.bank->clearance;
-    if (!(standing_out > head.contour.error))
+    if (!(standing_out > profile.error))
         mistakes.add(broken(resolved, "bank.clearance_m",
                             fmt::format("The bank would touch the head: with bank.pick_length_m = {:g} it must be more than {:.3g} m, the "
                                         "error of the contour",
-                                        study.bank->pick_length, head.contour.error - study.bank->pick_length),
+                                        study.bank->pick_length, profile.error - study.bank->pick_length),
                             "Raise it"));
     check_shape(resolved, study, size, bank_of(study, contour), mistakes);
-    if (mistakes.empty()) check_stationary_steel(resolved, study, size, contour, mistakes);
+    if (!mistakes.empty()) return mistakes.take();
+    mistakes.gather([&] {
+        const geometry::TriangleSurface soil = bank_surface(study, size, contour);
+        if (study.bank->file) check_soil_of_file(resolved, study, size, profile, soil, mistakes);
+        check_stationary_steel(resolved, study, size, soil, mistakes);
+    });
     return mistakes.take();
 }
 
@@ -161,6 +247,7 @@ std::string bank_text(const Study& study, const geometry::Contour& contour) {
     const CutFigures figures = cut_figures(study, contour);
     std::string text =
         fmt::format("bank         {:.4g} m high, steps of {:.4g} m, {}\n", study.bank->cut_height, study.bank->step, study.swing_direction);
+    if (study.bank->file) text += fmt::format("soil         {}\n", study.bank->file->string());
     text += line("cut          ", figures);
     if (study.length_ratio != 1.0) text += line("prototype    ", scaled(figures, study.length_ratio));
     return text;

@@ -15,7 +15,8 @@ namespace cutterflow::cases {
 /// \pre the study has a bank
 geometry::Bank bank_of(const Study& study, const geometry::Contour& contour);
 
-/// Soil as far from the axis as rock matters, in the run's frame. \pre the study has a bank that can stand
+/// Soil in the run's frame: as far from the axis as rock matters, or the user's own. \pre the study has a bank that can stand
+/// \throws UserError  when the user's file is no closed surface
 geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size, const geometry::Contour& contour);
 
 /// What rock touches of that soil, with its error. \throws CheckFailure  when it lies farther from the soil than it may
@@ -23,8 +24,10 @@ MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geome
                            const geometry::TriangleSurface& soil);
 
 /// Rules that a bank breaks beside this head, its steel and its water: higher than head or water, steps longer than the head, overhanging,
-/// steel in the soil. None for a study without a bank. \param resolved  from which the study was made; its lines are named
-std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const geometry::Head& head);
+/// steel in the soil, a file that is open. None for a study without a bank. \param resolved  from which the study was made; its lines are
+/// named \param profile  of the head, with its error
+std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const HeadSize& size,
+                                   const geometry::RevolutionContour& profile);
 
 /// What a swing cuts.
 struct CutFigures {

@@ -68,7 +68,7 @@ ReadParameters read_with_mistakes(const std::filesystem::path& file, Mistakes& m
     ReadParameters read = parse_with_mistakes(study_table(), read_file(file), file.string());
     mistakes.add(read.mistakes);
     if (read.complete) mistakes.add(check_file_rules(read.values, file));
-    for (const char* key : {"cutter.file", "report.adv_points"})
+    for (const char* key : {"cutter.file", "bank.file", "report.adv_points"})
         if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
     return read;
 }
@@ -97,8 +97,9 @@ CheckedStudy read_checked_study(const std::filesystem::path& file) {
         const std::vector<Mistake> broken = check_study(study.resolved, study.size);
         mistakes.add(broken);
         // Steel behind the head, water and bank have their sizes only when the study keeps its own rules.
-        if (broken.empty() && !lacks_swing(study.resolved))
-            mistakes.add(bank_mistakes(study.resolved, make_study(study.resolved, file.parent_path()), *study.inspection.head));
+        if (broken.empty() && !lacks_swing(study.resolved) && !missing_file(values, "bank.file", file.parent_path()))
+            mistakes.add(
+                bank_mistakes(study.resolved, make_study(study.resolved, file.parent_path()), study.size, study.inspection.head->contour));
     });
     mistakes.refuse();
     return study;
