@@ -53,8 +53,11 @@ void override_convection(const fs::path& run, cases::ConvectionScheme scheme) {
         if (file.path == "system/fvSchemes") meshing::write_foam_file(run / "overrides" / file.path, file.foam_class, file.contents);
 }
 
-double torque(const fs::path& folder) {
-    return nlohmann::json::parse(read_file(folder / "run" / names::results_json)).at("rotor").at("torque_flow_mean_n_m");
+/// Of the flow [N m], over whole passings of a blade; none when the run is shorter.
+std::optional<double> torque(const fs::path& folder) {
+    const auto rotor = nlohmann::json::parse(read_file(folder / "run" / names::results_json)).at("rotor");
+    const auto& mean = rotor.at("torque_flow_mean_n_m");
+    return mean.is_null() ? std::nullopt : std::optional<double>(mean.get<double>());
 }
 
 /// \return its cost; the outflow [m/s] takes the place of the error
@@ -72,7 +75,7 @@ Trial run_trial(const fs::path& folder, const CutterOptions& options) {
 
 struct CutterTrial {
     Trial trial;
-    double torque = 0.0;  ///< mean of the flow's [N m]
+    std::optional<double> torque;  ///< mean of the flow's [N m]
 };
 
 void show(Verification& verification, const std::string& title, const std::vector<CutterValue>& values,
@@ -86,7 +89,7 @@ void show(Verification& verification, const std::string& title, const std::vecto
         const double distance = 100.0 * std::abs(trial.error / trials.back().trial.error - 1.0);
         chart.points.push_back({values[v].label, trial.core_s, distance, values[v].standard});
         table.rows.push_back({values[v].label, fmt::format("{:.1f}", trial.core_s), fmt::format("{:.5f}", trial.error),
-                              fmt::format("{:.3f}", trials[v].torque)});
+                              trials[v].torque ? fmt::format("{:.3f}", *trials[v].torque) : "–"});
         if (values[v].standard)
             verification.report("distance of the default's outflow from the finest run: " + title, "%", distance, {},
                                 {"exact", "first bin below the ring, " + std::string(k_top_bin), {}});
