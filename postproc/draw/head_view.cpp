@@ -66,11 +66,13 @@ json head_view(const HeadScene& scene, const View& view, ViewSurfaces& surfaces)
     }
     json groups = json::array();
     for (const auto& [colour, spheres] : rocks) groups.push_back({{"colour", colour}, {"spheres", spheres}});
-    json ghosts = json::array();
-    if (!scene.ghosts.empty()) ghosts.push_back(surfaces.number_of(scene.ghosts));
+    const auto numbers = [&](const TriangleSurface& surface) {
+        return surface.empty() ? json::array() : json::array({surfaces.number_of(surface)});
+    };
     return {{"steel", surfaces.number_of(scene.steel)},
             {"steel_angle", scene.steel_angle},
-            {"ghosts", ghosts},
+            {"ghosts", numbers(scene.ghosts)},
+            {"soil", numbers(scene.soil)},
             {"rocks", groups},
             {"centre", triple(view.centre)},
             {"up", triple(view.up)},

@@ -22,7 +22,7 @@ private:
     std::vector<nlohmann::json> surfaces_;
 };
 
-/// Scene and first view: `steel` (number of the surface), `steel_angle` [rad], `ghosts` (numbers), `rocks` ([{colour, spheres:
+/// Scene and first view: `steel` (number of the surface), `steel_angle` [rad], `ghosts` and `soil` (numbers), `rocks` ([{colour, spheres:
 /// [[x, y, z, radius], ...]}]), `centre`, `up`, `towards`, `height_m`, `aspect`.
 nlohmann::json head_view(const HeadScene& scene, const View& view, ViewSurfaces& surfaces);
 

@@ -68,9 +68,11 @@ function drawHead(place, head) {
   const scene = new THREE.Scene(), vector = (xyz) => new THREE.Vector3(...xyz);
   const steel = new THREE.MeshLambertMaterial({color: '#a9b4be', side: THREE.DoubleSide});
   const ghost = new THREE.MeshLambertMaterial({color: '#8a94a0', side: THREE.DoubleSide, transparent: true, opacity: 0.22, depthWrite: false});
+  const soil = new THREE.MeshLambertMaterial({color: '#b89461', side: THREE.DoubleSide, transparent: true, opacity: 0.5});
   const cutter = new THREE.Mesh(surfaces()[head.steel], steel);
   cutter.rotation.z = head.steel_angle;
-  scene.add(cutter, ...head.ghosts.map((surface) => new THREE.Mesh(surfaces()[surface], ghost)), ...head.rocks.map(rockMesh));
+  const meshes = (numbers, material) => numbers.map((surface) => new THREE.Mesh(surfaces()[surface], material));
+  scene.add(cutter, ...head.rocks.map(rockMesh), ...meshes(head.soil, soil), ...meshes(head.ghosts, ghost));
 
   const camera = new THREE.OrthographicCamera(), centre = vector(head.centre);
   camera.up = vector(head.up);

@@ -13,10 +13,11 @@ namespace cutterflow::postproc {
 namespace {
 
 constexpr int k_supersampling = 2;
-constexpr double k_ghost_opacity = 0.16;
+constexpr double k_ghost_opacity = 0.16, k_soil_opacity = 0.45;
 constexpr double k_crease_cosine = 0.85;  ///< sharper turns are edges
 const Colour k_steel{0.76, 0.79, 0.82};
 const Colour k_ghost{0.45, 0.55, 0.65};
+const Colour k_soil{0.72, 0.58, 0.38};
 
 /// Small, because a picture has millions of them.
 struct Sample {
@@ -167,12 +168,15 @@ double edge_strength(const Layer& layer, const View& view, int x, int y, double 
 }
 
 /// Colour of one sample of the finished picture.
-Colour composite(const Layer& solids, const Layer& ghosts, const View& view, int x, int y) {
+Colour composite(const Layer& solids, const Layer& soil, const Layer& ghosts, const View& view, int x, int y) {
     const Colour white{1.0, 1.0, 1.0}, ink{0.13, 0.16, 0.20};
     const double step = 12.0 * view.height_m / view.height;
     const Sample& solid = solids.at(x, y);
     Colour colour = white;
     if (!std::isinf(solid.depth)) colour = mix(shade(solids, x, y), ink, edge_strength(solids, view, x, y, step));
+    const Sample& earth = soil.at(x, y);
+    if (earth.depth > solid.depth)
+        colour = mix(colour, mix(shade(soil, x, y), ink, 0.5 * edge_strength(soil, view, x, y, step)), k_soil_opacity);
     const Sample& ghost = ghosts.at(x, y);
     if (ghost.depth > solid.depth) {
         colour = mix(colour, shade(ghosts, x, y), k_ghost_opacity);
@@ -209,9 +213,10 @@ Image render(const HeadScene& scene, const View& view) {
     View fine = view;
     fine.width *= k_supersampling;
     fine.height *= k_supersampling;
-    Layer solids(fine), ghosts(fine);
+    Layer solids(fine), soil(fine), ghosts(fine);
     draw_surface(solids, turned(scene.steel, scene.steel_angle), k_steel);
     for (const Sphere& rock : scene.rocks) solids.draw(rock);
+    draw_surface(soil, scene.soil, k_soil);
     draw_surface(ghosts, scene.ghosts, k_ghost);
     Image image{view.width, view.height, {}};
     image.rgb.reserve(3 * static_cast<std::size_t>(view.width) * view.height);
@@ -219,8 +224,8 @@ Image render(const HeadScene& scene, const View& view) {
         for (int x = 0; x < view.width; ++x) {
             Colour sum;
             for (int i = 0; i < k_supersampling * k_supersampling; ++i) {
-                sum = sum +
-                      composite(solids, ghosts, fine, k_supersampling * x + i % k_supersampling, k_supersampling * y + i / k_supersampling);
+                sum = sum + composite(solids, soil, ghosts, fine, k_supersampling * x + i % k_supersampling,
+                                      k_supersampling * y + i / k_supersampling);
             }
             const Colour mean = (1.0 / (k_supersampling * k_supersampling)) * sum;
             for (const double part : {mean.red, mean.green, mean.blue}) image.rgb.push_back(to_byte(part));

@@ -30,6 +30,7 @@ struct HeadScene {
     TriangleSurface steel;     ///< opaque
     double steel_angle = 0.0;  ///< by which the steel is turned about the z axis [rad]
     TriangleSurface ghosts;    ///< transparent: what would hide the rest
+    TriangleSurface soil;      ///< half transparent
     std::vector<Sphere> rocks;
 };
 

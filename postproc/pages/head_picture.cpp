@@ -39,17 +39,25 @@ HeadScene scene_of(const RunData& run) {
     scene.ghosts = read_binary_stl(run.directory / names::backplate_surface);
     const TriangleSurface pipe = read_binary_stl(run.directory / names::suction_pipe_surface);
     scene.ghosts.insert(scene.ghosts.end(), pipe.begin(), pipe.end());
+    if (run.operating_point.has_bank) scene.soil = read_binary_stl(run.directory / names::bank_surface);
     if (run.rock) scene.rocks = rocks_by_fate(run.rock->final_state);
     return scene;
 }
 
+/// Sign of y on which the picture from the side is taken: the one that the soil leaves open.
+double open_side(const HeadScene& scene) {
+    double sum = 0.0;
+    for (const Triangle& triangle : scene.soil) sum += triangle[0].y() + triangle[1].y() + triangle[2].y();
+    return sum > 0.0 ? -1.0 : 1.0;
+}
+
 /// From the side and a little from the hub, with gravity pointing down.
-View side_view(const RunData& run) {
+View side_view(const RunData& run, double side) {
     const double inclination = run.operating_point.inclination_deg * k_pi / 180.0;
     const double radius = run.contour.ring_radius();
     const Vec3 vertical(-std::cos(inclination), 0.0, std::sin(inclination));
     const Vec3 hubwards = -(Vec3::UnitZ() - std::sin(inclination) * vertical).normalized();  // horizontal; the axis is never vertical
-    const Vec3 towards = (0.78 * Vec3::UnitY() + 0.58 * hubwards + 0.22 * vertical).normalized();
+    const Vec3 towards = (0.78 * side * Vec3::UnitY() + 0.58 * hubwards + 0.22 * vertical).normalized();
     const Vec3 up = (vertical - vertical.dot(towards) * towards).normalized();
     const double middle = 0.5 * (run.contour.z_hub() + 0.8 * radius);
     return {Vec3(0.0, 0.0, middle), up.cross(towards), up, towards, 2.9 * radius, k_height * 13 / 10, k_height};
@@ -109,7 +117,7 @@ int count_outside(const std::vector<Sphere>& rocks, const View& view) {
 
 HeadPicture draw_head_from_side(const RunData& run, Page& page, const std::string& name) {
     const HeadScene scene = scene_of(run);
-    const View view = side_view(run);
+    const View view = side_view(run, open_side(scene));
     const std::string still =
         picture(view, run, "Cutter head from the side with rock coloured by fate", page.address(render(scene, view), name));
     return {page.turnable(still, head_view(scene, view, page.surfaces())), static_cast<int>(scene.rocks.size()),
@@ -119,6 +127,7 @@ HeadPicture draw_head_from_side(const RunData& run, Page& page, const std::strin
 std::string draw_head_from_hub(const RunData& run, const Page& page, const std::string& name) {
     HeadScene scene = scene_of(run);
     scene.ghosts.clear();  // behind the head
+    scene.soil.clear();    // before it, below the hub
     const View view = axial_view(run);
     return picture(view, run, "Cutter head from the hub with rock coloured by fate", page.address(render(scene, view), name));
 }

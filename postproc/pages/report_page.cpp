@@ -297,11 +297,12 @@ std::string answer_section(const Results& results, const RunData& run, const Pag
            trust_list(results, run.operating_point.fed_by_cutting);
 }
 
-std::string head_figure(const Results& results, const PageFigures& figures) {
+std::string head_figure(const Results& results, const RunData& run, const PageFigures& figures) {
     std::string caption =
         "Left: from the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or "
         "two fingers to zoom</span>. Right: from the hub along the axis, "
         "lowest side down. The arrow shows the sense of rotation.";
+    if (run.operating_point.has_bank) caption += " Brown: the soil that the head swings into, in the left picture only.";
     if (results.spillage && figures.head.rocks_shown > 0) {
         caption += fmt::format(" Rocks in true size at the last checkpoint or the end; {} of {} lie outside the left picture.",
                                figures.head.rocks_outside_view, figures.head.rocks_shown);
@@ -310,9 +311,9 @@ std::string head_figure(const Results& results, const PageFigures& figures) {
     return html::figure(figures.head.markup + figures.head_from_hub, caption, "head wide");
 }
 
-std::string figure_section(const Results& results, const PageFigures& figures) {
+std::string figure_section(const Results& results, const RunData& run, const PageFigures& figures) {
     return html::section(results.spillage ? "Where the rock goes, and why" : "The flow through the head",
-                         "<div class=\"figures\">" + head_figure(results, figures) + plots_at(figures, Place::figures) + "</div>");
+                         "<div class=\"figures\">" + head_figure(results, run, figures) + plots_at(figures, Place::figures) + "</div>");
 }
 
 std::string series_table(const Spillage& spillage) {
@@ -511,7 +512,7 @@ void write_report_page(const Page& page, const Results& results, const RunData& 
     body += unfinished_notice(results);
     body += answer_section(results, run, figures);
     if (!figures.note.empty()) body += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
-    body += figure_section(results, figures) + rock_section(results, run) + operation_section(results, run);
+    body += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
     body += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
     body += version_section(results_json(results, run).at("versions"));
     page.write(title, body, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));

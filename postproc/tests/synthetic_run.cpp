@@ -402,6 +402,7 @@ void make_fed(const SmallRun& run, double held, double stuck) {
     write_text(run.directory / "study.resolved.toml",
                read_text(run.directory / "study.resolved.toml") +
                    "\n[bank]\nmodel = \"wall\"\n[soil]\ngrain_density_kg_m3 = 2500\nporosity = 0.2\n[[feed]]\nkind = \"cut_face\"\n");
+    write_stl(run.directory / "geometry/bank.stl", {{Vec3(0.3, 0.5, -0.4), Vec3(0.3, 0.9, -0.4), Vec3(0.3, 0.9, 0.0)}});
     std::string text =
         "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error\n";
     for (int step = 1; step <= 3100; ++step) {

@@ -90,6 +90,13 @@ TEST(Rendering, steel_in_front_hides_rock_and_ghosts_do_not) {
     EXPECT_GT(redness(), 100);
     scene.ghosts = wall;
     EXPECT_GT(redness(), 80);
+    scene.ghosts.clear();
+    const auto bare = pixel(render(scene, front_view()), 80, 85);
+    scene.soil = wall;
+    EXPECT_GT(redness(), 60) << "rock behind soil can be told";
+    const auto soil = pixel(render(scene, front_view()), 80, 85);
+    EXPECT_EQ(bare, (std::array<int, 3>{255, 255, 255}));
+    EXPECT_LT(soil[2], soil[0] - 20) << "soil is brown";
     scene.steel = wall;
     EXPECT_LT(redness(), 10);
 }
