@@ -91,15 +91,16 @@ TEST_F(Stages, are_done_once_and_in_order) {
 
 TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row_names) {
     const fs::path folder = fs::temp_directory_path();
-    const std::string cutter = fmt::format("cutterflow_stage_inputs_{}.stl", ::getpid());
-    write_file(folder / cutter, "solid");
+    const std::string surface = fmt::format("cutterflow_stage_inputs_{}.stl", ::getpid());
+    write_file(folder / surface, "solid");
     ParameterValues values, feed, rock;
     std::map<std::string, std::string> stage_of;
     for (const Parameter& parameter : study_table()) {
         if (parameter.key == "report.adv_points") continue;  // counts by the content of its file
         const bool of_class = parameter.key.rfind("feed.class.", 0) == 0, of_feed = parameter.key.rfind("feed.", 0) == 0;
         ParameterValues& place = of_class ? rock : of_feed ? feed : values;
-        place.set(parameter.key, parameter.key == "cutter.file" ? cutter : std::string("given"));
+        const bool is_surface = parameter.key == "cutter.file" || parameter.key == "bank.file";  // count by their content
+        place.set(parameter.key, is_surface ? surface : std::string("given"));
         const std::string name = parameter.key.substr(parameter.key.rfind('.') + 1);
         stage_of[of_class ? "feed[1].class[1]." + name : of_feed ? "feed[1]." + name : parameter.key] = parameter.stage;
     }
@@ -113,7 +114,12 @@ TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row
     EXPECT_EQ(found.at("suction.discharge_m3_s"), "case");
     EXPECT_EQ(found.at("mesh.preset"), "mesh");
     EXPECT_EQ(found.at("scale.length_ratio"), "report");
-    fs::remove(folder / cutter);
+
+    const auto case_inputs = [&] { return stage_inputs(values, folder, k_case_stage); };
+    const auto before = case_inputs();
+    write_file(folder / surface, "another solid");
+    EXPECT_NE(case_inputs().at("bank.file"), before.at("bank.file"));
+    fs::remove(folder / surface);
 }
 
 TEST_F(Stages, changed_inputs_redo_what_follows_while_there_are_no_results) {
