@@ -592,8 +592,57 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
     return rules.take();
 }
 
+namespace {
+
+constexpr double k_dilute_solids = 0.05;       // solid fraction up to which rock hardly hinders other rock
+constexpr double k_resolved_by_kernels = 4.0;  // kernel widths
+
+/// Whether rock is placed so densely that its drag grows by that of other rock.
+bool is_dense(const ParameterValues& feed) {
+    const double spacing = feed.number("feed.spacing_diameters");
+    return is_cut_face(feed) || k_pi / 6.0 > k_dilute_solids * spacing * spacing * spacing;
+}
+
+/// The drag of rock among rock is counted twice, or not at all.
+void warn_of_hindrance(const ParameterValues& resolved, Rules& rules) {
+    const bool hindered = resolved.text("closures.hindrance") != physics::k_no_closure ||
+                          physics::drag_law_holds_void_fraction(resolved.text("closures.drag"));
+    rules.require(!hindered || resolved.number("closures.drag_modifier") == 1.0, "closures.drag_modifier",
+                  "The hindrance by other rock is in the drag already; a modifier that was fitted without it counts it twice",
+                  "Set it to 1, or closures.hindrance = \"none\"");
+    for (const ParameterValues& feed : resolved.tables("feed"))
+        if (!hindered && resolved.number("closures.drag_modifier") == 1.0 && is_dense(feed)) {
+            rules.require(
+                false, "closures.hindrance",
+                fmt::format("Rock starts with a solid fraction above {:g}, where the drag of a single rock is too small", k_dilute_solids),
+                "Choose a hindrance");
+            return;
+        }
+}
+
+/// A kernel averages the flow over an opening that is not much wider, so that rock there feels a wrong speed.
+void warn_of_wide_kernels(const ParameterValues& resolved, Rules& rules) {
+    double largest = 0.0;
+    for (const ParameterValues& feed : resolved.tables("feed")) {
+        if (has_size_law(feed)) largest = std::max(largest, feed.number("feed.size_max_m"));
+        for (const ParameterValues& rock : feed.tables("feed.class")) largest = std::max(largest, rock.number("feed.class.diameter_m"));
+    }
+    const double width = resolved.number("kernel.gamma") * largest;
+    for (const char* key : {"suction.mouth_radius_m", "suction.gap_m"})
+        rules.require(
+            resolved.number(key) >= k_resolved_by_kernels * width, key,
+            fmt::format("It is {:.2g} kernel widths of rock of {:g} m; below {:g} the speed that rock feels there is off by more than a "
+                        "tenth",
+                        resolved.number(key) / width, largest, k_resolved_by_kernels),
+            "Compare with kernel.gamma = 0.5");
+}
+
+}  // namespace
+
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
+    warn_of_hindrance(resolved, rules);
+    warn_of_wide_kernels(resolved, rules);
     const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
     const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
     const char* place = passage < mouth ? "between the blades" : "the suction mouth";
