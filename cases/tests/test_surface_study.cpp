@@ -75,7 +75,7 @@ TEST_F(SurfaceStudy, every_example_reads) {
         EXPECT_TRUE(check_surface_study(entry.path()).notes.empty()) << entry.path();
         ++studies;
     }
-    EXPECT_EQ(studies, 5);
+    EXPECT_EQ(studies, 6);
 }
 
 TEST_F(SurfaceStudy, names_mistakes_of_all_sections_at_once) {

@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_not_modelled =
-    "Not modelled: the third dimension, air and trapped bubbles, surface tension, turbulence, leakage at the ends of the cylinders.";
+    "Not modelled: in a plane scene the third dimension; air and trapped bubbles, surface tension, turbulence, leakage at the ends of the "
+    "cylinders.";
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     for (double& value : values) value *= factor;

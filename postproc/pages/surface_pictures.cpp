@@ -67,8 +67,20 @@ struct Disc {
     double x = 0.0, z = 0.0, radius = 0.0;
 };
 
+/// Across the tank the layer of cells that pictures show: the middle one; scenes of earlier programs are plane.
+int section_layer(const nlohmann::json& scene) {
+    return scene.value("layers", 1) / 2;
+}
+
+/// Radius [m] of a body in that section: a cylinder reaches across, a sphere does not.
+double radius_in_section(const nlohmann::json& scene, double radius, double y) {
+    if (!scene.value("spheres", false)) return radius;
+    const double off = y - (section_layer(scene) + 0.5) * scene.at("cell_m").get<double>();
+    return std::sqrt(std::max(0.0, radius * radius - off * off));
+}
+
 /// Bodies at the time of a snapshot, from the file that was written with it.
-std::vector<Disc> bodies_of(const fs::path& run_directory, const Snapshot& snapshot) {
+std::vector<Disc> bodies_of(const nlohmann::json& scene, const fs::path& run_directory, const Snapshot& snapshot) {
     const std::string time = snapshot.file.stem().string().substr(std::string("water_").size());
     const fs::path file = run_directory / "postProcessing/bodies/vtk" / ("bodies_" + time + ".vtp");
     if (!fs::exists(file)) return {};
@@ -76,7 +88,7 @@ std::vector<Disc> bodies_of(const fs::path& run_directory, const Snapshot& snaps
     const std::vector<double> places = array_of(text, "Points"), radii = array_of(text, "radius_m");
     std::vector<Disc> discs;
     for (std::size_t n = 0; n < radii.size() && 3 * n + 2 < places.size(); ++n)
-        discs.push_back({places[3 * n], places[3 * n + 2], radii[n]});
+        discs.push_back({places[3 * n], places[3 * n + 2], radius_in_section(scene, radii[n], places[3 * n + 1])});
     return discs;
 }
 
@@ -84,6 +96,7 @@ std::vector<Disc> bodies_of(const fs::path& run_directory, const Snapshot& snaps
 Image picture(const SurfaceRows& rows, const Snapshot& snapshot, const std::vector<Disc>& discs, double fastest) {
     const auto number = [&](const char* key) { return rows.scene.at(key).get<double>(); };
     const int columns = rows.scene.at("columns").get<int>(), lines = rows.scene.at("rows").get<int>();
+    const int layers = rows.scene.value("layers", 1), layer = section_layer(rows.scene);
     const std::string text = read_file(snapshot.file);
     const std::vector<double> fraction = array_of(text, "water_fraction"), open = array_of(text, "open_volume"),
                               velocity = array_of(text, "velocity_m_s");
@@ -97,7 +110,7 @@ Image picture(const SurfaceRows& rows, const Snapshot& snapshot, const std::vect
         for (int n = 0; n < image.width; ++n) {
             const double x = (n + 0.5) * pixel, z = (image.height - row - 0.5) * pixel;
             const int i = std::min(columns - 1, static_cast<int>(x / cell_size)), k = std::min(lines - 1, static_cast<int>(z / cell_size));
-            const std::size_t cell = static_cast<std::size_t>(k) * columns + i;
+            const std::size_t cell = (static_cast<std::size_t>(k) * layers + layer) * columns + i;
             Colour colour = air;
             if (cell < fraction.size() && 3 * cell + 2 < velocity.size()) {
                 const double speed = std::hypot(velocity[3 * cell], velocity[3 * cell + 2]);
@@ -167,11 +180,15 @@ std::string surface_pictures(const Page& page, const SurfaceRows& rows, const fs
     int number = 0;
     for (const Snapshot& snapshot : snapshots(run_directory)) {
         const std::string id = fmt::format("water_{}", number++), time = fmt::format("{:.3f} s", snapshot.time);
-        const Image image = picture(rows, snapshot, bodies_of(run_directory, snapshot), fastest);
+        const Image image = picture(rows, snapshot, bodies_of(rows.scene, run_directory, snapshot), fastest);
         markup += html::figure(with_scales(image, page.address(image, id), "Water and bodies at " + time, width, fastest, id), time);
     }
     if (markup.empty()) return markup;
-    return html::legend({{k_fast, "water, darker where it is faster"}, {k_body, "bodies"}, {k_solid, "solids"}}) +
+    const std::string section =
+        rows.scene.value("layers", 1) > 1
+            ? fmt::format("<p>Section at y = {:g} m.</p>", (section_layer(rows.scene) + 0.5) * rows.scene.at("cell_m").get<double>())
+            : "";
+    return section + html::legend({{k_fast, "water, darker where it is faster"}, {k_body, "bodies"}, {k_solid, "solids"}}) +
            "<div class=\"figures\">" + markup + "</div>";
 }
 

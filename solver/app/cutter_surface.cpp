@@ -70,10 +70,12 @@ void tell(const Scene& scene) {
 
 std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::path& folder, bool fresh) {
     if (scene.bodies.size() == 0) return nullptr;
-    if (!scene.settings.solids.empty()) {
-        write_file(folder / "walls.stl", wall_surface_stl(scene.settings.solids, scene.settings.tank.depth));
+    if (const std::string walls = wall_surface_stl(scene.settings.solids, scene.settings.tank.depth); !walls.empty()) {
+        write_file(folder / "walls.stl", walls);
         scene.dem.walls.push_back({"walls", folder / "walls.stl", false});
     }
+    for (std::size_t n = 0; n < scene.surfaces.size(); ++n)
+        scene.dem.walls.push_back({fmt::format("surface_{}", n + 1), fs::absolute(scene.surfaces[n]), false});
     for (std::size_t n = 0; n < scene.settings.gates.size(); ++n) {
         const Gate& gate = scene.settings.gates[n];
         const std::string name = fmt::format("gate_{}", n + 1);

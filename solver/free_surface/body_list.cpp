@@ -38,7 +38,7 @@ std::vector<ListedBody> read_body_list(const std::filesystem::path& file, std::v
         return {};
     }
     const std::size_t before = mistakes.size();
-    const CsvTable table(file, {"x_m", "z_m"}, {"vx_m_s", "vz_m_s", "spin_rad_s", "id"}, mistakes);
+    const CsvTable table(file, {"x_m", "z_m"}, {"y_m", "vx_m_s", "vy_m_s", "vz_m_s", "spin_rad_s", "id"}, mistakes);
     if (mistakes.size() > before) return {};
     if (table.rows() == 0)
         mistakes.push_back({file.string(), "the file has no bodies", "One line below the header is one body", "Add lines"});
@@ -49,7 +49,8 @@ std::vector<ListedBody> read_body_list(const std::filesystem::path& file, std::v
         ListedBody body;
         body.x = table.at(row, "x_m");
         body.z = table.at(row, "z_m");
-        body.velocity = Vec3(number(row, "vx_m_s"), 0.0, number(row, "vz_m_s"));
+        if (table.has("y_m")) body.y = table.at(row, "y_m");
+        body.velocity = Vec3(number(row, "vx_m_s"), number(row, "vy_m_s"), number(row, "vz_m_s"));
         body.spin = number(row, "spin_rad_s");
         if (table.has("id")) body.id = read_id(table, row, seen, mistakes);
         body.where = table.where(row);

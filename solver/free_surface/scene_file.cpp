@@ -10,6 +10,8 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/io/read_surface.hpp"
+#include "geometry/surface/soundness.hpp"
 #include "solver/free_surface/body_list.hpp"
 #include "solver/physics/contact.hpp"
 
@@ -24,6 +26,7 @@ constexpr double k_thinnest_wall = 2.0;  // cells
 constexpr double k_smallest_gap = 0.25;  // cells
 constexpr double k_tolerance = 1e-9;
 constexpr int k_rim_points = 90;     // at which a body is looked for in solids
+constexpr int k_rims = 16;           // of a sphere
 constexpr int k_lines_of_gate = 16;  // along which solids are looked for in its way
 constexpr double k_gravity = 9.81;
 // Core seconds of a step, measured on tanks of 8,000 to 74,360 cells with 7,680 to 137,040 particles and 0 to 33 bodies.
@@ -114,6 +117,26 @@ private:
     double cell() const { return scene_.settings.tank.cell; }
     double width() const { return scene_.settings.tank.cells[0] * cell(); }
     double height() const { return scene_.settings.tank.cells[2] * cell(); }
+    bool plane() const { return scene_.settings.tank.plane; }
+
+    /// Keys that a plane scene has no use for.
+    void refuse_in_plane(const ParameterValues& table, std::initializer_list<const char*> keys) {
+        for (const char* key : keys) {
+            if (plane() && table.has(key))
+                refuse(table.where(key), fmt::format("{} in a plane scene", key), "A plane scene is the same all the way across",
+                       "Remove it, or set domain.dimensions = \"space\"");
+        }
+    }
+
+    /// From where to where across; the whole tank without the keys.
+    Interval across(const ParameterValues& table, const std::string& from, const std::string& to) {
+        refuse_in_plane(table, {from.c_str(), to.c_str()});
+        const Interval part{table.has(from) ? table.number(from) : -k_far, table.has(to) ? table.number(to) : k_far};
+        if (part.length() <= 0.0)
+            refuse(table.where(from), fmt::format("{} = {:g} m is not below {} = {:g} m", from, part.from, to, part.to),
+                   "The lower end comes first", "Exchange them");
+        return part;
+    }
 
     int whole_cells(const std::string& key) {
         const double length = values_.number(key);
@@ -127,8 +150,10 @@ private:
         scene_.name = values_.text("name");
         TankSettings& tank = scene_.settings.tank;
         tank.cell = values_.number("domain.cell_m");
+        tank.plane = values_.text("domain.dimensions") == "plane";
         tank.depth = values_.number("domain.length_m");
-        tank.cells = {whole_cells("domain.width_m"), 1, whole_cells("domain.height_m")};
+        tank.cells = {whole_cells("domain.width_m"), tank.plane ? 1 : whole_cells("domain.length_m"), whole_cells("domain.height_m")};
+        if (!tank.plane) tank.depth = tank.cells[1] * tank.cell;
     }
 
     void read_water() {
@@ -136,8 +161,9 @@ private:
         water.density = values_.number("water.density_kg_m3");
         water.kinematic_viscosity = values_.number("water.kinematic_viscosity_m2_s");
         for (const ParameterValues& fill : values_.tables("fill")) {
-            const Vec3 from(fill.number("fill.from_x_m"), -k_far, fill.number("fill.from_z_m"));
-            const Vec3 to(fill.number("fill.to_x_m"), k_far, fill.number("fill.to_z_m"));
+            const Interval y = across(fill, "fill.from_y_m", "fill.to_y_m");
+            const Vec3 from(fill.number("fill.from_x_m"), y.from, fill.number("fill.from_z_m"));
+            const Vec3 to(fill.number("fill.to_x_m"), y.to, fill.number("fill.to_z_m"));
             const std::string where = fill.where("fill.from_x_m");
             const std::string box = fmt::format("Water from ({:g}, {:g}) to ({:g}, {:g}) m", from.x(), from.z(), to.x(), to.z());
             if (from.x() >= to.x() || from.z() >= to.z()) refuse(where, box, "Its lower corner must come first", "Exchange the corners");
@@ -173,9 +199,17 @@ private:
 
     void read_solid(const ParameterValues& solid) {
         const std::string& kind = solid.text("solid.kind");
+        if (kind != "box")
+            for (const char* key : {"solid.from_y_m", "solid.to_y_m"})
+                if (solid.has(key))
+                    refuse(solid.where(key), fmt::format("{} for a {}", key, kind), "Only a box ends across", "Remove it, or use a box");
         if (kind == "box") {
-            add_box(required(solid, "solid.from_x_m"), required(solid, "solid.from_z_m"), required(solid, "solid.to_x_m"),
-                    required(solid, "solid.to_z_m"));
+            const Interval y = across(solid, "solid.from_y_m", "solid.to_y_m");
+            const Vec3 from(required(solid, "solid.from_x_m"), y.from, required(solid, "solid.from_z_m"));
+            scene_.settings.solids.emplace_back(
+                SolidBox{from, Vec3(required(solid, "solid.to_x_m"), y.to, required(solid, "solid.to_z_m"))});
+        } else if (kind == "surface") {
+            read_surface(solid);
         } else if (kind == "plate") {
             const Eigen::Vector2d from(required(solid, "solid.from_x_m"), required(solid, "solid.from_z_m"));
             const Eigen::Vector2d to(required(solid, "solid.to_x_m"), required(solid, "solid.to_z_m"));
@@ -186,6 +220,31 @@ private:
             read_gate(solid);
         } else {
             read_funnel(solid);
+        }
+    }
+
+    /// A closed surface of a file, in metres.
+    void read_surface(const ParameterValues& solid) {
+        const std::string where = solid.where("solid.kind");
+        if (plane())
+            return refuse(where, "A surface in a plane scene", "Surfaces stand in space",
+                          "Set domain.dimensions = \"space\", or build it of boxes and plates");
+        if (!solid.has("solid.file")) return refuse(where, "solid.file is missing for a surface", "This kind needs it", "Add it");
+        const std::filesystem::path file = folder_ / solid.text("solid.file");
+        try {
+            geometry::TriangleSurface surface = geometry::read_surface(file);
+            const geometry::SoundnessReport report = geometry::inspect_surface(surface);
+            geometry::require_sound(report, file.string());
+            if ((report.bounds.min.array() >= Vec3(width(), scene_.settings.tank.depth, height()).array()).any() ||
+                (report.bounds.max.array() <= 0.0).any())
+                return refuse(where,
+                              fmt::format("{} lies outside the domain of {:g} x {:g} x {:g} m", file.string(), width(),
+                                          scene_.settings.tank.depth, height()),
+                              "Its coordinates are those of the scene, in metres", "Move or scale it");
+            scene_.settings.solids.emplace_back(SolidSurface{std::make_shared<const ClosedSurface>(std::move(surface))});
+            scene_.surfaces.push_back(file);
+        } catch (const UserError& error) {
+            mistakes_.insert(mistakes_.end(), error.mistakes().begin(), error.mistakes().end());
         }
     }
 
@@ -273,7 +332,22 @@ private:
         scene_.settings.solids.emplace_back(plate(left, left + Eigen::Vector2d(-way.x(), way.y()), wall));
     }
 
+    /// Spheres or cylinders: all of a scene are of one shape.
+    void read_shape(const ParameterValues& bodies) {
+        const bool spheres = bodies.text("bodies.shape") == "sphere";
+        const std::string where = bodies.where("bodies.diameter_m");
+        if (spheres && plane())
+            refuse(where, "Spheres in a plane scene", "A plane scene holds cylinders across it", "Set domain.dimensions = \"space\"");
+        if (scene_.bodies.size() > 0 && spheres != scene_.settings.spheres)
+            refuse(where, "Spheres and cylinders in one scene", "Bodies of a scene have one shape", "Give all [[bodies]] the same shape");
+        if (!spheres && (bodies.integer("bodies.rows") > 1 || bodies.has("bodies.centre_y_m")))
+            refuse(where, "bodies.rows or bodies.centre_y_m for cylinders", "Cylinders reach across the whole tank",
+                   "Remove it, or set bodies.shape = \"sphere\"");
+        scene_.settings.spheres = spheres;
+    }
+
     void read_bodies(const ParameterValues& bodies) {
+        read_shape(bodies);
         const double diameter = bodies.number("bodies.diameter_m"), density = bodies.number("bodies.density_kg_m3");
         const double across = diameter / cell();
         const std::string where = bodies.where("bodies.diameter_m");
@@ -293,6 +367,7 @@ private:
         for (ListedBody& body : bodies.has("bodies.file") ? listed(bodies) : stacked(bodies)) {
             body.z += shift(random);
             body.x += shift(random);
+            if (scene_.settings.spheres) body.y = body.y.value_or(0.5 * scene_.settings.tank.depth) + shift(random);
             add_body(body, diameter, density);
         }
     }
@@ -320,35 +395,48 @@ private:
         }
         std::vector<ListedBody> stack;
         const double diameter = bodies.number("bodies.diameter_m"), spacing = diameter + bodies.number("bodies.clearance_m");
-        const auto widest = bodies.integer("bodies.widest");
+        const auto widest = bodies.integer("bodies.widest"), rows = bodies.integer("bodies.rows");
+        const double centre_y = bodies.has("bodies.centre_y_m") ? bodies.number("bodies.centre_y_m") : 0.5 * scene_.settings.tank.depth;
         for (std::int64_t layer = 0; layer < bodies.integer("bodies.layers"); ++layer) {
             const auto count = std::max<std::int64_t>(1, layer % 2 == 0 ? widest : widest - 1);
             for (std::int64_t n = 0; n < count; ++n) {
                 const double x =
                     bodies.number("bodies.centre_x_m") + (static_cast<double>(n) - 0.5 * static_cast<double>(count - 1)) * spacing;
                 const double z = bodies.number("bodies.lowest_m") + 0.5 * diameter + static_cast<double>(layer) * std::sqrt(0.75) * spacing;
-                ListedBody body;
-                body.x = x;
-                body.z = z;
-                body.where = bodies.where("bodies.diameter_m");
-                stack.push_back(std::move(body));
+                for (std::int64_t row = 0; row < rows; ++row) {
+                    ListedBody body;
+                    body.x = x;
+                    body.y = centre_y + (static_cast<double>(row) - 0.5 * static_cast<double>(rows - 1)) * spacing;
+                    body.z = z;
+                    body.where = bodies.where("bodies.diameter_m");
+                    stack.push_back(std::move(body));
+                }
             }
         }
         return stack;
     }
 
+    /// A place in the words of the scene: x and z in a plane one.
+    std::string text_of(const Vec3& place) const {
+        if (plane()) return fmt::format("({:g}, {:g}) m", place.x(), place.z());
+        return fmt::format("({:g}, {:g}, {:g}) m", place.x(), place.y(), place.z());
+    }
+
     void add_body(const ListedBody& body, double diameter, double density) {
         coupling::Rocks& rocks = scene_.bodies;
-        const Vec3 place(body.x, 0.5 * scene_.settings.tank.depth, body.z);
+        const bool sphere = scene_.settings.spheres;
+        const double depth = scene_.settings.tank.depth;
+        const Vec3 place(body.x, sphere ? body.y.value_or(0.5 * depth) : 0.5 * depth, body.z);
         const std::string& where = body.where;
         const int id = body.id > 0 ? body.id : rocks.id.empty() ? 1 : *std::max_element(rocks.id.begin(), rocks.id.end()) + 1;
         const double radius = 0.5 * diameter;
         if (std::find(rocks.id.begin(), rocks.id.end(), id) != rocks.id.end())
             refuse(where, fmt::format("id {} is that of a body of another table", id), "Every body has an id of its own",
                    "Change the id, or leave the column out");
-        if (place.x() < radius || place.x() > width() - radius || place.z() < radius || place.z() > height() - radius)
-            refuse(where, fmt::format("Body {} at ({:g}, {:g}) m leaves the domain", id, place.x(), place.z()),
-                   fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move it, or the stack");
+        const bool leaves_across = sphere && (place.y() < radius || place.y() > depth - radius);
+        if (place.x() < radius || place.x() > width() - radius || place.z() < radius || place.z() > height() - radius || leaves_across)
+            refuse(where, fmt::format("Body {} at {} leaves the domain", id, text_of(place)),
+                   fmt::format("The domain reaches to {}", text_of(Vec3(width(), depth, height()))), "Move it, or the stack");
         for (std::size_t n = 0; n < rocks.size(); ++n) {
             const double between = (rocks.position[n] - place).norm() - 0.5 * rocks.diameter[n] - radius;
             if (between < 0.0)
@@ -357,17 +445,21 @@ private:
         }
         const auto reaches_into = [&](const StillSolid& solid) {
             if (is_inside(solid, place)) return true;
-            for (int n = 0; n < k_rim_points; ++n) {
-                const double angle = 2.0 * k_pi * n / k_rim_points;
-                if (is_inside(solid, place + radius * Vec3(std::cos(angle), 0.0, std::sin(angle)))) return true;
+            if (const auto* surface = std::get_if<SolidSurface>(&solid); surface && sphere)
+                return (surface->surface->nearest(place) - place).norm() < radius;
+            for (int m = 0; m < (sphere ? k_rims : 1); ++m) {
+                const double turn = k_pi * m / k_rims;
+                for (int n = 0; n < k_rim_points; ++n) {
+                    const double angle = 2.0 * k_pi * n / k_rim_points, out = std::cos(angle);
+                    if (is_inside(solid, place + radius * Vec3(out * std::cos(turn), out * std::sin(turn), std::sin(angle)))) return true;
+                }
             }
             return false;
         };
         const auto reaches_into_gate = [&](const Gate& gate) { return reaches_into(gate.closed); };
         if (std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), reaches_into) ||
             std::any_of(scene_.settings.gates.begin(), scene_.settings.gates.end(), reaches_into_gate))
-            refuse(where, fmt::format("Body {} at ({:g}, {:g}) m stands in a solid", id, place.x(), place.z()), "Bodies start free",
-                   "Move it, or the stack");
+            refuse(where, fmt::format("Body {} at {} stands in a solid", id, text_of(place)), "Bodies start free", "Move it, or the stack");
         rocks.id.push_back(id);
         rocks.position.push_back(place);
         rocks.velocity.push_back(body.velocity);
@@ -426,13 +518,15 @@ private:
             refuse(values_.where("contact.gap_m"), fmt::format("contact.gap_m = {:g} m", dem.contact_gap),
                    fmt::format("At least a quarter of a cell ({:g} m): water locked between bodies collapses", k_smallest_gap * cell()),
                    "Use a larger gap or smaller cells");
-        dem.shape = coupling::RockShape::cylinder;
-        dem.cylinder_length = scene_.settings.tank.depth;
+        dem.shape = scene_.settings.spheres ? coupling::RockShape::sphere : coupling::RockShape::cylinder;
+        if (!scene_.settings.spheres) dem.cylinder_length = scene_.settings.tank.depth;
         dem.domain.lower = Vec3::Zero();
         dem.domain.upper = Vec3(width(), scene_.settings.tank.depth, height());
         for (const auto side :
              {coupling::DomainSide::x_min, coupling::DomainSide::x_max, coupling::DomainSide::z_min, coupling::DomainSide::z_max})
             dem.domain.make_wall(side);
+        if (scene_.settings.spheres)
+            for (const auto side : {coupling::DomainSide::y_min, coupling::DomainSide::y_max}) dem.domain.make_wall(side);
         dem.fluid = {0.0, 0.0};
         dem.added_mass = 0.0;
         dem.gravity = scene_.settings.gravity;
@@ -471,11 +565,21 @@ private:
     std::vector<Mistake> mistakes_;
 };
 
-/// Corners of a solid in x and z, counter-clockwise seen against y.
-std::vector<Eigen::Vector2d> outline(const StillSolid& solid) {
-    if (const auto* prism = std::get_if<SolidPrism>(&solid)) return prism->corners;
-    const auto& box = std::get<SolidBox>(solid);
-    return {{box.from.x(), box.from.z()}, {box.to.x(), box.from.z()}, {box.to.x(), box.to.z()}, {box.from.x(), box.to.z()}};
+/// Corners of a solid in x and z, counter-clockwise seen against y, and its part of the tank's depth.
+struct Extruded {
+    std::vector<Eigen::Vector2d> corners;
+    Interval across;
+};
+
+/// None for a solid that has a surface of its own.
+std::optional<Extruded> extruded(const StillSolid& solid, double depth) {
+    const Interval tank{0.0, depth};
+    if (const auto* prism = std::get_if<SolidPrism>(&solid)) return Extruded{prism->corners, tank};
+    const auto* box = std::get_if<SolidBox>(&solid);
+    if (!box) return {};
+    return Extruded{
+        {{box->from.x(), box->from.z()}, {box->to.x(), box->from.z()}, {box->to.x(), box->to.z()}, {box->from.x(), box->to.z()}},
+        common({box->from.y(), box->to.y()}, tank)};
 }
 
 std::string facet(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -494,14 +598,25 @@ const ParameterTable& scene_table() {
         keys.push_back(name);
         keys.push_back(positive("domain.width_m", "m", {}, "Width of the tank, along x."));
         keys.push_back(positive("domain.height_m", "m", {}, "Height of the tank, along z."));
-        keys.push_back(positive("domain.length_m", "m", 0.1, "Length of the plane scene across, and of its cylinders."));
+        keys.push_back(choice("domain.dimensions", "plane", {"plane", "space"}, "A plane scene, or one in space with cells across."));
+        keys.push_back(positive("domain.length_m", "m", 0.1, "Length of the tank across, along y, and of its cylinders."));
         keys.push_back(positive("domain.cell_m", "m", {}, "Edge of a cell; a body needs at least 5, better 10 across."));
         keys.push_back(positive("water.density_kg_m3", "kg/m3", 1000.0, "Density of the water."));
         keys.push_back(number("water.kinematic_viscosity_m2_s", "m2/s", 1e-6, 0.0, "Kinematic viscosity of the water."));
         for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
             keys.push_back(
                 number(std::string("fill.") + key, "m", {}, 0.0, "Corner of a box of water at rest; solids in it are left out."));
-        keys.push_back(choice("solid.kind", {}, {"box", "plate", "pipe", "funnel", "gate"}, "What stands in the tank."));
+        for (const char* key : {"from_y_m", "to_y_m"})
+            keys.push_back(derived(number(std::string("fill.") + key, "m", {}, 0.0, "Where a box of water in space ends across."),
+                                   "the whole tank across"));
+        keys.push_back(choice("solid.kind", {}, {"box", "plate", "pipe", "funnel", "gate", "surface"}, "What stands in the tank."));
+        keys.push_back(file_name("solid.file",
+                                 "STL, OBJ or PLY file of a closed surface in a scene in space, in metres and in the scene's coordinates;"
+                                 " relative to the study file.",
+                                 "a surface needs it"));
+        for (const char* key : {"from_y_m", "to_y_m"})
+            keys.push_back(
+                derived(number(std::string("solid.") + key, "m", {}, 0.0, "Where a box in space ends across."), "the whole tank across"));
         for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
             keys.push_back(derived(number(std::string("solid.") + key, "m", {}, 0.0, "Corners of a box, or ends of a plate's side."),
                                    "box and plate need it"));
@@ -522,15 +637,19 @@ const ParameterTable& scene_table() {
             derived(positive("solid.hole_spacing_m", "m", {}, "Distance of the holes, from the bottom up."), "a pipe with holes needs it"));
         keys.push_back(bounded(positive("solid.angle_deg", "deg", 45.0, "Angle of a funnel's walls from the horizontal."), 89.0));
         keys.push_back(derived(positive("solid.wall_length_m", "m", {}, "Length of a funnel's walls."), "a funnel needs it"));
-        keys.push_back(positive("bodies.diameter_m", "m", {}, "Diameter of the cylinders."));
-        keys.push_back(positive("bodies.density_kg_m3", "kg/m3", 2700.0, "Density of the cylinders."));
+        keys.push_back(choice("bodies.shape", "cylinder", {"cylinder", "sphere"}, "Cylinders across the tank; spheres in space alone."));
+        keys.push_back(positive("bodies.diameter_m", "m", {}, "Diameter of the bodies."));
+        keys.push_back(positive("bodies.density_kg_m3", "kg/m3", 2700.0, "Density of the bodies."));
         keys.push_back(file_name("bodies.file",
-                                 "CSV file with the places of their centres: x_m,z_m and, if wanted, vx_m_s,vz_m_s,spin_rad_s,id;"
+                                 "CSV file with the places of their centres: x_m,z_m and, if wanted, vx_m_s,vz_m_s,spin_rad_s,id,"
+                                 " of spheres also y_m and vy_m_s;"
                                  " relative to the study file.",
                                  "a stack"));
         keys.push_back(whole("bodies.layers", 1, 1, "Layers of the stack."));
-        keys.push_back(whole("bodies.widest", 1, 1, "Cylinders in the first and every second layer; the others have one less."));
+        keys.push_back(whole("bodies.widest", 1, 1, "Bodies in the first and every second layer; the others have one less."));
+        keys.push_back(whole("bodies.rows", 1, 1, "Spheres behind each other, across the tank."));
         keys.push_back(derived(positive("bodies.centre_x_m", "m", {}, "Middle of the stack."), "a stack needs it"));
+        keys.push_back(derived(positive("bodies.centre_y_m", "m", {}, "Middle of a stack of spheres across."), "the tank's middle"));
         keys.push_back(derived(number("bodies.lowest_m", "m", {}, 0.0, "Lowest point of the stack."), "a stack needs it"));
         keys.push_back(number("bodies.clearance_m", "m", 0.0, 0.0, "Between neighbours."));
         keys.push_back(number("bodies.jitter_m", "m", 0.0, 0.0, "Largest random shift of a place; repeats differ in it."));
@@ -591,21 +710,24 @@ std::string enclosed_note(int waters, double time) {
 }
 
 std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth) {
-    std::string text = "solid walls\n";
+    std::string facets;
     for (const StillSolid& solid : solids) {
-        const std::vector<Eigen::Vector2d> corners = outline(solid);
-        const auto at = [&](std::size_t n, double y) {
+        const auto shape = extruded(solid, depth);
+        if (!shape) continue;
+        const auto& [corners, across] = *shape;
+        const auto at = [&corners = corners](std::size_t n, double y) {
             const Eigen::Vector2d& corner = corners[n % corners.size()];
             return Vec3(corner.x(), y, corner.y());
         };
+        const double near = across.from, far = across.to;
         for (std::size_t n = 0; n < corners.size(); ++n) {
-            text += facet(at(n, 0), at(n, depth), at(n + 1, depth)) + facet(at(n, 0), at(n + 1, depth), at(n + 1, 0));
+            facets += facet(at(n, near), at(n, far), at(n + 1, far)) + facet(at(n, near), at(n + 1, far), at(n + 1, near));
         }
         for (std::size_t n = 1; n + 1 < corners.size(); ++n) {
-            text += facet(at(0, 0), at(n, 0), at(n + 1, 0)) + facet(at(0, depth), at(n + 1, depth), at(n, depth));
+            facets += facet(at(0, near), at(n, near), at(n + 1, near)) + facet(at(0, far), at(n + 1, far), at(n, far));
         }
     }
-    return text + "endsolid walls\n";
+    return facets.empty() ? facets : "solid walls\n" + facets + "endsolid walls\n";
 }
 
 bool stops(const Scene& scene, const SceneReading& reading) {
@@ -616,16 +738,19 @@ bool stops(const Scene& scene, const SceneReading& reading) {
 ScenePrediction predict(const Scene& scene) {
     const TankSettings& tank = scene.settings.tank;
     ScenePrediction result;
-    result.cells = static_cast<double>(tank.cells[0]) * tank.cells[2];
+    const double across = tank.cells[1];
+    result.cells = static_cast<double>(tank.cells[0]) * across * tank.cells[2];
     double height = 0.0;
     for (const WaterBox& box : scene.settings.water.filled) {
         const double to_x = std::min(box.to.x(), tank.cells[0] * tank.cell), to_z = std::min(box.to.z(), tank.cells[2] * tank.cell);
-        result.water_cells += (to_x - box.from.x()) * (to_z - box.from.z()) / (tank.cell * tank.cell);
+        const double share = tank.plane ? 1.0 : common({box.from.y(), box.to.y()}, {0.0, tank.depth}).length() / tank.depth;
+        result.water_cells += share * across * (to_x - box.from.x()) * (to_z - box.from.z()) / (tank.cell * tank.cell);
         height = std::max(height, to_z);
     }
-    result.particles = 4.0 * result.water_cells;
+    result.particles = (tank.plane ? 4.0 : 8.0) * result.water_cells;
     double body_cells = 0.0;
-    for (const double diameter : scene.bodies.diameter) body_cells += diameter * diameter / (tank.cell * tank.cell);
+    for (const double diameter : scene.bodies.diameter)
+        body_cells += diameter * diameter / (tank.cell * tank.cell) * (scene.settings.spheres ? diameter / tank.cell : across);
     const double speed = 2.0 * std::sqrt(k_gravity * std::max(height, tank.cell));
     result.step = std::min(scene.settings.run.max_courant * tank.cell / speed, 0.7 * std::sqrt(tank.cell / k_gravity));
     result.steps = scene.end / result.step;

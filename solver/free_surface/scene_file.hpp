@@ -1,5 +1,5 @@
 #pragma once
-/// \file The file of a plane free-surface scene (scene.toml): its keys, and the scene that they describe.
+/// \file The file of a free-surface scene (scene.toml), plane or in space: its keys, and the scene that they describe.
 #include <filesystem>
 
 #include "geometry/base/parameters/parameter.hpp"
@@ -21,10 +21,11 @@ struct Scene {
     coupling::Rocks bodies;     ///< at the start
     double end = 0.0;           ///< [s]
     StopRule stop = StopRule::none;
-    double settle = 0.0;               ///< the run goes on for so long after its stop rule holds [s]
-    double write_interval = 0.0;       ///< [s]
-    double checkpoint_interval = 0.0;  ///< [s]
-    std::optional<PipeGauge> pipe;     ///< the first one
+    double settle = 0.0;                          ///< the run goes on for so long after its stop rule holds [s]
+    double write_interval = 0.0;                  ///< [s]
+    double checkpoint_interval = 0.0;             ///< [s]
+    std::optional<PipeGauge> pipe;                ///< the first one
+    std::vector<std::filesystem::path> surfaces;  ///< files of the solids of kind surface
     std::vector<Gauge> gauges;
     std::vector<std::string> notes;  ///< what the user should know: rounded sizes, coarse bodies
 };
@@ -42,7 +43,8 @@ std::vector<std::string> water_notes(const Scene& scene);
 /// That so many waters are enclosed from a time on [s].
 std::string enclosed_note(int waters, double time);
 
-/// Solids as one closed surface each, extruded across a tank of that depth, as text of an STL file [m].
+/// Boxes and plates as one closed surface each, across a tank of that depth, as text of an STL file [m]; empty without any. Solids of kind
+/// surface have files of their own.
 std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth);
 
 /// Whether a reading meets the stop rule of a scene: no body higher than the pipe's mouth, or a body at the right wall.

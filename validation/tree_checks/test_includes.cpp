@@ -68,9 +68,10 @@ const std::vector<Layer> k_layers = {
     {"solver/liggghts/", {k_base, "solver/physics/", "solver/ports/", "solver/space/steel_tree.hpp", "solver/liggghts/"}},
     {"solver/liggghts/contacts/", {k_base, "solver/physics/", "solver/ports/", "solver/liggghts/contacts/"}},
     {"solver/free_surface/cut_cells/",
-     {k_base, "solver/ports/", "solver/free_surface/grid.hpp", "solver/free_surface/cell_lists.hpp", "solver/free_surface/kernel.hpp",
-      "solver/free_surface/mirror.hpp", "solver/free_surface/cut_cells/"}},
-    {"solver/free_surface/", {k_base, "solver/physics/", "solver/ports/", "solver/free_surface/"}},
+     {k_base, "geometry/cgal/solid_search.hpp", "geometry/surface/", "solver/ports/", "solver/free_surface/grid.hpp",
+      "solver/free_surface/cell_lists.hpp", "solver/free_surface/kernel.hpp", "solver/free_surface/mirror.hpp",
+      "solver/free_surface/cut_cells/"}},
+    {"solver/free_surface/", {k_base, "geometry/io/", "geometry/surface/", "solver/physics/", "solver/ports/", "solver/free_surface/"}},
     {"solver/app/", {k_base, "solver/"}},
 
     {"postproc/run/", {k_base, k_head_shape, k_axial_bins, k_head_names, "postproc/run/"}},

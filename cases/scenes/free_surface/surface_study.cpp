@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -16,7 +17,13 @@ namespace cutterflow::cases {
 
 namespace {
 
-constexpr const char *k_kind = "free_surface", *k_body_file = "bodies.file";
+constexpr const char* k_kind = "free_surface";
+
+/// A key that names a file, and what its copies in a run directory are called.
+struct FileKey {
+    const char *table, *key, *name;
+};
+constexpr std::array<FileKey, 2> k_file_keys{{{"bodies", "bodies.file", "bodies"}, {"solid", "solid.file", "surface"}}};
 
 /// Text in quotes of the key `kind` above the first section of a TOML file; empty without it.
 std::string kind_of(const std::string& toml) {
@@ -49,6 +56,8 @@ nlohmann::json scene_json(const free_surface::Scene& scene) {
                         {"cell_m", tank.cell},
                         {"columns", tank.cells[0]},
                         {"rows", tank.cells[2]},
+                        {"layers", tank.cells[1]},
+                        {"spheres", scene.settings.spheres},
                         {"end_s", scene.end},
                         {"bodies", scene.bodies.size()},
                         {"diameter_m", scene.bodies.size() > 0 ? scene.bodies.diameter[0] : 0.0},
@@ -118,11 +127,14 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
 SurfaceInputs surface_inputs(const std::filesystem::path& study) {
     SurfaceInputs inputs{read_file(study), {}};
     ParameterValues values = read_placed_surface_study(study);
-    for (ParameterValues& bodies : values.tables_for_writing("bodies")) {
-        if (!bodies.has(k_body_file)) continue;
-        const std::string name = fmt::format("bodies_{}.csv", inputs.copies.size() + 1);
-        inputs.copies[name] = bodies.text(k_body_file);
-        bodies.set(k_body_file, name);
+    for (const auto& [table, key, what] : k_file_keys) {
+        for (ParameterValues& values_of_table : values.tables_for_writing(table)) {
+            if (!values_of_table.has(key)) continue;
+            const std::filesystem::path file = values_of_table.text(key);
+            const std::string name = fmt::format("{}_{}{}", what, inputs.copies.size() + 1, file.extension().string());
+            inputs.copies[name] = file;
+            values_of_table.set(key, name);
+        }
     }
     if (!inputs.copies.empty()) inputs.study = commented_toml(surface_study_table(), &values);
     return inputs;
@@ -130,9 +142,11 @@ SurfaceInputs surface_inputs(const std::filesystem::path& study) {
 
 ParameterValues read_placed_surface_study(const std::filesystem::path& study) {
     ParameterValues values = read_parameters(surface_study_table(), study);
-    for (ParameterValues& bodies : values.tables_for_writing("bodies")) {
-        if (bodies.has(k_body_file))
-            bodies.set(k_body_file, std::filesystem::absolute(study.parent_path() / bodies.text(k_body_file)).string());
+    for (const auto& [table, key, what] : k_file_keys) {
+        for (ParameterValues& values_of_table : values.tables_for_writing(table)) {
+            if (values_of_table.has(key))
+                values_of_table.set(key, std::filesystem::absolute(study.parent_path() / values_of_table.text(key)).string());
+        }
     }
     return values;
 }

@@ -23,7 +23,8 @@ std::string surface_study_template(const std::string& name);
 
 /// What a study asks for and what its run will take.
 struct SurfaceCheck {
-    nlohmann::json scene;            ///< name, width_m, height_m, cell_m, bodies, diameter_m, pipe {bottom_m, ...} or null, gauges
+    nlohmann::json scene;  ///< name, width_m, height_m, cell_m, columns, layers, rows, bodies, spheres, diameter_m, pipe {bottom_m, ...} or
+                           ///< null, gauges
     nlohmann::json prediction;       ///< cells, water_cells, particles, step_s, steps, core_s, memory_bytes, contact_step_s
     std::vector<std::string> notes;  ///< rounded sizes, coarse bodies
 };

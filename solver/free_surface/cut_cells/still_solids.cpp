@@ -62,6 +62,10 @@ std::vector<Interval> parts(const SolidCavity& cavity, const Line& line) {
     return {{-k_far, open.from}, {open.to, k_far}};
 }
 
+std::vector<Interval> parts(const SolidSurface& solid, const Line& line) {
+    return solid.surface->parts(line.direction, line.through);
+}
+
 std::optional<Vec3> out(const SolidBox& box, const Vec3& place) {
     double least = k_far;
     Vec3 way = place;
@@ -99,6 +103,11 @@ std::optional<Vec3> out(const SolidCavity& cavity, const Vec3& place) {
     const double distance = from_centre.norm();
     if (distance <= cavity.radius) return std::nullopt;
     return place - from_centre * (1.0 - cavity.radius / distance);
+}
+
+std::optional<Vec3> out(const SolidSurface& solid, const Vec3& place) {
+    if (!solid.surface->contains(place)) return std::nullopt;
+    return solid.surface->nearest(place);
 }
 
 }  // namespace

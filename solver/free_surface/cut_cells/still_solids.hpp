@@ -1,10 +1,12 @@
 #pragma once
-/// \file Solids that stand in the tank or move on a given path: boxes, plates across a plane scene, the outside of a round cavity.
+/// \file Solids that stand in the tank or move on a given path: boxes, plates across the tank, the outside of a round cavity, closed
+/// surfaces of triangles.
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
 
-#include "solver/free_surface/cut_cells/covered_area.hpp"
+#include "solver/free_surface/cut_cells/closed_surface.hpp"
 
 namespace cutterflow::free_surface {
 
@@ -30,9 +32,14 @@ struct SolidCavity {
     bool sphere = false;
 };
 
-using StillSolid = std::variant<SolidBox, SolidPrism, SolidCavity>;
+/// The inside of a closed surface of triangles.
+struct SolidSurface {
+    std::shared_ptr<const ClosedSurface> surface;
+};
 
-/// Parts of a line inside a solid, at most two.
+using StillSolid = std::variant<SolidBox, SolidPrism, SolidCavity, SolidSurface>;
+
+/// Parts of a line inside a solid.
 std::vector<Interval> covered_parts(const StillSolid& solid, const Line& line);
 
 /// The place on the solid's surface nearest to a place inside it; none when the place is outside.

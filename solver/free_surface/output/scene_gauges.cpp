@@ -8,13 +8,13 @@ namespace cutterflow::free_surface {
 namespace {
 
 /// Height [m] of the surface in a column, from cell `lowest` up.
-double column_level(const SurfaceRun& run, int i, int lowest) {
+double column_level(const SurfaceRun& run, int i, int j, int lowest) {
     const StaggeredGrid& grid = run.grid();
     const WaterFraction& water = run.water();
     double level = lowest * grid.spacing();
     int below = -1;
     for (int k = lowest; k < grid.cells(2); ++k) {
-        const int cell = grid.at(i, 0, k);
+        const int cell = grid.at(i, j, k);
         if (water.kind[cell] == CellKind::closed) continue;
         if (water.kind[cell] == CellKind::air) {
             if (below >= 0 && below == cell - grid.stride(2))
@@ -41,12 +41,14 @@ void read_pipe(const SurfaceRun& run, const PipeGauge& pipe, SceneReading& readi
     const int bottom = plane(pipe.bottom), top = plane(pipe.top);
     const int left = plane(pipe.axis - 0.5 * pipe.inner_width), right = plane(pipe.axis + 0.5 * pipe.inner_width);
     int inside = 0;
-    for (int i = left; i < right; ++i, ++inside) {
-        reading.mouth_flow += flow(run, 2, grid.at(i, 0, bottom));
-        reading.level_in_pipe += column_level(run, i, bottom);
+    for (int j = 0; j < grid.cells(1); ++j) {
+        for (int i = left; i < right; ++i, ++inside) {
+            reading.mouth_flow += flow(run, 2, grid.at(i, j, bottom));
+            reading.level_in_pipe += column_level(run, i, j, bottom);
+        }
+        for (int k = bottom; k < top; ++k) reading.hole_flow += flow(run, 0, grid.at(left, j, k)) - flow(run, 0, grid.at(right, j, k));
     }
     reading.level_in_pipe /= std::max(1, inside);
-    for (int k = bottom; k < top; ++k) reading.hole_flow += flow(run, 0, grid.at(left, 0, k)) - flow(run, 0, grid.at(right, 0, k));
     const WaterParticles& water = run.particles();
     for (std::size_t p = 0; p < water.size(); ++p) {
         const double z = water.position[2][p];
@@ -73,14 +75,15 @@ GaugeReading read_gauge(const SurfaceRun& run, const Gauge& gauge) {
     const auto clamped = [&](int n, int d) { return std::clamp(n, 0, grid.cells(d) - 1); };
     const double h = grid.spacing();
     GaugeReading reading;
-    reading.level = column_level(run, clamped(static_cast<int>(std::floor(gauge.x / h)), 0), 0);
+    const int middle = grid.cells(1) / 2;
+    reading.level = column_level(run, clamped(static_cast<int>(std::floor(gauge.x / h)), 0), middle, 0);
     if (!gauge.z) return reading;
     const double s = gauge.x / h - 0.5, t = *gauge.z / h - 0.5;
     const int i = static_cast<int>(std::floor(s)), k = static_cast<int>(std::floor(t));
     double sum = 0.0, weights = 0.0;
     for (const int a : {0, 1}) {
         for (const int c : {0, 1}) {
-            const int cell = grid.at(clamped(i + a, 0), 0, clamped(k + c, 2));
+            const int cell = grid.at(clamped(i + a, 0), middle, clamped(k + c, 2));
             if (run.cells().closed[cell]) continue;
             const double weight = (1.0 - std::abs(s - i - a)) * (1.0 - std::abs(t - k - c));
             sum += weight * run.pressure()[cell];
@@ -97,8 +100,7 @@ SceneReading read_gauges(const SurfaceRun& run, const std::optional<PipeGauge>& 
     int columns = 0;
     for (int i = 0; i < grid.cells(0); ++i) {
         if (pipe && !pipe->is_outside((i + 0.5) * grid.spacing())) continue;
-        reading.level += column_level(run, i, 0);
-        ++columns;
+        for (int j = 0; j < grid.cells(1); ++j, ++columns) reading.level += column_level(run, i, j, 0);
     }
     reading.level /= std::max(1, columns);
     if (pipe) read_pipe(run, *pipe, reading);

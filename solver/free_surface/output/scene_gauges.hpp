@@ -7,7 +7,7 @@
 
 namespace cutterflow::free_surface {
 
-/// An upright pipe of a plane scene. Its inside reaches from its bottom up; holes are open places of its walls.
+/// An upright pipe, in space one of two walls across the tank. Its inside reaches from its bottom up; holes are open places of its walls.
 struct PipeGauge {
     double axis = 0.0, inner_width = 0.0, wall = 0.0;  ///< [m]
     double bottom = 0.0, top = 0.0;                    ///< [m]
@@ -27,7 +27,7 @@ struct SceneReading {
     double farthest = 0.0;           ///< largest x that a body's surface reaches [m]
 };
 
-/// A place at which level and pressure are read.
+/// A place at which level and pressure are read, in space in the middle of the tank.
 struct Gauge {
     std::string name;
     double x = 0.0;           ///< [m]

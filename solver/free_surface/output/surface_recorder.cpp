@@ -48,8 +48,9 @@ SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double sta
     levels_ = open_rows(folder_ / "levels" / start / "levels.csv",
                         "time_s,level_m,level_in_pipe_m,mouth_flow_m3_s,hole_flow_m3_s,volume_in_pipe_m3,bodies_in_pipe,rise_in_pipe_m_s,"
                         "mean_x_m,mean_z_m,farthest_x_m");
-    rows_ = open_rows(folder_ / "bodies" / start / "bodies.csv",
-                      "time_s,id,x_m,z_m,vx_m_s,vz_m_s,spin_y_rad_s,water_force_x_n,water_force_z_n,contact_force_x_n,contact_force_z_n");
+    rows_ = open_rows(
+        folder_ / "bodies" / start / "bodies.csv",
+        "time_s,id,x_m,z_m,vx_m_s,vz_m_s,spin_y_rad_s,water_force_x_n,water_force_z_n,contact_force_x_n,contact_force_z_n,y_m,vy_m_s");
     if (!gauges_.empty()) gauge_rows_ = open_rows(folder_ / "gauges" / start / "gauges.csv", "time_s,gauge,level_m,pressure_pa");
 }
 
@@ -80,9 +81,9 @@ void SurfaceRecorder::output(const SurfaceRun& run, const coupling::DemEngine* b
             const Body& body = run.bodies()[b];
             const Vec3 water = b < report.body_force.size() ? report.body_force[b] : Vec3(Vec3::Zero());
             const Vec3 contact = b < report.contact_force.size() ? report.contact_force[b] : Vec3(Vec3::Zero());
-            fmt::print(rows_, "{:.9g},{},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", run.time(),
+            fmt::print(rows_, "{:.9g},{},{:.9g},{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.9g},{:.6g}\n", run.time(),
                        bodies->rocks().id[b], body.position.x(), body.position.z(), body.velocity.x(), body.velocity.z(), body.spin.y(),
-                       water.x(), water.z(), contact.x(), contact.z());
+                       water.x(), water.z(), contact.x(), contact.z(), body.position.y(), body.velocity.y());
         }
         write_bodies(run, name);
         write_series("bodies", "vtp");
