@@ -384,6 +384,11 @@ private:
             if (mistake.where.empty()) mistake.where = bodies.where("bodies.file");
             mistakes_.push_back(std::move(mistake));
         }
+        for (const ListedBody& body : list) {
+            if (body.y && !scene_.settings.spheres)
+                refuse(body.where, fmt::format("The cylinder at x = {:g} m has a place across", body.x), "Cylinders reach across the tank",
+                       "Leave the column y_m out, or set bodies.shape = \"sphere\"");
+        }
         return list;
     }
 
