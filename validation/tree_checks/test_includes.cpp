@@ -36,6 +36,7 @@ const std::vector<Layer> k_layers = {
     {"geometry/repair/", {k_base, "geometry/surface/", "geometry/cgal/", "geometry/io/", "geometry/repair/"}},
     {"geometry/head/", {k_base, "geometry/surface/", "geometry/cgal/", "geometry/io/", "geometry/head/"}},
     {"geometry/packing/", {k_base, "geometry/cgal/", k_head_shape, "geometry/packing/"}},
+    {"geometry/clump/", {k_base, "geometry/surface/surface.hpp", "geometry/clump/"}},
     {"geometry/soil/", {k_base, "geometry/surface/", "geometry/cgal/", k_head_shape, "geometry/soil/"}},
     {"geometry/tests/", {"geometry/"}},
 
