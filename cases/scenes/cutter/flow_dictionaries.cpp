@@ -235,7 +235,7 @@ std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
         .add("checkMeshCourantNo", false)
         .add("turbOnFinalIterOnly", true);
     meshing::FoamDictionary solution;
-    solution.add("solvers", solvers).add("PIMPLE", pimple);
+    solution.add("cache", one("grad(U)", "on")).add("solvers", solvers).add("PIMPLE", pimple);
 
     const RunTimes& times = inputs.times;
     meshing::FoamDictionary control;

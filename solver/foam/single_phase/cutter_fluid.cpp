@@ -203,6 +203,7 @@ tmp<vectorField> CutterFluid::vorticity() const {
 }
 
 tmp<vectorField> CutterFluid::stress_divergence() const {
+    const KeptGradients gradients(mesh_);
     const volScalarField nuEff("nuEff", turbulence_.nuEff());
     return fvc::div(nuEff * dev2(T(fvc::grad(U_))))().primitiveField() + fvc::laplacian(nuEff, U_)().primitiveField();
 }

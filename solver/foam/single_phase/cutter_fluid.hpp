@@ -120,6 +120,7 @@ private:
     void take_exchange(const coupling::MomentumExchange& exchange);
     Foam::tmp<Foam::fvVectorMatrix> momentum_matrix(const Foam::fvVectorMatrix& stress);
     Foam::tmp<Foam::fvVectorMatrix> viscous_matrix();
+    Foam::tmp<Foam::fvVectorMatrix> convection(const Foam::surfaceScalarField& flux);
     void add_exchange(Foam::fvVectorMatrix& momentum);
     void predict_velocity(Foam::fvVectorMatrix& momentum);
     void correct_pressure(Foam::fvVectorMatrix& momentum);
@@ -134,6 +135,7 @@ private:
     void correct_turbulence();
     void watch_clipping();
     void update_material_acceleration();
+    Foam::tmp<Foam::surfaceVectorField> momentum_flux();
     void update_received(const Foam::fvVectorMatrix& stress);
     void update_outside_momentum(const Foam::fvVectorMatrix& stress, const Foam::surfaceVectorField& through);
     void restore_state();

@@ -9,8 +9,7 @@ namespace cutterflow::foam {
 using namespace Foam;
 
 tmp<fvVectorMatrix> CutterFluid::momentum_matrix(const fvVectorMatrix& stress) {
-    tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + fvm::div(alphaPhi_, U_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) +
-                               stress);
+    tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + convection(alphaPhi_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) + stress);
     if (rock_ == RockPresence::present) add_exchange(matrix.ref());
     if (soil_) matrix.ref() += fvm::Sp(soil_->sink().internalField(), U_);
     if (!sources_.empty()) matrix.ref() -= sources_(U_);
@@ -19,14 +18,20 @@ tmp<fvVectorMatrix> CutterFluid::momentum_matrix(const fvVectorMatrix& stress) {
     return matrix;
 }
 
+tmp<fvVectorMatrix> CutterFluid::convection(const surfaceScalarField& flux) {
+    const KeptGradients gradients(mesh_);
+    return fvm::div(flux, U_);
+}
+
 /// -div(alpha tau). The viscosity weighted with alpha carries the plain viscosity's name, so that ordinary fvSchemes hold for it.
 tmp<fvVectorMatrix> CutterFluid::viscous_matrix() {
+    const KeptGradients gradients(mesh_);
     const volScalarField nuEff("nuEff", alpha_ * turbulence_.nuEff());
     return -fvc::div(nuEff * dev2(T(fvc::grad(U_)))) - fvm::laplacian(nuEff, U_);
 }
 
 void CutterFluid::add_exchange(fvVectorMatrix& momentum) {
-    momentum += inertia_ * (fvm::ddt(U_) + fvm::div(phi_, U_) - fvm::Sp(growth_rate(mesh_) + fvc::div(phi_)().internalField(), U_));
+    momentum += inertia_ * (fvm::ddt(U_) + convection(phi_) - fvm::Sp(growth_rate(mesh_) + fvc::div(phi_)().internalField(), U_));
     momentum += fvm::Sp(drag_rate_, U_);
     momentum -= explicit_source_ + drag_rate_ * U_.oldTime().internalField() + inertia_.internalField() * DuDt_.oldTime().internalField();
 }

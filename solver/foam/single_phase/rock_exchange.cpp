@@ -63,15 +63,25 @@ void CutterFluid::take_exchange(const coupling::MomentumExchange& exchange) {
 /// Du/Dt with the operators of the matrix: Euler on the moving cells and convection by the relative flux.
 void CutterFluid::update_material_acceleration() {
     const volScalarField::Internal divergence(growth_rate(mesh_) + fvc::div(phi_)().internalField());
-    DuDt_.ref() = fvc::ddt(U_)().internalField() + fvc::div(phi_, U_)().internalField() - divergence * U_.internalField();
+    DuDt_.ref() = fvc::ddt(U_)().internalField() - divergence * U_.internalField();
+    {
+        const KeptGradients gradients(mesh_);
+        DuDt_.ref() += fvc::div(phi_, U_)().internalField();
+    }
     if (!half_turn_.empty()) DuDt_.primitiveFieldRef() += turning_rate();
     DuDt_.correctBoundaryConditions();
+}
+
+/// alpha phi u at the faces [m4/s2].
+tmp<surfaceVectorField> CutterFluid::momentum_flux() {
+    const KeptGradients gradients(mesh_);
+    return fvc::flux(alphaPhi_, U_, "div(phi,U)");
 }
 
 /// What the state shows: gain of momentum and its outflow, less pressure and stress. The pressure has made the last flux, so that its
 /// remaining error of continuity takes no momentum along and a uniform flow receives nothing.
 void CutterFluid::update_received(const fvVectorMatrix& stress) {
-    const surfaceVectorField through(fvc::flux(alphaPhi_, U_, "div(phi,U)"));
+    const surfaceVectorField through(momentum_flux());
     received_ = fvc::ddt(alpha_, U_)().primitiveField() + fvc::div(through)().primitiveField() -
                 continuity_residual() / mesh_.V().field() * U_.primitiveField() + pressure_gradient()().primitiveField() +
                 (stress & U_)().primitiveField();
