@@ -86,6 +86,8 @@ const std::vector<Layer> k_layers = {
       "cases/study/"}},
     {"cases/scenes/cutter/", {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "cases/study/", "cases/scenes/cutter/"}},
     {"cases/scenes/free_surface/", {k_base, "solver/free_surface/", "cases/scenes/free_surface/"}},
+    {"cases/scenes/room/",
+     {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "postproc/analysis/measures/", "cases/scenes/room/"}},
     {"cases/runner/", {"geometry/", "meshing/", "solver/ports/", "postproc/pages/", "cases/study/", "cases/scenes/", "cases/runner/"}},
     {"cases/replay/",
      {k_base, "geometry/io/", "geometry/head/", "meshing/dictionary/", "postproc/analysis/", "postproc/run/", "cases/study/",

@@ -1,0 +1,65 @@
+#include "cases/scenes/room/room_scene.hpp"
+
+#include <algorithm>
+
+#include "geometry/base/axis_frame.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+double volume_of_sphere(double diameter) {
+    return k_pi * diameter * diameter * diameter / 6.0;
+}
+
+struct Contains {
+    const Vec3& place;
+
+    bool operator()(const RegionEverything&) const { return true; }
+    bool operator()(const RegionBox& box) const {
+        return (place.array() >= box.lower.array()).all() && (place.array() <= box.upper.array()).all();
+    }
+    bool operator()(const RegionSphere& sphere) const { return (place - sphere.centre).norm() <= sphere.radius; }
+    bool operator()(const RegionCylinder& cylinder) const {
+        const Vec3 axis = cylinder.to - cylinder.from;
+        const double along = (place - cylinder.from).dot(axis) / axis.squaredNorm();
+        return along >= 0.0 && along <= 1.0 && (place - cylinder.from - along * axis).norm() <= cylinder.radius;
+    }
+    bool operator()(const RegionHalfSpace& half) const { return (place - half.point).dot(half.normal) > 0.0; }
+};
+
+}  // namespace
+
+bool contains(const Region& region, const Vec3& place) {
+    return std::visit(Contains{place}, region);
+}
+
+double RoomGrains::smallest() const {
+    if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) return uniform->smallest;
+    const auto& classes = std::get<std::vector<GrainClass>>(sizes);
+    return std::min_element(classes.begin(), classes.end(), [](const auto& a, const auto& b) { return a.diameter < b.diameter; })->diameter;
+}
+
+double RoomGrains::largest() const {
+    if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) return uniform->largest;
+    const auto& classes = std::get<std::vector<GrainClass>>(sizes);
+    return std::max_element(classes.begin(), classes.end(), [](const auto& a, const auto& b) { return a.diameter < b.diameter; })->diameter;
+}
+
+double RoomGrains::mean_volume() const {
+    if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) {
+        const double a = uniform->smallest, b = uniform->largest;
+        return k_pi / 6.0 * 0.25 * (a + b) * (a * a + b * b);  // of the mean of d^3 over [a, b]
+    }
+    double grains_per_volume = 0.0;  // shares of mass are shares of volume: one density
+    for (const GrainClass& one : std::get<std::vector<GrainClass>>(sizes))
+        grains_per_volume += one.mass_share / volume_of_sphere(one.diameter);
+    return 1.0 / grains_per_volume;
+}
+
+const RoomGrains* RoomScene::find_grains(const std::string& wanted) const {
+    const auto found = std::find_if(grains.begin(), grains.end(), [&](const RoomGrains& one) { return one.name == wanted; });
+    return found == grains.end() ? nullptr : &*found;
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,249 @@
+#pragma once
+/// \file A room as its study describes it: a box with solids, grains and perhaps a medium. SI units; x and y are centred on 0, z runs from
+/// 0 up. Everything that builds a room's case works from this alone.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/vec3.hpp"
+#include "geometry/surface/surface.hpp"
+#include "solver/ports/dem_settings.hpp"
+
+namespace cutterflow::cases {
+
+/// Parts of space. Grains belong to one by their centres.
+struct RegionEverything {};
+struct RegionBox {
+    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
+};
+struct RegionSphere {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0.0;
+};
+struct RegionCylinder {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< ends of its axis
+    double radius = 0.0;
+};
+/// Where (place - point) . normal > 0.
+struct RegionHalfSpace {
+    Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
+};
+using Region = std::variant<RegionEverything, RegionBox, RegionSphere, RegionCylinder, RegionHalfSpace>;
+
+bool contains(const Region& region, const Vec3& place);
+
+/// What fills the room.
+struct RoomMedium {
+    std::string name = "none";         ///< water, air or none
+    double density = 0.0;              ///< [kg/m3]; 0 for none
+    double kinematic_viscosity = 0.0;  ///< [m2/s]; 0 for none
+    std::string turbulence;            ///< realizableKE, laminar; empty for none
+
+    bool present() const { return name != "none"; }
+};
+
+/// Smaller cells in a part of the room.
+struct RoomRefinement {
+    Region region;  ///< a box or a cylinder
+    double cell = 0.0;
+};
+
+/// A round hole along a straight axis, as of a pipe: `inside = "pipe"` names the disc that it cuts out of a side.
+struct Bore {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+    double radius = 0.0;
+};
+
+struct RoomSolid {
+    std::string name;
+    geometry::TriangleSurface surface;  ///< closed, outward; where it stands at first
+    bool felt_by_fluid = true;          ///< false: grains alone feel it
+    std::string material;
+    std::optional<coupling::WallTravel> travel;
+    std::optional<double> removed_at;  ///< [s]; negative: it is there for the preparation alone
+    std::optional<Bore> bore;
+    double thinnest = 0.0;  ///< its thinnest part, for the mesh [m]; 0: not known, as of a file
+};
+
+/// What grains meet at a side of the room.
+enum class SideForGrains { wall, open, frictionless };
+
+/// Part of a side that a boundary condition holds on.
+struct WholeSide {};
+/// Of the vertical sides: what lies above (or below) a level [m].
+struct SideBand {
+    double from = 0.0, to = 0.0;
+};
+struct SideDisc {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0.0;
+};
+struct SideRectangle {
+    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
+};
+using SidePart = std::variant<WholeSide, SideBand, SideDisc, SideRectangle>;
+
+/// A value that changes linearly from one time to another.
+struct Ramp {
+    double from = 0.0, to = 0.0;  ///< [s]
+    double before = 0.0, after = 0.0;
+};
+
+struct NoSlip {};
+struct Slip {};
+struct RoughWall {
+    double height = 0.0;  ///< k_s [m]
+};
+struct FixedPressure {};
+/// Velocity through the part, by time; positive into the room for an inflow, out of it for an outflow.
+struct ThroughFlow {
+    bool into_room = true;
+    std::vector<std::pair<double, double>> speed;  ///< time [s], mean speed over the part [m/s]; linear between, constant outside
+    std::filesystem::path profile;  ///< CSV z_m,u_m_s[,k_m2_s2,epsilon_m2_s3] whose values are scaled to the speed; empty: uniform
+};
+using SideFlow = std::variant<NoSlip, Slip, RoughWall, FixedPressure, ThroughFlow>;
+
+/// A boundary condition of the fluid on a part of sides. Later rows cover earlier ones. Without a row a side is a wall with no slip.
+struct RoomBoundary {
+    std::string name;  ///< of its patch
+    std::vector<coupling::DomainSide> sides;
+    SidePart part;
+    SideFlow flow;
+};
+
+/// Elastic numbers of a material. The DEM knows one Young's modulus for all.
+struct RoomMaterial {
+    std::string name;
+    double poisson = 0.25;
+};
+
+/// Contacts of the grains' material with itself or with another one.
+struct RoomPair {
+    std::string other;  ///< name of the material
+    coupling::PairSettings settings;
+};
+
+/// Diameters of a kind of grains.
+struct GrainClass {
+    double diameter = 0.0;    ///< [m]
+    double mass_share = 1.0;  ///< they sum to 1
+};
+struct UniformByNumber {
+    double smallest = 0.0, largest = 0.0;  ///< [m]
+};
+using GrainSizes = std::variant<std::vector<GrainClass>, UniformByNumber>;
+
+struct RoomGrains {
+    std::string name;
+    double density = 0.0;  ///< [kg/m3]
+    GrainSizes sizes;
+    std::filesystem::path clump;  ///< file of a clump; empty: spheres
+
+    double smallest() const;     ///< [m]
+    double largest() const;      ///< [m]
+    double mean_volume() const;  ///< of a grain [m3], by number
+};
+
+/// Steps of the preparation, in still medium before t = 0.
+struct PourStep {
+    std::string grains;
+    Region region;      ///< a box or an upright cylinder, whose lower end the grains come to lie on
+    double mass = 0.0;  ///< [kg]
+};
+/// Until the grains are at rest.
+struct SettleStep {
+    double longest = 0.0;  ///< refused when grains are not at rest by then [s]
+};
+/// Grains whose centres are in the region are taken out.
+struct TrimStep {
+    Region region;
+};
+/// Grains whose centres are in the region stay where they are.
+struct FreezeStep {
+    Region region;
+};
+using PrepareStep = std::variant<PourStep, SettleStep, TrimStep, FreezeStep>;
+
+/// Events of the run.
+struct FeedEvent {
+    std::string grains;
+    double from = 0.0, to = 0.0;  ///< [s]
+    double rate = 0.0;            ///< [kg/s]
+    Region region;                ///< a box or an upright cylinder in which grains begin
+};
+struct ExtractEvent {
+    double from = 0.0, to = 0.0;  ///< [s]
+    double rate = 0.0;            ///< [kg/s]
+    Region region;
+};
+struct RegionEvent {
+    std::string what;  ///< remove, freeze or thaw
+    double at = 0.0;   ///< [s]
+    Region region;
+};
+using RoomEvent = std::variant<FeedEvent, ExtractEvent, RegionEvent>;
+
+/// A plane opening at which every crossing of a grain's centre is counted: disc or rectangle.
+struct RoomGate {
+    std::string name;
+    Vec3 centre = Vec3::Zero(), normal = Vec3::UnitZ();
+    double radius = 0.0;                              ///< 0: a rectangle
+    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< opposite corners of a rectangle
+};
+
+/// The run ends before its end when no grain has passed a gate for a time, or when all are at rest.
+struct StopWhenIdle {
+    std::string gate;
+    double idle = 0.0;  ///< [s]
+};
+struct StopWhenAtRest {};
+using RoomStop = std::variant<std::monostate, StopWhenIdle, StopWhenAtRest>;
+
+struct RoomRun {
+    double end = 0.0;                  ///< [s]
+    double write_interval = 0.0;       ///< between pictures [s]
+    double checkpoint_interval = 0.0;  ///< [s]
+    double longest_step = 0.0;         ///< between looks at events, pictures and stop rules without a medium; at most, with one [s]
+    std::uint64_t seed = 1;            ///< of every random number
+    RoomStop stop;
+};
+
+struct RoomScene {
+    std::string name;
+    Vec3 size = Vec3::Zero();
+    Vec3 gravity = Vec3(0.0, 0.0, -9.81);
+    RoomMedium medium;
+    double cell = 0.0;  ///< of the mesh [m]; 0 without a medium
+    std::vector<RoomRefinement> refinements;
+
+    std::vector<RoomSolid> solids;
+    std::vector<RoomBoundary> boundaries;  ///< of the fluid; empty without a medium
+    std::array<SideForGrains, 6> sides{};  ///< by coupling::DomainSide
+    std::string side_material;             ///< of the sides that are walls
+
+    coupling::ContactSettings contact;  ///< Young's modulus, Poisson ratios, rolling law, share of the stable step, fastest impact
+    std::string grain_material;
+    std::vector<RoomPair> pairs;  ///< the grains' material with itself and with every material of solids and sides
+
+    std::vector<RoomGrains> grains;
+    std::vector<PrepareStep> preparation;
+    std::vector<RoomEvent> events;
+    nlohmann::json measures = nlohmann::json::array();  ///< tables [[measure]] as they are, with absolute defaults filled in
+    std::vector<RoomGate> gates;                        ///< of measures that count what passes, by the measure's name
+    RoomRun run;
+
+    // Settings of the coupling; they count with a medium.
+    coupling::KernelSettings kernel;
+    coupling::ClosureSettings closures;
+
+    Vec3 lower() const { return {-0.5 * size.x(), -0.5 * size.y(), 0.0}; }
+    Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
+    const RoomGrains* find_grains(const std::string& name) const;
+};
+
+}  // namespace cutterflow::cases
