@@ -1,0 +1,327 @@
+#include "postproc/analysis/calibration/estimate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+
+#include "postproc/analysis/calibration/optimiser.hpp"
+
+namespace cutterflow::postproc::calibration {
+
+namespace {
+
+constexpr double k_confidence = 0.95;
+constexpr double k_normal_quantile = 1.959964;  // of 0.975
+
+/// Values along each parameter of the net that is searched: 1 to 4 parameters.
+constexpr std::array<Eigen::Index, 4> k_net{401, 81, 31, 15};
+
+/// What chi^2 may rise in the region of `count` parameters.
+double rise(std::size_t count, double freedom) {
+    const auto p = static_cast<double>(count);
+    if (freedom <= 0.0) return quantile(boost::math::chi_squared(p), k_confidence);
+    return p * quantile(boost::math::fisher_f(p, freedom), k_confidence);
+}
+
+/// A regular net over all scaled parameters with the values on it.
+struct Net {
+    Eigen::Index parameters = 0, side = 0;
+    std::vector<double> objective, chi_squared;
+
+    std::size_t size() const { return objective.size(); }
+    double coordinate(Eigen::Index index) const { return -1.0 + 2.0 * static_cast<double>(index) / static_cast<double>(side - 1); }
+    Eigen::Index index(std::size_t node, Eigen::Index parameter) const {
+        auto rest = static_cast<Eigen::Index>(node);
+        for (Eigen::Index k = 0; k < parameter; ++k) rest /= side;
+        return rest % side;
+    }
+    Eigen::VectorXd place(std::size_t node) const {
+        Eigen::VectorXd at(parameters);
+        for (Eigen::Index k = 0; k < parameters; ++k) at[k] = coordinate(index(node, k));
+        return at;
+    }
+};
+
+class Search {
+public:
+    Search(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function)
+        : surface_(surface), ranges_(ranges), function_(function) {
+        net_.parameters = static_cast<Eigen::Index>(ranges.size());
+        net_.side = k_net[ranges.size() - 1];
+        std::size_t nodes = 1;
+        for (std::size_t k = 0; k < ranges.size(); ++k) nodes *= static_cast<std::size_t>(net_.side);
+        net_.objective.resize(nodes);
+        net_.chi_squared.resize(nodes);
+        for (std::size_t node = 0; node < nodes; ++node) {
+            const Eigen::VectorXd at = net_.place(node);
+            net_.objective[node] = objective(at);
+            net_.chi_squared[node] = surface_.chi_squared(at);
+        }
+    }
+
+    Estimate result() const {
+        Estimate found;
+        const Eigen::VectorXd best = best_place(net_.objective, [this](const Eigen::VectorXd& at) { return objective(at); });
+        found.parameters = unscaled(ranges_, best);
+        found.objective = objective(best);
+        found.model = surface_.model(best);
+        const auto chi = [this](const Eigen::VectorXd& at) { return surface_.chi_squared(at); };
+        const Eigen::VectorXd likeliest = best_place(net_.chi_squared, chi);
+        found.least_chi_squared = chi(likeliest);
+        const double spare = static_cast<double>(surface_.targets().size()) - static_cast<double>(ranges_.size());
+        if (spare > 0.0 && found.least_chi_squared > quantile(boost::math::chi_squared(spare), k_confidence))
+            found.contradiction = found.least_chi_squared / spare;
+        const double freedom = surface_.degrees_of_freedom();
+        const double limit = rise(1, freedom) * found.contradiction, region = rise(ranges_.size(), freedom) * found.contradiction;
+        for (Eigen::Index k = 0; k < net_.parameters; ++k) {
+            found.profiles.push_back(profile(k, likeliest, found.least_chi_squared, limit));
+            found.intervals.push_back(interval(k, found.profiles.back(), likeliest));
+        }
+        for (Eigen::Index k = 0; k < net_.parameters; ++k)
+            for (Eigen::Index l = k + 1; l < net_.parameters; ++l) found.maps.push_back(map(k, l, found.least_chi_squared, region));
+        found.directions = directions(likeliest, limit);
+        return found;
+    }
+
+private:
+    double objective(const Eigen::VectorXd& at) const { return objective_of(function_, surface_.targets(), surface_.model(at)); }
+
+    Eigen::VectorXd best_place(const std::vector<double>& values, const Function& function) const {
+        const auto node = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
+        const Eigen::VectorXd start = net_.place(node), polished = minimum_near(function, start);
+        return function(polished) < values[node] ? polished : start;
+    }
+
+    /// Least value of chi^2 with one parameter held, from the best node of its slice.
+    double least_with(Eigen::Index held, double value, std::size_t node) const {
+        Eigen::VectorXd start = net_.place(node);
+        if (net_.parameters == 1) return net_.chi_squared[node];
+        Eigen::VectorXd free(net_.parameters - 1);
+        const auto whole = [&](const Eigen::VectorXd& others) {
+            Eigen::VectorXd at(net_.parameters);
+            for (Eigen::Index k = 0, next = 0; k < net_.parameters; ++k) at[k] = k == held ? value : others[next++];
+            return at;
+        };
+        for (Eigen::Index k = 0, next = 0; k < net_.parameters; ++k)
+            if (k != held) free[next++] = start[k];
+        const Function function = [&](const Eigen::VectorXd& others) { return surface_.chi_squared(whole(others)); };
+        return std::min(net_.chi_squared[node], function(minimum_near(function, free)));
+    }
+
+    Profile profile(Eigen::Index parameter, const Eigen::VectorXd& likeliest, double least, double limit) const {
+        const auto side = static_cast<std::size_t>(net_.side);
+        std::vector<std::size_t> best(side, net_.size());
+        Profile found;
+        found.objective.assign(side, std::numeric_limits<double>::infinity());
+        for (std::size_t node = 0; node < net_.size(); ++node) {
+            const auto i = static_cast<std::size_t>(net_.index(node, parameter));
+            found.objective[i] = std::min(found.objective[i], net_.objective[node]);
+            if (best[i] == net_.size() || net_.chi_squared[node] < net_.chi_squared[best[i]]) best[i] = node;
+        }
+        Eigen::VectorXd at = likeliest;
+        for (std::size_t i = 0; i < side; ++i) {
+            const double value = net_.coordinate(static_cast<Eigen::Index>(i));
+            at[parameter] = value;
+            found.x.push_back(unscaled(ranges_, at)[parameter]);
+            found.chi_squared.push_back((least_with(parameter, value, best[i]) - least) / limit);
+        }
+        return found;
+    }
+
+    /// From the first to the last value where the profile is below 1.
+    Interval interval(Eigen::Index parameter, const Profile& profile, const Eigen::VectorXd& likeliest) const {
+        const double middle = unscaled(ranges_, likeliest)[parameter];
+        Interval found{middle, middle, false, false};
+        const auto inside = [&](std::size_t i) { return profile.chi_squared[i] <= 1.0; };
+        const auto crossing = [&](std::size_t out, double x_in, double value_in) {
+            const double share = (1.0 - value_in) / (profile.chi_squared[out] - value_in);
+            return x_in + share * (profile.x[out] - x_in);
+        };
+        const std::size_t side = profile.x.size();
+        std::size_t first = 0, last = side - 1;
+        while (first < side && !inside(first)) ++first;
+        while (last > 0 && !inside(last)) --last;
+        if (first >= side) {  // narrower than the net: between the nodes beside the minimum
+            const auto above = static_cast<std::size_t>(std::upper_bound(profile.x.begin(), profile.x.end(), middle) - profile.x.begin());
+            if (above > 0 && above < side) found = {crossing(above - 1, middle, 0.0), crossing(above, middle, 0.0), false, false};
+            return found;
+        }
+        found.reaches_low = first == 0;
+        found.reaches_high = last == side - 1;
+        found.low = found.reaches_low ? profile.x.front() : crossing(first - 1, profile.x[first], profile.chi_squared[first]);
+        found.high = found.reaches_high ? profile.x.back() : crossing(last + 1, profile.x[last], profile.chi_squared[last]);
+        return found;
+    }
+
+    Map map(Eigen::Index first, Eigen::Index second, double least, double region) const {
+        Map found;
+        found.first = static_cast<std::size_t>(first);
+        found.second = static_cast<std::size_t>(second);
+        const auto side = static_cast<std::size_t>(net_.side);
+        found.objective.assign(side * side, std::numeric_limits<double>::infinity());
+        found.chi_squared = found.objective;
+        for (std::size_t node = 0; node < net_.size(); ++node) {
+            const auto at = static_cast<std::size_t>(net_.index(node, first) + net_.side * net_.index(node, second));
+            found.objective[at] = std::min(found.objective[at], net_.objective[node]);
+            found.chi_squared[at] = std::min(found.chi_squared[at], (net_.chi_squared[node] - least) / region);
+        }
+        for (Eigen::Index i = 0; i < net_.side; ++i) {
+            const Eigen::VectorXd at = unscaled(ranges_, Eigen::VectorXd::Constant(net_.parameters, net_.coordinate(i)));
+            found.x.push_back(at[first]);
+            found.y.push_back(at[second]);
+        }
+        return found;
+    }
+
+    std::vector<Direction> directions(const Eigen::VectorXd& at, double limit) const {
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(surface_.information(at));
+        std::vector<Direction> found;
+        const double largest = solver.eigenvalues()[net_.parameters - 1];
+        for (Eigen::Index k = net_.parameters - 1; k >= 0; --k) {
+            const double value = std::max(0.0, solver.eigenvalues()[k]);
+            found.push_back({solver.eigenvectors().col(k), value, largest > 0.0 ? value / largest : 0.0, std::sqrt(limit / value)});
+        }
+        return found;
+    }
+
+    const Surface& surface_;
+    const std::vector<Range>& ranges_;
+    const ObjectiveFunction& function_;
+    Net net_;
+};
+
+/// Neighbours of the estimate are this far off along a direction, in half ranges, at least and at most.
+constexpr double k_least_step = 0.1, k_greatest_step = 0.5;
+
+/// Parameters of new places are round to this part of their range.
+constexpr double k_rounding = 1e-3;
+
+Eigen::VectorXd rounded_within(const std::vector<Range>& ranges, const Eigen::VectorXd& at) {
+    Eigen::VectorXd inside = at.cwiseMax(-1.0).cwiseMin(1.0);
+    inside = (inside / (2.0 * k_rounding)).array().round() * 2.0 * k_rounding;
+    return unscaled(ranges, inside);
+}
+
+}  // namespace
+
+Eigen::VectorXd scaled(const std::vector<Range>& ranges, const Eigen::VectorXd& parameters) {
+    Eigen::VectorXd at(parameters.size());
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+        const Range& range = ranges[static_cast<std::size_t>(k)];
+        at[k] = 2.0 * (parameters[k] - range.low) / (range.high - range.low) - 1.0;
+    }
+    return at;
+}
+
+Eigen::VectorXd unscaled(const std::vector<Range>& ranges, const Eigen::VectorXd& at) {
+    Eigen::VectorXd parameters(at.size());
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+        const Range& range = ranges[static_cast<std::size_t>(k)];
+        parameters[k] = range.low + 0.5 * (at[k] + 1.0) * (range.high - range.low);
+    }
+    return parameters;
+}
+
+std::vector<std::vector<double>> means_of(const Evaluation& evaluation) {
+    std::vector<std::vector<double>> means;
+    for (const auto& repeats : evaluation.values) {
+        std::vector<double> mean(repeats.front().size(), 0.0);
+        for (const std::vector<double>& values : repeats)
+            for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += values[i] / static_cast<double>(repeats.size());
+        means.push_back(std::move(mean));
+    }
+    return means;
+}
+
+Surface::Surface(const std::vector<Range>& ranges, const std::vector<Target>& targets, const std::vector<Evaluation>& evaluations,
+                 std::size_t first)
+    : targets_(targets) {
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+        std::vector<Response> places;
+        for (std::size_t i = 0; i < targets[t].values.size(); ++i) {
+            std::vector<Repeats> points;
+            for (const Evaluation& evaluation : evaluations) {
+                points.push_back({scaled(ranges, evaluation.parameters), {}});
+                for (const std::vector<double>& values : evaluation.values[first + t]) points.back().values.push_back(values[i]);
+            }
+            places.emplace_back(points);
+        }
+        responses_.push_back(std::move(places));
+    }
+}
+
+std::vector<std::vector<double>> Surface::model(const Eigen::VectorXd& at) const {
+    std::vector<std::vector<double>> values;
+    for (const std::vector<Response>& places : responses_) {
+        values.emplace_back();
+        for (const Response& place : places) values.back().push_back(place.value(at));
+    }
+    return values;
+}
+
+double Surface::chi_squared(const Eigen::VectorXd& at) const {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+        const double own = std::pow(targets_[t].tolerance / k_normal_quantile, 2);
+        const auto places = static_cast<double>(responses_[t].size());
+        for (std::size_t i = 0; i < responses_[t].size(); ++i) {
+            const double misfit = responses_[t][i].value(at) - targets_[t].values[i];
+            sum += misfit * misfit / (own + responses_[t][i].variance(at)) / places;
+        }
+    }
+    return sum;
+}
+
+Eigen::MatrixXd Surface::information(const Eigen::VectorXd& at) const {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(at.size(), at.size());
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+        const double own = std::pow(targets_[t].tolerance / k_normal_quantile, 2);
+        for (const Response& place : responses_[t]) {
+            const Eigen::VectorXd slope = place.gradient(at);
+            sum += slope * slope.transpose() / (own + place.variance(at)) / static_cast<double>(responses_[t].size());
+        }
+    }
+    return sum;
+}
+
+double Surface::degrees_of_freedom() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::vector<Response>& places : responses_) least = std::min(least, places.front().degrees_of_freedom());
+    return least;
+}
+
+Estimate estimate(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function) {
+    return Search(surface, ranges, function).result();
+}
+
+bool narrow_enough(const Estimate& estimate, const std::vector<Range>& ranges) {
+    for (std::size_t k = 0; k < ranges.size(); ++k)
+        if (0.5 * (estimate.intervals[k].high - estimate.intervals[k].low) > ranges[k].tolerance) return false;
+    return true;
+}
+
+std::vector<Eigen::VectorXd> next_places(const Estimate& estimate, const std::vector<Range>& ranges,
+                                         const std::vector<Evaluation>& evaluations) {
+    const Eigen::VectorXd best = scaled(ranges, estimate.parameters);
+    const Direction& worst = estimate.directions.back();
+    const Eigen::VectorXd step = std::clamp(0.5 * worst.half_width, k_least_step, k_greatest_step) * worst.along;
+    std::vector<Eigen::VectorXd> places;
+    const auto is_known = [&](const Eigen::VectorXd& parameters) {
+        const Eigen::VectorXd at = scaled(ranges, parameters);
+        const auto is_near = [&](const Eigen::VectorXd& other) { return (scaled(ranges, other) - at).cwiseAbs().maxCoeff() < k_rounding; };
+        return std::any_of(places.begin(), places.end(), is_near) ||
+               std::any_of(evaluations.begin(), evaluations.end(), [&](const Evaluation& run) { return is_near(run.parameters); });
+    };
+    for (const Eigen::VectorXd& at : {best, Eigen::VectorXd(best + step), Eigen::VectorXd(best - step)}) {
+        const Eigen::VectorXd parameters = rounded_within(ranges, at);
+        if (!is_known(parameters)) places.push_back(parameters);
+    }
+    return places;
+}
+
+}  // namespace cutterflow::postproc::calibration

@@ -1,0 +1,67 @@
+#pragma once
+/// \file What a calibration found: calibration.json (schema cutterflow.calibration/1), and the certificate of its objective.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "postproc/analysis/calibration/estimate.hpp"
+
+namespace cutterflow::postproc::calibration {
+
+inline constexpr const char* k_calibration_schema = "cutterflow.calibration/1";
+
+struct Cost {
+    std::size_t runs = 0, failed_runs = 0;
+    double core_h = 0.0;  ///< of all runs, as they noted it
+    std::optional<double> budget_runs, budget_core_h;
+};
+
+/// A target beside what the chosen parameters give.
+struct Agreement {
+    std::string name;
+    bool held_out = false;
+    std::vector<double> target, model;
+    double tolerance = 0.0;
+    std::optional<double> standard_error;  ///< of a single value: scatter of the fit and misfit of the quadratic; none without a fit
+    std::optional<double> relative_error;  ///< mean of |model - target|/|target|; none with a target of 0
+    double in_tolerances = 0.0;            ///< root mean square of (model - target)/tolerance
+};
+
+struct Calibration {
+    std::string name, method;
+    const ObjectiveFunction* objective = nullptr;
+    std::vector<Range> ranges;
+    Targets targets;
+    std::vector<Evaluation> evaluations;
+    Cost cost;
+    std::string ended;  ///< why no further runs were made
+};
+
+struct Outcome {
+    Calibration calibration;
+    Eigen::VectorXd parameters;             ///< chosen ones
+    std::vector<double> objectives;         ///< of each evaluation, at the means of its repeats
+    std::optional<Estimate> estimate;       ///< none when the evaluations do not determine the quadratic
+    std::vector<Agreement> agreements;      ///< fitted targets, then the held-out ones
+    std::vector<std::string> undetermined;  ///< names of parameters that the targets do not determine
+};
+
+/// The fit through all evaluations; none when they do not determine it. It sees no held-out target.
+std::optional<Estimate> estimate_of(const Calibration& calibration);
+
+/// \param fitted_minimum  whether the least value of the fit is chosen; else the best evaluation
+/// \pre one evaluation or more
+Outcome outcome_of(Calibration calibration, bool fitted_minimum);
+
+nlohmann::json to_json(const Outcome& outcome);
+
+/// Recomputes every objective of a calibration.json from the values of the targets that it says were fitted, and those alone.
+/// \throws CheckFailure  when one differs by more than 1e-9 of itself: something else entered it, such as a held-out target
+void certify_objectives(const nlohmann::json& calibration);
+
+/// The answer in a few lines of plain text.
+std::string outcome_text(const Outcome& outcome);
+
+}  // namespace cutterflow::postproc::calibration

@@ -1,0 +1,308 @@
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "postproc/analysis/calibration/optimiser.hpp"
+#include "postproc/analysis/calibration/outcome.hpp"
+
+using namespace cutterflow;
+using namespace cutterflow::postproc::calibration;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// A draw-down box made up: three quantities of restitution e and friction mu; the first matters to none.
+struct Box {
+    double scatter = 0.5;  ///< of the angles [degree]; of the rate in proportion
+    std::mt19937_64 random{1};
+
+    double noise() { return std::normal_distribution<double>(0.0, scatter)(random); }
+    std::vector<double> run(double mu) {
+        return {34.0 + 18.0 * mu - 9.0 * mu * mu + noise(), 52.0 + 20.0 * mu + noise(), 30.0 * std::exp(-0.6 * mu) + 0.2 * noise()};
+    }
+};
+
+const std::vector<Range> k_ranges{{"e", 0.4, 0.9, 0.1}, {"mu", 0.1, 0.7, 0.05}};
+
+Evaluation evaluate(Box& box, double e, double mu, int repeats, std::size_t quantities = 3) {
+    Evaluation evaluation{Eigen::Vector2d(e, mu), std::vector<std::vector<std::vector<double>>>(quantities)};
+    for (int n = 0; n < repeats; ++n) {
+        const std::vector<double> values = box.run(mu);
+        for (std::size_t q = 0; q < quantities; ++q) evaluation.values[q].push_back({values[q]});
+    }
+    return evaluation;
+}
+
+/// Targets from another pour at a friction that is no value of the grid.
+std::vector<Target> targets_at(Box& box, double mu) {
+    const std::vector<double> values = box.run(mu);
+    return {{"repose", {values[0]}, 2.0 * box.scatter, 1.0},
+            {"shear", {values[1]}, 2.0 * box.scatter, 1.0},
+            {"rate", {values[2]}, 0.4 * box.scatter, 1.0}};
+}
+
+Calibration grid(Box& box, double hidden_mu) {
+    Calibration calibration;
+    calibration.name = "box";
+    calibration.method = "surface";
+    calibration.objective = find_objective("squared_misfit");
+    calibration.ranges = k_ranges;
+    calibration.targets.fitted = targets_at(box, hidden_mu);
+    for (const double e : {0.4, 0.65, 0.9})
+        for (const double mu : {0.1, 0.25, 0.4, 0.55, 0.7}) calibration.evaluations.push_back(evaluate(box, e, mu, 3));
+    return calibration;
+}
+
+bool holds(const Interval& interval, double value) {
+    return interval.low <= value && value <= interval.high;
+}
+
+/// The last target is held out.
+Calibration with_held_out(double held_out_value) {
+    Box box;
+    Calibration calibration = grid(box, 0.33);
+    calibration.targets.held_out = {calibration.targets.fitted.back()};
+    calibration.targets.held_out[0].values[0] = held_out_value;
+    calibration.targets.fitted.pop_back();
+    return calibration;
+}
+
+}  // namespace
+
+TEST(Objective, is_the_sum_of_relative_errors_of_the_draw_down_test) {
+    const ObjectiveFunction& function = *find_objective("relative_error");
+    const std::vector<Target> dry{{"rate", {20.0}, 1.0, 1.0}, {"repose", {40.0}, 1.0, 1.0}, {"shear", {60.0}, 1.0, 1.0}};
+    EXPECT_NEAR(objective_of(function, dry, {{21.0}, {38.0}, {60.6}}), 0.05 + 0.05 + 0.01, 1e-14);
+    Target profile{"profile", {}, 1.0, 1.0};
+    std::vector<double> model;
+    for (int i = 0; i < 100; ++i) {
+        profile.values.push_back(0.1 + 0.001 * i);
+        model.push_back(profile.values.back() * (i < 50 ? 1.04 : 0.98));
+    }
+    const std::vector<Target> submerged{dry[0], dry[2], profile};
+    EXPECT_NEAR(objective_of(function, submerged, {{19.0}, {66.0}, model}), 0.05 + 0.1 + 0.03, 1e-12);
+}
+
+TEST(Objective, counts_misfits_in_tolerances_and_weights) {
+    const std::vector<Target> targets{{"angle", {20.0}, 0.5, 2.0}, {"profile", {1.0, 2.0}, 0.1, 1.0}};
+    EXPECT_NEAR(objective_of(*find_objective("squared_misfit"), targets, {{21.0}, {1.1, 2.2}}), 2.0 * 4.0 + 0.5 * (1.0 + 4.0), 1e-12);
+}
+
+TEST(CalibrationFit, recovers_hidden_friction_and_says_that_restitution_is_not_determined) {
+    Box box;
+    const Outcome outcome = outcome_of(grid(box, 0.337), true);
+    EXPECT_NEAR(outcome.parameters[1], 0.337, 0.05);
+    ASSERT_TRUE(outcome.estimate);
+    EXPECT_TRUE(holds(outcome.estimate->intervals[1], 0.337));
+    EXPECT_THAT(outcome.undetermined, ElementsAre("e"));
+    const Direction& worst = outcome.estimate->directions.back();
+    EXPECT_FALSE(worst.determined());
+    EXPECT_GT(std::abs(worst.along[0]), 0.95) << "along e";
+    EXPECT_LT(worst.ratio, 0.05);
+    EXPECT_TRUE(outcome.estimate->directions.front().determined());
+}
+
+TEST(CalibrationFit, has_intervals_that_hold_the_truth_as_often_as_they_say) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> hidden(0.2, 0.6);
+    int held = 0, undetermined = 0;
+    double widest = 0.0, worst = 0.0;
+    constexpr int trials = 120;
+    for (int trial = 0; trial < trials; ++trial) {
+        Box box;
+        box.random.seed(static_cast<std::uint64_t>(100 + trial));
+        const double mu = hidden(random);
+        const Outcome outcome = outcome_of(grid(box, mu), true);
+        const Interval& interval = outcome.estimate->intervals[1];
+        if (holds(interval, mu)) ++held;
+        if (!outcome.undetermined.empty() && outcome.undetermined[0] == "e") ++undetermined;
+        widest = std::max(widest, interval.high - interval.low);
+        worst = std::max(worst, std::abs(outcome.parameters[1] - mu));
+    }
+    RecordProperty("intervals_that_hold", held);
+    RecordProperty("restitution_undetermined", undetermined);
+    RecordProperty("widest_interval", std::to_string(widest));
+    RecordProperty("largest_error", std::to_string(worst));
+    // 95 %: fewer than 107 of 120 has a chance of 0.2 %; all of them would be intervals that are too wide.
+    EXPECT_GE(held, 107);
+    EXPECT_LT(held, trials);
+    EXPECT_LT(widest, 0.25);
+    EXPECT_LT(worst, 0.1);
+    EXPECT_GE(undetermined, 100);
+}
+
+TEST(CalibrationFit, finds_a_valley_that_the_targets_leave_open) {
+    // One target of two parameters that act together: neither is determined, their sum is.
+    Box box;
+    Calibration calibration;
+    calibration.objective = find_objective("squared_misfit");
+    calibration.ranges = {{"a", 0.0, 1.0, 0.05}, {"b", 0.0, 1.0, 0.05}};
+    calibration.targets.fitted = {{"sum", {1.0}, 0.05, 1.0}};
+    for (const double a : {0.0, 0.5, 1.0})
+        for (const double b : {0.0, 0.5, 1.0})
+            calibration.evaluations.push_back({Eigen::Vector2d(a, b), {{{a + b + 0.01 * box.noise()}, {a + b + 0.01 * box.noise()}}}});
+    const Outcome outcome = outcome_of(calibration, true);
+    EXPECT_THAT(outcome.undetermined, ElementsAre("a", "b"));
+    EXPECT_NEAR(outcome.parameters.sum(), 1.0, 0.03);
+    const Direction &best = outcome.estimate->directions.front(), &worst = outcome.estimate->directions.back();
+    EXPECT_NEAR(std::abs(best.along.sum()), std::sqrt(2.0), 0.01);
+    EXPECT_NEAR(worst.along.sum(), 0.0, 0.05);
+    EXPECT_TRUE(best.determined());
+    EXPECT_FALSE(worst.determined());
+}
+
+TEST(CalibrationFit, widens_intervals_of_targets_that_contradict_each_other) {
+    Box box;
+    Calibration calibration = grid(box, 0.4);
+    const Outcome agreeing = outcome_of(calibration, true);
+    calibration.targets.fitted[0].values[0] += 5.0;
+    const Outcome contradicting = outcome_of(calibration, true);
+    EXPECT_GT(contradicting.estimate->contradiction, 4.0);
+    EXPECT_LT(agreeing.estimate->contradiction, 4.0);
+    EXPECT_GT(contradicting.estimate->intervals[1].high - contradicting.estimate->intervals[1].low,
+              1.5 * (agreeing.estimate->intervals[1].high - agreeing.estimate->intervals[1].low));
+}
+
+TEST(CalibrationFit, tells_an_interval_that_ends_at_the_range) {
+    Box box;
+    Calibration calibration = grid(box, 0.4);
+    for (Target& target : calibration.targets.fitted) target.values[0] = box.run(0.7)[&target - calibration.targets.fitted.data()];
+    const Outcome outcome = outcome_of(calibration, true);
+    EXPECT_TRUE(outcome.estimate->intervals[1].reaches_high);
+    EXPECT_FALSE(outcome.estimate->intervals[1].reaches_low);
+    EXPECT_EQ(outcome.estimate->intervals[1].high, 0.7);
+}
+
+TEST(CalibrationFit, runs_next_in_the_region_where_the_responses_get_better_known) {
+    double before = 0.0, after = 0.0;  // squared errors of the first response at the chosen parameters
+    const auto squared_error = [](const Outcome& outcome) {
+        const double mu = outcome.parameters[1];
+        return std::pow(outcome.agreements[0].model[0] - (34.0 + 18.0 * mu - 9.0 * mu * mu), 2);
+    };
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        Box box;
+        box.random.seed(seed);
+        Calibration calibration = grid(box, 0.337);
+        before += squared_error(outcome_of(calibration, true));
+        for (int round = 0; round < 3; ++round) {
+            const Outcome outcome = outcome_of(calibration, true);
+            const std::vector<Eigen::VectorXd> places = next_places(*outcome.estimate, calibration.ranges, calibration.evaluations);
+            ASSERT_GE(places.size(), 1u);
+            ASSERT_LE(places.size(), 3u);
+            for (const Eigen::VectorXd& at : places) {
+                EXPECT_GE(at[0], 0.4);
+                EXPECT_LE(at[0], 0.9);
+                EXPECT_NEAR(at[1], outcome.parameters[1], 0.2);
+                calibration.evaluations.push_back(evaluate(box, at[0], at[1], 3));
+            }
+            EXPECT_TRUE(next_places(*outcome.estimate, calibration.ranges, calibration.evaluations).empty()) << "those were run";
+        }
+        after += squared_error(outcome_of(calibration, true));
+    }
+    EXPECT_LT(after, 0.8 * before);
+}
+
+TEST(CalibrationFit, ends_when_every_interval_is_narrow_enough) {
+    Box box;
+    const Outcome outcome = outcome_of(grid(box, 0.337), true);
+    EXPECT_FALSE(narrow_enough(*outcome.estimate, k_ranges)) << "e stays open";
+    std::vector<Range> loose = k_ranges;
+    loose[0].tolerance = 1.0;
+    loose[1].tolerance = 0.2;
+    EXPECT_TRUE(narrow_enough(*outcome.estimate, loose));
+}
+
+TEST(CalibrationFit, takes_a_profile_as_a_target) {
+    // A heap whose height falls and whose foot grows as friction falls; 100 places.
+    std::mt19937_64 random(8);
+    std::normal_distribution<double> normal(0.0, 0.003);
+    const auto heap = [&](double mu) {
+        std::vector<double> heights;
+        for (int i = 0; i < 100; ++i) heights.push_back(0.02 + (0.1 + 0.2 * mu) * std::cos(1.2 * (i / 99.0 - 0.5)) + normal(random));
+        return heights;
+    };
+    Calibration calibration;
+    calibration.ranges = {{"mu", 0.1, 0.7, 0.05}};
+    calibration.targets.fitted = {{"heap", heap(0.43), 0.006, 1.0}};
+    for (const double mu : {0.1, 0.25, 0.4, 0.55, 0.7})
+        calibration.evaluations.push_back({Eigen::VectorXd::Constant(1, mu), {{heap(mu), heap(mu)}}});
+    for (const char* name : {"squared_misfit", "relative_error"}) {
+        calibration.objective = find_objective(name);
+        const Outcome outcome = outcome_of(calibration, true);
+        EXPECT_NEAR(outcome.parameters[0], 0.43, 0.02) << name;
+        EXPECT_TRUE(holds(outcome.estimate->intervals[0], 0.43)) << name;
+    }
+}
+
+TEST(CalibrationFit, chooses_the_best_run_where_there_are_too_few_for_a_fit) {
+    Box box;
+    Calibration calibration = grid(box, 0.4);
+    calibration.evaluations.resize(4);
+    const Outcome outcome = outcome_of(calibration, true);
+    EXPECT_FALSE(outcome.estimate);
+    const auto best = std::min_element(outcome.objectives.begin(), outcome.objectives.end()) - outcome.objectives.begin();
+    EXPECT_EQ(outcome.parameters, calibration.evaluations[static_cast<std::size_t>(best)].parameters);
+    EXPECT_TRUE(to_json(outcome).at("estimate").is_null());
+    EXPECT_TRUE(to_json(outcome).at("parameters")[0].at("interval_95").is_null());
+}
+
+TEST(HeldOut, changes_neither_objective_nor_parameters_and_is_reported) {
+    const Outcome one = outcome_of(with_held_out(25.0), true), other = outcome_of(with_held_out(60.0), true);
+    EXPECT_EQ(one.parameters, other.parameters);
+    EXPECT_EQ(one.objectives, other.objectives);
+    EXPECT_EQ(one.estimate->intervals[1].low, other.estimate->intervals[1].low);
+    ASSERT_EQ(one.agreements.size(), 3u);
+    EXPECT_TRUE(one.agreements[2].held_out);
+    EXPECT_NEAR(one.agreements[2].model[0], 30.0 * std::exp(-0.6 * 0.33), 1.5);
+    EXPECT_GT(other.agreements[2].in_tolerances, 100.0);
+    EXPECT_THAT(outcome_text(other), HasSubstr("held out: rate"));
+}
+
+TEST(HeldOut, that_enters_an_objective_is_caught) {
+    const Outcome outcome = outcome_of(with_held_out(25.0), true);
+    nlohmann::json honest = to_json(outcome);
+    EXPECT_NO_THROW(certify_objectives(honest));
+    // A calibration that lies: the third target is said to be held out, and was added.
+    nlohmann::json lie = honest;
+    std::vector<Target> all = outcome.calibration.targets.fitted;
+    all.push_back(outcome.calibration.targets.held_out[0]);
+    for (std::size_t i = 0; i < outcome.calibration.evaluations.size(); ++i)
+        lie["evaluations"][i]["objective"] =
+            objective_of(*outcome.calibration.objective, all, means_of(outcome.calibration.evaluations[i]));
+    EXPECT_THROW(certify_objectives(lie), CheckFailure);
+    // One that calls it fitted afterwards.
+    lie = honest;
+    lie["targets"][2]["held_out"] = false;
+    lie["targets"][2]["weight"] = 1.0;
+    EXPECT_THROW(certify_objectives(lie), CheckFailure);
+}
+
+TEST(Optimiser, finds_the_minimum_of_a_smooth_function_in_few_evaluations_and_repeats_itself) {
+    std::vector<std::vector<double>> first, second;
+    const auto follow = [](std::vector<std::vector<double>>& places) {
+        bobyqa(
+            [&](const Eigen::VectorXd& at) {
+                places.push_back({at[0], at[1]});
+                return std::pow(at[0] - 0.3, 2) + 2.0 * std::pow(at[1] + 0.6, 2) + 0.5 * (at[0] - 0.3) * (at[1] + 0.6);
+            },
+            Eigen::Vector2d(0.0, 0.0), 40, Eigen::Vector2d(1e-3, 1e-3));
+    };
+    follow(first);
+    follow(second);
+    EXPECT_EQ(first, second);
+    EXPECT_LE(first.size(), 40u);
+    double nearest = 1.0;
+    for (const auto& at : first) nearest = std::min(nearest, std::hypot(at[0] - 0.3, at[1] + 0.6));
+    EXPECT_LT(nearest, 0.01);
+}
+
+TEST(Optimiser, passes_on_what_an_evaluation_throws) {
+    EXPECT_THROW(bobyqa([](const Eigen::VectorXd&) -> double { throw std::logic_error("no run"); }, Eigen::Vector2d(0.0, 0.0), 40,
+                        Eigen::Vector2d(1e-3, 1e-3)),
+                 std::logic_error);
+}
