@@ -14,6 +14,7 @@ void add_mesh(CLI::App& app);
 void add_run(CLI::App& app);
 void add_report(CLI::App& app);
 void add_sweep(CLI::App& app);
+void add_calibrate(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_verify(CLI::App& app);

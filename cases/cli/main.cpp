@@ -124,6 +124,7 @@ int run(int argc, char** argv) {
     cli::add_report(app);
     cli::add_sweep(app);
     cli::add_compare(app);
+    cli::add_calibrate(app);
     cli::add_replay(app);
     cli::add_verify(app);
     refuse_empty_words(app);

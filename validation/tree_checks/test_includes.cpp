@@ -78,6 +78,7 @@ const std::vector<Layer> k_layers = {
     {"postproc/run/", {k_base, k_head_shape, k_axial_bins, k_head_names, "postproc/run/"}},
     {"postproc/draw/", {k_base, k_head_names, "postproc/run/", "postproc/draw/"}},
     {"postproc/analysis/", {k_base, k_axial_bins, k_head_names, "postproc/run/", "postproc/draw/", "postproc/analysis/"}},
+    {"postproc/analysis/calibration/", {k_base, "postproc/analysis/sample.hpp", "postproc/analysis/calibration/"}},
     {"postproc/pages/", {k_base, k_head_names, "postproc/"}},
     {"postproc/tests/", {k_base, k_axial_bins, k_head_names, "postproc/"}},
 
@@ -93,6 +94,8 @@ const std::vector<Layer> k_layers = {
      {k_base, "geometry/io/", "geometry/head/", "meshing/dictionary/", "postproc/analysis/", "postproc/run/", "cases/study/",
       "cases/scenes/cutter/", "cases/runner/", "cases/replay/"}},
     {"cases/sweep/", {k_base, "cases/study/", "cases/scenes/", "cases/runner/", "cases/sweep/"}},
+    {"cases/calibration/",
+     {k_base, "postproc/analysis/calibration/", "cases/study/", "cases/scenes/", "cases/runner/", "cases/sweep/", "cases/calibration/"}},
     {"cases/testing/", {k_base, k_head_names, "meshing/dictionary/", "cases/scenes/cutter/", "cases/testing/"}},
     {"cases/cli/", {"geometry/", "meshing/", "postproc/", "cases/", "validation/harness/suite/"}},
     {"cases/tests/", {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "postproc/", "cases/"}},
@@ -130,6 +133,7 @@ const std::vector<Quarantine> k_quarantines = {
     {"assimp", std::regex("^assimp/"), {"geometry/io/"}},
     {"OpenFOAM", std::regex(".*\\.H$"), {"solver/foam/", "meshing/foam/"}},
     {"LIGGGHTS", std::regex("^liggghts/|^lammps\\.h$|^library\\.h$|^library_cfd_coupling\\.h$"), {"solver/liggghts/"}},
+    {"NLopt", std::regex("^nlopt"), {"postproc/analysis/calibration/"}},
     {"MPI", std::regex("^mpi\\.h$"), {"solver/foam/", "solver/liggghts/", "solver/app/", "validation/harness/"}},
 };
 

@@ -1,0 +1,224 @@
+#include "cases/calibration/calibrate.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cases/calibration/run_values.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "postproc/analysis/calibration/optimiser.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_copy = "calibration.toml";
+constexpr const char* k_identity = "calibration.identity";
+constexpr const char* k_runs = "runs";
+constexpr const char* k_spent = "the budget is spent";
+
+/// Ends an optimiser whose next place the budget does not allow.
+struct BudgetSpent {};
+
+/// The places of the grid, the first parameter slowest.
+std::vector<Eigen::VectorXd> grid_of(const CalibrationFile& file) {
+    std::vector<Eigen::VectorXd> places{Eigen::VectorXd(static_cast<Eigen::Index>(file.parameters.size()))};
+    for (std::size_t k = 0; k < file.parameters.size(); ++k) {
+        std::vector<Eigen::VectorXd> longer;
+        for (const Eigen::VectorXd& place : places)
+            for (const double value : file.parameters[k].values) {
+                longer.push_back(place);
+                longer.back()[static_cast<Eigen::Index>(k)] = value;
+            }
+        places = std::move(longer);
+    }
+    return places;
+}
+
+/// The places of one calibration, each with its runs.
+class Places {
+public:
+    Places(const CalibrationFile& file, const CalibrateSettings& settings, const std::function<void(const std::string&)>& say)
+        : file_(file), settings_(settings), say_(say) {}
+
+    bool allows(std::size_t places) const {
+        const auto runs = static_cast<double>(cost_.runs + places * file_.studies.size() * static_cast<std::size_t>(file_.repeats));
+        return runs <= file_.budget_runs && cost_.core_h < file_.budget_core_h;
+    }
+
+    void run(std::vector<Eigen::VectorXd> places) {
+        for (Eigen::VectorXd& place : places)
+            for (double& value : place) value = std::stod(number_text(value));  // as the studies have it
+        say_(fmt::format("{} place(s) of {} run(s) each", places.size(), file_.studies.size() * static_cast<std::size_t>(file_.repeats)));
+        std::vector<std::vector<std::vector<std::string>>> names;  // of each place, each study, each repeat
+        std::vector<SweepPoint> points;
+        for (const Eigen::VectorXd& place : places) {
+            names.emplace_back();
+            for (const fs::path& study : file_.studies) {
+                names.back().emplace_back();
+                for (SweepPoint& point : settings_.access.points(study, axes_at(place), file_.repeats, folder())) {
+                    names.back().back().push_back(point.name);
+                    points.push_back(std::move(point));
+                }
+            }
+        }
+        const SweepOutcome outcome = run_sweep(points, sweep_settings(), say_);
+        for (const std::string& failure : outcome.failed) say_(failure);
+        std::set<std::string> done;
+        for (const fs::path& run : outcome.done) done.insert(run.filename().string());
+        for (std::size_t i = 0; i < places.size(); ++i) take(places[i], names[i], done);
+        cost_.runs += points.size();
+        cost_.failed_runs += outcome.failed.size();
+        for (const SweepPoint& point : points) cost_.core_h += run_core_s(folder() / point.name) / 3600.0;
+    }
+
+    const std::vector<calibration::Evaluation>& evaluations() const { return evaluations_; }
+
+    calibration::Calibration calibration(const std::string& ended) const {
+        if (evaluations_.empty())
+            throw ToolError(Mistake{"", "no place has values of all targets", "A calibration compares runs with its targets",
+                                    fmt::format("See the logs in {}", (folder() / "logs").string())});
+        calibration::Calibration all{file_.name, file_.method, file_.objective, file_.ranges(), file_.targets, evaluations_, cost_, ended};
+        all.cost.budget_runs = file_.budget_runs;
+        all.cost.budget_core_h = file_.budget_core_h;
+        return all;
+    }
+
+private:
+    fs::path folder() const { return settings_.folder / k_runs; }
+
+    SweepSettings sweep_settings() const {
+        return {folder(), settings_.program, settings_.ranks, settings_.jobs, fs::exists(folder() / "studies"), settings_.launcher};
+    }
+
+    std::vector<KeyAxis> axes_at(const Eigen::VectorXd& place) const {
+        std::vector<KeyAxis> axes;
+        for (std::size_t k = 0; k < file_.parameters.size(); ++k)
+            axes.push_back({file_.parameters[k].key, {number_text(place[static_cast<Eigen::Index>(k)])}});
+        return axes;
+    }
+
+    /// \param names  of the runs of each study
+    void take(const Eigen::VectorXd& place, const std::vector<std::vector<std::string>>& names, const std::set<std::string>& done) {
+        calibration::Evaluation evaluation{place, {}};
+        for (const Measured& measured : file_.measured) {
+            evaluation.values.emplace_back();
+            for (const std::string& name : names[measured.study]) {
+                if (done.count(name) == 0) continue;
+                std::vector<double> values = run_values(folder() / name, measured);
+                if (!values.empty()) evaluation.values.back().push_back(std::move(values));
+            }
+        }
+        const bool whole = std::none_of(evaluation.values.begin(), evaluation.values.end(), [](const auto& runs) { return runs.empty(); });
+        if (whole)
+            evaluations_.push_back(std::move(evaluation));
+        else
+            say_(fmt::format("{}: left out, a target has no value", names.front().front()));
+    }
+
+    const CalibrationFile& file_;
+    const CalibrateSettings& settings_;
+    const std::function<void(const std::string&)>& say_;
+    std::vector<calibration::Evaluation> evaluations_;
+    calibration::Cost cost_;
+};
+
+std::string run_grid(const CalibrationFile& file, Places& places) {
+    places.run(grid_of(file));
+    return "the grid is done";
+}
+
+std::string run_surface(const CalibrationFile& file, Places& places) {
+    run_grid(file, places);
+    for (int round = 0; round < file.rounds; ++round) {
+        const auto found = calibration::estimate_of(places.calibration(""));
+        if (!found) return "too few places have values of all targets for a quadratic";
+        if (calibration::narrow_enough(*found, file.ranges())) return "every interval is within its tolerance";
+        const auto next = calibration::next_places(*found, file.ranges(), places.evaluations());
+        if (next.empty()) return "the places to run next have been run";
+        if (!places.allows(next.size())) return k_spent;
+        places.run(next);
+    }
+    return "its rounds are used up";
+}
+
+std::string run_bobyqa(const CalibrationFile& file, Places& places) {
+    const std::vector<calibration::Range> ranges = file.ranges();
+    const auto count = static_cast<Eigen::Index>(ranges.size());
+    Eigen::VectorXd steps(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const calibration::Range& range = ranges[static_cast<std::size_t>(k)];
+        steps[k] = range.tolerance / (range.high - range.low);
+    }
+    const auto objective = [&](const Eigen::VectorXd& at) {
+        if (!places.allows(1)) throw BudgetSpent{};
+        const std::size_t before = places.evaluations().size();
+        places.run({calibration::unscaled(ranges, at)});
+        if (places.evaluations().size() == before)
+            throw ToolError(Mistake{"", "a target has no value at a place that bobyqa chose", "An optimiser needs every value",
+                                    "Narrow the ranges, or use method = \"surface\""});
+        return calibration::objective_of(*file.objective, file.targets.fitted, calibration::means_of(places.evaluations().back()));
+    };
+    try {
+        calibration::bobyqa(objective, Eigen::VectorXd::Zero(count), file.evaluations, steps);
+    } catch (const BudgetSpent&) {
+        return k_spent;
+    }
+    return "the optimiser has ended";
+}
+
+struct Method {
+    const char* name;
+    std::string (*run)(const CalibrationFile& file, Places& places);  ///< \return why it ended
+    bool fitted_minimum;                                              ///< whether the least value of the fit is the answer
+};
+
+constexpr Method k_methods[] = {{"surface", run_surface, true}, {"grid", run_grid, false}, {"bobyqa", run_bobyqa, false}};
+
+void require_folder(const CalibrateSettings& settings, Mistakes& mistakes) {
+    const fs::path& folder = settings.folder;
+    const bool begun = fs::exists(folder / k_identity);
+    if (settings.resume && !begun)
+        mistakes.add(fmt::format("{} holds no calibration", folder.string()), "--resume goes on with a calibration that was begun",
+                     "Correct the folder given with -o, or leave --resume out");
+    if (begun && !settings.resume)
+        mistakes.add(fmt::format("{} already contains a calibration", folder.string()), "Its runs are kept",
+                     "Add --resume to continue it, or name another folder with -o");
+    if (!begun && fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
+        mistakes.add(fmt::format("{} already contains something else", folder.string()), "Nothing is overwritten",
+                     "Name another folder with -o");
+}
+
+}  // namespace
+
+CalibrationFile begin_calibration(const CalibrateSettings& settings) {
+    Mistakes mistakes;
+    CalibrationFile file;
+    mistakes.gather([&] { file = read_calibration(settings.file, settings.access); });
+    require_folder(settings, mistakes);
+    if (mistakes.empty() && settings.resume && read_file(settings.folder / k_identity) != file.identity)
+        mistakes.add(fmt::format("{} differs from {}", settings.file.string(), (settings.folder / k_copy).string()),
+                     "A calibration goes on with the file that it was begun with; only its budget may change",
+                     "Undo the change, or name another folder with -o");
+    mistakes.refuse();
+    if (!settings.resume) {
+        write_file(settings.folder / k_copy, read_file(settings.file));
+        write_file(settings.folder / k_identity, file.identity);
+    }
+    return file;
+}
+
+calibration::Outcome run_calibration(const CalibrationFile& file, const CalibrateSettings& settings,
+                                     const std::function<void(const std::string&)>& say) {
+    Places places(file, settings, say);
+    const Method& method =
+        *std::find_if(std::begin(k_methods), std::end(k_methods), [&](const Method& row) { return file.method == row.name; });
+    const std::string ended = method.run(file, places);
+    return calibration::outcome_of(places.calibration(ended), method.fitted_minimum);
+}
+
+}  // namespace cutterflow::cases

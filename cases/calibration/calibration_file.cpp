@@ -1,0 +1,466 @@
+#include "cases/calibration/calibration_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "geometry/base/csv_table.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
+#include "geometry/base/parameters/parameter_row.hpp"
+#include "geometry/base/toml.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t k_most_parameters = 4;
+constexpr int k_default_values = 5;
+constexpr int k_profile_places = 100;  // N of the profile error [WasserfallCoetzeeMeyer2024]
+
+std::vector<std::string> objective_names() {
+    std::vector<std::string> names;
+    for (const calibration::ObjectiveFunction& row : calibration::objective_functions()) names.emplace_back(row.name);
+    return names;
+}
+
+std::string objective_help() {
+    std::string help;
+    for (const calibration::ObjectiveFunction& row : calibration::objective_functions())
+        help += fmt::format("{}{}: {}. {}", help.empty() ? "" : " ", row.name, row.equation, row.help);
+    return help;
+}
+
+ParameterTable make_table() {
+    using Kind = ParameterKind;
+    using Row = ParameterRow;
+    return {
+        Row("name", Kind::text, "-", "Title of the page.").by_default(std::string("calibration")),
+        Row("method", Kind::choice, "-",
+            "surface: a grid, then places where its quadratic fit is best; grid: the grid alone; bobyqa: an optimiser that chooses every "
+            "place.")
+            .one_of({"surface", "grid", "bobyqa"})
+            .by_default(std::string("surface")),
+        Row("objective", Kind::choice, "-", objective_help())
+            .one_of(objective_names())
+            .by_default(std::string("squared_misfit"))
+            .source("WasserfallCoetzeeMeyer2024"),
+        Row("repeats", Kind::integer, "-", "Runs of each study at each place; they differ in the seed.")
+            .at_least(1)
+            .at_most(100)
+            .by_default(std::int64_t{3}),
+        Row("rounds", Kind::integer, "-", "Rounds of up to three further places after the grid of surface, while an interval is too wide.")
+            .at_least(0)
+            .at_most(50)
+            .by_default(std::int64_t{2}),
+        Row("evaluations", Kind::integer, "-", "Places that bobyqa may try.").at_least(5).at_most(1000).by_default(std::int64_t{30}),
+        Row("budget.runs", Kind::integer, "-", "Runs that the plan may take.").at_least(1),
+        Row("budget.core_h", Kind::number, "h", "Core hours that the plan may take; no new place is begun once they are spent.").above(0),
+        Row("parameter.name", Kind::text, "-", "What it is called in results.").derived("the key").repeated(),
+        Row("parameter.key", Kind::text, "-",
+            "Key of the studies, as of sweep --set; a table of an array by its name: contact.gravel-steel.friction.")
+            .repeated(),
+        Row("parameter.tolerance", Kind::number, "-", "Half of a 95 % interval that is narrow enough; surface stops there.")
+            .above(0)
+            .derived("a tenth of the range")
+            .repeated(),
+        Row("target.name", Kind::text, "-", "What it is called in results.").derived("study and measure").repeated(),
+        Row("target.measure", Kind::text, "-",
+            "Name of a measure of the study; of a study without measures a number of report/results.json by its keys, as a.b.")
+            .repeated(),
+        Row("target.study", Kind::text, "-", "File name of its study, without ending.").derived("the only study").repeated(),
+        Row("target.value", Kind::number, "-", "What was measured, in the unit of the measure.")
+            .derived("none: it has a profile")
+            .repeated(),
+        Row("target.profile", Kind::path, "-",
+            fmt::format("CSV file with the columns x_m,height_m, relative to this file: heights at {} even places are compared with the "
+                        "profile of the measure.",
+                        k_profile_places))
+            .derived("none: it has a value")
+            .repeated(),
+        Row("target.lowest_m", Kind::number, "m", "Places where the measured profile is not above this are left out.")
+            .at_least(0)
+            .derived("0")
+            .repeated(),
+        Row("target.tolerance", Kind::number, "-", "Half of the 95 % interval of what was measured, in its unit.").above(0).repeated(),
+        Row("target.weight", Kind::number, "-", "In the objective.").above(0).derived("1").repeated(),
+        Row("target.held_out", Kind::boolean, "-", "Never in the objective, always reported.").by_default(false).repeated(),
+    };
+}
+
+CalibrationPlan plan_of(const CalibrationFile& file, const StudyAccess& access) {
+    constexpr std::size_t places_of_a_round = 3;
+    CalibrationPlan plan;
+    if (file.method == "bobyqa") {
+        plan.further = static_cast<std::size_t>(file.evaluations);
+    } else {
+        plan.grid = 1;
+        for (const CalibratedParameter& parameter : file.parameters) plan.grid *= parameter.values.size();
+        if (file.method == "surface") plan.further = places_of_a_round * static_cast<std::size_t>(file.rounds);
+    }
+    const std::size_t of_each_study = (plan.grid + plan.further) * static_cast<std::size_t>(file.repeats);
+    plan.runs = of_each_study * file.studies.size();
+    double core_s = 0.0;
+    for (const fs::path& study : file.studies) {
+        const std::optional<double> one = access.predicted_core_s(study);
+        if (!one) return plan;
+        core_s += *one * static_cast<double>(of_each_study);
+    }
+    plan.core_h = core_s / 3600.0;
+    return plan;
+}
+
+/// The lists of a calibration file, which tables of parameters do not have.
+struct Lists {
+    std::vector<std::string> studies;
+    struct OfParameter {
+        std::vector<double> range, values;
+        std::string where;
+    };
+    std::vector<OfParameter> parameters;
+};
+
+constexpr const char* k_list_keys[] = {"study", "parameter.range", "parameter.values"};
+
+bool is_about_a_list(const Mistake& mistake) {
+    return std::any_of(std::begin(k_list_keys), std::end(k_list_keys),
+                       [&](const char* key) { return mistake.what == fmt::format("key {} is unknown", key); });
+}
+
+/// A list of numbers, or none when it is something else.
+std::optional<std::vector<double>> numbers_in(const toml::node& node) {
+    const toml::array* array = node.as_array();
+    if (!array || array->empty()) return std::nullopt;
+    std::vector<double> numbers;
+    for (const toml::node& item : *array) {
+        const std::optional<double> number = item.value<double>();
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+Lists::OfParameter lists_of_parameter(const toml::table& table, const std::string& file, Mistakes& mistakes) {
+    Lists::OfParameter lists;
+    lists.where = fmt::format("{}:{}", file, table.source().begin.line);
+    if (const toml::node* range = table.get("range"); range && numbers_in(*range)) lists.range = *numbers_in(*range);
+    if (lists.range.size() != 2)
+        mistakes.add(
+            {lists.where, "parameter.range is no pair of numbers", "It has the lowest and the highest value", "Write range = [0.1, 0.5]"});
+    if (const toml::node* values = table.get("values")) {
+        if (const auto numbers = numbers_in(*values))
+            lists.values = *numbers;
+        else
+            mistakes.add({lists.where, "parameter.values is no list of numbers", "They are the values of the grid",
+                          "Write values = [0.1, 0.3, 0.5]"});
+    }
+    return lists;
+}
+
+/// \param toml  a text that was parsed before
+Lists lists_of(const std::string& toml, const std::string& file, Mistakes& mistakes) {
+    Lists lists;
+    const toml::table root = toml::parse(toml);
+    if (const toml::array* studies = root["study"].as_array())
+        for (const toml::node& study : *studies) lists.studies.push_back(study.value<std::string>().value_or(""));
+    if (lists.studies.empty() || std::count(lists.studies.begin(), lists.studies.end(), "") > 0)
+        mistakes.add("study is no list of file names", "A calibration runs one study or several", "Write study = [\"study.toml\"]");
+    if (const toml::array* parameters = root["parameter"].as_array())
+        for (const toml::node& parameter : *parameters)
+            if (const toml::table* table = parameter.as_table()) lists.parameters.push_back(lists_of_parameter(*table, file, mistakes));
+    return lists;
+}
+
+/// What two files have in common that may share a folder: all but the budget.
+std::string identity(ParameterValues values, const Lists& lists) {
+    values.set("budget.runs", std::int64_t{1});
+    values.set("budget.core_h", 1.0);
+    std::string text = commented_toml(calibration_table(), &values) + fmt::format("{}\n", fmt::join(lists.studies, " "));
+    for (const Lists::OfParameter& of : lists.parameters)
+        text += fmt::format("{:.17g}\n{:.17g}\n", fmt::join(of.range, " "), fmt::join(of.values, " "));
+    return text;
+}
+
+/// A table of an array as messages name it.
+std::string place_of(const ParameterValues& values, const char* key, const fs::path& file) {
+    const std::string where = values.where(key);
+    return where.empty() ? file.string() : where;
+}
+
+class Reader {
+public:
+    Reader(const fs::path& file, const StudyAccess& access) : path_(file), access_(access), mistakes_(file.string()) {}
+
+    CalibrationFile read() {
+        const std::string text = read_file(path_);
+        const ReadParameters read = parse_with_mistakes(calibration_table(), text, path_.string());
+        for (const Mistake& mistake : read.mistakes)
+            if (!is_about_a_list(mistake)) mistakes_.add(mistake);
+        const Lists lists = lists_of(text, path_.string(), mistakes_);
+        if (!read.complete) mistakes_.refuse();
+        const ParameterValues& values = read.values;
+        read_head(values, lists.studies);
+        const auto& parameters = values.tables("parameter");
+        for (std::size_t k = 0; k < parameters.size(); ++k) read_parameter(parameters[k], lists.parameters[k]);
+        for (const ParameterValues& table : values.tables("target")) read_target(table);
+        found_.measured = fitted_measured_;
+        found_.measured.insert(found_.measured.end(), held_out_measured_.begin(), held_out_measured_.end());
+        check_whole();
+        if (studies_exist()) {
+            check_points();
+            mistakes_.gather([&] { check_plan(); });
+        }
+        mistakes_.refuse();
+        found_.identity = identity(values, lists) + profiles_;
+        return found_;
+    }
+
+private:
+    void read_head(const ParameterValues& values, const std::vector<std::string>& studies) {
+        found_.name = values.text("name");
+        found_.method = values.text("method");
+        found_.objective = calibration::find_objective(values.text("objective"));
+        found_.repeats = static_cast<int>(values.integer("repeats"));
+        found_.rounds = static_cast<int>(values.integer("rounds"));
+        found_.evaluations = static_cast<int>(values.integer("evaluations"));
+        found_.budget_runs = static_cast<double>(values.integer("budget.runs"));
+        found_.budget_core_h = values.number("budget.core_h");
+        std::set<std::string> stems;
+        for (const std::string& text : studies) {
+            const fs::path study = path_.parent_path() / text;
+            mistakes_.require(fs::exists(study), fmt::format("study {} does not exist", study.string()),
+                              "Studies are files beside the calibration, or have paths from it", "Check the path");
+            mistakes_.require(stems.insert(study.stem().string()).second, fmt::format("two studies are called {}", study.stem().string()),
+                              "Runs are named after their study", "Rename one");
+            found_.studies.push_back(study);
+        }
+    }
+
+    bool studies_exist() const {
+        return std::all_of(found_.studies.begin(), found_.studies.end(), [](const fs::path& study) { return fs::exists(study); });
+    }
+
+    void read_parameter(const ParameterValues& table, const Lists::OfParameter& lists) {
+        if (lists.range.size() != 2) return;
+        CalibratedParameter parameter;
+        parameter.key = table.text("parameter.key");
+        const std::string name = table.has("parameter.name") ? table.text("parameter.name") : parameter.key;
+        const double low = lists.range[0], high = lists.range[1];
+        parameter.range = {name, low, high, table.has("parameter.tolerance") ? table.number("parameter.tolerance") : 0.1 * (high - low)};
+        const std::string& where = lists.where;
+        if (!(low < high))
+            mistakes_.add({where, fmt::format("the range of {} is {} to {}: it is empty", name, low, high),
+                           "The first value is below the second", "Correct the range"});
+        if (!lists.values.empty()) {
+            parameter.values = lists.values;
+            std::sort(parameter.values.begin(), parameter.values.end());
+            if (std::adjacent_find(parameter.values.begin(), parameter.values.end()) != parameter.values.end())
+                mistakes_.add({where, fmt::format("{} has a value twice", name), "The values of a grid differ", "Leave one out"});
+            for (const double value : parameter.values)
+                if (value < std::min(low, high) || value > std::max(low, high))
+                    mistakes_.add({where, fmt::format("{} = {} is outside of its range, {} to {}", name, value, low, high),
+                                   "The grid lies in the range", "Correct the value or the range"});
+        } else {
+            for (int i = 0; i < k_default_values; ++i) parameter.values.push_back(low + (high - low) * i / (k_default_values - 1));
+        }
+        if (found_.method == "surface" && parameter.values.size() < 3)
+            mistakes_.add({where, fmt::format("{} has {} value(s)", name, parameter.values.size()),
+                           "A quadratic needs three values of each parameter", "Add values, or use method = \"grid\""});
+        found_.parameters.push_back(std::move(parameter));
+    }
+
+    void read_target(const ParameterValues& table) {
+        calibration::Target target;
+        Measured measured;
+        const bool held_out = table.boolean("target.held_out");
+        measured.measure = table.text("target.measure");
+        const std::string where = place_of(table, "target.measure", path_);
+        measured.study = study_index(table, where);
+        const std::string stem = measured.study < found_.studies.size() ? found_.studies[measured.study].stem().string() : "";
+        target.name = table.has("target.name") ? table.text("target.name")
+                                               : (found_.studies.size() > 1 ? stem + ": " : std::string()) + measured.measure;
+        target.tolerance = table.number("target.tolerance");
+        if (table.has("target.weight")) target.weight = table.number("target.weight");
+        if (held_out && table.has("target.weight"))
+            mistakes_.add({where, fmt::format("the held-out target {} has the weight {} in the objective", target.name, target.weight),
+                           "A held-out target never enters the objective", "Remove its weight, or held_out = true"});
+        if (table.has("target.value") == table.has("target.profile"))
+            mistakes_.add(
+                {where, fmt::format("the target {} has {}", target.name, table.has("target.value") ? "a value and a profile" : "no value"),
+                 "A target is either a value or a profile", "Give one of them"});
+        if (table.has("target.value")) target.values = {table.number("target.value")};
+        if (table.has("target.profile")) read_profile(table, target, measured);
+        if (found_.objective->relative && !held_out && std::count(target.values.begin(), target.values.end(), 0.0) > 0)
+            mistakes_.add({where, fmt::format("the target {} is 0", target.name), "A relative error divides by the target",
+                           "Use objective = \"squared_misfit\""});
+        (held_out ? found_.targets.held_out : found_.targets.fitted).push_back(target);
+        (held_out ? held_out_measured_ : fitted_measured_).push_back(measured);
+    }
+
+    std::size_t study_index(const ParameterValues& table, const std::string& where) {
+        std::vector<std::string> stems;
+        for (const fs::path& study : found_.studies) stems.push_back(study.stem().string());
+        if (!table.has("target.study")) {
+            if (stems.size() == 1) return 0;
+            mistakes_.add({where, fmt::format("the target {} names no study", table.text("target.measure")),
+                           fmt::format("With several studies each target belongs to one: {}", fmt::join(stems, ", ")), "Add study = "});
+            return stems.size();
+        }
+        const std::string name = table.text("target.study");
+        const auto found = std::find(stems.begin(), stems.end(), name);
+        if (found == stems.end()) {
+            const std::string nearest = nearest_word(name, stems);
+            mistakes_.add({place_of(table, "target.study", path_), fmt::format("target.study = \"{}\" is no study", name),
+                           fmt::format("Studies are {}", fmt::join(stems, ", ")),
+                           nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest)});
+        }
+        return static_cast<std::size_t>(found - stems.begin());
+    }
+
+    void read_profile(const ParameterValues& table, calibration::Target& target, Measured& measured) {
+        const fs::path file = path_.parent_path() / table.text("target.profile");
+        if (!fs::exists(file))
+            return mistakes_.add({place_of(table, "target.profile", path_), fmt::format("{} does not exist", file.string()),
+                                  "Profiles are files beside the calibration, or have paths from it", "Check the path"});
+        std::vector<Mistake> wrong;
+        const CsvTable csv(file, {"x_m", "height_m"}, {}, wrong);
+        bool rises = csv.rows() >= 2;
+        for (std::size_t row = 1; row < csv.rows(); ++row) rises = rises && csv.at(row, "x_m") > csv.at(row - 1, "x_m");
+        if (wrong.empty() && !rises)
+            wrong.push_back({file.string(), "the places of the profile do not rise", "x_m rises from line to line, over two lines or more",
+                             "Sort the lines"});
+        mistakes_.add(wrong);
+        if (!wrong.empty()) return;
+        profiles_ += sha256_of_file(file);
+        const double lowest = table.has("target.lowest_m") ? table.number("target.lowest_m") : 0.0;
+        const double first = csv.at(0, "x_m"), last = csv.at(csv.rows() - 1, "x_m");
+        for (int i = 0; i < k_profile_places; ++i) {
+            const double x = first + (last - first) * i / (k_profile_places - 1);
+            std::size_t row = 1;
+            while (row + 1 < csv.rows() && csv.at(row, "x_m") < x) ++row;
+            const double x0 = csv.at(row - 1, "x_m"), x1 = csv.at(row, "x_m");
+            const double share = (x - x0) / (x1 - x0);
+            const double height = (1.0 - share) * csv.at(row - 1, "height_m") + share * csv.at(row, "height_m");
+            if (height <= lowest) continue;
+            measured.places.push_back(x);
+            target.values.push_back(height);
+        }
+        if (target.values.empty())
+            mistakes_.add({file.string(), fmt::format("no height is above {} m", lowest), "A profile has places that count",
+                           "Correct the heights or lowest_m"});
+    }
+
+    void check_whole() {
+        const std::size_t parameters = found_.parameters.size();
+        mistakes_.require(parameters >= 1 && parameters <= k_most_parameters, fmt::format("{} [[parameter]]", parameters),
+                          fmt::format("A calibration varies 1 to {} keys", k_most_parameters), "Add or remove some");
+        mistakes_.require(!(found_.method == "bobyqa" && parameters == 1), "bobyqa with one parameter", "It needs two or more",
+                          "Use method = \"surface\"");
+        mistakes_.require(!found_.targets.fitted.empty(), "no [[target]] is fitted", "The objective needs a target that is not held out",
+                          "Add one");
+        std::set<std::string> keys;
+        for (const CalibratedParameter& parameter : found_.parameters)
+            mistakes_.require(keys.insert(parameter.key).second, fmt::format("{} is varied twice", parameter.key),
+                              "Each parameter has a key of its own", "Remove one");
+        check_held_out();
+        if (studies_exist())
+            for (const Measured& measured : found_.measured) check_measure(measured);
+    }
+
+    /// The same measurement cannot be held out and fitted.
+    void check_held_out() {
+        for (std::size_t h = 0; h < held_out_measured_.size(); ++h)
+            for (const Measured& fitted : fitted_measured_)
+                if (fitted.study == held_out_measured_[h].study && fitted.measure == held_out_measured_[h].measure)
+                    mistakes_.add(fmt::format("the held-out target {} is in the objective as well", found_.targets.held_out[h].name),
+                                  "A held-out target never enters the objective", "Remove one of the two");
+    }
+
+    void check_measure(const Measured& measured) {
+        if (measured.study >= found_.studies.size()) return;
+        std::vector<std::string> known;
+        try {
+            known = access_.measures(found_.studies[measured.study]);
+        } catch (const UserError&) {  // told by check_points
+        }
+        if (known.empty() || std::find(known.begin(), known.end(), measured.measure) != known.end()) return;
+        const std::string nearest = nearest_word(measured.measure, known);
+        mistakes_.add(fmt::format("{} has no measure {}", found_.studies[measured.study].string(), measured.measure),
+                      fmt::format("Its measures are {}", fmt::join(known, ", ")),
+                      nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest));
+    }
+
+    /// The keys, the ends of the ranges and the grid are allowed in all studies.
+    void check_points() {
+        for (const fs::path& study : found_.studies) {
+            if (!mistakes_.gather([&] { access_.points(study, {}, 1, fs::path("runs")); })) continue;
+            for (const CalibratedParameter& parameter : found_.parameters) {
+                std::set<double> all(parameter.values.begin(), parameter.values.end());
+                all.insert({parameter.range.low, parameter.range.high});
+                std::vector<std::string> texts;
+                for (const double value : all) texts.push_back(number_text(value));
+                try {
+                    access_.points(study, {{parameter.key, texts}}, 1, fs::path("runs"));
+                } catch (const UserError& error) {
+                    for (Mistake mistake : error.mistakes()) add_of_study(study, std::move(mistake));
+                }
+            }
+        }
+    }
+
+    /// What a sweep says of its option is of this file's parameters.
+    void add_of_study(const fs::path& study, Mistake mistake) {
+        const std::string option = "--set ";
+        if (mistake.what.rfind(option, 0) == 0)
+            mistake.what = fmt::format("{}: parameter {}", study.string(), mistake.what.substr(option.size()));
+        mistakes_.add(std::move(mistake));
+    }
+
+    void check_plan() {
+        const CalibrationPlan& plan = found_.plan = plan_of(found_, access_);
+        mistakes_.require(static_cast<double>(plan.runs) <= found_.budget_runs,
+                          fmt::format("the plan takes {} runs: {} places, {} studies, {} repeats", plan.runs, plan.grid + plan.further,
+                                      found_.studies.size(), found_.repeats),
+                          fmt::format("budget.runs is {}", found_.budget_runs), "Take fewer values, repeats or rounds, or raise it");
+        if (plan.core_h)
+            mistakes_.require(*plan.core_h <= found_.budget_core_h, fmt::format("the plan takes about {:.3g} core hours", *plan.core_h),
+                              fmt::format("budget.core_h is {}", found_.budget_core_h),
+                              "Take fewer values, repeats or rounds, coarser studies, or raise it");
+    }
+
+    fs::path path_;
+    const StudyAccess& access_;
+    Mistakes mistakes_;
+    CalibrationFile found_;
+    std::vector<Measured> fitted_measured_, held_out_measured_;
+    std::string profiles_;  // their contents' hashes
+};
+
+}  // namespace
+
+std::vector<calibration::Range> CalibrationFile::ranges() const {
+    std::vector<calibration::Range> all;
+    for (const CalibratedParameter& parameter : parameters) all.push_back(parameter.range);
+    return all;
+}
+
+const ParameterTable& calibration_table() {
+    static const ParameterTable table = make_table();
+    return table;
+}
+
+std::string number_text(double value) {
+    return fmt::format("{:.6g}", value);
+}
+
+CalibrationFile read_calibration(const fs::path& file, const StudyAccess& access) {
+    return Reader(file, access).read();
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,122 @@
+/// \file calibrate: parameters of studies at which their runs agree with measurements.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cases/calibration/calibrate.hpp"
+#include "cases/cli/commands.hpp"
+#include "cases/runner/machine.hpp"
+#include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/study/study.hpp"
+#include "cases/sweep/surface_sweep.hpp"
+#include "geometry/base/installation.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/process/child_process.hpp"
+#include "postproc/pages/calibration_page.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void say(const std::string& text) {
+    std::cerr << "  " << text << std::endl;
+}
+
+/// "contact.friction=0.1,0.2" of each axis, as sweep --set takes them.
+std::vector<std::string> words_of(const std::vector<cases::KeyAxis>& axes) {
+    std::vector<std::string> words;
+    for (const cases::KeyAxis& axis : axes) words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
+    return words;
+}
+
+std::vector<cases::SweepPoint> points(const fs::path& study, const std::vector<cases::KeyAxis>& axes, int repeats, const fs::path& folder) {
+    if (cases::is_surface_study(study))
+        return cases::surface_sweep_points(
+            study, cases::key_axes(cases::surface_study_table(), words_of(axes), "cutterflow params --kind free_surface"), repeats);
+    cases::SweepAxes all;
+    all.repeats = repeats;
+    all.keys = cases::key_axes(cases::study_table(), words_of(axes), "cutterflow params");
+    return cases::sweep_points(study, all, folder);
+}
+
+std::optional<double> predicted_core_s(const fs::path& study) {
+    if (!cases::is_surface_study(study)) return std::nullopt;
+    return cases::check_surface_study(study).prediction.at("core_s").get<double>();
+}
+
+cases::StudyAccess study_access() {
+    return {points, predicted_core_s, [](const fs::path&) { return std::vector<std::string>(); }};
+}
+
+struct CalibrateOptions {
+    std::string file, output, launcher = "local";
+    int ranks = 1, jobs = 0;
+    bool resume = false, plan = false;
+};
+
+std::string plan_text(const cases::CalibrationFile& file) {
+    const cases::CalibrationPlan& plan = file.plan;
+    std::string text = fmt::format("{} places at most, {} of them the grid; {} runs of {}", plan.grid + plan.further, plan.grid, plan.runs,
+                                   file.budget_runs);
+    text += plan.core_h ? fmt::format("; about {:.3g} core hours of {}", *plan.core_h, file.budget_core_h)
+                        : fmt::format("; {} core hours at most", file.budget_core_h);
+    return text;
+}
+
+void calibrate(const CalibrateOptions& options) {
+    if (options.plan) {
+        std::cout << plan_text(cases::read_calibration(options.file, study_access())) << '\n';
+        return;
+    }
+    const bool local = options.launcher == "local";
+    const int jobs = options.jobs > 0 ? options.jobs : std::max(1, cases::available_cores() / options.ranks);
+    const cases::CalibrateSettings settings{options.file,
+                                            options.output,
+                                            installation().programs / "cutterflow",
+                                            options.ranks,
+                                            jobs,
+                                            options.resume,
+                                            local ? cases::Launcher::local : cases::Launcher::slurm,
+                                            study_access()};
+    Mistakes mistakes;
+    cases::CalibrationFile file;
+    mistakes.gather([&] { cases::require_machine(local ? options.ranks : 1); });
+    mistakes.gather([&] { file = cases::begin_calibration(settings); });
+    mistakes.refuse();
+    say(plan_text(file));
+    try {
+        const postproc::calibration::Outcome outcome = cases::run_calibration(file, settings, say);
+        const fs::path page = postproc::write_calibration(outcome, settings.folder);
+        std::cout << postproc::calibration::outcome_text(outcome) << fmt::format("the page: {}\n", page.string());
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(fmt::format("{}. Finished runs are kept in {}; repeat the command with --resume", interrupted.what(),
+                                      settings.folder.string()));
+    }
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app) {
+    auto* command = app.add_subcommand("calibrate", "Find values of studies' keys at which their runs agree with measurements.");
+    const auto options = std::make_shared<CalibrateOptions>();
+    command->add_option("calibration", options->file, "The calibration file: studies, parameters, targets, budget")->required();
+    auto* output = command->add_option("-o,--output", options->output, "Folder of the calibration");
+    command->add_flag("--plan", options->plan, "Check the file and print what it takes; run nothing");
+    command->add_option("--ranks", options->ranks, "Processes per run")->check(CLI::Range(1, 1000))->capture_default_str();
+    command->add_option("--jobs", options->jobs, "Runs in parallel; default: as many as the cores carry")->check(CLI::Range(1, 1000));
+    command->add_flag("--resume", options->resume, "Go on with a calibration that was stopped");
+    command->add_option("--launcher", options->launcher, "Where the runs are made: on this machine, or by Slurm as a job array")
+        ->check(CLI::IsMember({"local", "slurm"}))
+        ->capture_default_str();
+    command->callback([options, output] {
+        if (!options->plan && output->count() == 0)
+            throw UserError("calibrate without -o", "Its runs need a folder", "Name one: cutterflow calibrate FILE -o DIR");
+        calibrate(*options);
+    });
+}
+
+}  // namespace cutterflow::cli

@@ -1,0 +1,363 @@
+/// Calibrations over a stand-in for cutterflow whose runs are known functions of the study, with scatter by the seed.
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cases/calibration/calibrate.hpp"
+#include "cases/calibration/run_values.hpp"
+#include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/sweep/surface_sweep.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A run: angle = 15 + 20 friction - 8 friction^2 (1 more in a study called big), rate = 40 - 25 friction, both with scatter; the density
+/// matters to nothing. It costs 36 core seconds. $1 command, $2 study, $4 run directory.
+constexpr const char* k_run = R"sh(#!/bin/sh
+[ "$1" = run ] || exit 0
+[ -f "$4/report/measures.json" ] && exit 0
+PLACE
+echo "${4##*/}" >> FOLDER/made
+mkdir -p "$4/report"
+awk -v big="$(case $4 in *big*) echo 1;; *) echo 0;; esac" '
+/^\[/ { section = $0 }
+section == "[contact]" && $1 == "friction" { mu = $3 }
+section == "[[bodies]]" && $1 == "density_kg_m3" { density = $3 }
+section == "[[bodies]]" && $1 == "seed" { seed = $3 }
+function chance(n,  x) { x = sin(12.9898*seed + 78.233*mu + 0.0371*density + 39.425*n)*43758.5453; return x - int(x) }
+END {
+  noise = 0.4*(chance(1) + chance(2) + chance(3)) / 1.7
+  printf "{\"angle\": {\"value\": %.10g, ", 15 + big + 20*mu - 8*mu*mu + noise
+  printf "\"series\": {\"place_m\": [0, 1, 2], \"height_m\": [0, %.10g, 0]}}, ", mu
+  printf "\"rate\": {\"value\": %.10g}, \"none\": {\"value\": null}}\n", 40 - 25*mu + 0.5*chance(4)
+}' "$2" > "$4/report/measures.json"
+echo '{"schema": "x", "stages": {"run": {"core_s": 36.0}}, "versions": {}}' > "$4/manifest.json"
+)sh";
+
+double angle(double mu) {
+    return 15.0 + 20.0 * mu - 8.0 * mu * mu;
+}
+
+class Calibrate : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cutterflow_calibrate_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+        for (const char* study : {"heap", "big"}) write_file(folder_ / (std::string(study) + ".toml"), surface_study_template(study));
+        set_program("");
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// \param place  what the stand-in does first
+    void set_program(const std::string& place) {
+        std::string text = k_run;
+        text.replace(text.find("PLACE"), 5, place);
+        for (std::size_t at = text.find("FOLDER"); at != std::string::npos; at = text.find("FOLDER")) text.replace(at, 6, folder_.string());
+        write_file(folder_ / "program", text);
+        fs::permissions(folder_ / "program", fs::perms::owner_all);
+    }
+
+    static StudyAccess access() {
+        return {[](const fs::path& study, const std::vector<KeyAxis>& axes, int repeats, const fs::path&) {
+                    std::vector<std::string> words;
+                    for (const KeyAxis& axis : axes) words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
+                    return surface_sweep_points(study, key_axes(surface_study_table(), words, "cutterflow params --kind free_surface"),
+                                                repeats);
+                },
+                [](const fs::path&) { return std::optional<double>(36.0); },
+                [](const fs::path&) {
+                    return std::vector<std::string>{"angle", "rate", "none"};
+                }};
+    }
+
+    fs::path write(const std::string& text) const {
+        write_file(folder_ / "calibration.toml", text);
+        return folder_ / "calibration.toml";
+    }
+
+    CalibrateSettings settings(bool resume = false) const {
+        return {folder_ / "calibration.toml", folder_ / "out", folder_ / "program", 1, 2, resume, Launcher::local, access()};
+    }
+
+    postproc::calibration::Outcome run(bool resume = false) {
+        const CalibrateSettings how = settings(resume);
+        const CalibrationFile file = begin_calibration(how);
+        return run_calibration(file, how, [this](const std::string& line) { lines_ += line + "\n"; });
+    }
+
+    std::string refusal(const std::string& text) {
+        try {
+            read_calibration(write(text), access());
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+    std::size_t made() const {
+        const std::string text = fs::exists(folder_ / "made") ? read_file(folder_ / "made") : "";
+        return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    }
+
+    fs::path folder_;
+    std::string lines_;
+};
+
+std::string calibration_text(const std::string& head, const std::string& targets) {
+    return head + R"(
+[budget]
+runs = 200
+core_h = 10
+[[parameter]]
+name = "mu"
+key = "contact.friction"
+range = [0.1, 0.9]
+values = [0.1, 0.3, 0.5, 0.7, 0.9]
+tolerance = 0.02
+[[parameter]]
+name = "density"
+key = "bodies.density_kg_m3"
+range = [2000, 3000]
+values = [2000, 2500, 3000]
+)" + targets;
+}
+
+/// The angle at friction 0.44, off the grid.
+std::string angle_target(const std::string& more = "") {
+    return fmt::format("[[target]]\nmeasure = \"angle\"\nvalue = {}\ntolerance = 0.3\n{}", angle(0.44), more);
+}
+
+const std::string k_rate = "[[target]]\nmeasure = \"rate\"\nvalue = 29.2\ntolerance = 0.5\nheld_out = true\n";
+
+}  // namespace
+
+TEST_F(Calibrate, recovers_a_hidden_value_and_predicts_what_was_held_out) {
+    write(calibration_text("study = [\"heap.toml\"]\nrounds = 1", angle_target() + k_rate));
+    const auto outcome = run();
+    EXPECT_NEAR(outcome.parameters[0], 0.44, 0.03);
+    ASSERT_TRUE(outcome.estimate);
+    EXPECT_LE(outcome.estimate->intervals[0].low, 0.44);
+    EXPECT_GE(outcome.estimate->intervals[0].high, 0.44);
+    EXPECT_THAT(outcome.undetermined, ::testing::ElementsAre("density"));
+    ASSERT_EQ(outcome.agreements.size(), 2u);
+    EXPECT_TRUE(outcome.agreements[1].held_out);
+    EXPECT_NEAR(outcome.agreements[1].model[0], 40.0 - 25.0 * 0.44, 0.8);
+    EXPECT_GT(outcome.calibration.evaluations.size(), 15u) << "places of the round";
+    EXPECT_LE(outcome.calibration.evaluations.size(), 15u + 3u);
+    EXPECT_EQ(outcome.calibration.cost.runs, 3u * outcome.calibration.evaluations.size());
+    EXPECT_NEAR(outcome.calibration.cost.core_h, 0.01 * static_cast<double>(outcome.calibration.cost.runs), 1e-12);
+    EXPECT_EQ(made(), outcome.calibration.cost.runs);
+}
+
+TEST_F(Calibrate, shares_one_set_of_parameters_between_studies) {
+    write(calibration_text(
+        "study = [\"heap.toml\", \"big.toml\"]\nmethod = \"grid\"\nrepeats = 2",
+        angle_target("study = \"heap\"\n") +
+            fmt::format("[[target]]\nmeasure = \"angle\"\nvalue = {}\ntolerance = 0.3\nstudy = \"big\"\n", angle(0.52) + 1.0)));
+    const auto outcome = run();
+    EXPECT_EQ(outcome.parameters[0], 0.5) << "the best place of the grid";
+    EXPECT_EQ(made(), 15u * 2u * 2u);
+    EXPECT_EQ(outcome.agreements[0].name, "heap: angle");
+    EXPECT_EQ(outcome.agreements[1].name, "big: angle");
+    EXPECT_NEAR(outcome.agreements[1].model[0] - outcome.agreements[0].model[0], 1.0, 0.8);
+}
+
+TEST_F(Calibrate, makes_no_run_twice_when_resumed) {
+    write(calibration_text("study = [\"heap.toml\"]", angle_target()));
+    const auto whole = to_json(run());
+    const std::size_t runs = made();
+    EXPECT_EQ(to_json(run(true)).dump(), whole.dump());
+    EXPECT_EQ(made(), runs);
+}
+
+TEST_F(Calibrate, optimiser_goes_on_where_it_was) {
+    write(calibration_text("study = [\"heap.toml\"]\nmethod = \"bobyqa\"\nevaluations = 12\nrepeats = 2", angle_target()));
+    set_program("[ $(cat FOLDER/made 2>/dev/null | wc -l) -lt 11 ] || exit 3");
+    EXPECT_THROW(run(), ToolError) << "killed in the sixth evaluation";
+    const std::size_t before = made();
+    EXPECT_GE(before, 11u);
+    set_program("");
+    const auto resumed = run(true);
+    EXPECT_EQ(made(), resumed.calibration.cost.runs) << "every run was made once";
+    EXPECT_LE(resumed.calibration.evaluations.size(), 12u);
+    fs::remove_all(folder_ / "out");
+    fs::remove(folder_ / "made");
+    const auto whole = run();
+    EXPECT_EQ(to_json(whole).dump(), to_json(resumed).dump());
+    EXPECT_NEAR(whole.parameters[0], 0.44, 0.05);
+}
+
+TEST_F(Calibrate, leaves_out_runs_that_fail_and_places_without_any) {
+    set_program(R"(case $4 in *friction_0.3_*3000_repeat2|*friction_0.5_*2000_*) exit 3;; esac)");
+    write(calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"", angle_target()));
+    const auto outcome = run();
+    EXPECT_EQ(outcome.calibration.evaluations.size(), 14u);
+    EXPECT_EQ(outcome.calibration.cost.failed_runs, 4u);
+    EXPECT_EQ(outcome.calibration.cost.runs, 45u);
+    EXPECT_THAT(lines_, HasSubstr("left out, a target has no value"));
+    std::size_t with_two = 0;
+    for (const auto& evaluation : outcome.calibration.evaluations)
+        if (evaluation.values[0].size() == 2) ++with_two;
+    EXPECT_EQ(with_two, 1u);
+}
+
+TEST_F(Calibrate, is_refused_when_no_place_has_values) {
+    write(calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"\nrepeats = 1",
+                           "[[target]]\nmeasure = \"none\"\nvalue = 1\ntolerance = 1\n"));
+    EXPECT_THROW(run(), ToolError);
+}
+
+TEST_F(Calibrate, stops_when_its_core_hours_are_spent) {
+    std::string text = calibration_text("study = [\"heap.toml\"]\nrounds = 5", angle_target());
+    text.replace(text.find("core_h = 10"), 11, "core_h = 0.66");
+    // 15 places of 3 runs are 0.45 core hours, 15 more of the rounds 0.45: refused as a plan.
+    EXPECT_THAT(refusal(text), AllOf(HasSubstr("about 0.9 core hours"), HasSubstr("budget.core_h is 0.66")));
+    StudyAccess cheap = access();
+    cheap.predicted_core_s = [](const fs::path&) { return std::optional<double>(); };  // as cutters: known only when they run
+    CalibrateSettings how = settings();
+    how.access = cheap;
+    const CalibrationFile file = begin_calibration(how);
+    const auto outcome = run_calibration(file, how, [](const std::string&) {});
+    EXPECT_EQ(outcome.calibration.ended, "the budget is spent");
+    EXPECT_GE(outcome.calibration.cost.core_h, 0.66);
+    EXPECT_LT(outcome.calibration.cost.core_h, 0.66 + 0.09) << "no round is begun once it is spent";
+}
+
+TEST_F(Calibrate, takes_a_profile_from_a_file) {
+    write_file(folder_ / "heap.csv", "x_m,height_m\n0.2,0.088\n1,0.44\n1.9,0.044\n");
+    write(calibration_text("study = [\"heap.toml\"]\nmethod = \"surface\"\nrounds = 0\nrepeats = 1",
+                           "[[target]]\nmeasure = \"angle\"\nprofile = \"heap.csv\"\ntolerance = 0.01\n"));
+    const auto outcome = run();
+    EXPECT_EQ(outcome.agreements[0].target.size(), 100u);
+    EXPECT_NEAR(outcome.parameters[0], 0.44, 0.005);
+    EXPECT_LT(*outcome.agreements[0].relative_error, 0.01);
+}
+
+TEST_F(Calibrate, reads_measures_or_results_and_names_the_nearest) {
+    write_file(folder_ / "run/report/results.json", R"({"rock": {"mass_kg": 2.5, "gone": null, "name": "x"}})");
+    const auto text_of = [&](const std::string& measure) {
+        try {
+            run_values(folder_ / "run", {0, measure, {}});
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(run_values(folder_ / "run", {0, "rock.mass_kg", {}}), std::vector<double>{2.5});
+    EXPECT_TRUE(run_values(folder_ / "run", {0, "rock.gone", {}}).empty());
+    EXPECT_THAT(text_of("rock.mass"), HasSubstr("mass_kg"));
+    EXPECT_THAT(text_of("rock.name"), HasSubstr("A target is a number"));
+    write_file(folder_ / "run/report/measures.json", R"({"removed": {"value": 0.9}})");
+    EXPECT_EQ(run_values(folder_ / "run", {0, "removed", {}}), std::vector<double>{0.9});
+    EXPECT_THAT(text_of("remove"), HasSubstr("Did you mean removed?"));
+    EXPECT_EQ(run_core_s(folder_ / "run"), 0.0);
+}
+
+TEST_F(Calibrate, reports_all_mistakes_at_once) {
+    const std::string text = refusal(R"(
+study = ["heap.toml", "absent.toml"]
+methods = "grid"
+[budget]
+runs = 5
+core_h = 1
+[[parameter]]
+key = "contact.friction"
+range = [0.9, 0.1]
+[[parameter]]
+name = "mu"
+key = "contact.friction"
+range = [0.1, 0.5]
+values = [0.1, 0.6]
+[[target]]
+measure = "angle"
+value = 20
+profile = "absent.csv"
+tolerance = 1
+[[target]]
+measure = "angle"
+study = "haep"
+tolerance = 1
+held_out = true
+weight = 2
+)");
+    EXPECT_THAT(text, HasSubstr("absent.toml does not exist"));
+    EXPECT_THAT(text, AllOf(HasSubstr("key methods is unknown"), HasSubstr("Did you mean method?")));
+    EXPECT_THAT(text, Not(HasSubstr("range is unknown")));
+    EXPECT_THAT(text, HasSubstr("range of contact.friction is 0.9 to 0.1: it is empty"));
+    EXPECT_THAT(text, HasSubstr("mu = 0.6 is outside of its range, 0.1 to 0.5"));
+    EXPECT_THAT(text, HasSubstr("mu has 2 value(s)"));
+    EXPECT_THAT(text, HasSubstr("contact.friction is varied twice"));
+    EXPECT_THAT(text, HasSubstr("names no study"));
+    EXPECT_THAT(text, HasSubstr("has a value and a profile"));
+    EXPECT_THAT(text, HasSubstr("absent.csv does not exist"));
+    EXPECT_THAT(text, HasSubstr("Did you mean heap?"));
+    EXPECT_THAT(text, HasSubstr("has the weight 2 in the objective"));
+}
+
+TEST_F(Calibrate, refuses_held_out_targets_in_the_objective_unknown_names_and_plans_over_the_budget) {
+    const std::string head = "study = [\"heap.toml\"]";
+    EXPECT_THAT(refusal(calibration_text(head, angle_target() + angle_target("held_out = true\n"))),
+                AllOf(HasSubstr("the held-out target angle is in the objective as well"), HasSubstr("never enters the objective")));
+    EXPECT_THAT(refusal(calibration_text(head, k_rate)), HasSubstr("no [[target]] is fitted"));
+    EXPECT_THAT(refusal(calibration_text(head, "[[target]]\nmeasure = \"angel\"\nvalue = 20\ntolerance = 1\n")),
+                HasSubstr("Did you mean angle?"));
+    EXPECT_THAT(
+        refusal(calibration_text(head + "\nobjective = \"relative_error\"", "[[target]]\nmeasure = \"angle\"\nvalue = 0\ntolerance = 1\n")),
+        HasSubstr("A relative error divides by the target"));
+    std::string text = calibration_text(head, angle_target());
+    text.replace(text.find("contact.friction"), 16, "contact.fricton");
+    EXPECT_THAT(refusal(text),
+                AllOf(HasSubstr("parameter contact.fricton: there is no such key"), HasSubstr("Did you mean contact.friction?")));
+    text = calibration_text(head, angle_target());
+    text.replace(text.find("range = [2000, 3000]"), 20, "range = [-100, 3000]");
+    EXPECT_THAT(refusal(text), HasSubstr("bodies.density_kg_m3"));
+    text = calibration_text(head, angle_target());
+    text.replace(text.find("runs = 200"), 10, "runs = 60");
+    EXPECT_THAT(refusal(text), AllOf(HasSubstr("the plan takes 63 runs: 21 places, 1 studies, 3 repeats"), HasSubstr("budget.runs is 60")));
+    EXPECT_THAT(refusal(calibration_text(head + "\nmethod = \"bobyqa\"", angle_target())), "") << "30 places of 3 runs";
+    EXPECT_THAT(refusal(calibration_text(head, "")), HasSubstr("no [[target]] is fitted"));
+    EXPECT_THAT(refusal(calibration_text("study = \"heap.toml\"", angle_target())), HasSubstr("study is no list of file names"));
+    text = calibration_text(head, angle_target());
+    text.replace(text.find("range = [0.1, 0.9]"), 18, "range = [0.1]");
+    EXPECT_THAT(refusal(text), HasSubstr("parameter.range is no pair of numbers"));
+}
+
+TEST_F(Calibrate, goes_on_with_its_own_file_alone) {
+    const std::string text = calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"\nrepeats = 1", angle_target());
+    write(text);
+    EXPECT_THROW(begin_calibration(settings(true)), UserError) << "nothing to resume";
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+    run();
+    EXPECT_THROW(run(), UserError) << "begun, and no --resume";
+    std::string other = text;
+    other.replace(other.find("tolerance = 0.02"), 16, "tolerance = 0.03");
+    write(other);
+    try {
+        run(true);
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("only its budget may change"));
+    }
+    std::string richer = text;
+    richer.replace(richer.find("core_h = 10"), 11, "core_h = 20");
+    write(richer);
+    EXPECT_NO_THROW(run(true));
+    write_file(folder_ / "other/notes.txt", "mine");
+    CalibrateSettings how = settings();
+    how.folder = folder_ / "other";
+    EXPECT_THROW(begin_calibration(how), UserError);
+    EXPECT_EQ(read_file(folder_ / "other/notes.txt"), "mine");
+}
+
+}  // namespace cutterflow::cases
