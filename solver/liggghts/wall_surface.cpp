@@ -119,7 +119,7 @@ WallSurface::WallSurface(std::vector<Triangle> triangles)
 
 std::vector<Triangle> WallSurface::near(const Vec3& point, double distance) const {
     std::vector<Triangle> found;
-    tree_.each_within(point, distance, [&](const coupling::SteelTriangle& t, double) { found.push_back({t.a, t.b, t.c}); });
+    tree_.each_within(point, distance, [&](std::int32_t, const coupling::SteelTriangle& t, double) { found.push_back({t.a, t.b, t.c}); });
     return found;
 }
 

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <optional>
 
-#include <Eigen/Geometry>
 #include <nanoflann.hpp>
 
 namespace cutterflow::coupling {
@@ -35,19 +34,27 @@ public:
         const std::size_t runs = (points_ + k_length - 1) / k_length;
         while (leaves_ < runs) leaves_ *= 2;
         boxes_.resize(2 * leaves_);
-        for (std::size_t i = 0; i < points_; ++i) boxes_[leaves_ + i / k_length].extend(points[i]);
-        for (std::size_t node = leaves_ - 1; node > 0; --node) boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
+        for (std::size_t i = 0; i < points_; ++i) boxes_[leaves_ + i / k_length].extend({points[i], points[i]});
+        for (std::size_t node = leaves_ - 1; node > 0; --node) {
+            boxes_[node].extend(boxes_[2 * node]);
+            boxes_[node].extend(boxes_[2 * node + 1]);
+        }
     }
 
-    /// Calls `each(first, last)` for runs that may hold points nearer to `centre` than the radius, in the order of memory.
-    template <class Each>
-    void near(const Vec3& centre, double squared_radius, const Each& each) const {
+    const Box& bounds() const { return boxes_[1]; }
+
+    /// Calls `each(first, last)` for runs that may hold points of a shell about `centre`, in the order of memory, but for those in boxes
+    /// that `leaves_out`, which is asked of several runs together.
+    template <class LeavesOut, class Each>
+    void near(const Vec3& centre, double squared_inner, double squared_outer, const LeavesOut& leaves_out, const Each& each) const {
         std::array<std::size_t, 64> open;  // nodes to look at, the next one on top; one per level and the root
         std::size_t count = 0;
         open[count++] = 1;
         while (count > 0) {
             const std::size_t node = open[--count];
-            if (boxes_[node].isEmpty() || boxes_[node].squaredExteriorDistance(centre) >= squared_radius) continue;
+            const Box& box = boxes_[node];
+            if (box.squared_distance(centre) >= squared_outer || box.squared_reach(centre) < squared_inner) continue;
+            if (node < leaves_ / 2 && leaves_out(box)) continue;
             if (node >= leaves_) {
                 const std::size_t first = (node - leaves_) * k_length;
                 each(first, std::min(first + k_length, points_));
@@ -69,7 +76,7 @@ private:
     std::size_t points_;
     std::array<std::vector<double>, 3> coordinates_;  // x, y and z apart, so that a run's distances are computed together
     std::size_t leaves_ = 1;
-    std::vector<Eigen::AlignedBox3d> boxes_;  // children of node n: 2 n and 2 n + 1; the runs' own from leaves_ on
+    std::vector<Box> boxes_;  // children of node n: 2 n and 2 n + 1; the runs' own from leaves_ on
 };
 
 /// Keeps the nearest points, nearest first.
@@ -106,6 +113,24 @@ struct PointTree::Index {
     void build() {
         tree = std::make_unique<Tree>(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(k_leaf_size));
         tree->buildIndex();
+    }
+    /// Appends the points of the runs from `inner` on and nearer than `outer`.
+    template <class LeavesOut>
+    void find(const Vec3& centre, double inner, double outer, const LeavesOut& leaves_out, std::vector<Neighbour>& found) const {
+        const double squared_inner = inner > 0.0 ? inner * inner : 0.0, squared_outer = outer * outer;
+        runs->near(centre, squared_inner, squared_outer, leaves_out, [&](std::size_t first, std::size_t last) {
+            std::array<double, Runs::k_length> squared;
+            for (std::size_t i = first; i < last; ++i) squared[i - first] = runs->squared_distance(i, centre);
+            const std::size_t before = found.size();
+            found.resize(before + last - first);
+            Neighbour* next = found.data() + before;
+            for (std::size_t i = first; i < last; ++i) {
+                const double distance = squared[i - first];
+                *next = {indices[i], distance};
+                if (distance < squared_outer && distance >= squared_inner) ++next;
+            }
+            found.resize(static_cast<std::size_t>(next - found.data()));
+        });
     }
     /// Puts the points into the order of the tree's leaves.
     void reorder() {
@@ -144,23 +169,28 @@ std::size_t PointTree::size() const {
     return index_->points.points.size();
 }
 
+std::vector<std::int32_t> PointTree::number_by_memory(std::int32_t first) {
+    std::vector<std::int32_t> before = std::move(index_->indices);
+    index_->indices.resize(before.size());
+    std::iota(index_->indices.begin(), index_->indices.end(), first);
+    return before;
+}
+
+Box PointTree::bounds() const {
+    return index_->runs ? index_->runs->bounds() : Box();
+}
+
 void PointTree::within(const Vec3& centre, double radius, std::vector<Neighbour>& found) const {
     if (!index_->tree) return;
-    const Runs& runs = *index_->runs;
-    const std::int32_t* const indices = index_->indices.data();
-    const double squared_radius = radius * radius;
-    runs.near(centre, squared_radius, [&](std::size_t first, std::size_t last) {
-        std::array<double, Runs::k_length> squared;
-        for (std::size_t i = first; i < last; ++i) squared[i - first] = runs.squared_distance(i, centre);
-        const std::size_t before = found.size();
-        found.resize(before + last - first);
-        Neighbour* next = found.data() + before;
-        for (std::size_t i = first; i < last; ++i) {
-            *next = {indices[i], squared[i - first]};
-            if (squared[i - first] < squared_radius) ++next;
-        }
-        found.resize(static_cast<std::size_t>(next - found.data()));
-    });
+    index_->find(
+        centre, 0.0, radius, [](const Box&) { return false; }, found);
+}
+
+void PointTree::between(const Vec3& centre, double inner, double outer, const std::function<bool(const Box&)>& leaves_out,
+                        std::vector<Neighbour>& found) const {
+    if (!index_->tree) return;
+    const auto is_left_out = [&](const Box& box) { return (box.upper - box.lower).maxCoeff() <= 2.0 * outer && leaves_out(box); };
+    index_->find(centre, inner, outer, is_left_out, found);
 }
 
 void PointTree::nearest(const Vec3& centre, std::size_t count, std::vector<Neighbour>& found) const {

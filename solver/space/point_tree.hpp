@@ -1,12 +1,14 @@
 #pragma once
 /// \file Search among points that do not move.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include <gsl/span>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/space/box.hpp"
 
 namespace cutterflow::coupling {
 
@@ -29,8 +31,19 @@ public:
 
     std::size_t size() const;
 
+    /// Lets searches return `first`, `first` + 1, ... in the order of memory. \return the indices that they returned before, in that order
+    std::vector<std::int32_t> number_by_memory(std::int32_t first);
+
+    /// The box around all points.
+    Box bounds() const;
+
     /// Appends every point nearer than `radius` [m] to `found`, in the order of memory.
     void within(const Vec3& centre, double radius, std::vector<Neighbour>& found) const;
+
+    /// Appends every point at a distance [m] of `inner` or more and less than `outer`, in the order of memory, but for boxes of points of
+    /// which `leaves_out` says that none is wanted. It is asked of boxes no larger than the ball.
+    void between(const Vec3& centre, double inner, double outer, const std::function<bool(const Box&)>& leaves_out,
+                 std::vector<Neighbour>& found) const;
 
     /// The `count` nearest points, nearest first; fewer when the tree holds fewer.
     void nearest(const Vec3& centre, std::size_t count, std::vector<Neighbour>& found) const;

@@ -2,94 +2,114 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace cutterflow::coupling {
 namespace {
 
-/// Rounding of angles [rad] and of squared distances: a sight line counts the edges of triangles.
-constexpr double k_angle_slack = 1e-5;
+/// Rounding of places on the cube and of squared distances: a sight line counts the edges of triangles.
+constexpr double k_place_slack = 1e-5;
 constexpr double k_distance_slack = 1e-5;
 
-/// Angle between the middle of a side of the cube and its corners, a little wider.
-const double k_side_angle = std::acos(1.0 / std::sqrt(3.0)) + k_angle_slack;
-const double k_side_cosine = std::cos(k_side_angle), k_side_sine = std::sin(k_side_angle);
+constexpr std::size_t k_sides = 6;
 
-/// Direction of a place on the side `axis` (0, 1, 2) of the cube, towards positive or negative coordinates; u and v in -1 to 1.
-Vec3 on_cube(std::size_t axis, bool negative, double u, double v) {
-    Vec3 direction;
-    direction[static_cast<Eigen::Index>(axis)] = negative ? -1.0 : 1.0;
-    direction[static_cast<Eigen::Index>((axis + 1) % 3)] = u;
-    direction[static_cast<Eigen::Index>((axis + 2) % 3)] = v;
-    return direction.normalized();
-}
+/// Coordinates of a direction on a side of the cube: along its axis, and across. Even sides look to positive coordinates.
+struct OnSide {
+    double along, u, v;
+    OnSide(std::size_t side, const Vec3& direction)
+        : along((side % 2 == 1 ? -1.0 : 1.0) * direction[axis(side, 0)]), u(direction[axis(side, 1)]), v(direction[axis(side, 2)]) {}
+    static Eigen::Index axis(std::size_t side, std::size_t shift) { return static_cast<Eigen::Index>((side / 2 + shift) % 3); }
+};
+
+/// Range along one edge of a side, which is -1 to 1.
+struct Extent {
+    double low = 2.0, high = -2.0;
+    void hold(double place) {
+        low = std::min(low, place);
+        high = std::max(high, place);
+    }
+    bool meets_side() const { return low <= 1.0 + k_place_slack && high >= -1.0 - k_place_slack; }
+};
 
 }  // namespace
 
-const std::array<ShadowMap::Cap, ShadowMap::k_bins>& ShadowMap::caps() {
-    static const std::array<Cap, k_bins> all = [] {
-        std::array<Cap, k_bins> result;
-        constexpr double width = 2.0 / k_bins_per_edge;
-        for (std::size_t bin = 0; bin < k_bins; ++bin) {
-            const std::size_t side = bin / k_bins_per_side, place = bin % k_bins_per_side;
-            const double u = -1.0 + width * static_cast<double>(place / k_bins_per_edge);
-            const double v = -1.0 + width * static_cast<double>(place % k_bins_per_edge);
-            const auto direction = [&](double du, double dv) { return on_cube(side / 2, side % 2 == 1, u + du * width, v + dv * width); };
-            Cap& cap = result[bin];
-            cap.centre = direction(0.5, 0.5);
-            double cosine = 1.0;
-            for (const double du : {0.0, 1.0})
-                for (const double dv : {0.0, 1.0}) cosine = std::min(cosine, cap.centre.dot(direction(du, dv)));
-            const double angle = std::acos(cosine) + k_angle_slack;
-            cap.cosine = std::cos(angle);
-            cap.sine = std::sin(angle);
-        }
-        return result;
-    }();
-    return all;
+/// Bin along an edge of a side; `place` is -1 to 1 on it.
+std::size_t ShadowMap::bin_along(double place) {
+    const double bin = 0.5 * (place + 1.0) * k_bins_per_edge;
+    return static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(k_bins_per_edge - 1)));
 }
 
 std::size_t ShadowMap::bin_of(const Vec3& direction) {
     Eigen::Index axis = 0;
     const double largest = direction.cwiseAbs().maxCoeff(&axis);
-    const auto index = [largest](double value) {
-        const double place = 0.5 * (value / largest + 1.0) * k_bins_per_edge;
-        return std::min(static_cast<std::size_t>(place), k_bins_per_edge - 1);
-    };
     const std::size_t side = 2 * static_cast<std::size_t>(axis) + (direction[axis] < 0.0 ? 1 : 0);
-    return (side * k_bins_per_edge + index(direction[(axis + 1) % 3])) * k_bins_per_edge + index(direction[(axis + 2) % 3]);
+    const OnSide place(side, direction);
+    const double scale = largest > 0.0 ? 1.0 / largest : 0.0;
+    return (side * k_bins_per_edge + bin_along(place.u * scale)) * k_bins_per_edge + bin_along(place.v * scale);
 }
 
-ShadowMap::ShadowMap(const SteelTree& steel, const Vec3& point, double reach)
-    : squared_distance_(k_bins, std::numeric_limits<float>::infinity()) {
-    steel.each_within(point, reach, [&](const SteelTriangle& triangle, double squared_distance) {
-        const auto bound = static_cast<float>(squared_distance * (1.0 - k_distance_slack));
-        const Vec3 towards = ((triangle.a + triangle.b + triangle.c) / 3.0 - point).normalized();
-        double cosine = 1.0;
-        for (const Vec3& corner : {triangle.a, triangle.b, triangle.c})
-            cosine = std::min(cosine, towards.dot((corner - point).normalized()));
-        // Caps of less than a half sphere are convex: the triangle is in the cap of its corners. A wider one, or a point on a corner,
-        // shades everything.
-        const bool is_narrow = cosine > 0.0;
-        const double angle = is_narrow ? std::acos(std::min(cosine, 1.0)) + k_angle_slack : 0.0;
-        const double cos_angle = std::cos(angle), sin_angle = std::sin(angle);
-        // Both caps meet when the angle between their centres is at most the sum of theirs, which is below 180 degrees.
-        const auto meets = [&](double along, double cap_cosine, double cap_sine) {
-            return !is_narrow || along >= cos_angle * cap_cosine - sin_angle * cap_sine;
-        };
-        for (std::size_t side = 0; side < 6; ++side) {
-            const double along = towards[static_cast<Eigen::Index>(side / 2)] * (side % 2 == 1 ? -1.0 : 1.0);
-            if (!meets(along, k_side_cosine, k_side_sine)) continue;
-            for (std::size_t bin = side * k_bins_per_side; bin < (side + 1) * k_bins_per_side; ++bin) {
-                const Cap& cap = caps()[bin];
-                if (meets(towards.dot(cap.centre), cap.cosine, cap.sine)) squared_distance_[bin] = std::min(squared_distance_[bin], bound);
-            }
-        }
+/// The part of a side that a triangle shades: the rectangle around its projection, or nothing. Within the pyramid of a side a place is less
+/// than sqrt(3) times as far from the point as along the axis, so that nothing of the triangle lies there below half of its distance.
+std::optional<ShadowMap::Rectangle> ShadowMap::shaded_by(const std::array<Vec3, 3>& corners, double distance, std::size_t side) {
+    const OnSide place[] = {{side, corners[0]}, {side, corners[1]}, {side, corners[2]}};
+    const double nearest = 0.5 * distance;
+    if (!(nearest > 0.0)) return Rectangle{0, k_bins_per_edge - 1, 0, k_bins_per_edge - 1};
+    Extent u, v;
+    const auto project = [&](double along, double across_u, double across_v) {
+        u.hold(across_u / along);
+        v.hold(across_v / along);
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const OnSide &p = place[i], &q = place[(i + 1) % 3];
+        if (p.along >= nearest) project(p.along, p.u, p.v);
+        if ((p.along < nearest) == (q.along < nearest)) continue;
+        const double share = (nearest - p.along) / (q.along - p.along);
+        project(nearest, p.u + share * (q.u - p.u), p.v + share * (q.v - p.v));
+    }
+    if (!u.meets_side() || !v.meets_side()) return {};
+    return Rectangle{bin_along(u.low - k_place_slack), bin_along(u.high + k_place_slack), bin_along(v.low - k_place_slack),
+                     bin_along(v.high + k_place_slack)};
+}
+
+ShadowMap::ShadowMap(const SteelTree& steel, const Vec3& point, double reach) : steel_(steel), point_(point) {
+    struct Shade {
+        Entry entry;
+        std::size_t side;
+        Rectangle part;
+    };
+    std::vector<Shade> shades;
+    steel.each_within(point, reach, [&](std::int32_t number, const SteelTriangle& triangle, double squared_distance) {
+        const Entry entry{static_cast<float>(squared_distance * (1.0 - k_distance_slack)), number};
+        const std::array<Vec3, 3> corners{triangle.a - point, triangle.b - point, triangle.c - point};
+        for (std::size_t side = 0; side < k_sides; ++side)
+            if (const auto part = shaded_by(corners, std::sqrt(entry.squared_distance), side)) shades.push_back({entry, side, *part});
     });
+    std::sort(shades.begin(), shades.end(),
+              [](const Shade& a, const Shade& b) { return a.entry.squared_distance < b.entry.squared_distance; });
+    const auto each_bin = [&shades](const auto& call) {
+        for (const Shade& shade : shades)
+            for (std::size_t u = shade.part.low_u; u <= shade.part.high_u; ++u)
+                for (std::size_t v = shade.part.low_v; v <= shade.part.high_v; ++v)
+                    call((shade.side * k_bins_per_edge + u) * k_bins_per_edge + v, shade.entry);
+    };
+    each_bin([this](std::size_t bin, const Entry&) { ++first_[bin + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    entries_.resize(first_.back());
+    std::array<std::uint32_t, k_bins + 1> next = first_;
+    each_bin([&](std::size_t bin, const Entry& entry) { entries_[next[bin]++] = entry; });
 }
 
 bool ShadowMap::is_clear(const Vec3& offset) const {
-    return offset.squaredNorm() < squared_distance_[bin_of(offset)];
+    const std::size_t bin = bin_of(offset);
+    return first_[bin] == first_[bin + 1] || offset.squaredNorm() < entries_[first_[bin]].squared_distance;
+}
+
+bool ShadowMap::blocks(const Vec3& offset) const {
+    const std::size_t bin = bin_of(offset);
+    const double squared_length = offset.squaredNorm();
+    for (std::uint32_t i = first_[bin]; i < first_[bin + 1] && entries_[i].squared_distance <= squared_length; ++i)
+        if (steel_.stops(entries_[i].triangle, point_, offset)) return true;
+    return false;
 }
 
 }  // namespace cutterflow::coupling

@@ -4,11 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace cutterflow::coupling {
 namespace {
 
 constexpr std::size_t k_neighbours = 24;
+// A vicinity reaches this much farther than the nearest cells.
+constexpr double k_vicinity = 1.75;
+// Cell sizes that differ by less are one: the rounding of a cube root of a volume.
+constexpr double k_uniform = 1e-9;
 // A moving cell lies at the interface when a still cell's centre is this many sizes away at most.
 constexpr double k_interface_reach = 1.5;
 
@@ -30,8 +35,19 @@ std::vector<double> gather(Communicator& communicator, const std::vector<double>
 
 }  // namespace
 
+/// A cell near a point.
+struct SizeField::Near {
+    double squared_distance;
+    Zone zone;
+    std::int32_t index;
+    bool operator<(const Near& other) const {
+        return std::tie(squared_distance, zone, index) < std::tie(other.squared_distance, other.zone, other.index);
+    }
+};
+
 SizeField::SizeField(const Cells& cells, std::size_t zones, Communicator& communicator) : centres_(zones), sizes_(zones) {
     smallest_ = std::numeric_limits<double>::infinity();
+    double largest = 0.0;
     for (Zone zone = 0; zone < zones; ++zone) {
         std::vector<double> mine;
         for (std::size_t c = 0; c < cells.centres.size(); ++c) {
@@ -40,43 +56,93 @@ SizeField::SizeField(const Cells& cells, std::size_t zones, Communicator& commun
             mine.push_back(cells.sizes[c]);
         }
         const std::vector<double> all = gather(communicator, mine);
-        for (std::size_t i = 0; i < all.size(); i += 4) {
-            centres_[zone].emplace_back(all[i], all[i + 1], all[i + 2]);
-            sizes_[zone].push_back(all[i + 3]);
-            smallest_ = std::min(smallest_, all[i + 3]);
+        std::vector<Vec3> centres;
+        for (std::size_t i = 0; i < all.size(); i += 4) centres.emplace_back(all[i], all[i + 1], all[i + 2]);
+        PointTree& tree = trees_.emplace_back(centres);
+        for (const std::int32_t i : tree.number_by_memory(0)) {
+            centres_[zone].push_back(centres[static_cast<std::size_t>(i)]);
+            sizes_[zone].push_back(all[4 * static_cast<std::size_t>(i) + 3]);
+            smallest_ = std::min(smallest_, sizes_[zone].back());
+            largest = std::max(largest, sizes_[zone].back());
         }
-        trees_.emplace_back(centres_[zone]);
+        count_ += centres.size();
+    }
+    is_uniform_ = largest <= (1.0 + k_uniform) * smallest_;
+}
+
+SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& point, Vicinity& vicinity) const {
+    if (is_uniform_ && trees_.size() == 1) return {smallest_, k_still_zone};
+    std::vector<Near> cells;
+    if (!nearest_of(vicinity, frames, point, cells)) {
+        renew(frames, point, vicinity);
+        nearest_of(vicinity, frames, point, cells);
+    }
+    std::sort(cells.begin(), cells.end());
+    const double reach2 = cells.back().squared_distance;
+    double sum = 0.0, weights = 0.0;
+    for (const Near& cell : cells) {
+        const double t = 1.0 - cell.squared_distance / reach2;
+        sum += t * t * sizes_[cell.zone][static_cast<std::size_t>(cell.index)];
+        weights += t * t;
+    }
+    const Near& nearest = cells.front();
+    return {weights > 0.0 ? sum / weights : sizes_[nearest.zone][static_cast<std::size_t>(nearest.index)], nearest.zone};
+}
+
+/// The nearest cells as far as the vicinity knows, in no order. \return whether they are the nearest of the mesh
+bool SizeField::nearest_of(const Vicinity& vicinity, const ZoneFrames& frames, const Vec3& point, std::vector<Near>& cells) const {
+    if (vicinity.zones.empty()) return false;
+    cells.clear();
+    double known = std::numeric_limits<double>::infinity();  // no cell nearer than this is missing [m]
+    for (Zone zone = 0; zone < trees_.size(); ++zone) {
+        const Vicinity::Part& part = vicinity.zones[zone];
+        const Vec3 here = frames.from_absolute(zone, point);
+        known = std::min(known, part.reach - (here - part.centre).norm());
+        for (const std::int32_t c : part.cells)
+            cells.push_back({(centres_[zone][static_cast<std::size_t>(c)] - here).squaredNorm(), zone, c});
+    }
+    if (cells.size() < std::min(k_neighbours, count_)) return false;
+    if (cells.size() > k_neighbours) {
+        std::nth_element(cells.begin(), cells.begin() + (k_neighbours - 1), cells.end());
+        cells.resize(k_neighbours);
+    }
+    const double farthest2 = std::max_element(cells.begin(), cells.end())->squared_distance;
+    return known > 0.0 && farthest2 < known * known;
+}
+
+void SizeField::renew(const ZoneFrames& frames, const Vec3& point, Vicinity& vicinity) const {
+    std::vector<Neighbour> found;
+    std::vector<double> squared, first(trees_.size(), std::numeric_limits<double>::infinity());
+    for (Zone zone = 0; zone < trees_.size(); ++zone) {
+        trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found);
+        for (const Neighbour& n : found) squared.push_back(n.squared_distance);
+        if (!found.empty()) first[zone] = std::sqrt(found.front().squared_distance);
+    }
+    std::sort(squared.begin(), squared.end());
+    const double reach = k_vicinity * std::sqrt(squared[std::min(k_neighbours, squared.size()) - 1]);
+    vicinity.zones.resize(trees_.size());
+    for (Zone zone = 0; zone < trees_.size(); ++zone) {
+        Vicinity::Part& part = vicinity.zones[zone];
+        part.centre = frames.from_absolute(zone, point);
+        part.reach = count_ <= k_neighbours ? std::numeric_limits<double>::infinity() : std::max(reach, first[zone]);
+        found.clear();
+        trees_[zone].within(part.centre, std::min(part.reach, std::numeric_limits<double>::max()), found);
+        part.cells.clear();
+        for (const Neighbour& n : found) part.cells.push_back(n.index);
     }
 }
 
-SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& point) const {
-    struct Cell {
-        double squared_distance;
-        Zone zone;
-        std::size_t index;
-    };
-    std::array<Cell, 2 * k_neighbours> cells;  // nearest first
-    std::size_t count = 0;
+Vec3 SizeField::nearest_centre(const ZoneFrames& frames, const Vec3& point) const {
+    Neighbour nearest{0, std::numeric_limits<double>::infinity()};
+    Zone its_zone = k_still_zone;
     std::vector<Neighbour> found;
     for (Zone zone = 0; zone < trees_.size(); ++zone) {
-        const std::size_t before = count;
-        trees_[zone].nearest(frames.from_absolute(zone, point), k_neighbours, found);
-        for (const Neighbour& n : found) cells[count++] = {n.squared_distance, zone, static_cast<std::size_t>(n.index)};
-        std::inplace_merge(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before),
-                           cells.begin() + static_cast<std::ptrdiff_t>(count),
-                           [](const Cell& a, const Cell& b) { return a.squared_distance < b.squared_distance; });
-        count = std::min(k_neighbours, count);
+        trees_[zone].nearest(frames.from_absolute(zone, point), 1, found);
+        if (found.empty() || found[0].squared_distance >= nearest.squared_distance) continue;
+        nearest = found[0];
+        its_zone = zone;
     }
-    const double reach2 = cells[count - 1].squared_distance;
-    double sum = 0.0, weights = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double t = 1.0 - cells[i].squared_distance / reach2;
-        sum += t * t * sizes_[cells[i].zone][cells[i].index];
-        weights += t * t;
-    }
-    const Cell& nearest = cells[0];
-    return {weights > 0.0 ? sum / weights : sizes_[nearest.zone][nearest.index], nearest.zone,
-            frames.to_absolute(nearest.zone, centres_[nearest.zone][nearest.index])};
+    return frames.to_absolute(its_zone, centres_[its_zone][static_cast<std::size_t>(nearest.index)]);
 }
 
 double SizeField::interface_speed(gsl::span<const ZoneMotion> moving) const {

@@ -17,13 +17,25 @@ public:
 
     /// The mesh about a point.
     struct Surroundings {
-        double size;          ///< cell size dx [m]: mean over the k = 24 nearest cells of all zones with weights (1 - (r/r_k)^2)^2, which
-                              ///< vanish where a cell enters or leaves the k nearest
-        Zone nearest_zone;    ///< of the cell whose centre is nearest
-        Vec3 nearest_centre;  ///< [m], absolute
+        double size;        ///< cell size dx [m]: mean over the k = 24 nearest cells of all zones with weights (1 - (r/r_k)^2)^2, which
+                            ///< vanish where a cell enters or leaves the k nearest
+        Zone nearest_zone;  ///< of the cell whose centre is nearest
     };
-    /// \param point  [m], absolute
-    Surroundings around(const ZoneFrames& frames, const Vec3& point) const;
+    /// Cells about a point that travels: those that can be the nearest ones until it leaves their reach.
+    struct Vicinity {
+        struct Part {
+            Vec3 centre;                      ///< [m], in the zone's frame
+            double reach;                     ///< [m]; `cells` are all cells of the zone nearer than this to the centre
+            std::vector<std::int32_t> cells;  ///< in the order of the zone's tree
+        };
+        std::vector<Part> zones;  ///< none: not known yet
+    };
+    /// \param point     [m], absolute
+    /// \param vicinity  of the point where it was before; made anew when it does not hold any more. The result does not depend on it
+    Surroundings around(const ZoneFrames& frames, const Vec3& point, Vicinity& vicinity) const;
+
+    /// Centre [m, absolute] of the cell that is nearest to a point.
+    Vec3 nearest_centre(const ZoneFrames& frames, const Vec3& point) const;
 
     double smallest() const { return smallest_; }
 
@@ -31,10 +43,16 @@ public:
     double interface_speed(gsl::span<const ZoneMotion> moving) const;
 
 private:
-    std::vector<std::vector<Vec3>> centres_;  // by zone
+    struct Near;
+    void renew(const ZoneFrames& frames, const Vec3& point, Vicinity& vicinity) const;
+    bool nearest_of(const Vicinity& vicinity, const ZoneFrames& frames, const Vec3& point, std::vector<Near>& cells) const;
+
+    std::vector<std::vector<Vec3>> centres_;  // by zone, in the order of its tree
     std::vector<std::vector<double>> sizes_;
     std::vector<PointTree> trees_;
+    std::size_t count_ = 0;
     double smallest_ = 0.0;
+    bool is_uniform_ = false;
 };
 
 }  // namespace cutterflow::coupling

@@ -10,6 +10,8 @@ namespace {
 constexpr std::size_t k_leaf_size = 4;
 // Barycentric slack that closes the crack along shared edges against rounding.
 constexpr double k_edge_slack = 1e-9;
+// Boxes are this much thicker than what they hold, relative to their size, so that the tests need no tolerance.
+constexpr double k_box_margin = 1e-8;
 // Halving bounds the depth by the logarithm of the count; a depth-first walk keeps one entry per level and one more.
 constexpr int k_stack_size = 64;
 // Direction of the rays for inside/outside: along no line that occurs in meshes of heads, and nearly horizontal.
@@ -119,6 +121,34 @@ bool SteelTree::along(const Vec3& origin, const Vec3& direction, const Each& eac
     return false;
 }
 
+bool SteelTree::may_meet(const Box& box) const {
+    if (nodes_.empty()) return false;
+    std::array<std::int32_t, k_stack_size> stack;
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const std::int32_t index = stack[--top];
+        const Node& node = nodes_[static_cast<std::size_t>(index)];
+        if (!node.box.meets(box)) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = index + 1;
+            continue;
+        }
+        for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+            const Triangle& t = triangles_[static_cast<std::size_t>(i)];
+            const Vec3 lower = t.edge1.cwiseMin(t.edge2).cwiseMin(0.0), upper = t.edge1.cwiseMax(t.edge2).cwiseMax(0.0);
+            const Vec3 margin = Vec3::Constant(k_box_margin * (upper - lower).sum());
+            if (Box{t.corner + lower - margin, t.corner + upper + margin}.meets(box)) return true;
+        }
+    }
+    return false;
+}
+
+bool SteelTree::stops(std::int32_t triangle, const Vec3& origin, const Vec3& offset) const {
+    return meets(triangles_[static_cast<std::size_t>(triangle)], origin, offset, k_edge_slack);
+}
+
 bool SteelTree::blocks(const Vec3& a, const Vec3& b) const {
     const Vec3 direction = b - a;
     return along(a, direction, [&](const Triangle& triangle) { return meets(triangle, a, direction, k_edge_slack); });
@@ -145,10 +175,6 @@ bool SteelTree::contains(const Vec3& point) const {
         return false;
     });
     return crossings % 2 == 1;
-}
-
-double SteelTree::squared_distance(const Box& box, const Vec3& point) {
-    return (box.lower - point).cwiseMax(point - box.upper).cwiseMax(0.0).squaredNorm();
 }
 
 double SteelTree::squared_distance(const Triangle& triangle, const Vec3& point) {
@@ -184,7 +210,7 @@ double SteelTree::distance(const Vec3& point, double limit) const {
     };
     std::array<Entry, k_stack_size> stack;
     int top = 0;
-    stack[top++] = {0, squared_distance(nodes_[0].box, point)};
+    stack[top++] = {0, nodes_[0].box.squared_distance(point)};
     while (top > 0) {
         const Entry entry = stack[--top];
         if (entry.squared >= best) continue;
@@ -194,8 +220,8 @@ double SteelTree::distance(const Vec3& point, double limit) const {
                 best = std::min(best, squared_distance(triangles_[static_cast<std::size_t>(i)], point));
             continue;
         }
-        const Entry first{entry.index + 1, squared_distance(nodes_[static_cast<std::size_t>(entry.index + 1)].box, point)};
-        const Entry second{node.first, squared_distance(nodes_[static_cast<std::size_t>(node.first)].box, point)};
+        const Entry first{entry.index + 1, nodes_[static_cast<std::size_t>(entry.index + 1)].box.squared_distance(point)};
+        const Entry second{node.first, nodes_[static_cast<std::size_t>(node.first)].box.squared_distance(point)};
         const bool first_is_nearer = first.squared < second.squared;
         stack[top++] = first_is_nearer ? second : first;
         stack[top++] = first_is_nearer ? first : second;
@@ -203,7 +229,8 @@ double SteelTree::distance(const Vec3& point, double limit) const {
     return std::sqrt(best);
 }
 
-void SteelTree::each_within(const Vec3& point, double limit, const std::function<void(const SteelTriangle&, double)>& each) const {
+void SteelTree::each_within(const Vec3& point, double limit,
+                            const std::function<void(std::int32_t, const SteelTriangle&, double)>& each) const {
     if (nodes_.empty()) return;
     std::array<std::int32_t, k_stack_size> stack;
     int top = 0;
@@ -211,7 +238,7 @@ void SteelTree::each_within(const Vec3& point, double limit, const std::function
     while (top > 0) {
         const std::int32_t index = stack[--top];
         const Node& node = nodes_[static_cast<std::size_t>(index)];
-        if (squared_distance(node.box, point) >= limit * limit) continue;
+        if (node.box.squared_distance(point) >= limit * limit) continue;
         if (node.count == 0) {
             stack[top++] = node.first;
             stack[top++] = index + 1;
@@ -221,7 +248,7 @@ void SteelTree::each_within(const Vec3& point, double limit, const std::function
             const Triangle& triangle = triangles_[static_cast<std::size_t>(i)];
             const double squared = squared_distance(triangle, point);
             if (squared < limit * limit)
-                each({triangle.corner, triangle.corner + triangle.edge1, triangle.corner + triangle.edge2}, squared);
+                each(i, {triangle.corner, triangle.corner + triangle.edge1, triangle.corner + triangle.edge2}, squared);
         }
     }
 }

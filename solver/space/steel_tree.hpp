@@ -9,6 +9,7 @@
 
 #include "geometry/base/vec3.hpp"
 #include "solver/ports/fluid_engine.hpp"
+#include "solver/space/box.hpp"
 
 namespace cutterflow::coupling {
 
@@ -17,6 +18,12 @@ public:
     explicit SteelTree(gsl::span<const SteelTriangle> triangles);
 
     bool empty() const { return triangles_.empty(); }
+
+    /// False when no triangle meets the box. True may be said in vain: what is looked at are the boxes around triangles.
+    bool may_meet(const Box& box) const;
+
+    /// Whether one triangle, by the number that each_within gives, meets the segment from `origin` to `origin` + `offset` [m].
+    bool stops(std::int32_t triangle, const Vec3& origin, const Vec3& offset) const;
 
     /// True when a triangle meets the segment from a to b [m]. Edges count, so that no segment passes between two triangles that share one.
     bool blocks(const Vec3& a, const Vec3& b) const;
@@ -33,13 +40,10 @@ public:
     /// Distance [m] from a point to the nearest triangle, or `limit` when none is nearer.
     double distance(const Vec3& point, double limit) const;
 
-    /// Calls `each(triangle, squared distance)` for every triangle nearer to a point than `limit` [m].
-    void each_within(const Vec3& point, double limit, const std::function<void(const SteelTriangle&, double)>& each) const;
+    /// Calls `each(number, triangle, squared distance)` for every triangle nearer to a point than `limit` [m].
+    void each_within(const Vec3& point, double limit, const std::function<void(std::int32_t, const SteelTriangle&, double)>& each) const;
 
 private:
-    struct Box {
-        Vec3 lower, upper;
-    };
     struct Node {
         Box box;
         std::int32_t first;  // leaf: its first triangle; else its second child (the first one follows the node)
@@ -55,7 +59,6 @@ private:
     /// Calls `each(triangle)` for the triangles whose boxes the segment passes, until it returns true. \return whether it did
     template <class Each>
     bool along(const Vec3& origin, const Vec3& direction, const Each& each) const;
-    static double squared_distance(const Box& box, const Vec3& point);
     static double squared_distance(const Triangle& triangle, const Vec3& point);
 
     std::vector<Node> nodes_;

@@ -7,8 +7,9 @@ namespace {
 
 /// Below this sum of the nodes' weights the rock's centre becomes a node, so that a rock in a tight corner keeps a view.
 constexpr double k_least_node_weight = 0.1;
-/// Stored hidden cells (4 bytes each) above which unused nodes are dropped.
+/// Stored hidden cells (4 bytes each) above which unused nodes are dropped, and as how many a triangle in a shadow map counts.
 constexpr std::size_t k_most_kept_cells = 32u << 20;
+constexpr std::size_t k_cells_per_shade = 2;
 /// A stored list reaches this much further than requested, because a rock's kernel widens gradually into coarser cells.
 constexpr double k_list_margin = 1.1;
 
@@ -59,7 +60,15 @@ CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
         centres[cells.zone[c]].push_back(cells.centres[c]);
         indices[cells.zone[c]].push_back(static_cast<std::int32_t>(c));
     }
-    for (Zone zone = 0; zone < zones; ++zone) trees_.emplace_back(std::move(centres[zone]), std::move(indices[zone]));
+    for (Zone zone = 0; zone < zones; ++zone) {
+        PointTree& tree = trees_.emplace_back(std::move(centres[zone]), std::move(indices[zone]));
+        const std::vector<std::int32_t> numbers = tree.number_by_memory(static_cast<std::int32_t>(numbers_.size()));
+        numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+    }
+    for (const std::int32_t c : numbers_) {
+        volumes_.push_back(cells.volumes[static_cast<std::size_t>(c)]);
+        centres_.push_back(cells.centres[static_cast<std::size_t>(c)]);
+    }
 }
 
 Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames)
@@ -173,25 +182,31 @@ double Visibility::seen_share(Zone steel, const Vec3& position, double clearance
     std::int32_t last = -1;
     for (const Vec3& direction : view_points()) {
         const Vec3 start = position + radius * direction;
-        const bool is_clear =
-            lies_in_balls(start, position, clearance, node.position, node.clearance) || !steel_[steel].blocks(start, node.position, last);
+        const bool is_clear = lies_in_balls(start, position, clearance, node.position, node.clearance) ||
+                              (node.shadows && node.shadows->is_clear(start - node.position)) ||
+                              !steel_[steel].blocks(start, node.position, last);
         if (is_clear) ++seen;
     }
     return static_cast<double>(seen) / static_cast<double>(view_points().size());
 }
 
 /// Sets the node's distance to the steel, up to `reach` at least.
-void Visibility::measure_clearance(Zone steel, SamplePoint& point, double reach) const {
+void Visibility::measure_clearance(Zone steel, SamplePoint& point, double reach) {
     if (point.clearance_limit >= reach) return;
     point.clearance_limit = k_list_margin * reach;
     point.clearance = steel_[steel].distance(point.position, point.clearance_limit);
+    drop_shadows(point);
+}
+
+void Visibility::drop_shadows(SamplePoint& point) {
+    if (!point.shadows) return;
+    kept_cells_ -= k_cells_per_shade * point.shadows->size();
     point.shadows.reset();
 }
 
 void Visibility::add_hidden(Zone steel, SamplePoint& point, double weight, double reach) {
     measure_clearance(steel, point, reach);
     if (point.clearance >= reach) return;
-    if (!point.shadows) point.shadows.emplace(steel_[steel], point.position, k_list_margin * point.clearance_limit);
     for (Zone cells = 0; cells < trees_.zones(); ++cells) {
         for (const std::int32_t c : hidden_cells(steel, point, cells, reach)) {
             double& share = hidden_[static_cast<std::size_t>(c)];
@@ -205,26 +220,52 @@ const std::vector<std::int32_t>& Visibility::hidden_cells(Zone steel, SamplePoin
     point.hidden.resize(trees_.zones());
     HiddenCells& list = point.hidden[cells];
     const bool moves = cells != steel;
-    if (list.reach >= reach && (!moves || list.stamp == stamp_)) return list.cells;
     kept_cells_ -= list.cells.size();
-    list.cells.clear();
-    list.reach = moves ? reach : k_list_margin * reach;
-    list.stamp = stamp_;
-    found_.clear();
-    trees_.of(cells).within(frames_.change(steel, cells, point.position), list.reach, found_);
-    for (const Neighbour& n : found_) {
-        if (n.squared_distance <= point.clearance * point.clearance) continue;
-        const Vec3 centre = frames_.change(cells, steel, trees_.cells().centres[static_cast<std::size_t>(n.index)]);
-        if (point.shadows->is_clear(centre - point.position)) continue;
-        ++tests_;
-        if (steel_[steel].blocks(point.position, centre)) list.cells.push_back(n.index);
+    if (moves && list.stamp != stamp_) {
+        list.cells.clear();
+        list.reach = -1.0;
+        list.stamp = stamp_;
+    }
+    if (list.reach < reach) {
+        const double outer = moves ? reach : point.clearance_limit;
+        find_hidden(steel, point, cells, std::max(list.reach, point.clearance), outer, list.cells);
+        list.reach = outer;
     }
     kept_cells_ += list.cells.size();
     return list.cells;
 }
 
-void Visibility::release(const SamplePoint& point) {
+/// Appends the cells that a point does not see, of those at a distance of `inner` or more and less than `outer` [m].
+void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, std::vector<std::int32_t>& hidden) {
+    if (trees_.of(cells).size() == 0) return;
+    const ZoneFrames::Change change = frames_.between(cells, steel);
+    const Eigen::Matrix3d extent_of_turned = change.turn.cwiseAbs();
+    const Vec3 centre = change.turn.transpose() * (point.position - change.shift);
+    // No steel meets the box that holds the point and a box of cells: all lines between them are clear.
+    const auto sees_all_of = [&](const Box& box) {
+        const Vec3 lower = box.lower.cwiseMax(centre - Vec3::Constant(outer)), upper = box.upper.cwiseMin(centre + Vec3::Constant(outer));
+        const Vec3 middle = change(0.5 * (lower + upper)), half = extent_of_turned * (0.5 * (upper - lower));
+        return !steel_[steel].may_meet({point.position.cwiseMin(middle - half), point.position.cwiseMax(middle + half)});
+    };
+    if (sees_all_of(trees_.of(cells).bounds())) return;
+    if (!point.shadows) {
+        point.shadows.emplace(steel_[steel], point.position, point.clearance_limit);
+        kept_cells_ += k_cells_per_shade * point.shadows->size();
+    }
+    found_.clear();
+    trees_.of(cells).between(centre, inner, outer, sees_all_of, found_);
+    for (const Neighbour& n : found_) {
+        const Vec3 offset = change(trees_.centre(n.index)) - point.position;
+        if (point.shadows->is_clear(offset)) continue;
+        ++tests_;
+        if (point.shadows->blocks(offset)) hidden.push_back(n.index);
+    }
+    if (trees_.zones() == 1) drop_shadows(point);  // no cell will come again
+}
+
+void Visibility::release(SamplePoint& point) {
     for (const HiddenCells& list : point.hidden) kept_cells_ -= list.cells.size();
+    drop_shadows(point);
 }
 
 void Visibility::drop_old_nodes() {

@@ -15,17 +15,34 @@
 
 namespace cutterflow::coupling {
 
-/// This rank's cells for searches: one tree per zone, in the zone's own frame, built once.
+/// Cells of a zone about a point that travels.
+struct NearbyCells {
+    Vec3 centre = Vec3::Zero();       ///< [m], in the zone's frame
+    double reach = -1.0;              ///< [m]; `cells` are all cells of the zone nearer than this to the centre
+    std::vector<std::int32_t> cells;  ///< in the order of the zone's tree
+    /// Whether every cell within `radius` [m] of a point is among them.
+    bool hold_all(const Vec3& point, double radius) const { return (point - centre).norm() + radius <= reach; }
+};
+
+/// This rank's cells for searches: one tree per zone, in the zone's own frame, built once. What a search finds are places: numbers of the
+/// cells in the order of the trees, in which neighbours in space are neighbours in memory.
 class CellTrees {
 public:
     CellTrees(const Cells& cells, std::size_t zones);
     std::size_t zones() const { return trees_.size(); }
     const PointTree& of(Zone zone) const { return trees_[zone]; }
     const Cells& cells() const { return cells_; }
+    /// Of the cell at a place: its number among `cells`, its volume [m3], its centre [m] in its zone's frame.
+    std::int32_t number(std::int32_t place) const { return numbers_[static_cast<std::size_t>(place)]; }
+    double volume(std::int32_t place) const { return volumes_[static_cast<std::size_t>(place)]; }
+    const Vec3& centre(std::int32_t place) const { return centres_[static_cast<std::size_t>(place)]; }
 
 private:
     Cells cells_;
     std::vector<PointTree> trees_;
+    std::vector<std::int32_t> numbers_;
+    std::vector<double> volumes_;
+    std::vector<Vec3> centres_;
 };
 
 /// Visible fraction of a rock from each cell around it.
@@ -53,8 +70,8 @@ public:
     /// Whether every cell within reach sees the whole rock.
     bool sees_all() const { return dimmed_.empty(); }
 
-    /// Visible fraction [-] of the rock from a cell of this rank within reach.
-    double visible_fraction(std::int32_t cell) const { return visible_[static_cast<std::size_t>(cell)]; }
+    /// Visible fraction [-] of the rock from the cell at a place of CellTrees, within reach.
+    double visible_fraction(std::int32_t place) const { return visible_[static_cast<std::size_t>(place)]; }
 
     /// Numbers of stored nodes and of line-of-sight tests so far, for measurements.
     std::size_t kept_nodes() const {
@@ -67,9 +84,9 @@ private:
     static constexpr double k_rounding = 1e-12;  // of the sum of a hidden cell's shares
 
     struct HiddenCells {
-        double reach = -1.0;      // that the list is complete for
-        std::uint64_t stamp = 0;  // of the mesh position that it holds for (cells of the other zone)
-        std::vector<std::int32_t> cells;
+        double reach = -1.0;              // that the list is complete for
+        std::uint64_t stamp = 0;          // of the mesh position that it holds for (cells of the other zone)
+        std::vector<std::int32_t> cells;  // their places
     };
     struct SamplePoint {
         Vec3 position;
@@ -89,11 +106,13 @@ private:
     void dim_touched();
     void look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing);
     SamplePoint& node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing);
-    void measure_clearance(Zone steel, SamplePoint& point, double reach) const;
+    void measure_clearance(Zone steel, SamplePoint& point, double reach);
+    void drop_shadows(SamplePoint& point);
     double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const SamplePoint& node) const;
     void add_hidden(Zone steel, SamplePoint& point, double weight, double reach);
     const std::vector<std::int32_t>& hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach);
-    void release(const SamplePoint& point);
+    void find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, std::vector<std::int32_t>& hidden);
+    void release(SamplePoint& point);
     void drop_old_nodes();
 
     const CellTrees& trees_;
@@ -103,10 +122,10 @@ private:
     std::vector<Lattice> nodes_;  // by the steel's zone
     std::size_t kept_cells_ = 0;
     std::size_t tests_ = 0;
-    std::vector<double> visible_;        // per cell
-    std::vector<std::int32_t> dimmed_;   // cells whose visible fraction is below 1
-    std::vector<double> hidden_;         // share per cell behind the steel of the zone in hand
-    std::vector<std::int32_t> touched_;  // cells whose share is not 0
+    std::vector<double> visible_;        // by place
+    std::vector<std::int32_t> dimmed_;   // places whose visible fraction is below 1
+    std::vector<double> hidden_;         // by place, share behind the steel of the zone in hand
+    std::vector<std::int32_t> touched_;  // places whose share is not 0
     std::vector<Neighbour> found_;
 };
 

@@ -19,8 +19,27 @@ public:
 
     std::size_t zones() const { return frames_.size() + 1; }
 
-    /// A point [m] given in the frame of `from`, in the frame of `to`.
-    Vec3 change(Zone from, Zone to, const Vec3& point) const { return from == to ? point : from_absolute(to, to_absolute(from, point)); }
+    /// The change of points between the frames of two zones.
+    struct Change {
+        Eigen::Matrix3d turn;
+        Vec3 shift;  ///< [m]
+        Vec3 operator()(const Vec3& point) const { return turn * point + shift; }
+    };
+    Change between(Zone from, Zone to) const {
+        Change change{Eigen::Matrix3d::Identity(), Vec3::Zero()};
+        if (from == to) return change;
+        if (from != k_still_zone) {
+            const Frame& frame = frames_[from - 1];
+            change = {frame.to_absolute, frame.origin - frame.to_absolute * frame.origin};
+        }
+        if (to != k_still_zone) {
+            const Frame& frame = frames_[to - 1];
+            change.shift = frame.origin + frame.from_absolute * (change.shift - frame.origin);
+            change.turn = frame.from_absolute * change.turn;
+        }
+        return change;
+    }
+
     Vec3 from_absolute(Zone to, const Vec3& point) const {
         if (to == k_still_zone) return point;
         const Frame& frame = frames_[to - 1];

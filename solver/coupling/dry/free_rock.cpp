@@ -14,7 +14,7 @@ std::vector<int> FreeRock::insert(const std::vector<FeedRock>& due) {
     const std::vector<int> inserted = dem_.insert(candidates);
     std::vector<int> rejected;
     for (const int id : candidates.id)
-        if (std::find(inserted.begin(), inserted.end(), id) == inserted.end()) rejected.push_back(id);
+        if (!std::binary_search(inserted.begin(), inserted.end(), id)) rejected.push_back(id);
     return rejected;
 }
 

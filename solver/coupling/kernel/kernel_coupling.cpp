@@ -106,7 +106,7 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
     const std::vector<int> inserted = dem_.insert(candidates);
     std::vector<int> rejected;
     for (std::size_t p = 0; p < candidates.size(); ++p) {
-        if (std::find(inserted.begin(), inserted.end(), candidates.id[p]) == inserted.end()) {
+        if (!std::binary_search(inserted.begin(), inserted.end(), candidates.id[p])) {
             rejected.push_back(candidates.id[p]);
             continue;
         }

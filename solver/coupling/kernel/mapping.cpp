@@ -16,10 +16,16 @@ namespace {
 // open water.
 constexpr double k_lattice_spacing = 0.85;
 
+// Vicinities per rock above which those that the last builds did not use are dropped.
+constexpr std::size_t k_kept_vicinities = 2;
+constexpr std::uint64_t k_kept_builds = 4;
+
+// What is found of a rock's cells reaches this many kernel widths farther than the kernel, for the rock to travel.
+constexpr double k_skin = 0.3;
+
 }  // namespace
 
 void Stencils::clear() {
-    cell_size.clear();
     width.clear();
     zone.clear();
     first.assign(1, 0);
@@ -78,12 +84,15 @@ void Mapping::build(const RockShapes& rocks, Stencils& stencils) {
 
 void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     stencils.clear();
+    ++builds_;
+    forget_vicinities(rocks.size());
     std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
     for (std::size_t p = 0; p < rocks.size(); ++p) {
-        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p]);
+        KnownVicinity& vicinity = vicinities_[rocks.id[p]];
+        vicinity.last_build = builds_;
+        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p], vicinity.sizes);
         const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * mesh.size);
         const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
-        stencils.cell_size.push_back(mesh.size);
         stencils.width.push_back(width);
         stencils.zone.push_back(mesh.nearest_zone);
         visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
@@ -105,27 +114,51 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     }
 }
 
+/// Drops what is known about rock that has left.
+void Mapping::forget_vicinities(std::size_t rocks) {
+    if (vicinities_.size() <= k_kept_vicinities * (rocks + 1)) return;
+    for (auto i = vicinities_.begin(); i != vicinities_.end();)
+        i = i->second.last_build + k_kept_builds < builds_ ? vicinities_.erase(i) : std::next(i);
+}
+
+/// Cells of a zone within the kernel's reach of a point [m, zone's frame], and some more.
+const NearbyCells& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const {
+    vicinity.kernel.resize(frames_.zones());
+    NearbyCells& nearby = vicinity.kernel[zone];
+    if (nearby.hold_all(point, physics::k_kernel_reach * width)) return nearby;
+    nearby.centre = point;
+    nearby.reach = (physics::k_kernel_reach + k_skin) * width;
+    nearby.cells.clear();
+    std::vector<Neighbour> found;
+    trees_.of(zone).within(point, nearby.reach, found);
+    nearby.cells.reserve(found.size());
+    for (const Neighbour& n : found) nearby.cells.push_back(n.index);
+    return nearby;
+}
+
 /// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's
 /// sums.
 void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
     const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
-    const gsl::span<const double> volumes = trees_.cells().volumes;
     const bool sees_all = visibility_.sees_all();
     double deposit_sum = 0.0, sample_sum = 0.0;
+    const double reach2 = physics::k_kernel_reach2 * width * width;
     std::size_t entries = stencils.cell.size();
     for (Zone zone = 0; zone < frames_.zones(); ++zone) {
-        found_.clear();
-        trees_.of(zone).within(frames_.from_absolute(zone, rocks.position[rock]), physics::k_kernel_reach * width, found_);
-        stencils.resize_entries(entries + found_.size());
-        for (const Neighbour& n : found_) {
-            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(n.index);
+        const Vec3 here = frames_.from_absolute(zone, rocks.position[rock]);
+        const NearbyCells& nearby = nearby_cells(vicinities_[rocks.id[rock]], zone, here, width);
+        stencils.resize_entries(entries + nearby.cells.size());
+        for (const std::int32_t place : nearby.cells) {
+            const double squared_distance = (trees_.centre(place) - here).squaredNorm();
+            if (squared_distance >= reach2) continue;
+            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(place);
             if (visible == 0.0) continue;
-            const double q = n.squared_distance * inverse_width2;
+            const double q = squared_distance * inverse_width2;
             const double gaussian = physics::gaussian_weight(q);
             const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(q, gaussian, quadratic_share);
-            const double volume = volumes[static_cast<std::size_t>(n.index)];
-            stencils.cell[entries] = n.index;
+            const double volume = trees_.volume(place);
+            stencils.cell[entries] = trees_.number(place);
             stencils.deposit[entries] = deposit;
             stencils.sample[entries] = sample;
             ++entries;
@@ -146,14 +179,13 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
     hidden_rocks_ += hidden.size();
     Stencils replaced;
     replaced.first.push_back(0);
-    replaced.cell_size = stencils.cell_size;
     replaced.width = stencils.width;
     replaced.zone = stencils.zone;
     std::vector<double> new_sums(sums.size(), 0.0);
     auto next = hidden.begin();
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         if (next != hidden.end() && *next == p) {
-            visibility_.look_from_point(sizes_.around(frames_, rocks.position[p]).nearest_centre,
+            visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[p]),
                                         physics::k_kernel_reach * 2.0 * stencils.width[p]);
             add_entries(rocks, p, replaced, new_sums);
             ++next;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Mapping between rocks and the cells of this rank: one stencil per rock serves every field in both directions.
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "solver/ports/communicator.hpp"
@@ -21,7 +22,6 @@ struct RockShapes {
 /// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]).
 /// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights.
 struct Stencils {
-    std::vector<double> cell_size;   ///< dx at each rock [m]
     std::vector<double> width;       ///< sigma of each rock [m]
     std::vector<Zone> zone;          ///< of the cell nearest to each rock
     std::vector<std::size_t> first;  ///< one more than rocks
@@ -69,6 +69,7 @@ private:
     };
 
     void build_anew(const RockShapes& rocks, Stencils& stencils);
+    void forget_vicinities(std::size_t rocks);
     void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
     void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
 
@@ -83,7 +84,16 @@ private:
     Kept last_;                   // unused once the mesh has turned
     bool has_turned_ = false;
     std::size_t hidden_rocks_ = 0;
-    std::vector<Neighbour> found_;
+
+    /// Cells about a rock, found when it was near by.
+    struct KnownVicinity {
+        SizeField::Vicinity sizes;
+        std::vector<NearbyCells> kernel;  // by zone
+        std::uint64_t last_build = 0;
+    };
+    const NearbyCells& nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const;
+    std::unordered_map<int, KnownVicinity> vicinities_;  // by the rock's id
+    std::uint64_t builds_ = 0;
 };
 
 /// Adds amount[p] * w to each cell: solid_fraction from volumes [m3] and so on.

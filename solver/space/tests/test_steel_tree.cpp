@@ -72,6 +72,58 @@ TEST(ShadowMap, clears_only_what_no_triangle_hides) {
     EXPECT_GT(clear, visible / 2);
 }
 
+/// The triangles of one bin tell what all triangles tell, from anywhere: in the open, in the plane of a triangle, on a corner, beside one.
+TEST(ShadowMap, blocks_the_lines_that_the_tree_blocks) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-0.9, 0.9);
+    const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
+    constexpr double reach = 1.0;
+    int blocked = 0, lines = 0;
+    for (const int count : {1, 30, 600}) {
+        const std::vector<SteelTriangle> triangles = random_triangles(count, random);
+        const SteelTree tree(triangles);
+        for (int i = 0; i < 60; ++i) {
+            const SteelTriangle& t = triangles[static_cast<std::size_t>(i) % triangles.size()];
+            const Vec3 in_plane = 3.0 * t.a - 1.2 * t.b - 0.8 * t.c, beside = t.b + Vec3::Constant(1e-6);
+            const Vec3 from = i % 4 == 0 ? t.a : i % 4 == 1 ? beside : i % 4 == 2 ? in_plane : point();
+            const ShadowMap shadows(tree, from, reach);
+            for (int j = 0; j < 300; ++j) {
+                const Vec3 to = from + 0.5 * point();
+                if ((to - from).norm() >= reach) continue;
+                const bool expected = tree.blocks(from, to);
+                ASSERT_EQ(shadows.blocks(to - from), expected) << count << ' ' << i << ' ' << j;
+                blocked += expected ? 1 : 0;
+                ++lines;
+            }
+        }
+    }
+    EXPECT_GT(blocked, lines / 20);
+    EXPECT_LT(blocked, lines - lines / 20);
+}
+
+TEST(SteelTree, overlooks_no_triangle_that_meets_a_box) {
+    std::mt19937 random(13);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), share(0.0, 1.0);
+    const auto triangles = random_triangles(300, random);
+    const SteelTree tree(triangles);
+    int without = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 a(place(random), place(random), place(random)), b = a + 0.15 * Vec3(place(random), place(random), place(random));
+        const Box box{a.cwiseMin(b), a.cwiseMax(b)};
+        if (tree.may_meet(box)) continue;
+        ++without;
+        for (const SteelTriangle& t : triangles)
+            for (int k = 0; k < 5; ++k) {
+                const double u = share(random), v = (1.0 - u) * share(random);
+                const Vec3 x = t.a + u * (t.b - t.a) + v * (t.c - t.a);
+                ASSERT_FALSE((x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all());
+            }
+    }
+    EXPECT_GT(without, 300);
+    // A box that holds a corner, and nothing else, meets its triangle.
+    for (const SteelTriangle& t : triangles) EXPECT_TRUE(tree.may_meet({t.a, t.a}));
+}
+
 /// Towards the corners of triangles, where bins and caps are closest to their rounding.
 TEST(ShadowMap, does_not_clear_a_triangles_edge) {
     std::mt19937 random(9);
