@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cutterflow::free_surface {
 
@@ -249,6 +250,15 @@ void PressureSystem::set_residual(const Vector& right_side, const Vector& q) con
     residual_ = right_side - product_;
 }
 
+int PressureSystem::worst_cell() const {
+    Eigen::Index worst = 0;
+    for (Eigen::Index r = 0; r < residual_.size(); ++r) {
+        if (!std::isfinite(residual_[r])) return cell_[r];
+        if (std::abs(residual_[r]) > std::abs(residual_[worst])) worst = r;
+    }
+    return cell_[worst];
+}
+
 SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tolerance, gsl::span<double> q) const {
     const auto count = static_cast<Eigen::Index>(cell_.size());
     SolveReport report;
@@ -269,6 +279,7 @@ SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tol
     set_residual(right, solution_);
     report.residual = residual_.lpNorm<Eigen::Infinity>() / scale;
     double sigma = 1.0;
+    bool broken_down = false;  // at the limit of the machine's numbers
     while (report.residual > tolerance && report.iterations < k_most_iterations) {
         precondition(residual_, z_);
         const double next = residual_.dot(z_.head(count));
@@ -276,10 +287,8 @@ SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tol
         sigma = next;
         multiply(direction_, product_.data());
         const double step = sigma / product_.dot(direction_.head(count));
-        if (!std::isfinite(step)) {
-            report.residual = step;
-            break;
-        }
+        broken_down = !std::isfinite(step);
+        if (broken_down) break;
         solution_ += step * direction_;
         residual_ -= step * product_;
         ++report.iterations;
@@ -287,7 +296,9 @@ SolveReport PressureSystem::solve(gsl::span<const double> right_side, double tol
     }
     found = solution_.head(count);
     remove_means(q.data());
-    report.converged = report.residual <= tolerance;  // false for a residual that is no number, too
+    if (!found.allFinite()) report.residual = std::numeric_limits<double>::quiet_NaN();
+    report.converged = !broken_down && report.residual <= tolerance;  // false for a residual that is no number, too
+    if (!report.converged) report.worst_cell = worst_cell();
     return report;
 }
 

@@ -9,6 +9,7 @@ struct SolveReport {
     int iterations = 0;
     double residual = 0.0;  ///< largest over the largest of the right side [-]
     bool converged = true;
+    int worst_cell = -1;  ///< of a solution that did not converge: where the residual is largest or no number
 };
 
 /// Symmetric system in q = dt p / rho [m2/s] of the water cells, over the face area A and divided by h:
@@ -59,6 +60,7 @@ private:
     void add_body_to_blocks(const BodyPart& body, const std::vector<int>& block);
     void multiply(const Eigen::VectorXd& q, double* y) const;
     void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& z) const;
+    int worst_cell() const;
     void set_residual(const Eigen::VectorXd& right_side, const Eigen::VectorXd& q) const;
     void remove_means(double* values) const;
 

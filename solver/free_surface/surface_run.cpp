@@ -183,6 +183,7 @@ double SurfaceRun::choose_step(double longest) const {
 const StepReport& SurfaceRun::step(double longest) {
     report_ = StepReport{};
     const double step = choose_step(longest);
+    report_.step = step;
     lift_.clear();
     for (const Gate& gate : settings_.gates) lift_.push_back((gate.rise(time_ + step) - gate.rise(time_)) / step);
     const bool gates_move = std::any_of(lift_.begin(), lift_.end(), [](double speed) { return speed > 0.0; });
@@ -193,6 +194,7 @@ const StepReport& SurfaceRun::step(double longest) {
     add_body_forces(step);
     predict_bodies(step);
     solve_pressure(step);
+    require_pressure();
     push_bodies(step);
     push_water();
     book_walls(step);
@@ -216,7 +218,6 @@ const StepReport& SurfaceRun::step(double longest) {
     report_.occupied_volume = occupied_volume(grid_, cells_, water_);
     time_ += step;
     report_.time = time_;
-    report_.step = step;
     check();
     return report_;
 }
@@ -509,22 +510,61 @@ double SurfaceRun::energy() const {
     return sum;
 }
 
+std::string SurfaceRun::text_of(const Vec3& place) const {
+    if (grid_.is_plane()) return fmt::format("({:.4g}, {:.4g}) m", place.x(), place.z());
+    return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", place.x(), place.y(), place.z());
+}
+
+std::string SurfaceRun::text_of(int cell) const {
+    const std::array<int, 3> place = grid_.place(cell);
+    return text_of(grid_.centre(place[0], place[1], place[2]));
+}
+
+/// Where particles crowd most, or in water that won volume are fewest.
+int SurfaceRun::worst_filled_cell(bool lost) const {
+    int worst = -1;
+    for (const int cell : water_.water) {
+        if (!lost && is_beside_air(grid_, cells_, water_, cell)) continue;
+        const double more = worst < 0 ? 1.0 : water_.fraction[cell] - water_.fraction[worst];
+        if (worst < 0 || (lost ? more > 0.0 : more < 0.0)) worst = cell;
+    }
+    return worst;
+}
+
+std::string SurfaceRun::moment() const {
+    return fmt::format("at {:.6g} s, in a step of {:.3g} s", time_, report_.step);
+}
+
+/// Before bodies take it: the DEM must not be given what is no number.
+void SurfaceRun::require_pressure() const {
+    if (std::isfinite(report_.pressure.residual)) return;
+    throw CheckFailure({"",
+                        fmt::format("The pressure of the water is no number near {} {}", text_of(report_.pressure.worst_cell), moment()),
+                        "It must be finite", "Halve the Courant number, or look for a solid that squeezes water"});
+}
+
 void SurfaceRun::check() const {
     const double speed = largest_speed(particles_);
-    const std::string where = fmt::format("at {:.6g} s, in a step of {:.3g} s", time_, report_.step);
     if (!(speed <= fastest_allowed_)) {
-        throw CheckFailure({"", fmt::format("Water flies at {:.4g} m/s {}", speed, where),
-                            fmt::format("It must stay below {:.4g} m/s, 50 sqrt(g H)", fastest_allowed_),
-                            "Halve the Courant number, or look for a solid that squeezes water"});
+        throw CheckFailure(
+            {"",
+             fmt::format("Water flies at {:.4g} m/s near {} {}", speed, text_of(particles_.place(fastest_particle(particles_))), moment()),
+             fmt::format("It must stay below {:.4g} m/s, 50 sqrt(g H)", fastest_allowed_),
+             "Halve the Courant number, or look for a solid that squeezes water"});
     }
     const double lost = initial_volume_ > 0.0 ? report_.occupied_volume / initial_volume_ - 1.0 : 0.0;
     if (!(std::abs(lost) <= settings_.run.volume_limit)) {
-        throw CheckFailure({"", fmt::format("The water occupies {:+.2f} % of its volume more than at the start {}", 100.0 * lost, where),
+        const int cell = worst_filled_cell(lost < 0.0);
+        throw CheckFailure({"",
+                            fmt::format("The water occupies {:+.2f} % of its volume more than at the start {}{}", 100.0 * lost, moment(),
+                                        cell < 0 ? "" : ", most of it near " + text_of(cell)),
                             fmt::format("At most {:g} % may be lost or won", 100.0 * settings_.run.volume_limit),
                             "Use smaller cells, or a larger contact gap"});
     }
     if (failed_solves_ > 1) {
-        throw CheckFailure({"", fmt::format("The pressure did not converge twice {}: residual {:.2g}", where, report_.pressure.residual),
+        throw CheckFailure({"",
+                            fmt::format("The pressure did not converge twice {}: residual {:.2g}, largest near {}", moment(),
+                                        report_.pressure.residual, text_of(report_.pressure.worst_cell)),
                             fmt::format("It must fall to {:g}", settings_.run.pressure_tolerance), "Halve the Courant number"});
     }
 }

@@ -89,7 +89,12 @@ private:
     void push_out();
     int count_through_walls(const std::array<std::vector<double>, 3>& before) const;
     void find_surface();
+    void require_pressure() const;
     void check() const;
+    int worst_filled_cell(bool lost) const;
+    std::string moment() const;
+    std::string text_of(const Vec3& place) const;
+    std::string text_of(int cell) const;
 
     const SceneSettings settings_;
     StaggeredGrid grid_;

@@ -119,8 +119,9 @@ public:
         }
     }
 
+    /// A place that is no number becomes one at a wall, for it is an index of cells.
     Vec3 kept_inside(Vec3 place) const {
-        for_each_direction([&](int d) { place[d] = std::clamp(place[d], k_wall_distance * grid_.spacing(), largest_[d]); });
+        for_each_direction([&](int d) { place[d] = std::max(k_wall_distance * grid_.spacing(), std::min(largest_[d], place[d])); });
         return place;
     }
 

@@ -52,10 +52,21 @@ void sort_by_cell(const StaggeredGrid& grid, WaterParticles& particles) {
     reorder(to, particles.dye);
 }
 
-double largest_speed(const WaterParticles& particles) {
+std::size_t fastest_particle(const WaterParticles& particles) {
+    std::size_t fastest = 0;
     double largest = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) largest = std::max(largest, particles.speed(p).squaredNorm());
-    return std::sqrt(largest);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+        const double square = particles.speed(p).squaredNorm();
+        if (!std::isfinite(square)) return p;
+        if (square <= largest) continue;
+        largest = square;
+        fastest = p;
+    }
+    return fastest;
+}
+
+double largest_speed(const WaterParticles& particles) {
+    return particles.size() == 0 ? 0.0 : particles.speed(fastest_particle(particles)).norm();
 }
 
 }  // namespace cutterflow::free_surface

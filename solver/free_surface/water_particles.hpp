@@ -52,6 +52,9 @@ void sort_by_cell(const StaggeredGrid& grid, WaterParticles& particles);
 /// The cell that holds a place; the nearest one of the tank for places outside.
 int cell_of(const StaggeredGrid& grid, const Vec3& place);
 
+/// The fastest particle, or the first whose velocity is no number; 0 without any.
+std::size_t fastest_particle(const WaterParticles& particles);
+
 double largest_speed(const WaterParticles& particles);  ///< [m/s]
 
 }  // namespace cutterflow::free_surface

@@ -1,6 +1,7 @@
 /// Whole steps: rest, restart, repetition, momentum, light bodies, and what a run must refuse to go on with.
 #include <cmath>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
@@ -137,16 +138,54 @@ TEST(SurfaceRun, occupied_volume_shows_water_that_clumps) {
     EXPECT_LT(run.last().occupied_volume / run.initial_volume(), 0.96);
 }
 
+/// Why a run ends, after at most `steps` steps; empty when it goes on.
+std::string end_of(SurfaceRun& run, int steps) {
+    try {
+        for (int n = 0; n < steps; ++n) run.step();
+    } catch (const CheckFailure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::check_failed);
+        return failure.what();
+    }
+    return "";
+}
+
 TEST(SurfaceRun, ends_when_water_is_lost) {
     SceneSettings scene = dam(10);
     scene.run.even_out = false;
     SurfaceRun run(scene, nullptr);
-    try {
-        while (run.time() < 0.8) run.step();
-        FAIL() << "the loss was not seen";
-    } catch (const CheckFailure& failure) {
-        EXPECT_EQ(failure.code(), ExitCode::check_failed);
-    }
+    EXPECT_THAT(end_of(run, 2000), ::testing::MatchesRegex("The water occupies -2\\..* % .* at .* s.*, most of it near \\(.*, .*\\) m.*"));
+}
+
+WaterParticles with_speed(double speed) {
+    WaterParticles water = fill_water(pool(), {});
+    water.velocity[2][water.size() / 2] = speed;
+    return water;
+}
+
+/// The message has the time and the place.
+TEST(SurfaceRun, ends_when_water_flies_or_is_no_number) {
+    SurfaceRun calm(pool(), nullptr, with_speed(1.0));
+    EXPECT_EQ(end_of(calm, 3), "");
+    SurfaceRun fast(pool(), nullptr, with_speed(-1000.0));
+    EXPECT_THAT(end_of(fast, 1), ::testing::MatchesRegex("Water flies at .* m/s near \\(.*, .*\\) m at .* s, in a step of .*"));
+    SurfaceRun none(pool(), nullptr, with_speed(std::nan("")));
+    EXPECT_THAT(end_of(none, 1), ::testing::MatchesRegex("The pressure of the water is no number near \\(.*, .*\\) m at 0 s.*"));
+    SurfaceRun flying(pool(), nullptr, [] {  // alone in the air: no pressure acts on it
+        WaterParticles water = fill_water(pool(), {});
+        water.add(Vec3(0.2, 0.025, 0.25), 0);
+        water.velocity[0].back() = std::nan("");
+        return water;
+    }());
+    EXPECT_THAT(end_of(flying, 1), ::testing::MatchesRegex("Water flies at -?nan m/s near .* at .* s.*"));
+}
+
+TEST(SurfaceRun, ends_when_the_pressure_does_not_converge_twice) {
+    SceneSettings scene = dam(8);
+    scene.run.pressure_tolerance = 1e-300;
+    SurfaceRun run(scene, nullptr);
+    EXPECT_EQ(end_of(run, 1), "");
+    EXPECT_FALSE(run.last().pressure.converged);
+    EXPECT_THAT(end_of(run, 1), ::testing::MatchesRegex("The pressure did not converge twice at .* s.* largest near \\(.*, .*\\) m.*"));
 }
 
 TEST(SurfaceRun, pressure_takes_from_the_water_what_it_gives_to_bodies_and_walls) {
