@@ -25,14 +25,20 @@ constexpr double k_enough_cells = 8.0;   // a diameter
 constexpr double k_thinnest_wall = 2.0;  // cells
 constexpr double k_smallest_gap = 0.25;  // cells
 constexpr double k_tolerance = 1e-9;
-constexpr int k_rim_points = 90;     // at which a body is looked for in solids
-constexpr int k_rims = 16;           // of a sphere
+constexpr int k_rim_points = 90;  // at which a body is looked for in solids
+constexpr int k_rims = 16;        // of a sphere
+constexpr int k_places_along_box = 16;
 constexpr int k_lines_of_gate = 16;  // along which solids are looked for in its way
 constexpr double k_gravity = 9.81;
-// Core seconds of a step, measured on tanks of 8,000 to 74,360 cells with 7,680 to 137,040 particles and 0 to 33 bodies.
-constexpr double k_seconds_per_cell = 3.0e-8;       // of the tank
-constexpr double k_seconds_per_particle = 3.1e-7;   // with its part of the pressure
-constexpr double k_seconds_per_body_cell = 1.0e-6;  // of the squares around the bodies
+/// Core seconds of a step: of each cell of the tank, each particle with its part of the pressure, each cell of the squares or cubes around
+/// the bodies.
+struct StepCost {
+    double cell, particle, body_cell;
+};
+// Measured on tanks of 8,000 to 74,360 cells with 7,680 to 137,040 particles and 0 to 33 cylinders,
+constexpr StepCost k_plane_cost{3.0e-8, 3.1e-7, 1.0e-6};
+// and of 19,200 to 38,400 cells with 36,864 to 129,648 particles and 0 to 4 spheres of eight cells.
+constexpr StepCost k_space_cost{5.2e-8, 4.9e-7, 7.5e-6};
 constexpr double k_bytes_per_particle = 100.0, k_bytes_per_cell = 600.0, k_bytes_of_program = 5e7;
 constexpr const char* k_reference = "Chen2019";
 
@@ -98,6 +104,7 @@ public:
         read_domain();
         read_water();
         for (const ParameterValues& solid : values_.tables("solid")) read_solid(solid);
+        for (const ParameterValues& solid : values_.tables("solid")) require_thick_box(solid);
         for (const ParameterValues& solid : values_.tables("solid")) require_free_way(solid);
         for (const ParameterValues& bodies : values_.tables("bodies")) read_bodies(bodies);
         sort_bodies();
@@ -117,6 +124,11 @@ private:
     double cell() const { return scene_.settings.tank.cell; }
     double width() const { return scene_.settings.tank.cells[0] * cell(); }
     double height() const { return scene_.settings.tank.cells[2] * cell(); }
+    double depth() const { return scene_.settings.tank.depth; }
+    std::string text_of_domain() const {
+        if (plane()) return fmt::format("{:g} m x {:g} m", width(), height());
+        return fmt::format("{:g} m x {:g} m x {:g} m", width(), depth(), height());
+    }
     bool plane() const { return scene_.settings.tank.plane; }
 
     /// Keys that a plane scene has no use for.
@@ -167,8 +179,12 @@ private:
             const std::string where = fill.where("fill.from_x_m");
             const std::string box = fmt::format("Water from ({:g}, {:g}) to ({:g}, {:g}) m", from.x(), from.z(), to.x(), to.z());
             if (from.x() >= to.x() || from.z() >= to.z()) refuse(where, box, "Its lower corner must come first", "Exchange the corners");
-            if (to.x() > width() + cell() || to.z() > height() + cell())
-                refuse(where, box, fmt::format("It must lie in the domain of {:g} m x {:g} m", width(), height()), "Make it smaller");
+            // A domain that was rounded down to whole cells may be filled to its given end.
+            const double end_x = std::max(width(), values_.number("domain.width_m")) + k_tolerance;
+            const double end_z = std::max(height(), values_.number("domain.height_m")) + k_tolerance;
+            const double end_y = std::max(depth(), values_.number("domain.length_m")) + k_tolerance;
+            if (to.x() > end_x || to.z() > end_z || (fill.has("fill.to_y_m") && to.y() > end_y))
+                refuse(where, box, fmt::format("It must lie in the domain of {}", text_of_domain()), "Make it smaller");
             for (const WaterBox& other : water.filled) {
                 if ((from.array() < other.to.array() - k_tolerance).all() && (to.array() > other.from.array() + k_tolerance).all())
                     refuse(where, box + " overlaps another box", "Water is filled in once", "Make one of them smaller");
@@ -223,6 +239,42 @@ private:
         }
     }
 
+    /// Whether water can stand at a place of the tank.
+    bool is_open(const Vec3& place) const {
+        if ((place.array() <= 0.0).any() || (place.array() >= Vec3(width(), depth(), height()).array()).any()) return false;
+        const auto& solids = scene_.settings.solids;
+        return std::none_of(solids.begin(), solids.end(), [&](const StillSolid& solid) { return is_inside(solid, place); });
+    }
+
+    /// A box is a wall where water can stand on both sides of it: there it is at least two cells thick.
+    void require_thick_box(const ParameterValues& solid) {
+        if (solid.text("solid.kind") != "box" || !mistakes_.empty()) return;
+        const Interval y = across(solid, "solid.from_y_m", "solid.to_y_m");
+        const Vec3 tank(width(), depth(), height());
+        const Vec3 from = Vec3(solid.number("solid.from_x_m"), y.from, solid.number("solid.from_z_m")).cwiseMax(0.0);
+        const Vec3 to = Vec3(solid.number("solid.to_x_m"), y.to, solid.number("solid.to_z_m")).cwiseMin(tank);
+        if ((to.array() <= from.array()).any()) return;  // outside the tank
+        for (const int d : {0, 1, 2}) {
+            const double thickness = to[d] - from[d], beside = 0.5 * cell();
+            if (thickness >= (k_thinnest_wall - 1e-6) * cell()) continue;
+            const int e = d == 0 ? 2 : 0, g = 3 - d - e;
+            for (int n = 0; n < k_places_along_box * k_places_along_box; ++n) {
+                Vec3 place = Vec3::Zero();
+                place[e] = from[e] + (to[e] - from[e]) * (n % k_places_along_box + 0.5) / k_places_along_box;
+                place[g] = from[g] + (to[g] - from[g]) * (n / k_places_along_box + 0.5) / k_places_along_box;
+                place[d] = from[d] - beside;
+                Vec3 opposite = place;
+                opposite[d] = to[d] + beside;
+                if (!is_open(place) || !is_open(opposite)) continue;
+                return refuse(solid.where("solid.kind"),
+                              fmt::format("A box is {:g} m thick between water at {} and {}", thickness, text_of(place), text_of(opposite)),
+                              fmt::format("Walls are at least two cells thick ({:g} m), else water on both sides shares cells",
+                                          k_thinnest_wall * cell()),
+                              "Use smaller cells or a thicker box");
+            }
+        }
+    }
+
     /// A closed surface of a file, in metres.
     void read_surface(const ParameterValues& solid) {
         const std::string where = solid.where("solid.kind");
@@ -258,8 +310,12 @@ private:
                    fmt::format("A hole narrower than a cell ({:g} m) would close", cell()), fmt::format("Use cells of {:g} m", hole));
         if (top <= bottom) refuse(solid.where("solid.top_m"), "solid.top_m lies below solid.bottom_m", "The top is above", "Exchange them");
         if (!scene_.pipe) scene_.pipe = PipeGauge{axis, 2.0 * half, wall, bottom, top};
-        if (!mistakes_.empty()) return;
         const double spacing = hole > 0.0 ? required(solid, "solid.hole_spacing_m") : k_far;
+        if (spacing < hole + (1.0 - 1e-6) * cell())
+            refuse(solid.where("solid.hole_spacing_m"), fmt::format("solid.hole_spacing_m = {:g} m", spacing),
+                   fmt::format("Between holes of {:g} m there is at least a cell of wall", hole),
+                   fmt::format("Use {:g} m or more", hole + cell()));
+        if (!mistakes_.empty()) return;
         for (const double side : {-1.0, 1.0}) {
             const double near = axis + side * half, far = axis + side * (half + wall);
             double from = bottom;
@@ -427,6 +483,23 @@ private:
         return fmt::format("({:g}, {:g}, {:g}) m", place.x(), place.y(), place.z());
     }
 
+    /// How deep a body reaches into a solid [m]; 0: not at all. Looked for in its middle and along its rim.
+    static double depth_in(const StillSolid& solid, const Vec3& place, double radius, bool sphere) {
+        if (const auto way = way_out(solid, place)) return (*way - place).norm() + radius;
+        if (const auto* surface = std::get_if<SolidSurface>(&solid); surface && sphere)
+            return std::max(0.0, radius - (surface->surface->nearest(place) - place).norm());
+        double deepest = 0.0;
+        for (int m = 0; m < (sphere ? k_rims : 1); ++m) {
+            const double turn = k_pi * m / k_rims;
+            for (int n = 0; n < k_rim_points; ++n) {
+                const double angle = 2.0 * k_pi * n / k_rim_points, out = std::cos(angle);
+                const Vec3 rim = place + radius * Vec3(out * std::cos(turn), out * std::sin(turn), std::sin(angle));
+                if (const auto way = way_out(solid, rim)) deepest = std::max(deepest, (*way - rim).norm());
+            }
+        }
+        return deepest;
+    }
+
     void add_body(const ListedBody& body, double diameter, double density) {
         coupling::Rocks& rocks = scene_.bodies;
         const bool sphere = scene_.settings.spheres;
@@ -438,9 +511,10 @@ private:
         if (std::find(rocks.id.begin(), rocks.id.end(), id) != rocks.id.end())
             refuse(where, fmt::format("id {} is that of a body of another table", id), "Every body has an id of its own",
                    "Change the id, or leave the column out");
-        const bool leaves_across = sphere && (place.y() < radius || place.y() > depth - radius);
-        if (place.x() < radius || place.x() > width() - radius || place.z() < radius || place.z() > height() - radius || leaves_across)
-            refuse(where, fmt::format("Body {} at {} leaves the domain", id, text_of(place)),
+        double beyond = std::max({radius - place.x(), place.x() + radius - width(), radius - place.z(), place.z() + radius - height()});
+        if (sphere) beyond = std::max({beyond, radius - place.y(), place.y() + radius - depth});
+        if (beyond > 0.0)
+            refuse(where, fmt::format("Body {} at {} leaves the domain by {:.3g} m", id, text_of(place), beyond),
                    fmt::format("The domain reaches to {}", text_of(Vec3(width(), depth, height()))), "Move it, or the stack");
         for (std::size_t n = 0; n < rocks.size(); ++n) {
             const double between = (rocks.position[n] - place).norm() - 0.5 * rocks.diameter[n] - radius;
@@ -448,23 +522,12 @@ private:
                 refuse(where, fmt::format("Bodies {} and {} overlap by {:.3g} m", rocks.id[n], id, -between), "Bodies must not overlap",
                        "Move one of them, or give more clearance or less jitter");
         }
-        const auto reaches_into = [&](const StillSolid& solid) {
-            if (is_inside(solid, place)) return true;
-            if (const auto* surface = std::get_if<SolidSurface>(&solid); surface && sphere)
-                return (surface->surface->nearest(place) - place).norm() < radius;
-            for (int m = 0; m < (sphere ? k_rims : 1); ++m) {
-                const double turn = k_pi * m / k_rims;
-                for (int n = 0; n < k_rim_points; ++n) {
-                    const double angle = 2.0 * k_pi * n / k_rim_points, out = std::cos(angle);
-                    if (is_inside(solid, place + radius * Vec3(out * std::cos(turn), out * std::sin(turn), std::sin(angle)))) return true;
-                }
-            }
-            return false;
-        };
-        const auto reaches_into_gate = [&](const Gate& gate) { return reaches_into(gate.closed); };
-        if (std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), reaches_into) ||
-            std::any_of(scene_.settings.gates.begin(), scene_.settings.gates.end(), reaches_into_gate))
-            refuse(where, fmt::format("Body {} at {} stands in a solid", id, text_of(place)), "Bodies start free", "Move it, or the stack");
+        double into = 0.0;
+        for (const StillSolid& solid : scene_.settings.solids) into = std::max(into, depth_in(solid, place, radius, sphere));
+        for (const Gate& gate : scene_.settings.gates) into = std::max(into, depth_in(gate.closed, place, radius, sphere));
+        if (into > 0.0)
+            refuse(where, fmt::format("Body {} at {} stands in a solid, {:.3g} m deep", id, text_of(place), into), "Bodies start free",
+                   "Move it, or the stack");
         rocks.id.push_back(id);
         rocks.position.push_back(place);
         rocks.velocity.push_back(body.velocity);
@@ -484,7 +547,9 @@ private:
     }
 
     void read_gauge(const ParameterValues& values) {
-        Gauge gauge{values.text("gauge.name"), values.number("gauge.x_m"), {}};
+        refuse_in_plane(values, {"gauge.y_m"});
+        Gauge gauge{values.text("gauge.name"), values.number("gauge.x_m"), 0.5 * depth(), {}};
+        if (values.has("gauge.y_m")) gauge.y = values.number("gauge.y_m");
         if (values.has("gauge.z_m")) gauge.z = values.number("gauge.z_m");
         const std::string where = values.where("gauge.name");
         if (gauge.name.empty() || gauge.name.find_first_of(",\"\n\r") != std::string::npos)
@@ -494,13 +559,13 @@ private:
         if (std::any_of(scene_.gauges.begin(), scene_.gauges.end(), same))
             refuse(where, fmt::format("gauge.name = \"{}\" is given twice", gauge.name), "Every gauge has a name of its own", "Change one");
         const double z = gauge.z.value_or(0.0);
-        if (gauge.x > width() || z > height())
-            refuse(values.where("gauge.x_m"), fmt::format("Gauge {} at ({:g}, {:g}) m lies outside the domain", gauge.name, gauge.x, z),
-                   fmt::format("The domain reaches to {:g} m x {:g} m", width(), height()), "Move it");
-        const Vec3 place(gauge.x, 0.5 * scene_.settings.tank.depth, z);
+        const Vec3 place(gauge.x, gauge.y, z);
+        if (gauge.x > width() || (!plane() && gauge.y > depth()) || z > height())
+            refuse(values.where("gauge.x_m"), fmt::format("Gauge {} at {} lies outside the domain", gauge.name, text_of(place)),
+                   fmt::format("The domain is {}", text_of_domain()), "Move it");
         const auto holds_it = [&](const StillSolid& solid) { return is_inside(solid, place); };
         if (gauge.z && std::any_of(scene_.settings.solids.begin(), scene_.settings.solids.end(), holds_it))
-            refuse(values.where("gauge.z_m"), fmt::format("Gauge {} at ({:g}, {:g}) m stands in a solid", gauge.name, gauge.x, z),
+            refuse(values.where("gauge.z_m"), fmt::format("Gauge {} at {} stands in a solid", gauge.name, text_of(place)),
                    "It reads the pressure of water", "Move it");
         scene_.gauges.push_back(std::move(gauge));
     }
@@ -663,6 +728,7 @@ const ParameterTable& scene_table() {
         gauge.kind = ParameterKind::text;
         keys.push_back(gauge);
         keys.push_back(number("gauge.x_m", "m", {}, 0.0, "Its place along x: the level of the water there."));
+        keys.push_back(derived(number("gauge.y_m", "m", {}, 0.0, "Its place across, in space."), "the tank's middle"));
         keys.push_back(derived(number("gauge.z_m", "m", {}, 0.0, "Its height: the pressure there."), "the level alone"));
         keys.push_back(positive("contact.theta", "-", 0.01, "Overlap under the own weight over the reference length."));
         keys.push_back(positive("contact.reference_length_m", "m", 5e-4, "Length of the contact law; not tied to the cells."));
@@ -764,8 +830,8 @@ ScenePrediction predict(const Scene& scene) {
         if (longest < result.step) result.steps += lifted * (1.0 / longest - 1.0 / result.step);
     }
     result.memory = k_bytes_per_particle * result.particles + k_bytes_per_cell * result.cells + k_bytes_of_program;
-    result.core_seconds = result.steps * (result.cells * k_seconds_per_cell + result.particles * k_seconds_per_particle +
-                                          body_cells * k_seconds_per_body_cell);
+    const StepCost& cost = tank.plane ? k_plane_cost : k_space_cost;
+    result.core_seconds = result.steps * (result.cells * cost.cell + result.particles * cost.particle + body_cells * cost.body_cell);
     if (scene.bodies.size() > 0)
         result.dem_step = physics::linear_contact_step(scene.dem.linear.theta, scene.dem.linear.reference_length, k_gravity,
                                                        scene.dem.linear.steps_per_period);

@@ -66,7 +66,8 @@ nlohmann::json scene_json(const free_surface::Scene& scene) {
                         {"pipe", nullptr}};
     json["gauges"] = nlohmann::json::array();
     for (const free_surface::Gauge& gauge : scene.gauges)
-        json["gauges"].push_back({{"name", gauge.name}, {"x_m", gauge.x}, {"z_m", gauge.z ? nlohmann::json(*gauge.z) : nlohmann::json()}});
+        json["gauges"].push_back(
+            {{"name", gauge.name}, {"x_m", gauge.x}, {"y_m", gauge.y}, {"z_m", gauge.z ? nlohmann::json(*gauge.z) : nlohmann::json()}});
     if (scene.pipe)
         json["pipe"] = {{"bottom_m", scene.pipe->bottom}, {"top_m", scene.pipe->top}, {"inner_width_m", scene.pipe->inner_width}};
     return json;
@@ -107,9 +108,11 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
     const free_surface::Scene scene = free_surface::read_scene(file);
     const free_surface::ScenePrediction found = free_surface::predict(scene);
     if (found.memory > memory_of_machine())
-        throw UserError(fmt::format("{}: the run needs {:.1f} GB of memory", file.string(), found.memory / 1e9),
-                        fmt::format("The machine has {:.1f} GB", memory_of_machine() / 1e9),
-                        fmt::format("Use cells of {:.2g} m", scene.settings.tank.cell * std::sqrt(found.memory / memory_of_machine())));
+        throw UserError(
+            fmt::format("{}: the run needs {:.1f} GB of memory", file.string(), found.memory / 1e9),
+            fmt::format("The machine has {:.1f} GB", memory_of_machine() / 1e9),
+            fmt::format("Use cells of {:.2g} m", scene.settings.tank.cell * std::pow(found.memory / memory_of_machine(),
+                                                                                     scene.settings.tank.plane ? 1.0 / 2.0 : 1.0 / 3.0)));
     std::vector<std::string> notes = scene.notes;
     for (std::string& note : free_surface::water_notes(scene)) notes.push_back(std::move(note));
     return {scene_json(scene),

@@ -75,19 +75,25 @@ GaugeReading read_gauge(const SurfaceRun& run, const Gauge& gauge) {
     const auto clamped = [&](int n, int d) { return std::clamp(n, 0, grid.cells(d) - 1); };
     const double h = grid.spacing();
     GaugeReading reading;
-    const int middle = grid.cells(1) / 2;
-    reading.level = column_level(run, clamped(static_cast<int>(std::floor(gauge.x / h)), 0), middle, 0);
+    const auto cell_at = [&](double place, int d) { return clamped(static_cast<int>(std::floor(place / h)), d); };
+    const int across = grid.is_plane() ? 0 : cell_at(gauge.y, 1);
+    reading.level = column_level(run, cell_at(gauge.x, 0), across, 0);
     if (!gauge.z) return reading;
-    const double s = gauge.x / h - 0.5, t = *gauge.z / h - 0.5;
-    const int i = static_cast<int>(std::floor(s)), k = static_cast<int>(std::floor(t));
+    const Vec3 s = Vec3(gauge.x, gauge.y, *gauge.z) / h - Vec3::Constant(0.5);
+    const std::array<int, 3> low{static_cast<int>(std::floor(s.x())), grid.is_plane() ? 0 : static_cast<int>(std::floor(s.y())),
+                                 static_cast<int>(std::floor(s.z()))};
     double sum = 0.0, weights = 0.0;
     for (const int a : {0, 1}) {
-        for (const int c : {0, 1}) {
-            const int cell = grid.at(clamped(i + a, 0), middle, clamped(k + c, 2));
-            if (run.cells().closed[cell]) continue;
-            const double weight = (1.0 - std::abs(s - i - a)) * (1.0 - std::abs(t - k - c));
-            sum += weight * run.pressure()[cell];
-            weights += weight;
+        for (const int b : {0, 1}) {
+            if (grid.is_plane() && b == 1) continue;
+            for (const int c : {0, 1}) {
+                const int cell = grid.at(clamped(low[0] + a, 0), clamped(low[1] + b, 1), clamped(low[2] + c, 2));
+                if (run.cells().closed[cell]) continue;
+                const double wide = grid.is_plane() ? 1.0 : 1.0 - std::abs(s.y() - low[1] - b);
+                const double weight = (1.0 - std::abs(s.x() - low[0] - a)) * wide * (1.0 - std::abs(s.z() - low[2] - c));
+                sum += weight * run.pressure()[cell];
+                weights += weight;
+            }
         }
     }
     if (weights > 0.0) reading.pressure = sum / weights;

@@ -27,16 +27,16 @@ struct SceneReading {
     double farthest = 0.0;           ///< largest x that a body's surface reaches [m]
 };
 
-/// A place at which level and pressure are read, in space in the middle of the tank.
+/// A place at which level and pressure are read.
 struct Gauge {
     std::string name;
-    double x = 0.0;           ///< [m]
+    double x = 0.0, y = 0.0;  ///< [m]; y means nothing in a plane scene
     std::optional<double> z;  ///< of the pressure; none: the level alone [m]
 };
 
 struct GaugeReading {
-    double level = 0.0;     ///< of the column of cells around x [m]
-    double pressure = 0.0;  ///< at (x, z), over that of the air [Pa]
+    double level = 0.0;     ///< of the column of cells around (x, y) [m]
+    double pressure = 0.0;  ///< at (x, y, z), over that of the air [Pa]
 };
 
 /// The pressure is interpolated between the centres of cells; in a half cell at a wall or a solid it is that of the nearest centres.

@@ -19,14 +19,14 @@ TEST(Gauges, read_level_and_hydrostatic_pressure_of_water_at_rest) {
     SurfaceRun run(pool(), nullptr);
     run.step();
     for (const double x : {0.0, 0.034, 0.21, 0.4}) {
-        EXPECT_NEAR(read_gauge(run, {"level", x, {}}).level, 0.15, 1e-9) << x;
-        EXPECT_EQ(read_gauge(run, {"level", x, {}}).pressure, 0.0) << x;
+        EXPECT_NEAR(read_gauge(run, {"level", x, 0.0, {}}).level, 0.15, 1e-9) << x;
+        EXPECT_EQ(read_gauge(run, {"level", x, 0.0, {}}).pressure, 0.0) << x;
         for (const double z : {0.0131, 0.05, 0.1}) {
-            const GaugeReading reading = read_gauge(run, {"pressure", x, z});
+            const GaugeReading reading = read_gauge(run, {"pressure", x, 0.0, z});
             EXPECT_NEAR(reading.pressure, 1000.0 * 9.81 * (0.15 - z), 1e-3) << x << ' ' << z;
         }
-        EXPECT_NEAR(read_gauge(run, {"floor", x, 0.0}).pressure, 1000.0 * 9.81 * 0.145, 1e-3) << x;  // of the lowest centre
-        EXPECT_NEAR(read_gauge(run, {"air", x, 0.25}).pressure, 0.0, 1e-12) << x;
+        EXPECT_NEAR(read_gauge(run, {"floor", x, 0.0, 0.0}).pressure, 1000.0 * 9.81 * 0.145, 1e-3) << x;  // of the lowest centre
+        EXPECT_NEAR(read_gauge(run, {"air", x, 0.0, 0.25}).pressure, 0.0, 1e-12) << x;
     }
 }
 
@@ -34,8 +34,23 @@ TEST(Gauges, tell_a_wave_from_its_trough) {
     SceneSettings scene = pool();
     scene.water.filled = {{Vec3(-1, -1, -1), Vec3(0.2, 1, 0.2)}, {Vec3(0.2, -1, -1), Vec3(1, 1, 0.1)}};
     SurfaceRun run(scene, nullptr);
-    EXPECT_NEAR(read_gauge(run, {"left", 0.05, {}}).level, 0.2, 1e-9);
-    EXPECT_NEAR(read_gauge(run, {"right", 0.35, {}}).level, 0.1, 1e-9);
+    EXPECT_NEAR(read_gauge(run, {"left", 0.05, 0.0, {}}).level, 0.2, 1e-9);
+    EXPECT_NEAR(read_gauge(run, {"right", 0.35, 0.0, {}}).level, 0.1, 1e-9);
+}
+
+/// A step across: gauges read the water where they stand, not that in the middle. The pressure between two centres is their mean.
+TEST(Gauges, in_space_read_their_place_across) {
+    SceneSettings scene = pool();
+    scene.tank.plane = false;
+    scene.tank.cells = {8, 8, 30};
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(1, 0.04, 0.2)}, {Vec3(-1, 0.04, -1), Vec3(1, 1, 0.1)}};
+    SurfaceRun run(scene, nullptr);
+    EXPECT_NEAR(read_gauge(run, {"near", 0.04, 0.01, {}}).level, 0.2, 1e-9);
+    EXPECT_NEAR(read_gauge(run, {"far", 0.04, 0.07, {}}).level, 0.1, 1e-9);
+    run.step();
+    const auto pressure = [&](double y) { return read_gauge(run, {"shoulder", 0.045, y, 0.095}).pressure; };
+    EXPECT_GT(pressure(0.015), 1.2 * pressure(0.065));
+    EXPECT_NEAR(pressure(0.04), 0.5 * (pressure(0.035) + pressure(0.045)), 1e-9 * pressure(0.04));
 }
 
 }  // namespace

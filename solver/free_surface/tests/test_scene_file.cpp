@@ -69,6 +69,16 @@ TEST(SceneFile, predicts_steps_and_cost_from_what_the_scene_holds) {
     EXPECT_NEAR(of_particles, 3.1e-7, 1e-9);
 }
 
+/// A particle in space gives to 27 nodes of three directions, in a plane to 9 of two: a step costs more of it.
+TEST(SceneFile, predicts_more_for_a_particle_in_space) {
+    const auto core_per_particle = [](const std::string& dimensions) {
+        const std::string tank = std::string(k_tank).replace(k_tank.find("cell_m"), 0, dimensions);
+        const ScenePrediction full = predict(parse_scene(tank + k_fill, "scene.toml"));
+        return full.core_seconds / full.steps / full.particles;
+    };
+    EXPECT_GT(core_per_particle("dimensions = 'space'\nlength_m = 0.01\n"), 1.4 * core_per_particle(""));
+}
+
 std::string gate(const std::string& speed, const std::string& bottom = "0.0") {
     return "[[solid]]\nkind = \"gate\"\naxis_x_m = 0.1\nwall_m = 0.002\nbottom_m = " + bottom + "\ntop_m = 0.12\nspeed_m_s = " + speed +
            "\nstart_s = 0.1\n";
@@ -150,6 +160,46 @@ TEST(SceneFile, refuses_holes_that_close_bodies_that_overlap_and_empty_scenes) {
     EXPECT_THAT(mistakes_of(k_tank), ::testing::HasSubstr("neither water nor bodies"));
 }
 
+std::string box(const std::string& from_x, const std::string& from_z, const std::string& to_x, const std::string& to_z) {
+    return "[[solid]]\nkind = \"box\"\nfrom_x_m = " + from_x + "\nfrom_z_m = " + from_z + "\nto_x_m = " + to_x + "\nto_z_m = " + to_z +
+           "\n";
+}
+
+/// A box that water can stand on both sides of is a wall; a step on the floor, a stair of thin boxes and a thick box are not refused.
+TEST(SceneFile, refuses_boxes_that_are_thin_walls) {
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + box("0.1", "0.0", "0.1015", "0.1")),
+                ::testing::AllOf(::testing::HasSubstr("A box is 0.0015 m thick between water at"), ::testing::HasSubstr("two cells")));
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + box("0.05", "0.03", "0.1", "0.0315")), ::testing::HasSubstr("thick between water"));
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.05", "0.0", "0.1", "0.001")), "");
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.05", "0.03", "0.1", "0.032")), "");
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.19", "0.0", "0.191", "0.05") + box("0.191", "0.0", "0.2", "0.05")), "");
+}
+
+TEST(SceneFile, tells_how_deep_a_body_stands_in_a_solid) {
+    const std::string body = "[[bodies]]\ndiameter_m = 0.01\ncentre_x_m = 0.048\nlowest_m = 0.02\n";
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + box("0.05", "0.0", "0.1", "0.1") + body),
+                ::testing::HasSubstr("Body 1 at (0.048, 0.025) m stands in a solid, 0.003 m deep"));
+}
+
+TEST(SceneFile, refuses_water_beyond_the_domain_and_holes_without_wall_between) {
+    const auto fill_to = [](const std::string& x) { return std::string(k_fill).replace(k_fill.find("0.2"), 3, x); };
+    EXPECT_THAT(mistakes_of(k_tank + fill_to("0.2005")), ::testing::HasSubstr("must lie in the domain"));
+    EXPECT_EQ(mistakes_of(k_tank + fill_to("0.2")), "");
+    EXPECT_THAT(mistakes_of(k_tank + k_fill +
+                            "[[solid]]\nkind=\"pipe\"\naxis_x_m=0.1\ninner_width_m=0.06\nwall_m=0.002\nbottom_m=0.04\ntop_m=0.15\n"
+                            "hole_m=0.002\nhole_spacing_m=0.002\n"),
+                ::testing::HasSubstr("at least a cell of wall"));
+}
+
+TEST(SceneFile, gauges_stand_across_in_space_alone) {
+    const std::string gauge = "[[gauge]]\nname = 'a'\nx_m = 0.1\ny_m = 0.03\n";
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + gauge), ::testing::HasSubstr("gauge.y_m in a plane scene"));
+    const std::string space = std::string(k_tank).replace(k_tank.find("cell_m"), 0, "dimensions = 'space'\nlength_m = 0.04\n");
+    EXPECT_NEAR(parse_scene(space + k_fill + gauge, "scene.toml").gauges[0].y, 0.03, 1e-15);
+    EXPECT_THAT(mistakes_of(space + k_fill + std::string(gauge).replace(gauge.find("0.03"), 4, "0.05")),
+                ::testing::HasSubstr("outside the domain"));
+}
+
 class BodyFile : public ::testing::Test {
 protected:
     const std::filesystem::path folder_ = std::filesystem::path(CUTTERFLOW_BUILD_DIR) / "tests" / "body_file";
@@ -191,7 +241,7 @@ TEST_F(BodyFile, names_file_and_line_of_every_mistake) {
                 ::testing::AllOf(::testing::HasSubstr("id 2 is also in"), ::testing::HasSubstr("list.csv:4: id = 1.5")));
     EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,0.1\n0.104,0.1\n0.25,0.1\n"),
                 ::testing::AllOf(::testing::HasSubstr("list.csv:3: Bodies 1 and 2 overlap by 0.006 m"),
-                                 ::testing::HasSubstr("list.csv:4: Body 3 at (0.25, 0.1) m leaves the domain")));
+                                 ::testing::HasSubstr("list.csv:4: Body 3 at (0.25, 0.1) m leaves the domain by 0.055 m")));
     EXPECT_THAT(mistakes_of("x_m,z_m\n"), ::testing::HasSubstr("has no bodies"));
     EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,0.1\n", "lowest_m = 0.1\n"), ::testing::HasSubstr("beside bodies.file"));
     EXPECT_THAT(mistakes_of("x_m,z_m,id\n0.1,0.1,1\n", "[[bodies]]\ndiameter_m = 0.01\nfile = \"list.csv\"\n"),
