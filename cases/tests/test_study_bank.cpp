@@ -156,8 +156,8 @@ TEST(StudyBank, is_felt_by_water_and_by_rock) {
     EXPECT_TRUE(solver_settings(both).soil);
     const coupling::DemSettings dem = dem_settings(both);
     ASSERT_EQ(dem.walls.size(), 4u);
-    EXPECT_EQ(dem.walls[0].material, coupling::WallMaterial::steel);
-    EXPECT_EQ(dem.walls[3].material, coupling::WallMaterial::soil);
+    EXPECT_EQ(dem.walls[0].material, coupling::k_steel);
+    EXPECT_EQ(dem.walls[3].material, coupling::k_soil);
     EXPECT_FALSE(dem.walls[3].rotating);
     EXPECT_EQ(dem.contact.rock_soil.friction, 0.7);
     EXPECT_EQ(dem.contact.rock_soil.rolling_friction, 0.15);

@@ -22,19 +22,22 @@ void add_coupling_models(const coupling::CouplingSettings& settings, std::vector
     if (!closures.viscous_force) notes.push_back({"less its viscous part", "closures.viscousForce no"});
 }
 
+void add_pair(const std::string& other, const coupling::PairSettings& pair, const std::string& rolling_law,
+              std::vector<coupling::ModelNote>& notes) {
+    notes.push_back({fmt::format("rock on {}: friction {:.3g}, restitution {:.3g}", other, pair.friction, pair.restitution),
+                     "rock.contact.pairs." + (coupling::k_pair_with_rock + other)});
+    if (pair.rolling_friction > 0.0)
+        notes.push_back({fmt::format("rolling friction of rock on {}: {:.3g}, {}", other, pair.rolling_friction, rolling_law),
+                         "rock is no sphere: it comes to rest"});
+}
+
 void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {
     const coupling::ContactSettings& contact = dem.contact;
     notes.push_back(
         {fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa", contact.youngs_modulus), "rock hits rock and steel"});
-    for (const coupling::MaterialPair& pair : coupling::k_material_pairs) {
-        const coupling::PairSettings& given = contact.*pair.settings;
-        notes.push_back({fmt::format("rock on {}: friction {:.3g}, restitution {:.3g}", pair.other, given.friction, given.restitution),
-                         std::string("rock.contact.pairs.") + pair.name});
-        if (given.rolling_friction > 0.0)
-            notes.push_back(
-                {fmt::format("rolling friction of rock on {}: {:.3g}, {}", pair.other, given.rolling_friction, contact.rolling_law),
-                 "rock is no sphere: it comes to rest"});
-    }
+    for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
+        add_pair(pair.other, contact.*pair.settings, contact.rolling_law, notes);
+    for (const auto& [material, pair] : contact.rock_on_others) add_pair(material, pair, contact.rolling_law, notes);
     if (contact.wet_restitution) notes.push_back({"wet restitution after Legendre", "the fluid in the gap damps slow impacts"});
 }
 

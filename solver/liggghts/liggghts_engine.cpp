@@ -235,10 +235,7 @@ void LiggghtsEngine::Implementation::declare_walls() {
         return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps_->modify->find_fix_id(name));
     };
     auto* records = property(k_wall_contacts, WallContacts::columns);
-    const bool resists_rolling = context_.rock_steel.resists_rolling() ||
-                                 std::any_of(walls_.begin(), walls_.end(),
-                                             [&](const SteelWall& wall) { return context_.law_on(wall.material()).resists_rolling(); });
-    auto* rolling = resists_rolling ? property(k_wall_rolling, WallContacts::rolling_columns) : nullptr;
+    auto* rolling = context_.some_body_resists_rolling() ? property(k_wall_rolling, WallContacts::rolling_columns) : nullptr;
     wall_contacts_.emplace(lammps_.get(), context_, records, rolling);
     context_.wall_contacts = &*wall_contacts_;
     contact_forces_ = property(k_contact_forces, 6);
@@ -346,12 +343,13 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
         const coupling::LinearContactSettings& law = settings_.linear;
         return physics::linear_contact_step(law.theta, law.reference_length, law.gravity, law.steps_per_period);
     }
+    const ElasticPair steel = elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_steel);
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         const double radius = 0.5 * rocks_.diameter[k];
         const double mass = context_.mass_of(0.5 * rocks_.diameter[k], rocks_.density[k]);
         const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.elastic.youngs, contact.max_speed};
-        const physics::Impact on_steel{mass, radius, context_.rock_steel.elastic.youngs, contact.max_speed};
+        const physics::Impact on_steel{mass, radius, steel.youngs, contact.max_speed};
         shortest = std::min({shortest, physics::hertz_time(on_rock), physics::hertz_time(on_steel),
                              physics::rayleigh_time(radius, rocks_.density[k], contact.youngs_modulus, contact.poisson_rock)});
     }
@@ -367,10 +365,10 @@ bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double ra
     }
     double turns_of_rotor = 0.0, turns_of_stator = 0.0, turns_of_soil = 0.0;
     for (const SteelWall& wall : walls_) {
+        if (wall.is_removed(time_)) continue;
         const Vec3 point = wall.pose(time_).into_frame(centre);
         if (wall.surface().is_within(point, radius)) return true;
-        const bool soil = wall.material() == coupling::WallMaterial::soil;  // may be open
-        (soil ? turns_of_soil : wall.rotating() ? turns_of_rotor : turns_of_stator) += wall.surface().winding_number(point);
+        (wall.may_be_open() ? turns_of_soil : wall.rotating() ? turns_of_rotor : turns_of_stator) += wall.surface().winding_number(point);
     }
     return is_inside(turns_of_rotor) || is_inside(turns_of_stator) || is_inside(turns_of_soil);
 }

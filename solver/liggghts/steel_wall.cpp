@@ -40,7 +40,8 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
     : surface_(read_stl(given.file)),
       body_(body),
       rotating_(given.rotating),
-      material_(given.material),
+      may_be_open_(given.material == coupling::k_soil),
+      removed_at_(given.removed_at),
       travel_(given.travel),
       rotor_(rotor) {}
 
@@ -64,6 +65,7 @@ const std::vector<Triangle>& SteelWall::near(Neighbourhood& last, const Vec3& ce
 }
 
 void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallContacts& contacts) {
+    if (is_removed(time)) return;
     const WallPose now = pose(time);
     const auto count = static_cast<std::size_t>(atom.nlocal);
     if (neighbourhoods_.size() < count) neighbourhoods_.resize(count);
@@ -75,7 +77,6 @@ void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallConta
             touch.rock = static_cast<int>(rock);
             touch.body = body_;
             touch.rotating = rotating_;
-            touch.material = material_;
             touch.normal = now.turn * (centre - point.place).normalized();
             touch.overlap = radius - point.distance;
             touch.wall_velocity = now.velocity_at(position - point.distance * touch.normal);

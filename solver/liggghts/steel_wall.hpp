@@ -36,7 +36,7 @@ struct SteelPoint {
 /// that point too and comes nearer. So the distance to the surface has a minimum there, and no seam of a plane counts.
 std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius);
 
-/// A wall of steel or soil given as STL. It turns with the rotor, travels or stands; the rocks are taken into its frame, so that its
+/// A wall given as STL. It turns with the rotor, travels or stands; the rocks are taken into its frame, so that its
 /// triangles are never moved and are sorted once.
 class SteelWall {
 public:
@@ -46,7 +46,9 @@ public:
     SteelWall(const coupling::WallSettings& given, int body, const coupling::ZoneMotion& rotor);
 
     bool rotating() const { return rotating_; }
-    coupling::WallMaterial material() const { return material_; }
+    bool may_be_open() const { return may_be_open_; }
+    /// Whether it was taken out before or at `time` [s].
+    bool is_removed(double time) const { return time >= removed_at_ * (1.0 - k_rounding); }
     const WallSurface& surface() const { return surface_; }
     WallPose pose(double time) const;
 
@@ -54,6 +56,8 @@ public:
     void find_touches(const LAMMPS_NS::Atom& atom, double time, WallContacts& contacts);
 
 private:
+    static constexpr double k_rounding = 1e-12;  // of times that are sums of steps
+
     /// All triangles nearer to `centre` than `reach`, in the wall's frame.
     struct Neighbourhood {
         Vec3 centre = Vec3::Zero();
@@ -66,7 +70,8 @@ private:
     WallSurface surface_;
     int body_;
     bool rotating_;
-    coupling::WallMaterial material_;
+    bool may_be_open_;
+    double removed_at_;
     coupling::WallTravel travel_;
     coupling::ZoneMotion rotor_;
     std::vector<Neighbourhood> neighbourhoods_;  // of the rocks, in LIGGGHTS' order

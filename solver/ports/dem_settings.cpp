@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 #include <gsl/assert>
@@ -13,6 +14,44 @@ namespace {
 
 constexpr const char* k_correct = "Correct the value";
 
+/// By the names of their sections.
+std::map<std::string, PairSettings> every_pair(const ContactSettings& contact) {
+    std::map<std::string, PairSettings> pairs;
+    for (const MaterialPair& pair : k_material_pairs) pairs[pair.name] = contact.*pair.settings;
+    for (const auto& [material, pair] : contact.rock_on_others) pairs[k_pair_with_rock + material] = pair;
+    return pairs;
+}
+
+void check_material(Mistakes& mistakes, const ContactSettings& contact, const std::string& key, const std::string& material) {
+    if (contact.pair_on(material) != nullptr) return;
+    const std::string pair = k_pair_with_rock + material;
+    mistakes.add(fmt::format("{} = {}: rock.contact.pairs.{} is missing", key, material, pair),
+                 "Contacts with a wall follow the pair of rock and its material",
+                 fmt::format("Add {} {{ friction ...; restitution ...; rollingFriction ...; }} to pairs", pair));
+}
+
+void check_walls(Mistakes& mistakes, const DemSettings& settings) {
+    std::set<std::string> names;
+    for (const WallSettings& wall : settings.walls) {
+        const std::string key = "rock.walls." + wall.name;
+        if (!names.insert(wall.name).second)
+            mistakes.add(key + " is defined twice", "Forces and contacts are told by the wall's name", "Rename one of them");
+        check_material(mistakes, settings.contact, key + ".material", wall.material);
+        const WallTravel& travel = wall.travel;
+        mistakes.require(travel.velocity.allFinite() && travel.begin <= travel.end,
+                         fmt::format("{}.travel: from {} to {}", key, travel.begin, travel.end),
+                         "A wall travels from a time to a later one", k_correct);
+    }
+    for (const char* side : k_domain_sides)
+        mistakes.require(names.count(side) == 0, fmt::format("rock.walls.{} is called as a side of the domain", side),
+                         "Forces and contacts are told by the wall's name", "Rename it");
+    check_material(mistakes, settings.contact, "rock.domain.material", settings.domain.material);
+    for (std::size_t side = 0; side < k_domain_sides.size(); ++side)
+        mistakes.require(settings.domain.side_is_wall[side] || !settings.domain.side_is_frictionless[side],
+                         fmt::format("rock.domain.frictionless: {} is no wall", k_domain_sides[side]), "An open side touches no rock",
+                         "Add it to rock.domain.walls");
+}
+
 void check_linear(Mistakes& mistakes, const DemSettings& settings) {
     const LinearContactSettings& law = settings.linear;
     mistakes.positive("contact.theta", law.theta);
@@ -23,8 +62,7 @@ void check_linear(Mistakes& mistakes, const DemSettings& settings) {
     mistakes.require(law.poisson >= 0.0 && law.poisson <= 0.5, "contact.poisson", law.poisson, "It must be within 0 and 0.5", k_correct);
     mistakes.require(std::isfinite(law.steps_per_period) && law.steps_per_period >= 20.0, "contact steps per period", law.steps_per_period,
                      "It must be at least 20", k_correct);
-    for (const MaterialPair& pair : k_material_pairs) {
-        const PairSettings& given = settings.contact.*pair.settings;
+    for (const auto& [name, given] : every_pair(settings.contact)) {
         mistakes.not_negative("contact.friction", given.friction);
         mistakes.require(given.rolling_friction == 0.0, "rolling friction", given.rolling_friction, "It must be 0: the linear law has none",
                          k_correct);
@@ -34,8 +72,7 @@ void check_linear(Mistakes& mistakes, const DemSettings& settings) {
 /// What Hertz' law works from.
 void check_hertz(Mistakes& mistakes, const ContactSettings& contact, const std::string& where) {
     mistakes.add(setting_mistakes(contact, "rock.contact", where));
-    for (const MaterialPair& pair : k_material_pairs)
-        mistakes.add(setting_mistakes(contact.*pair.settings, std::string("rock.contact.pairs.") + pair.name, where));
+    for (const auto& [name, given] : every_pair(contact)) mistakes.add(setting_mistakes(given, "rock.contact.pairs." + name, where));
 }
 
 void check_shape(Mistakes& mistakes, const DemSettings& settings) {
@@ -92,6 +129,13 @@ void use_preset(ContactSettings& settings, const std::string& name) {
     settings.rock_soil = found->rock_soil;
 }
 
+const PairSettings* ContactSettings::pair_on(const std::string& material) const {
+    for (const MaterialPair& pair : k_material_pairs)
+        if (pair.other == material) return &(this->*pair.settings);
+    const auto found = rock_on_others.find(material);
+    return found == rock_on_others.end() ? nullptr : &found->second;
+}
+
 bool contains(const DomainSettings& domain, const Vec3& centre) {
     const auto between = [&](Eigen::Index i) { return centre[i] >= domain.lower[i] && centre[i] <= domain.upper[i]; };
     if (domain.shape == DomainShape::box) return between(0) && between(1) && between(2);
@@ -104,6 +148,7 @@ std::vector<Mistake> check_settings(const DemSettings& settings, const std::stri
         check_linear(mistakes, settings);
     else
         check_hertz(mistakes, settings.contact, where);
+    check_walls(mistakes, settings);
     check_shape(mistakes, settings);
     if (settings.domain.shape == DomainShape::cylinder)
         check_cylinder(mistakes, settings.domain);

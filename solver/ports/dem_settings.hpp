@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,8 +21,12 @@ struct PairSettings {
     double rolling_friction = 0.1;  ///< largest rolling couple over normal force and rolling radius [-]
 };
 
-/// Contact law of rock on rock, on steel and on soil (docs/theory/contact.md). All materials have the same Young's modulus, soil has the
-/// rock's Poisson ratio.
+inline constexpr const char* k_pair_with_rock = "rock_";  ///< in front of a material, the name of its pair
+inline constexpr const char* k_steel = "steel";
+inline constexpr const char* k_soil = "soil";
+
+/// Contact law of rock on rock and on the materials of walls (docs/theory/contact.md). All materials have the same Young's modulus, soil
+/// has the rock's Poisson ratio, the others steel's.
 struct ContactSettings {
     double youngs_modulus = 0.0;  ///< [Pa]
     double poisson_rock = 0.24;   ///< [-]
@@ -28,15 +34,21 @@ struct ContactSettings {
     PairSettings rock_rock;
     PairSettings rock_steel{0.35, 0.97, 0.1};
     PairSettings rock_soil{0.6, 0.97, 0.15};
-    std::string rolling_law = "spring";  ///< or "constant"
-    bool wet_restitution = true;         ///< e after Legendre from the impact speed
-    double time_step_fraction = 0.1;     ///< of the smaller of Rayleigh and Hertz time
-    double max_speed = 0.0;              ///< impact speed for the Hertz time [m/s]
+    std::map<std::string, PairSettings> rock_on_others{};  ///< by material
+    std::string rolling_law = "spring";                    ///< or "constant"
+    bool wet_restitution = true;                           ///< e after Legendre from the impact speed
+    double time_step_fraction = 0.1;                       ///< of the smaller of Rayleigh and Hertz time
+    double max_speed = 0.0;                                ///< impact speed for the Hertz time [m/s]
 
-    void set_every_pair(const PairSettings& pair) { rock_rock = rock_steel = rock_soil = pair; }
+    void set_every_pair(const PairSettings& pair) {
+        rock_rock = rock_steel = rock_soil = pair;
+        for (auto& [material, other] : rock_on_others) other = pair;
+    }
+    /// Rock on a wall of that material; null when nothing is known of it.
+    const PairSettings* pair_on(const std::string& material) const;
 };
 
-/// A pair of materials that can touch: rock and another one.
+/// A pair of materials that can touch, rock and another one, of which the values are known without being given.
 struct MaterialPair {
     const char* name;   ///< of its section of couplingProperties
     const char* other;  ///< material
@@ -87,18 +99,15 @@ struct WallTravel {
     Vec3 velocity_at(double time) const { return time > begin && time <= end ? velocity : Vec3(Vec3::Zero()); }
 };
 
-/// What a wall is made of: which pair of materials its contacts with rock follow.
-enum class WallMaterial { steel, soil };
-inline constexpr std::array<const char*, 2> k_wall_materials{"steel", "soil"};  ///< in the order of WallMaterial
-
 /// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels is given where
-/// it stands at first.
+/// it stands at first. Its material says which pair its contacts with rock follow.
 struct WallSettings {
     std::string name;
     std::filesystem::path file;
     bool rotating = false;
     WallTravel travel{};
-    WallMaterial material = WallMaterial::steel;
+    std::string material = k_steel;
+    double removed_at = std::numeric_limits<double>::infinity();  ///< from then on it exerts nothing [s]
 };
 
 enum class DomainShape { box, cylinder };
@@ -110,11 +119,13 @@ inline constexpr std::array<const char*, 6> k_domain_sides{"xMin", "xMax", "yMin
 /// Rock leaves the run when its centre is outside the domain: a box along the axes, or an upright cylinder. Plane sides may be walls.
 struct DomainSettings {
     DomainShape shape = DomainShape::box;
-    Vec3 lower = Vec3::Zero();           ///< corner of a box [m]; of a cylinder z counts
-    Vec3 upper = Vec3::Zero();           ///< the opposite corner [m]; of a cylinder z counts
-    Vec3 axis_point = Vec3::Zero();      ///< a point on a cylinder's axis [m]; the axis is parallel to z
-    double radius = 0.0;                 ///< of a cylinder [m]
-    std::array<bool, 6> side_is_wall{};  ///< by DomainSide
+    Vec3 lower = Vec3::Zero();                   ///< corner of a box [m]; of a cylinder z counts
+    Vec3 upper = Vec3::Zero();                   ///< the opposite corner [m]; of a cylinder z counts
+    Vec3 axis_point = Vec3::Zero();              ///< a point on a cylinder's axis [m]; the axis is parallel to z
+    double radius = 0.0;                         ///< of a cylinder [m]
+    std::array<bool, 6> side_is_wall{};          ///< by DomainSide
+    std::array<bool, 6> side_is_frictionless{};  ///< of the sides that are walls
+    std::string material = k_steel;              ///< of the sides that are walls
 
     bool is_wall(DomainSide side) const { return side_is_wall[static_cast<std::size_t>(side)]; }
     void make_wall(DomainSide side) { side_is_wall[static_cast<std::size_t>(side)] = true; }

@@ -34,7 +34,7 @@ meshing::FoamValue wall_list(const std::vector<coupling::WallSettings>& walls) {
                                .add("name", wall.name)
                                .add("file", file_name(wall.file))
                                .add("rotating", wall.rotating)
-                               .add("material", coupling::k_wall_materials[static_cast<std::size_t>(wall.material)]));
+                               .add("material", wall.material));
     return meshing::FoamValue::list(items);
 }
 
@@ -170,7 +170,7 @@ std::vector<coupling::WallSettings> standard_walls() {
 
 coupling::WallSettings bank_wall() {
     coupling::WallSettings wall{"bank", "constant/triSurface/bank_dem.stl", false};
-    wall.material = coupling::WallMaterial::soil;
+    wall.material = coupling::k_soil;
     return wall;
 }
 

@@ -1,7 +1,9 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,7 +60,8 @@ void read_settings(DictionarySection& section, Settings& settings) {
     }
 }
 
-void read_contact(DictionarySection& section, coupling::ContactSettings& contact) {
+/// \param materials  of walls
+void read_contact(DictionarySection& section, const std::set<std::string>& materials, coupling::ContactSettings& contact) {
     for (const char* former : {"friction", "restitution"})
         section.refuse(former, "It is given for each pair of materials",
                        fmt::format("Write pairs {{ rock_rock {{ {0} ...; }} rock_steel {{ {0} ...; }} }}", former));
@@ -66,6 +69,13 @@ void read_contact(DictionarySection& section, coupling::ContactSettings& contact
     read_section(section, "pairs", k_optional, [&](DictionarySection& pairs) {
         for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
             read_section(pairs, pair.name, k_optional, [&](DictionarySection& one) { read_settings(one, contact.*pair.settings); });
+        for (const std::string& material : materials) {
+            if (contact.pair_on(material) != nullptr) continue;
+            coupling::PairSettings pair;
+            if (read_section(pairs, coupling::k_pair_with_rock + material, k_optional,
+                             [&](DictionarySection& one) { read_settings(one, pair); }))
+                contact.rock_on_others[material] = pair;
+        }
     });
 }
 
@@ -73,10 +83,14 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
     coupling::WallSettings wall;
     section.read("name", wall.name, k_required);
     section.read("file", wall.file, folder, k_required);
-    section.read("rotating", wall.rotating, k_required);
-    const std::string material =
-        section.read_choice("material", {coupling::k_wall_materials.begin(), coupling::k_wall_materials.end()}, k_optional);
-    if (material == coupling::k_wall_materials[1]) wall.material = coupling::WallMaterial::soil;
+    section.read("rotating", wall.rotating, k_optional);
+    section.read("material", wall.material, k_optional);
+    read_section(section, "travel", k_optional, [&](DictionarySection& travel) {
+        travel.read("velocity", wall.travel.velocity, k_required);
+        travel.read("from", wall.travel.begin, k_required);
+        travel.read("to", wall.travel.end, k_required);
+    });
+    section.read("removedAt", wall.removed_at, k_optional);
     return wall;
 }
 
@@ -92,34 +106,41 @@ void read_cylinder(DictionarySection& section, coupling::DomainSettings& domain)
     section.read("zMax", domain.upper.z(), k_required);
 }
 
+void read_sides(DictionarySection& section, const std::string& key, std::array<bool, 6>& sides) {
+    std::vector<std::string> words;
+    section.read(key, words, k_optional);
+    for (const std::string& word : words) {
+        const auto side = std::find(coupling::k_domain_sides.begin(), coupling::k_domain_sides.end(), word);
+        if (side == coupling::k_domain_sides.end())
+            section.report(key, fmt::format("{} is no side", word), fmt::format("Sides are {}", fmt::join(coupling::k_domain_sides, ", ")));
+        else
+            sides[static_cast<std::size_t>(side - coupling::k_domain_sides.begin())] = true;
+    }
+}
+
 void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
     const std::string type = section.read_choice("type", {"box", "cylinder"}, k_required);
     domain.shape = type == "cylinder" ? coupling::DomainShape::cylinder : coupling::DomainShape::box;
     if (type == "box") read_box(section, domain);
     if (type == "cylinder") read_cylinder(section, domain);
-    std::vector<std::string> walls;
-    section.read("walls", walls, k_optional);
-    for (const std::string& wall : walls) {
-        const auto side = std::find(coupling::k_domain_sides.begin(), coupling::k_domain_sides.end(), wall);
-        if (side == coupling::k_domain_sides.end())
-            section.report("walls", fmt::format("{} is no side", wall),
-                           fmt::format("Sides are {}", fmt::join(coupling::k_domain_sides, ", ")));
-        else
-            domain.side_is_wall[static_cast<std::size_t>(side - coupling::k_domain_sides.begin())] = true;
-    }
+    read_sides(section, "walls", domain.side_is_wall);
+    read_sides(section, "frictionless", domain.side_is_frictionless);
+    section.read("material", domain.material, k_optional);
 }
 
 void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::DemSettings dem;
     section.read("feed", result.coupling.rock_feed, folder, k_required);
     read_optional(section, "queue", result.coupling.queue, read_settings<coupling::QueueSettings>);
-    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, dem.contact); });
     for (const Foam::dictionary& dict : section.sections("walls", k_optional)) {
         DictionarySection wall = section.below(dict, "walls");
         dem.walls.push_back(read_wall(wall, folder));
         wall.finish();
     }
     read_section(section, "domain", k_required, [&](DictionarySection& domain) { read_domain(domain, dem.domain); });
+    std::set<std::string> materials{dem.domain.material};
+    for (const coupling::WallSettings& wall : dem.walls) materials.insert(wall.material);
+    read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, materials, dem.contact); });
     result.coupling.has_rock = true;
     result.dem = dem;
 }

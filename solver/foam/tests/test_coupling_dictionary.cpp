@@ -152,8 +152,8 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     expect_same(read_back.dem->contact.rock_soil, {0.7, 0.97, 0.15});
     expect_same(read_back.dem->contact.rock_rock, coupling::PairSettings{});
     ASSERT_EQ(read_back.dem->walls.size(), 3u);
-    EXPECT_EQ(read_back.dem->walls[0].material, coupling::WallMaterial::steel);
-    EXPECT_EQ(read_back.dem->walls[2].material, coupling::WallMaterial::soil);
+    EXPECT_EQ(read_back.dem->walls[0].material, coupling::k_steel);
+    EXPECT_EQ(read_back.dem->walls[2].material, coupling::k_soil);
     EXPECT_EQ(read_back.dem->walls[0].name, "cutter");
     EXPECT_TRUE(read_back.dem->walls[0].rotating);
     EXPECT_FALSE(read_back.dem->walls[1].rotating);
@@ -308,6 +308,58 @@ rock
                     AllOf(::testing::StartsWith(file + line(9)), HasSubstr("rock.contact.pairs.rock_rock.friction = -1")),
                     AllOf(::testing::StartsWith(file + line(10)), HasSubstr("rock.contact.pairs.rock_steel.rollingFriction = 11")),
                     AllOf(::testing::StartsWith(file + line(11)), HasSubstr("rock.contact.pairs.steel_steel is unknown"))));
+}
+
+const char* const k_room = R"(
+medium none;
+rock
+{
+    feed "f.csv";
+    contact { youngsModulus 1e8; maxSpeed 1; wetRestitution false;
+              pairs { rock_perspex { friction 0.2; restitution 0.8; rollingFriction 0.02; } rock_glass { friction 0.1; } } }
+    walls
+    (
+        { name tube; file "tube.stl"; material perspex; travel { velocity (0 0 0.1); from 0.5; to 2; } removedAt 3; }
+        { name plate; file "plate.stl"; }
+    );
+    domain { type box; lower (0 0 0); upper (1 1 1); walls (xMin xMax zMin); frictionless (xMin xMax); material glass; }
+}
+)";
+
+TEST(CouplingDictionary, ReadsMaterialsByNameAndWallsThatTravelAndGo) {
+    const coupling::DemSettings dem = *read("dictionary_room", k_room).dem;
+    ASSERT_EQ(dem.walls.size(), 2u);
+    EXPECT_EQ(dem.walls[0].material, "perspex");
+    EXPECT_EQ(dem.walls[0].travel.velocity, Vec3(0, 0, 0.1));
+    EXPECT_EQ(dem.walls[0].travel.begin, 0.5);
+    EXPECT_EQ(dem.walls[0].travel.end, 2.0);
+    EXPECT_EQ(dem.walls[0].removed_at, 3.0);
+    EXPECT_FALSE(dem.walls[0].rotating);
+    EXPECT_EQ(dem.walls[1].material, "steel");
+    EXPECT_FALSE(std::isfinite(dem.walls[1].removed_at));
+    expect_same(*dem.contact.pair_on("perspex"), {0.2, 0.8, 0.02});
+    expect_same(*dem.contact.pair_on("glass"), {0.1, 0.97, 0.1});
+    expect_same(*dem.contact.pair_on("steel"), {0.35, 0.97, 0.1});
+    EXPECT_EQ(dem.contact.pair_on("wood"), nullptr);
+    EXPECT_EQ(dem.domain.material, "glass");
+    EXPECT_EQ(dem.domain.side_is_frictionless, (std::array<bool, 6>{true, true, false, false, false, false}));
+}
+
+TEST(CouplingDictionary, NamesTheMaterialsWithoutAPairAndPairsOfNoWall) {
+    std::string text = k_room;
+    const auto replace = [&](const std::string& what, const std::string& with) { text.replace(text.find(what), what.size(), with); };
+    replace("rock_perspex", "rock_perspexx");
+    replace("material glass", "material wood");
+    replace("frictionless (xMin xMax)", "frictionless (xMin yMax)");
+    replace("name plate", "name tube");
+    replace("to 2;", "to 0.4;");
+    const auto names = [](const char* a, const char* b) { return AllOf(HasSubstr(a), HasSubstr(b)); };
+    EXPECT_THAT(
+        mistakes_of([&] { read("dictionary_room_mistakes", text); }),
+        ::testing::UnorderedElementsAre(names("pairs.rock_perspexx is unknown", "Did you mean rock_perspex?"),
+                                        HasSubstr("pairs.rock_glass is unknown"), names("tube.material = perspex", "rock_perspex"),
+                                        names("domain.material = wood", "Add rock_wood"), HasSubstr("frictionless: yMax is no wall"),
+                                        HasSubstr("tube is defined twice"), HasSubstr("tube.travel: from 0.5 to 0.4")));
 }
 
 TEST(CouplingDictionary, NamesAMissingFileOfRockAsAMistake) {

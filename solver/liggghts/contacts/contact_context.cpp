@@ -19,6 +19,23 @@ PairLaw law_of(const coupling::PairSettings& pair, const coupling::ContactSettin
     return {pair, elastic_pair(contact.youngs_modulus, contact.poisson_rock, poisson), physics::hertz_damping_factor(pair.restitution)};
 }
 
+/// Of a wall of that material.
+PairLaw law_on(const std::string& material, const coupling::ContactSettings& contact) {
+    const double poisson = material == coupling::k_soil ? contact.poisson_rock : contact.poisson_steel;
+    return law_of(*contact.pair_on(material), contact, poisson);
+}
+
+std::vector<PairLaw> laws_on_bodies(const coupling::DemSettings& settings) {
+    std::vector<PairLaw> laws;
+    for (const coupling::WallSettings& wall : settings.walls) laws.push_back(law_on(wall.material, settings.contact));
+    for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side) {
+        if (!settings.domain.side_is_wall[side]) continue;
+        laws.push_back(law_on(settings.domain.material, settings.contact));
+        if (settings.domain.side_is_frictionless[side]) laws.back().settings.friction = laws.back().settings.rolling_friction = 0.0;
+    }
+    return laws;
+}
+
 }  // namespace
 
 ContactContext::ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor)
@@ -28,8 +45,7 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const coup
       axis(rotor.axis),
       rotor_spin(rotor.speed * rotor.axis.direction),
       rock_rock(law_of(settings.contact.rock_rock, settings.contact, settings.contact.poisson_rock)),
-      rock_steel(law_of(settings.contact.rock_steel, settings.contact, settings.contact.poisson_steel)),
-      rock_soil(law_of(settings.contact.rock_soil, settings.contact, settings.contact.poisson_rock)),
+      rock_on_body(laws_on_bodies(settings)),
       rolling_law(settings.contact.rolling_law == "constant" ? RollingLaw::constant : RollingLaw::spring),
       shape(settings.shape),
       cylinder_length(settings.cylinder_length),

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/liggghts/contacts/contact_law.hpp"
@@ -44,7 +45,7 @@ struct PairLaw {
     bool resists_rolling() const { return settings.rolling_friction > 0.0; }
 };
 
-/// The law for rock on rock, steel and soil with one Young's modulus.
+/// The law for rock on rock and on walls with one Young's modulus.
 struct ContactContext {
     bool wet_restitution = true;
     coupling::FluidProperties fluid;
@@ -52,8 +53,7 @@ struct ContactContext {
     RotationAxis axis;
     Vec3 rotor_spin = Vec3::Zero();  ///< of rotating steel [rad/s]
     PairLaw rock_rock;
-    PairLaw rock_steel;
-    PairLaw rock_soil;
+    std::vector<PairLaw> rock_on_body;  ///< by the number of the body: walls in the order of the settings, then sides that are walls
     RollingLaw rolling_law = RollingLaw::spring;
     std::optional<LinearLaw> linear;  ///< in place of Hertz'
     coupling::RockShape shape = coupling::RockShape::sphere;
@@ -66,9 +66,9 @@ struct ContactContext {
 
     ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor);
 
-    /// Rock on a wall.
-    const PairLaw& law_on(coupling::WallMaterial material) const {
-        return material == coupling::WallMaterial::soil ? rock_soil : rock_steel;
+    const PairLaw& law_on(int body) const { return rock_on_body[static_cast<std::size_t>(body)]; }
+    bool some_body_resists_rolling() const {
+        return std::any_of(rock_on_body.begin(), rock_on_body.end(), [](const PairLaw& law) { return law.resists_rolling(); });
     }
     /// Radius [m] of a rock whose radius in LIGGGHTS is `contact_radius`.
     double radius_of(double contact_radius) const { return contact_radius - half_gap; }

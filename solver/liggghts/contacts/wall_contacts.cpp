@@ -109,7 +109,7 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
         taken[k]->body = touch.body;
         taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
         taken[k]->damping_factor =
-            context_.damping_factor(context_.law_on(touch.material), taken[k]->impact_speed, 2.0 * atom.radius[rock], atom.density[rock]);
+            context_.damping_factor(context_.law_on(touch.body), taken[k]->impact_speed, 2.0 * atom.radius[rock], atom.density[rock]);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k], roll_of(taken[k]));
 }
@@ -132,7 +132,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     const Vec3 centre_velocity = Vec3(atom.v[rock]) - touch.wall_velocity;
     const Vec3 surface_velocity = centre_velocity + Vec3(atom.omega[rock]).cross(arm);
 
-    const PairLaw& law = context_.law_on(touch.material);
+    const PairLaw& law = context_.law_on(touch.body);
     Contact contact;
     contact.normal = touch.normal;
     contact.overlap = touch.overlap;

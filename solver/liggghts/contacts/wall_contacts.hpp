@@ -1,5 +1,5 @@
 #pragma once
-/// \file Contacts of rocks with steel and soil: SteelWall finds the triangles that a rock touches, LIGGGHTS the planes; this class merges
+/// \file Contacts of rocks with walls: SteelWall finds the triangles that a rock touches, LIGGGHTS the planes; this class merges
 /// them into contacts and applies the law.
 #include <vector>
 
@@ -12,7 +12,6 @@ struct WallTouch {
     int rock = 0;  ///< LIGGGHTS' number on this rank
     int body = 0;
     bool rotating = false;
-    coupling::WallMaterial material = coupling::WallMaterial::steel;
     Vec3 normal = Vec3::Zero();         ///< unit, from the touched point to the rock's centre
     double overlap = 0.0;               ///< [m]
     Vec3 wall_velocity = Vec3::Zero();  ///< of the steel at the touched point [m/s]

@@ -88,18 +88,20 @@ TEST_P(Bounce, a_sliding_contact_obeys_coulomb) {
     EXPECT_NEAR(spin.y() * 0.01, inertia_ratio * friction * 2.0, 0.02 * inertia_ratio * friction * 2.0);
 }
 
-// The same on soil, with the coefficients of its own pair: friction, restitution, and steel's do not matter.
-TEST(Contacts, with_a_wall_of_soil_follow_their_own_pair) {
+// The same on other materials, with the coefficients of their own pairs: friction, restitution, and the others' do not matter.
+TEST(Contacts, with_a_wall_follow_the_pair_of_its_material) {
     coupling::DemSettings settings = above_wall(WallKind::sheet_of_triangles, scratch_folder());
     settings.contact.wet_restitution = false;
     settings.contact.rock_steel = {0.1, 0.9, 0.0};
     settings.contact.rock_soil = {0.25, 0.6, 0.0};
-    const auto impact = [&](coupling::WallMaterial material) {
+    settings.contact.rock_on_others["perspex"] = {0.15, 0.75, 0.0};
+    const auto impact = [&](const char* material) {
         settings.walls.front().material = material;
         return rebound_velocity(settings, Vec3(3.0, 0, -1.0));
     };
-    for (const auto& [material, pair] : {std::pair(coupling::WallMaterial::steel, settings.contact.rock_steel),
-                                         std::pair(coupling::WallMaterial::soil, settings.contact.rock_soil)}) {
+    for (const auto& [material, pair] :
+         {std::pair(coupling::k_steel, settings.contact.rock_steel), std::pair(coupling::k_soil, settings.contact.rock_soil),
+          std::pair("perspex", settings.contact.rock_on_others["perspex"])}) {
         const Vec3 after = impact(material);
         EXPECT_NEAR(after.z(), pair.restitution, 0.01 * pair.restitution);
         const double slowed = pair.friction * (1.0 + pair.restitution);

@@ -310,6 +310,58 @@ TEST(Walls, any_side_of_a_box_can_be_a_wall) {
     }
 }
 
+// A rock slides along a side with friction and along one without, of a material of its own.
+TEST(Walls, a_frictionless_side_takes_no_speed_along_it) {
+    coupling::DemSettings settings = still_water();
+    settings.domain = {};
+    settings.domain.lower = Vec3(-0.5, -0.5, 0.0);
+    settings.domain.upper = Vec3(0.5, 0.5, 1.0);
+    settings.domain.make_wall(coupling::DomainSide::z_min);
+    settings.domain.material = "glass";
+    settings.contact.rock_on_others["glass"] = {0.2, 0.5, 0.1};
+    settings.fluid = {0.0, 0.0};
+    settings.added_mass = 0.0;
+    settings.contact.wet_restitution = false;
+    const auto after = [&] {
+        LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
+        engine.insert(one_rock(Vec3(0, 0, 0.01), Vec3(1.0, 0, 0)));
+        for (int call = 0; call < 50; ++call) engine.advance(1e-3, no_force);
+        return std::pair(engine.rocks().velocity[0], engine.rocks().angular_velocity[0]);
+    };
+    const auto [rough, rough_spin] = after();
+    EXPECT_NEAR(rough.x(), 1.0 - 0.2 * 9.81 * 0.05, 2e-3);
+    EXPECT_GT(rough_spin.norm(), 1.0);
+    settings.domain.side_is_frictionless[static_cast<std::size_t>(coupling::DomainSide::z_min)] = true;
+    const auto [smooth, smooth_spin] = after();
+    EXPECT_EQ(smooth.x(), 1.0);
+    EXPECT_EQ(smooth_spin, Vec3(Vec3::Zero()));
+}
+
+// A rock rests on a plate that is taken out at 0.1 s, in the middle of a call, and falls freely from then on; nothing else is in its way.
+TEST(Walls, a_wall_that_was_removed_exerts_nothing) {
+    coupling::DemSettings settings = still_water();
+    settings.fluid = {0.0, 0.0};
+    settings.added_mass = 0.0;
+    settings.contact.wet_restitution = false;
+    settings.contact.rock_steel.restitution = 0.3;
+    settings.walls = {
+        {"gate", write_stl(scratch_folder() / "gate.stl", sheet(Vec3(-0.2, -0.2, 0), Vec3(0.4, 0, 0), Vec3(0, 0.4, 0), 4, 4))}};
+    settings.walls[0].removed_at = 0.1;
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
+    engine.insert(one_rock(Vec3(0.01, 0, 0.01)));
+    coupling::Rocks in_the_gate;
+    add_rock(in_the_gate, 2, Vec3(0.1, 0, 0.005));
+    EXPECT_FALSE(engine.room_for(in_the_gate)[0]);
+    for (int call = 0; call < 3; ++call) engine.advance(0.03, no_force);
+    const Vec3 rest = engine.rocks().position[0];
+    EXPECT_NEAR(rest.z(), 0.01, 1e-5);
+    engine.advance(0.03, no_force);
+    EXPECT_NEAR(engine.rocks().velocity[0].z(), -9.81 * 0.02, 1e-3);
+    engine.advance(0.08, no_force);
+    EXPECT_NEAR(rest.z() - engine.rocks().position[0].z(), 0.5 * 9.81 * 0.1 * 0.1, 2e-4);
+    EXPECT_TRUE(engine.room_for(in_the_gate)[0]);
+}
+
 TEST(Settings, every_mistake_is_named) {
     coupling::DemSettings settings = still_water();
     settings.contact.youngs_modulus = 0.0;

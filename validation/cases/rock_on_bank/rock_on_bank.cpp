@@ -76,7 +76,7 @@ coupling::DemSettings room_with(const fs::path& wall) {
     settings.fluid = {998.2, 1.0034e-6};
     settings.gravity = 9.81 * in_run_frame(0.0, -1.0, 0.0);
     coupling::WallSettings soil{"bank", wall, false};
-    soil.material = coupling::WallMaterial::soil;
+    soil.material = coupling::k_soil;
     settings.walls = {soil};
     return settings;
 }
