@@ -37,7 +37,7 @@ void print_models(const std::vector<coupling::ModelNote>& models) {
 
 /// The feed alone does not know the domain, which ends what can be placed.
 void require_feed_in_domain(const foam::CouplingDictionary& dictionary) {
-    if (!dictionary.dem) return;
+    if (!dictionary.dem || dictionary.coupling.rock_feed.empty()) return;
     coupling::read_rock_feed(dictionary.coupling.rock_feed,
                              [&](const Vec3& place) { return coupling::contains(dictionary.dem->domain, place); });
 }
@@ -71,7 +71,10 @@ void run_coupled(foam::FoamSession& session, foam::CouplingDictionary& dictionar
 
     coupling::CoupledRun coupled(dictionary.coupling, properties, fluid, dem.get(), communicator, *recorder, session.case_folder());
     const auto checkpoint = newest_checkpoint(session.case_folder());
-    if (!checkpoint.empty()) coupled.resume(checkpoint);
+    if (!checkpoint.empty())
+        coupled.resume(checkpoint);
+    else if (!dictionary.coupling.rock_start.empty())
+        coupled.start_from(dictionary.coupling.rock_start);
 
     while (fluid.running() && !coupled.finished()) coupled.step();
     coupled.finish();

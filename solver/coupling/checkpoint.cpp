@@ -1,5 +1,6 @@
 #include "solver/coupling/checkpoint.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <unordered_map>
@@ -35,6 +36,14 @@ const std::vector<JsonField> k_state_fields{{"schema", JsonKind::text, true},
                                             {"feed/fed_kg", JsonKind::number, true},
                                             {"booked/volume_m3", JsonKind::number, true},
                                             {"booked/momentum_n_s/*", JsonKind::number, true},
+                                            {"account/id/*", JsonKind::whole, false},
+                                            {"account/mass_kg/*", JsonKind::number, false},
+                                            {"account/order/*", JsonKind::whole, false},
+                                            {"account/where/*", JsonKind::whole, false},
+                                            {"events/done/*", JsonKind::truth, false},
+                                            {"events/extracted_kg/*", JsonKind::number, false},
+                                            {"stop/at_rest_since_s", JsonKind::number_or_null, false},
+                                            {"stop/last_crossing_s", JsonKind::number_or_null, false},
                                             {"rocks/*/id", JsonKind::whole, true},
                                             {"rocks/*/diameter_m", JsonKind::number, true},
                                             {"rocks/*/density_kg_m3", JsonKind::number, true},
@@ -119,6 +128,28 @@ FeedState feed_of(const json& j) {
     return feed;
 }
 
+/// By columns: one rock has few numbers.
+json to_json(const std::vector<AccountEntry>& account) {
+    json id = json::array(), mass = json::array(), order = json::array(), where = json::array();
+    for (const AccountEntry& entry : account) {
+        id.push_back(entry.id);
+        mass.push_back(entry.mass);
+        order.push_back(entry.order);
+        where.push_back(static_cast<int>(entry.where));
+    }
+    return {{"id", id}, {"mass_kg", mass}, {"order", order}, {"where", where}};
+}
+
+std::vector<AccountEntry> account_of(const json& j) {
+    std::vector<AccountEntry> account;
+    for (std::size_t k = 0; k < j.at("id").size(); ++k) {
+        const std::size_t where = j.at("where").at(k);
+        account.push_back({j.at("id").at(k), j.at("mass_kg").at(k), j.at("order").at(k),
+                           static_cast<Whereabouts>(std::min(where, k_whereabouts.size() - 1))});
+    }
+    return account;
+}
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule) {
     throw UserError({{file.string(), what, rule, k_remedy}});
 }
@@ -133,6 +164,9 @@ void write_state(const fs::path& folder, const RunState& state) {
     json j{{"schema", k_schema}, {"time_s", state.time}, {"rotor_angle_rad", state.rotor_angle}, {"ranks", state.ranks}};
     j["feed"] = to_json(state.feed);
     j["booked"] = {{"volume_m3", state.booked.volume}, {"momentum_n_s", to_json(state.booked.momentum)}};
+    if (state.account) j["account"] = to_json(*state.account);
+    j["events"] = {{"done", state.operations.done}, {"extracted_kg", state.operations.extracted}};
+    j["stop"] = {{"at_rest_since_s", to_json(state.stops.at_rest_since)}, {"last_crossing_s", to_json(state.stops.last_crossing)}};
     j["rocks"] = json::array();
     for (const auto& [id, rock] : state.rocks) j["rocks"].push_back(to_json(rock));
     std::ofstream stream(folder / k_state_file);
@@ -153,6 +187,11 @@ RunState read_state(const fs::path& folder) {
         state.ranks = j.at("ranks");
         state.feed = feed_of(j.at("feed"));
         state.booked = {j.at("booked").at("volume_m3"), vector_of(j.at("booked").at("momentum_n_s"))};
+        if (j.contains("account")) state.account = account_of(j.at("account"));
+        if (j.contains("events")) state.operations = {j.at("events").at("done"), j.at("events").at("extracted_kg")};
+        if (j.contains("stop"))
+            state.stops = {optional_of<double>(j.at("stop").at("at_rest_since_s")),
+                           optional_of<double>(j.at("stop").at("last_crossing_s"))};
         for (const json& rock : j.at("rocks")) state.rocks[rock.at("id")] = rock_of(rock);
         return state;
     } catch (const json::exception& error) {

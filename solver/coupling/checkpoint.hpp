@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "solver/coupling/bed_operations.hpp"
 #include "solver/coupling/feed/feed_queue.hpp"
 #include "solver/coupling/rock_coupling.hpp"
+#include "solver/coupling/stop_rules.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
 #include "solver/ports/communicator.hpp"
@@ -22,6 +25,9 @@ struct RunState {
     FeedState feed;
     std::map<int, TrackedRock> rocks;
     BookedExchange booked;
+    std::optional<std::vector<AccountEntry>> account;  ///< none in checkpoints of version 0.2.0
+    OperationState operations;
+    StopState stops;
 };
 
 /// state.json of a checkpoint folder. \throws UserError when it cannot be read

@@ -9,8 +9,10 @@
 
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/coupling/dry/free_rock.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/observe/gate_crossings.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -103,6 +105,8 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     run_cost_.cells = cells;
     run_cost_.ranks = communicator.size();
     last_checkpoint_ = fluid.time();
+    operations_ = BedOperations(settings.operations);
+    stops_ = StopRules(settings.at_rest, settings.idle, fluid.time());
 }
 
 void CoupledRun::step() {
@@ -111,6 +115,7 @@ void CoupledRun::step() {
     {
         const Timer timer(seconds);
         remove_finished_rock();
+        act_on_bed();
         insert_due_rock();
         sample_flow();
         begin_fluid_step();
@@ -140,6 +145,51 @@ void CoupledRun::remove_finished_rock() {
     if (leaving.empty()) return;
     for (const RockEvent& event : fates_->take_out(leaving, dem_->rocks(), now())) recorder_.event(event);
     rock_->remove(leaving);
+    for (const int id : leaving) account_.take_out(id, Whereabouts::decided);
+}
+
+/// Events in the order of the settings; each sees what the ones before it did.
+void CoupledRun::act_on_bed() {
+    if (!has_rock()) return;
+    const Timer timer(cost_.mapping);
+    for (const std::size_t number : operations_.due(fluid_.time(), release_tolerance())) {
+        const std::vector<int> ids = operations_.take(number, fluid_.time(), release_tolerance(), dem_->rocks(), dem_->frozen(), account_);
+        switch (operations_.kind_of(number)) {
+            case OperationKind::remove:
+                take_out(ids, EventSurface::remove, Whereabouts::removed);
+                break;
+            case OperationKind::extract:
+                take_out(ids, EventSurface::extract, Whereabouts::extracted);
+                break;
+            case OperationKind::freeze:
+                dem_->freeze(ids);
+                break;
+            case OperationKind::thaw:
+                dem_->thaw(ids);
+                break;
+        }
+    }
+    for (const ExtractionRow& row : operations_.take_rows()) {
+        recorder_.extraction(row);
+        if (!row.starved)
+            starved_.erase(row.event);
+        else if (starved_.insert(row.event).second)
+            recorder_.warning(row.time, fmt::format("events[{}] (extract) is starved: {:.6g} kg are due and {:.6g} kg out, and the region "
+                                                    "has no rock that could be taken",
+                                                    row.event, row.due, row.extracted));
+    }
+}
+
+/// \param ids  sorted
+void CoupledRun::take_out(const std::vector<int>& ids, EventSurface surface, Whereabouts to) {
+    if (ids.empty()) return;
+    const Rocks& rocks = dem_->rocks();
+    for (const int id : ids) {
+        const auto p = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), id) - rocks.id.begin());
+        recorder_.event(rock_event(surface, EventDirection::out, rocks, p, now()));
+        account_.take_out(id, to);
+    }
+    rock_->remove(ids);
 }
 
 void CoupledRun::insert_due_rock() {
@@ -156,6 +206,7 @@ void CoupledRun::insert_due_rock() {
     const Rocks& rocks = dem_->rocks();
     for (const FeedRock& rock : packet) {
         const auto p = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), rock.id) - rocks.id.begin());
+        account_.place(rocks, p);
         recorder_.event(fates_ ? fates_->place(rock.id, rock.diameter, rock.density, rocks.position[p], rocks.velocity[p], now())
                                : rock_event(EventSurface::feed, EventDirection::in, rocks, p, now()));
     }
@@ -173,12 +224,14 @@ void CoupledRun::begin_fluid_step() {
     const Timer timer(cost_.mesh_motion);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     // Rock was placed for the rotor's angle at its time.
-    fluid_.begin_step(has_rock() ? rock_->travel_limit() : infinity, feed_.next_release());
+    const double next_event = std::min(feed_.next_release(), operations_.next_time(fluid_.time(), release_tolerance()));
+    fluid_.begin_step(has_rock() ? rock_->travel_limit() : infinity, next_event);
 }
 
 void CoupledRun::move_rock() {
     if (!has_rock()) return;
     const Timer timer(cost_.dem);
+    if (!settings_.gates.empty()) before_ = dem_->rocks();
     moved_ = rock_->move();
     require_equal_angles();
 }
@@ -217,6 +270,28 @@ void CoupledRun::book() {
     balance_ = rock_->book();
     for (const std::string& warning : rock_->take_warnings()) recorder_.warning(fluid_.time(), warning);
     for (const RockEvent& event : follow_rock()) recorder_.event(event);
+    for (const int id : moved_.left.id) account_.take_out(id, Whereabouts::left_domain);
+    count_crossings();
+    if (stops_.watches_rest()) stops_.note_rest(fluid_.time(), restlessness(dem_->rocks(), dem_->frozen(), moved_.gravity.norm()));
+}
+
+void CoupledRun::count_crossings() {
+    if (settings_.gates.empty()) return;
+    const auto count = [&](const Rocks& rocks) {
+        for (std::size_t p = 0; p < rocks.size(); ++p) {
+            const auto q =
+                static_cast<std::size_t>(std::lower_bound(before_.id.begin(), before_.id.end(), rocks.id[p]) - before_.id.begin());
+            for (const GateCrossing& crossing : crossings(settings_.gates, before_.position[q], rocks.position[p])) {
+                const std::string& gate = settings_.gates[crossing.gate].name;
+                const double time = step_start_.time + crossing.share * (fluid_.time() - step_start_.time);
+                recorder_.gate({time, gate, rocks.id[p], crossing.sense, crossing.place, rocks.velocity[p], rocks.diameter[p],
+                                sphere_mass(rocks.diameter[p], rocks.density[p])});
+                stops_.note_crossing(time, gate);
+            }
+        }
+    };
+    count(dem_->rocks());
+    count(moved_.left);
 }
 
 std::vector<RockEvent> CoupledRun::follow_rock() {
@@ -238,6 +313,10 @@ void CoupledRun::report() {
     const Timer timer(cost_.output);
     if (fluid_.feels_rock()) report_loads_and_balance();
     record_flow();
+    if (has_rock()) {
+        recorder_.account(fluid_.time(), account_.totals());
+        recorder_.walls(fluid_.time(), moved_.wall_force);
+    }
     // The row before the start bounds the first interval that is averaged.
     if (settings_.outflow && fluid_.time() + fluid_.time_step() >= settings_.outflow->start_time)
         recorder_.outflow(fluid_.time(), fluid_.watched_means());
@@ -246,6 +325,7 @@ void CoupledRun::report() {
         recorder_.fates(fluid_.time(), fates_->totals());
         report_ledger();
     }
+    if (has_rock()) account_.require(dem_->rocks(), fluid_.time());
     if (fluid_.write_if_due() && has_rock()) record_picture();
     // Half a step of tolerance, so that checkpoints do not lag their interval by one step each time.
     if (settings_.checkpoint && fluid_.time() + 0.5 * fluid_.time_step() >= last_checkpoint_ + settings_.checkpoint->interval)
@@ -311,7 +391,8 @@ void CoupledRun::record_picture() {
         hydrodynamic.push_back(moved_.impulse[p] / duration);
         contact.push_back(moved_.contact_impulse[p] / duration);
     }
-    recorder_.picture({fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, hydrodynamic, contact, fates});
+    const std::vector<int> frozen = dem_->frozen();
+    recorder_.picture({fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, hydrodynamic, contact, fates, frozen});
 }
 
 void CoupledRun::report_cost(double step_seconds) {
@@ -330,7 +411,10 @@ void CoupledRun::report_cost(double step_seconds) {
 }
 
 bool CoupledRun::finished() const {
-    return settings_.stop && fates_ && feed_.all_in() && fates_->totals().undecided() <= settings_.stop->undecided;
+    const double time = fluid_.time();
+    const bool decided = settings_.stop && fates_ && feed_.all_in() && fates_->totals().undecided() <= settings_.stop->undecided;
+    const bool settled = stops_.at_rest(time) && feed_.all_in() && operations_.all_done() && time >= dem_->walls_change_until();
+    return decided || settled || stops_.idle(time);
 }
 
 void CoupledRun::finish() {
@@ -401,6 +485,9 @@ void CoupledRun::write_state_files(const fs::path& folder) {
     state.feed = feed_.state();
     if (has_rock()) {
         if (fates_) state.rocks = fates_->rocks();
+        state.account = account_.entries();
+        state.operations = operations_.state();
+        state.stops = stops_.state();
         state.booked = rock_->booked();
         dem_->write_checkpoint(folder);
         write_carry(folder, communicator_.rank(), fluid_.cells().ids, rock_->carry());
@@ -410,6 +497,35 @@ void CoupledRun::write_state_files(const fs::path& folder) {
     if (communicator_.rank() != 0) return;
     write_state(folder, state);
     if (velocity_) write_velocity(folder, *velocity_);
+}
+
+/// A checkpoint without an account is of a run that had neither events nor gates.
+void CoupledRun::restore_account(const RunState& state) {
+    const Rocks& rocks = dem_->rocks();
+    if (!state.account) {
+        for (std::size_t p = 0; p < rocks.size(); ++p) account_.place(rocks, p);
+        return;
+    }
+    account_.restore(*state.account);
+    account_.require(rocks, fluid_.time());
+    operations_.restore(state.operations);
+    if (state.stops.last_crossing) stops_.restore(state.stops);
+}
+
+void CoupledRun::start_from(const fs::path& checkpoint) {
+    dem_->start_from(checkpoint);
+    const Rocks& rocks = dem_->rocks();
+    for (const int id : feed_.ids_to_come())
+        if (std::binary_search(rocks.id.begin(), rocks.id.end(), id))
+            throw UserError({{settings_.rock_feed.string(), fmt::format("rock {} is in {} too", id, checkpoint.string()),
+                              "Ids are unique in a run", "Number the feed's rock from the largest id of the start on"}});
+    rock_->adopt_present_rock();
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        account_.place(rocks, p);
+        RockEvent event = rock_event(EventSurface::start, EventDirection::in, rocks, p, now());
+        if (fates_) event = fates_->place(rocks.id[p], rocks.diameter[p], rocks.density[p], rocks.position[p], rocks.velocity[p], now());
+        recorder_.event(event);
+    }
 }
 
 void CoupledRun::resume(const fs::path& checkpoint) {
@@ -445,6 +561,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
 
     dem_->read_checkpoint(checkpoint);
     require_equal_angles();
+    restore_account(state);
     if (fates_) {
         for (const int id : dem_->rocks().id)
             if (state.rocks.count(id) == 0)

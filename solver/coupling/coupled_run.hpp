@@ -5,10 +5,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 
+#include "solver/coupling/bed_operations.hpp"
 #include "solver/coupling/checkpoint.hpp"
 #include "solver/coupling/feed/feed_queue.hpp"
 #include "solver/coupling/rock_coupling.hpp"
+#include "solver/coupling/stop_rules.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/head/outflow_places.hpp"
 #include "solver/observe/momentum_balance.hpp"
@@ -26,8 +29,8 @@ namespace cutterflow::coupling {
 ///
 /// One step from t to t + dt, with x the rocks' positions, w the deposit and psi the sampling weights (sum over cells of weight times
 /// volume = 1 for every rock):
-///   remove_finished_rock, insert_due_rock   rock that is sucked up or left behind goes, rock of the feed comes in; the void fraction
-///                     is replaced without a source
+///   remove_finished_rock, act_on_bed, insert_due_rock   rock that is sucked up or left behind goes, events act, rock of the feed comes in;
+///                     the void fraction is replaced without a source
 ///   sample_flow       u, alpha, Du/Dt at every rock with psi(x(t)) on the mesh at t
 ///   begin_fluid_step  the fluid picks dt (rock travels <= 0.25 min(sigma, dx)) and moves the mesh
 ///   move_rock         (rho_s + C_AM rho_f) V dv/dt = D(v)(u - v) + (1 + C_AM) rho_f V Du/Dt + weight - buoyancy + contacts, every DEM step
@@ -48,8 +51,12 @@ public:
     /// One step, see above. \throws CheckFailure when the engines disagree about the rotor's angle, or rock is outside the fluid's mesh
     void step();
 
-    /// True when the stop rule holds: every feed is in and the undecided share is small enough.
+    /// True when a stop rule holds: every feed is in and the undecided share is small enough; every feed is in, every event is over, every
+    /// wall stands for good and rock is at rest; a gate is idle.
     bool finished() const;
+
+    /// Takes the rock of another run's checkpoint into a run that begins. \throws UserError  when the feed brings one of its ids
+    void start_from(const std::filesystem::path& checkpoint);
 
     /// Writes the end of the run: a checkpoint of the present time (when checkpoints are on), outcomes, cost.
     void finish();
@@ -63,6 +70,7 @@ public:
 
 private:
     void remove_finished_rock();
+    void act_on_bed();
     void insert_due_rock();
     void sample_flow();
     void begin_fluid_step();
@@ -72,6 +80,9 @@ private:
     void book();
     void report();
 
+    void take_out(const std::vector<int>& ids, EventSurface surface, Whereabouts to);
+    void count_crossings();
+    void restore_account(const RunState& state);
     bool has_rock() const { return rock_ != nullptr; }
     RunInstant now() const;
     void require_equal_angles() const;
@@ -100,6 +111,11 @@ private:
     std::optional<VelocitySets> velocity_;
     std::unique_ptr<PhaseRecorder> phases_;  // while the flow is recorded
     FeedQueue feed_;
+    RockAccount account_;
+    BedOperations operations_;
+    StopRules stops_;
+    Rocks before_;           // the step, when there are gates
+    std::set<int> starved_;  // extractions whose region is empty
 
     RunInstant step_start_;
     DemStep moved_;

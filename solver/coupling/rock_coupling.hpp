@@ -34,6 +34,8 @@ public:
     virtual std::vector<int> insert(const std::vector<FeedRock>& due) = 0;
     /// Whether rock of the feed has room in the DEM.
     virtual std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const = 0;
+    /// Rock of another run is in the DEM: displaces fluid without a source.
+    virtual void adopt_present_rock() = 0;
     /// Takes rock out of the run.
     virtual void remove(gsl::span<const int> ids) = 0;
 

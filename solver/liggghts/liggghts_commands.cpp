@@ -40,6 +40,10 @@ std::vector<std::string> neighbours(double skin, double bin_size) {
     return {fmt::format("neighbor {:.17g} bin", skin), fmt::format("neigh_modify delay 0 binsize {:.17g}", bin_size)};
 }
 
+std::string no_contacts_within(int type) {
+    return fmt::format("neigh_modify exclude type {0} {0}", type);
+}
+
 std::string rock_property(const std::string& name, int columns) {
     std::string zeros;
     for (int k = 0; k < columns; ++k) zeros += " 0.0";

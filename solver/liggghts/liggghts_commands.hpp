@@ -15,7 +15,7 @@ struct Box {
 
 /// Units, particle kind and communication; before the box exists.
 std::vector<std::string> basics();
-/// Material types: 1 rock, 2 steel.
+/// Types: rock that moves, rock that is frozen.
 std::vector<std::string> create_box(const Box& box);
 std::string read_restart(const std::filesystem::path& file);
 std::string write_restart(const std::filesystem::path& file);
@@ -23,6 +23,8 @@ std::string write_restart(const std::filesystem::path& file);
 std::vector<std::string> contact_model();
 std::string timestep(double seconds);
 std::string run(int steps, bool set_up);
+/// No contacts between particles of that type.
+std::string no_contacts_within(int type);
 /// Neighbour lists that hold until a rock moved half of `skin`; bins of `bin_size`.
 std::vector<std::string> neighbours(double skin, double bin_size);
 

@@ -50,6 +50,8 @@ constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at eac
 constexpr const char* k_restart_file = "dem.restart";
 constexpr const char* k_state_file = "dem.json";
 constexpr const char* k_rolling_history = "rolling_history";
+constexpr const char* k_walls = "walls";
+constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
 constexpr const char* k_motion = "rock_motion";
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_wall_rolling = "wall_rolling";
@@ -105,6 +107,9 @@ public:
     std::vector<bool> room_for(const Rocks& candidates) const;
     std::vector<int> insert(const Rocks& candidates);
     void remove(gsl::span<const int> ids);
+    const std::vector<int>& frozen() const { return frozen_; }
+    void set_frozen(gsl::span<const int> ids, bool frozen);
+    double walls_change_until() const;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force);
     std::vector<double> zone_angles() const {
         if (!has_rotor_) return {};
@@ -112,10 +117,11 @@ public:
     }
     void write_checkpoint(const std::filesystem::path& folder);
     void read_checkpoint(const std::filesystem::path& folder);
+    void start_from(const std::filesystem::path& folder);
 
 private:
     void start_liggghts();
-    void declare(const std::optional<std::filesystem::path>& restart);
+    void declare(const std::optional<std::filesystem::path>& restart, const std::vector<std::string>& walls_of_restart = {});
     void declare_walls();
     void declare_motion();
     void command(const std::string& text) { lammps_->input->one(text.c_str()); }
@@ -131,6 +137,11 @@ private:
     void create_rock(const Rocks& rocks, std::size_t k);
     void delete_rocks(const std::vector<int>& sorted_ids);
     void after_change_of_rocks();
+    std::vector<std::string> body_names() const;
+    nlohmann::json read_state_file(const std::filesystem::path& folder) const;
+    void read_rocks(const std::filesystem::path& folder, const nlohmann::json& state);
+    void adopt_wall_contacts(const std::vector<std::string>& names_before);
+    std::vector<Vec3> sum(std::vector<Vec3> values) const;
     void store_contact_forces();
     void restore_contact_forces();
     double sum(double value) const;
@@ -146,9 +157,12 @@ private:
     std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
     RockMotion* motion_ = nullptr;  // LIGGGHTS owns it
     LAMMPS_NS::FixPropertyAtom* contact_forces_ = nullptr;
+    LAMMPS_NS::FixPropertyAtom* records_ = nullptr;  // of contacts with walls
     Rocks rocks_;
     double time_ = 0.0;
-    double contact_torque_ = 0.0;  // on rotating steel, of the contact forces that are stored; this rank's share [N m]
+    std::vector<int> frozen_;             // ids
+    double contact_torque_ = 0.0;         // on rotating steel, of the contact forces that are stored; this rank's share [N m]
+    std::vector<Vec3> forces_on_bodies_;  // likewise [N]
     double largest_radius_ = 0.0;
     bool set_up_needed_ = true;
 };
@@ -170,6 +184,7 @@ LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& sett
       rotor_(has_rotor_ ? moving.front() : coupling::ZoneMotion{}),
       context_(settings, rotor_) {
     Expects(moving.size() <= 1);
+    forces_on_bodies_ = context_.tally.force_on_body;
     for (const coupling::WallSettings& wall : settings_.walls) walls_.emplace_back(wall, static_cast<int>(walls_.size()), rotor_);
     MPI_Comm_dup(communicator, &communicator_);
     register_contact_models();
@@ -205,7 +220,9 @@ void LiggghtsEngine::Implementation::start_liggghts() {
     ContactContext::set(lammps_.get(), &context_);
 }
 
-void LiggghtsEngine::Implementation::declare(const std::optional<std::filesystem::path>& restart) {
+/// \param walls_of_restart  names by which its contacts number the walls; empty when it does not tell them, and they are this run's
+void LiggghtsEngine::Implementation::declare(const std::optional<std::filesystem::path>& restart,
+                                             const std::vector<std::string>& walls_of_restart) {
     commands(commands::basics());
     if (restart) {
         const QuietOutput quiet;
@@ -214,8 +231,10 @@ void LiggghtsEngine::Implementation::declare(const std::optional<std::filesystem
         commands(commands::create_box(box()));
     }
     set_neighbours();
+    command(commands::no_contacts_within(k_frozen));
     commands(commands::contact_model());
     declare_walls();
+    if (!walls_of_restart.empty()) adopt_wall_contacts(walls_of_restart);
     declare_motion();
     set_up();
 }
@@ -234,9 +253,9 @@ void LiggghtsEngine::Implementation::declare_walls() {
         command(commands::rock_property(name, columns));
         return static_cast<LAMMPS_NS::FixPropertyAtom*>(lammps_->modify->find_fix_id(name));
     };
-    auto* records = property(k_wall_contacts, WallContacts::columns);
+    records_ = property(k_wall_contacts, WallContacts::columns);
     auto* rolling = context_.some_body_resists_rolling() ? property(k_wall_rolling, WallContacts::rolling_columns) : nullptr;
-    wall_contacts_.emplace(lammps_.get(), context_, records, rolling);
+    wall_contacts_.emplace(lammps_.get(), context_, records_, rolling);
     context_.wall_contacts = &*wall_contacts_;
     contact_forces_ = property(k_contact_forces, 6);
     commands(planes);
@@ -276,6 +295,7 @@ void LiggghtsEngine::Implementation::store_contact_forces() {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     if (set_up_needed_) return;
     contact_torque_ = context_.tally.torque;
+    forces_on_bodies_ = context_.tally.force_on_body;
     for (int i = 0; i < atom.nlocal; ++i) {
         std::copy_n(atom.f[i], 3, contact_forces_->array_atom[i]);
         std::copy_n(atom.torque[i], 3, contact_forces_->array_atom[i] + 3);
@@ -289,11 +309,17 @@ void LiggghtsEngine::Implementation::restore_contact_forces() {
         std::copy_n(contact_forces_->array_atom[i] + 3, 3, atom.torque[i]);
     }
     context_.tally.torque = contact_torque_;
+    context_.tally.force_on_body = forces_on_bodies_;
 }
 
 double LiggghtsEngine::Implementation::sum(double value) const {
     MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, communicator_);
     return value;
+}
+
+std::vector<Vec3> LiggghtsEngine::Implementation::sum(std::vector<Vec3> values) const {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(3 * values.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+    return values;
 }
 
 bool LiggghtsEngine::Implementation::is_first_rank() const {
@@ -303,7 +329,7 @@ bool LiggghtsEngine::Implementation::is_first_rank() const {
 }
 
 void LiggghtsEngine::Implementation::gather() {
-    constexpr int columns = 12;
+    constexpr int columns = 13;
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     std::vector<double> mine;
     for (int i = 0; i < atom.nlocal; ++i) {
@@ -313,6 +339,7 @@ void LiggghtsEngine::Implementation::gather() {
         mine.insert(mine.end(), atom.omega[i], atom.omega[i] + 3);
         mine.push_back(2.0 * context_.radius_of(atom.radius[i]));
         mine.push_back(atom.density[i]);
+        mine.push_back(atom.type[i] == k_frozen ? 1.0 : 0.0);
     }
     int ranks = 1;
     MPI_Comm_size(communicator_, &ranks);
@@ -327,6 +354,7 @@ void LiggghtsEngine::Implementation::gather() {
     for (std::size_t k = 0; k < all.size(); k += columns) rows.push_back(all.data() + k);
     std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[0] < b[0]; });
     rocks_ = Rocks{};
+    frozen_.clear();
     for (const double* row : rows) {
         rocks_.id.push_back(static_cast<int>(row[0]));
         rocks_.position.emplace_back(row + 1);
@@ -334,6 +362,7 @@ void LiggghtsEngine::Implementation::gather() {
         rocks_.angular_velocity.emplace_back(row + 7);
         rocks_.diameter.push_back(row[10]);
         rocks_.density.push_back(row[11]);
+        if (row[12] != 0.0) frozen_.push_back(rocks_.id.back());
     }
 }
 
@@ -450,6 +479,34 @@ void LiggghtsEngine::Implementation::delete_rocks(const std::vector<int>& sorted
     after_change_of_rocks();
 }
 
+/// Contacts between two frozen rocks end, those of rock that moves go on. All forces are evaluated anew, because contacts came or went.
+void LiggghtsEngine::Implementation::set_frozen(gsl::span<const int> ids, bool frozen) {
+    std::vector<int> sorted(ids.begin(), ids.end());
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted.empty()) return;
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    for (int i = 0; i < atom.nlocal; ++i) {
+        if (!std::binary_search(sorted.begin(), sorted.end(), atom.tag[i])) continue;
+        atom.type[i] = frozen ? k_frozen : k_moving;
+        if (!frozen) continue;
+        std::fill_n(atom.v[i], 3, 0.0);
+        std::fill_n(atom.omega[i], 3, 0.0);
+    }
+    gather();
+    context_.time = time_;
+    command(commands::run(0, true));
+    set_up_needed_ = false;
+}
+
+double LiggghtsEngine::Implementation::walls_change_until() const {
+    double last = 0.0;
+    for (const coupling::WallSettings& wall : settings_.walls) {
+        if (wall.travel.velocity.norm() > 0.0) last = std::max(last, wall.travel.end);
+        if (std::isfinite(wall.removed_at)) last = std::max(last, wall.removed_at);
+    }
+    return last;
+}
+
 void LiggghtsEngine::Implementation::after_change_of_rocks() {
     LAMMPS_NS::Atom& atom = *lammps_->atom;
     atom.natoms = static_cast<LAMMPS_NS::bigint>(sum(atom.nlocal));
@@ -481,6 +538,9 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     done.substeps = steps;
     done.gravity = settings_.gravity;
     done.cutter_torque = sum(motion_->angular_impulse()) / duration;
+    const std::vector<Vec3> wall_impulse = sum(motion_->wall_impulse());
+    const std::vector<std::string> bodies = body_names();
+    for (std::size_t body = 0; body < bodies.size(); ++body) done.wall_force.push_back({bodies[body], wall_impulse[body] / duration});
     done.contacts = static_cast<int>(std::lround(sum(context_.tally.contacts)));
     done.max_overlap_ratio = context_.tally.overlap_ratio;
     MPI_Allreduce(MPI_IN_PLACE, &done.max_overlap_ratio, 1, MPI_DOUBLE, MPI_MAX, communicator_);
@@ -512,20 +572,38 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     command(commands::write_restart(folder / k_restart_file));
     set_up_needed_ = true;  // rocks have changed ranks
     const double torque = sum(contact_torque_);
+    const std::vector<Vec3> forces = sum(forces_on_bodies_);
+    nlohmann::json bodies = nlohmann::json::array();
+    const std::vector<std::string> names = body_names();
+    for (std::size_t body = 0; body < names.size(); ++body)
+        bodies.push_back({{"name", names[body]}, {"force_n", {forces[body].x(), forces[body].y(), forces[body].z()}}});
     if (is_first_rank()) {
         std::ofstream stream(folder / k_state_file);
         const bool rolling = context_.rock_rock.resists_rolling();
-        stream << nlohmann::json{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}}.dump(2) << '\n';
+        stream << nlohmann::json{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}, {k_walls, bodies}}.dump(2)
+               << '\n';
         if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / k_state_file).string()));
     }
     MPI_Barrier(communicator_);
 }
 
-void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path& folder) {
-    const char* const remedy = "Remove this checkpoint folder; the run then resumes from the one before";
-    const nlohmann::json state = read_json_document(
-        folder / k_state_file,
-        {{"time_s", JsonKind::number, true}, {"torque_n_m", JsonKind::number, true}, {k_rolling_history, JsonKind::truth, false}}, remedy);
+/// Walls in the order of the settings, then the sides that are walls.
+std::vector<std::string> LiggghtsEngine::Implementation::body_names() const {
+    std::vector<std::string> names;
+    for (const coupling::WallSettings& wall : settings_.walls) names.push_back(wall.name);
+    for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side)
+        if (settings_.domain.side_is_wall[side]) names.emplace_back(coupling::k_domain_sides[side]);
+    return names;
+}
+
+nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesystem::path& folder) const {
+    const nlohmann::json state = read_json_document(folder / k_state_file,
+                                                    {{"time_s", JsonKind::number, true},
+                                                     {"torque_n_m", JsonKind::number, true},
+                                                     {k_rolling_history, JsonKind::truth, false},
+                                                     {"walls/*/name", JsonKind::text, false},
+                                                     {"walls/*/force_n/*", JsonKind::number, false}},
+                                                    k_remedy);
     const bool written_with = state.value(k_rolling_history, false), rolling = context_.rock_rock.resists_rolling();
     if (written_with != rolling)
         throw UserError({{(folder / k_state_file).string(),
@@ -534,16 +612,74 @@ void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path
                           "Resume with the settings of the checkpoint, or start anew"}});
     if (!std::filesystem::is_regular_file(folder / k_restart_file))
         throw UserError(
-            {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", remedy}});
-    time_ = state.at("time_s");
+            {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", k_remedy}});
+    return state;
+}
+
+/// Contacts with walls of the checkpoint belong to this run's walls of the same names; those with walls that this run has not, end.
+void LiggghtsEngine::Implementation::adopt_wall_contacts(const std::vector<std::string>& names_before) {
+    const std::vector<std::string> names = body_names();
+    if (names == names_before) return;
+    std::vector<int> body_now;
+    for (const std::string& name : names_before) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        body_now.push_back(found == names.end() ? -1 : static_cast<int>(found - names.begin()));
+    }
+    for (int i = 0; i < lammps_->atom->nlocal; ++i) {
+        auto* records = reinterpret_cast<WallContactRecord*>(records_->array_atom[i]);
+        for (int k = 0; k < WallContacts::max_contacts; ++k) {
+            if (records[k].impact_speed == 0.0) continue;  // never used
+            const auto before = static_cast<std::size_t>(records[k].body);
+            const int now = before < body_now.size() ? body_now[before] : -1;
+            if (now < 0) records[k] = WallContactRecord{};
+            records[k].body = std::max(now, 0);
+        }
+    }
+}
+
+void LiggghtsEngine::Implementation::read_rocks(const std::filesystem::path& folder, const nlohmann::json& state) {
+    const nlohmann::json bodies = state.value(k_walls, nlohmann::json::array());
+    const std::vector<std::string> names = body_names();
     contact_torque_ = is_first_rank() ? state.at("torque_n_m").get<double>() : 0.0;
+    forces_on_bodies_.assign(names.size(), Vec3::Zero());
+    std::vector<std::string> names_before;
+    for (const nlohmann::json& body : bodies) {
+        names_before.push_back(body.at("name"));
+        const auto found = std::find(names.begin(), names.end(), names_before.back());
+        const std::vector<double> force = body.at("force_n");
+        if (found != names.end() && force.size() == 3 && is_first_rank())
+            forces_on_bodies_[static_cast<std::size_t>(found - names.begin())] = Vec3(force.data());
+    }
     set_up_needed_ = true;
     command("clear");
-    declare(folder / k_restart_file);
+    declare(folder / k_restart_file, names_before);
     gather();
     for (const double diameter : rocks_.diameter) largest_radius_ = std::max(largest_radius_, 0.5 * diameter + context_.half_gap);
     set_neighbours();
     set_up_needed_ = true;
+}
+
+void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path& folder) {
+    const nlohmann::json state = read_state_file(folder);
+    time_ = state.at("time_s");
+    read_rocks(folder, state);
+}
+
+void LiggghtsEngine::Implementation::start_from(const std::filesystem::path& folder) {
+    read_rocks(folder, read_state_file(folder));
+    const commands::Box needed = box();
+    const LAMMPS_NS::Domain& domain = *lammps_->domain;
+    const Vec3 low(domain.boxlo), high(domain.boxhi);
+    const double rounding = 1e-9 * (needed.high - needed.low).norm();
+    if ((low - needed.low).cwiseAbs().maxCoeff() > rounding || (high - needed.high).cwiseAbs().maxCoeff() > rounding)
+        throw UserError(
+            {{folder.string(),
+              fmt::format("its domain, with a margin, reaches from ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g}) m", low[0], low[1],
+                          low[2], high[0], high[1], high[2]),
+              fmt::format("This run's reaches from ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g}) m; rock is taken over in the "
+                          "same domain",
+                          needed.low[0], needed.low[1], needed.low[2], needed.high[0], needed.high[1], needed.high[2]),
+              "Give both runs the same rock.domain"}});
 }
 
 LiggghtsEngine::LiggghtsEngine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving, MPI_Comm communicator)
@@ -564,6 +700,18 @@ std::vector<int> LiggghtsEngine::insert(const Rocks& rocks) {
 void LiggghtsEngine::remove(gsl::span<const int> ids) {
     implementation_->remove(ids);
 }
+std::vector<int> LiggghtsEngine::frozen() const {
+    return implementation_->frozen();
+}
+void LiggghtsEngine::freeze(gsl::span<const int> ids) {
+    implementation_->set_frozen(ids, true);
+}
+void LiggghtsEngine::thaw(gsl::span<const int> ids) {
+    implementation_->set_frozen(ids, false);
+}
+double LiggghtsEngine::walls_change_until() const {
+    return implementation_->walls_change_until();
+}
 coupling::DemStep LiggghtsEngine::advance(double duration, const coupling::HydrodynamicForce& force) {
     return implementation_->advance(duration, force);
 }
@@ -575,6 +723,9 @@ void LiggghtsEngine::write_checkpoint(const std::filesystem::path& folder) {
 }
 void LiggghtsEngine::read_checkpoint(const std::filesystem::path& folder) {
     implementation_->read_checkpoint(folder);
+}
+void LiggghtsEngine::start_from(const std::filesystem::path& folder) {
+    implementation_->start_from(folder);
 }
 
 }  // namespace cutterflow::liggghts

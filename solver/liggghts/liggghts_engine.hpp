@@ -25,10 +25,15 @@ public:
     std::vector<bool> room_for(const coupling::Rocks& rocks) const override;
     std::vector<int> insert(const coupling::Rocks& rocks) override;
     void remove(gsl::span<const int> ids) override;
+    std::vector<int> frozen() const override;
+    void freeze(gsl::span<const int> ids) override;
+    void thaw(gsl::span<const int> ids) override;
+    double walls_change_until() const override;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override;
     std::vector<double> zone_angles() const override;
     void write_checkpoint(const std::filesystem::path& folder) override;
     void read_checkpoint(const std::filesystem::path& folder) override;
+    void start_from(const std::filesystem::path& folder) override;
 
 private:
     class Implementation;

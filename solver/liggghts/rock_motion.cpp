@@ -34,6 +34,7 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     impulse_.assign(rocks.size(), Vec3::Zero());
     contact_impulse_.assign(rocks.size(), Vec3::Zero());
     angular_impulse_ = 0.0;
+    wall_impulse_.assign(context_.tally.force_on_body.size(), Vec3::Zero());
     for (int i = 0; i < atom->nlocal; ++i) {
         const auto of_this_rock = std::lower_bound(rocks.id.begin(), rocks.id.end(), atom->tag[i]);
         states_[i].index = static_cast<std::size_t>(of_this_rock - rocks.id.begin());
@@ -41,12 +42,34 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     }
 }
 
+bool RockMotion::is_frozen(int rock) const {
+    return atom->type[rock] == k_frozen;
+}
+
+/// Less buoyancy [N].
+Vec3 RockMotion::weight(int rock) const {
+    return (atom->rmass[rock] - context_.fluid.density * sphere_volume(2.0 * atom->radius[rock])) * gravity_;
+}
+
 /// From contact (LIGGGHTS' force), hydrodynamic force and submerged weight.
 Vec3 RockMotion::acceleration(int rock) const {
-    const double mass = atom->rmass[rock];
-    const double radius = atom->radius[rock];
-    const Vec3 weight = (mass - context_.fluid.density * sphere_volume(2.0 * radius)) * gravity_;
-    return (Vec3(atom->f[rock]) + states_[rock].hydrodynamic + weight) / context_.mass_with_added_mass(mass, radius);
+    return (Vec3(atom->f[rock]) + states_[rock].hydrodynamic + weight(rock)) /
+           context_.mass_with_added_mass(atom->rmass[rock], atom->radius[rock]);
+}
+
+/// Half a step's.
+void RockMotion::add_impulses(int rock) {
+    const State& state = states_[rock];
+    const Vec3 other = is_frozen(rock) ? Vec3(-state.hydrodynamic - weight(rock)) : Vec3(atom->f[rock]);
+    impulse_[state.index] += 0.5 * update->dt * state.hydrodynamic;
+    contact_impulse_[state.index] += 0.5 * update->dt * other;
+}
+
+/// Half a step's.
+void RockMotion::add_impulses_of_walls() {
+    angular_impulse_ += 0.5 * update->dt * context_.tally.torque;
+    for (std::size_t body = 0; body < wall_impulse_.size(); ++body)
+        wall_impulse_[body] += 0.5 * update->dt * context_.tally.force_on_body[body];
 }
 
 Vec3 RockMotion::spin_acceleration(int rock) const {
@@ -62,17 +85,17 @@ void RockMotion::post_force(int) {
 void RockMotion::initial_integrate(int) {
     const double step = update->dt;
     for (int i = 0; i < atom->nlocal; ++i) {
+        add_impulses(i);
+        if (is_frozen(i)) continue;
         State& state = states_[i];
         Eigen::Map<Vec3> position(atom->x[i]), velocity(atom->v[i]), spin(atom->omega[i]);
         state.acceleration = acceleration(i);
         state.spin_acceleration = spin_acceleration(i);
-        impulse_[state.index] += 0.5 * step * state.hydrodynamic;
-        contact_impulse_[state.index] += 0.5 * step * Vec3(atom->f[i]);
         position += step * (velocity + 0.5 * step * state.acceleration);
         velocity += step * state.acceleration;
         spin += step * state.spin_acceleration;
     }
-    angular_impulse_ += 0.5 * step * context_.tally.torque;
+    add_impulses_of_walls();
     context_.time += step;
 }
 
@@ -82,12 +105,12 @@ void RockMotion::final_integrate() {
         State& state = states_[i];
         Eigen::Map<Vec3> velocity(atom->v[i]), spin(atom->omega[i]);
         state.hydrodynamic = (*force_)(state.index, velocity);
-        impulse_[state.index] += 0.5 * step * state.hydrodynamic;
-        contact_impulse_[state.index] += 0.5 * step * Vec3(atom->f[i]);
+        add_impulses(i);
+        if (is_frozen(i)) continue;
         velocity += 0.5 * step * (acceleration(i) - state.acceleration);
         spin += 0.5 * step * (spin_acceleration(i) - state.spin_acceleration);
     }
-    angular_impulse_ += 0.5 * step * context_.tally.torque;
+    add_impulses_of_walls();
 }
 
 void RockMotion::grow_arrays(int capacity) {

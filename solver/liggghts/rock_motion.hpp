@@ -18,6 +18,7 @@ namespace cutterflow::liggghts {
 /// predicts it, which keeps the order of two: during the evaluation LIGGGHTS' velocities are the predicted ones, on ghosts too. At the
 /// start of a call of advance the hydrodynamic force is evaluated again, so that no half kick uses an old law. LIGGGHTS' own fix nve/sphere
 /// has one added-mass ratio for all rocks, lags half a step in the velocity and writes to a screen that other ranks than 0 do not have.
+/// Frozen rock is not integrated: what holds it takes up all forces on it.
 class RockMotion final : public LAMMPS_NS::Fix {
 public:
     /// \param walls  of triangles; they turn and travel with the context's time
@@ -33,11 +34,13 @@ public:
     const std::vector<Vec3>& contact_impulse() const { return contact_impulse_; }
     /// This rank's share of the time integral [N m s] of the torque on rotating steel since begin().
     double angular_impulse() const { return angular_impulse_; }
+    /// The same of the forces on the walls [N s], by their numbers.
+    const std::vector<Vec3>& wall_impulse() const { return wall_impulse_; }
 
     int setmask() override;
     void setup(int) override { post_force(0); }
     void setup_pre_force(int) override { pre_force(0); }
-    void pre_force(int) override { context_.tally = ContactTally{}; }
+    void pre_force(int) override { context_.tally.clear(); }
     void post_force(int) override;
     void initial_integrate(int) override;
     void final_integrate() override;
@@ -57,7 +60,11 @@ private:
         Vec3 spin_acceleration = Vec3::Zero();  ///< [rad/s2]
     };
 
+    bool is_frozen(int rock) const;
+    Vec3 weight(int rock) const;
     Vec3 acceleration(int rock) const;
+    void add_impulses(int rock);
+    void add_impulses_of_walls();
     Vec3 spin_acceleration(int rock) const;
 
     ContactContext& context_;
@@ -68,6 +75,7 @@ private:
     std::vector<State> states_;                    // in LIGGGHTS' order
     std::vector<Vec3> impulse_, contact_impulse_;  // per rock of rocks_
     double angular_impulse_ = 0.0;
+    std::vector<Vec3> wall_impulse_;
 };
 
 }  // namespace cutterflow::liggghts

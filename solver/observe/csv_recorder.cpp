@@ -1,5 +1,6 @@
 #include "solver/observe/csv_recorder.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <stdexcept>
 
@@ -59,6 +60,15 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
                       "never_entered_count,never_entered_kg");
     }
     rejected_ = open(k_rock, "rejected.csv", "id,time_s,reason");
+    std::string whereabouts = "time_s,placed_count,placed_kg";
+    for (const char* where : k_whereabouts) whereabouts += fmt::format(",{0}_count,{0}_kg", where);
+    account_ = open(k_rock, "account.csv", whereabouts);
+    walls_ = open(k_rock, "walls.csv", "time_s,wall,force_x_n,force_y_n,force_z_n");
+    if (!settings.gates.empty())
+        gates_ = open(k_rock, "gates.csv", "time_s,gate,id,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,diameter_m,mass_kg");
+    if (std::any_of(settings.operations.begin(), settings.operations.end(),
+                    [](const OperationSettings& operation) { return operation.kind == OperationKind::extract; }))
+        extractions_ = open(k_rock, "extract.csv", "time_s,event,due_kg,extracted_kg,in_region,starved");
 
     // Pictures of an earlier part of the run stay in the series.
     const std::filesystem::path pictures = root_ / k_rock / "vtk";
@@ -95,6 +105,35 @@ void CsvRecorder::event(const RockEvent& e) {
 
 void CsvRecorder::rejected(const RejectedRock& rock) {
     fmt::print(rejected_, "{},{:.9g},{}\n", rock.id, rock.time, rock.reason);
+}
+
+void CsvRecorder::account(double time, const AccountTotals& totals) {
+    int count = 0;
+    double mass = 0.0;
+    for (std::size_t where = 0; where < k_whereabouts.size(); ++where) {
+        count += totals.count[where];
+        mass += totals.mass[where];
+    }
+    fmt::print(account_, "{:.9g},{},{:.12g}", time, count, mass);
+    for (std::size_t where = 0; where < k_whereabouts.size(); ++where)
+        fmt::print(account_, ",{},{:.12g}", totals.count[where], totals.mass[where]);
+    account_ << '\n';
+}
+
+void CsvRecorder::gate(const GateRow& row) {
+    fmt::print(gates_, "{:.9g},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.time, row.gate, row.id, row.sense,
+               row.position[0], row.position[1], row.position[2], row.velocity[0], row.velocity[1], row.velocity[2], row.diameter,
+               row.mass);
+}
+
+void CsvRecorder::extraction(const ExtractionRow& row) {
+    fmt::print(extractions_, "{:.9g},{},{:.9g},{:.9g},{},{}\n", row.time, row.event, row.due, row.extracted, row.in_region,
+               row.starved ? 1 : 0);
+}
+
+void CsvRecorder::walls(double time, gsl::span<const WallForce> forces) {
+    for (const WallForce& wall : forces)
+        fmt::print(walls_, "{:.9g},{},{:.9g},{:.9g},{:.9g}\n", time, wall.wall, wall.force[0], wall.force[1], wall.force[2]);
 }
 
 void CsvRecorder::fates(double time, const FateTotals& totals) {
@@ -167,6 +206,9 @@ void CsvRecorder::picture(const RockPicture& picture) {
     array("Float64", "velocity", 3, [&](std::size_t p) { vector(picture.velocity[p]); });
     array("Float64", "hydrodynamic_force", 3, [&](std::size_t p) { vector(picture.hydrodynamic_force[p]); });
     array("Float64", "contact_force", 3, [&](std::size_t p) { vector(picture.contact_force[p]); });
+    array("Int32", "frozen", 1, [&](std::size_t p) {
+        fmt::print(stream, "{}\n", std::binary_search(picture.frozen.begin(), picture.frozen.end(), picture.id[p]) ? 1 : 0);
+    });
     if (!picture.fate.empty())
         array("Int32", "fate", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", static_cast<int>(picture.fate[p])); });
     stream << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
@@ -226,7 +268,8 @@ void CsvRecorder::warning(double time, const std::string& text) {
 }
 
 void CsvRecorder::flush() {
-    for (std::ofstream* stream : {&events_, &rejected_, &fates_, &ledger_, &outflow_, &loads_, &balance_, &cost_}) {
+    for (std::ofstream* stream :
+         {&events_, &rejected_, &account_, &gates_, &extractions_, &walls_, &fates_, &ledger_, &outflow_, &loads_, &balance_, &cost_}) {
         stream->flush();
         if (!*stream) fail_to_write(root_);
     }

@@ -23,6 +23,10 @@ public:
 
     void event(const RockEvent& event) override;
     void rejected(const RejectedRock& rock) override;
+    void account(double time, const AccountTotals& totals) override;
+    void gate(const GateRow& row) override;
+    void extraction(const ExtractionRow& row) override;
+    void walls(double time, gsl::span<const WallForce> forces) override;
     void fates(double time, const FateTotals& totals) override;
     void ledger(double time, const RockLedger& ledger) override;
     void outflow(double time, gsl::span<const double> radial_velocity) override;
@@ -45,7 +49,7 @@ private:
     std::filesystem::path root_;
     std::string start_;
     bool with_soil_;
-    std::ofstream events_, rejected_, fates_, ledger_, outflow_, loads_, balance_, cost_;
+    std::ofstream events_, rejected_, account_, gates_, extractions_, walls_, fates_, ledger_, outflow_, loads_, balance_, cost_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;
     std::vector<std::string> warnings_;

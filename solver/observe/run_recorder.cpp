@@ -12,7 +12,7 @@ const char* fate_name(Fate fate) {
 }
 
 const char* surface_name(EventSurface surface) {
-    constexpr const char* names[] = {"feed", "head", "mouth", "domain"};
+    constexpr const char* names[] = {"feed", "head", "mouth", "domain", "start", "remove", "extract"};
     return names[static_cast<std::size_t>(surface)];
 }
 

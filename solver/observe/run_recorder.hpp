@@ -9,6 +9,7 @@
 
 #include "geometry/base/vec3.hpp"
 #include "solver/observe/momentum_balance.hpp"
+#include "solver/observe/rock_account.hpp"
 #include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::coupling {
@@ -18,7 +19,7 @@ enum class Fate { never_entered, in_cutter, spilled, sucked_up };
 inline constexpr std::array<Fate, 4> k_fates{Fate::never_entered, Fate::in_cutter, Fate::spilled, Fate::sucked_up};
 const char* fate_name(Fate fate);
 
-enum class EventSurface { feed, head, mouth, domain };
+enum class EventSurface { feed, head, mouth, domain, start, remove, extract };
 enum class EventDirection { in, out };
 const char* surface_name(EventSurface surface);
 const char* direction_name(EventDirection direction);
@@ -53,6 +54,28 @@ struct RejectedRock {
     int id = 0;
     double time = 0.0;
     std::string reason;
+};
+
+/// A rock's centre crosses a gate.
+struct GateRow {
+    double time = 0.0;  ///< [s]
+    std::string gate;
+    int id = 0;
+    int sense = 0;                 ///< +1 along the gate's normal, -1 against it
+    Vec3 position = Vec3::Zero();  ///< [m]
+    Vec3 velocity = Vec3::Zero();  ///< [m/s]
+    double diameter = 0.0;         ///< [m]
+    double mass = 0.0;             ///< [kg]
+};
+
+/// An extraction after a step.
+struct ExtractionRow {
+    double time = 0.0;       ///< [s]
+    int event = 0;           ///< its number in the list of events, from 0
+    double due = 0.0;        ///< rate times time so far [kg]
+    double extracted = 0.0;  ///< so far [kg]
+    int in_region = 0;       ///< rocks that could be taken
+    bool starved = false;    ///< the next rock is due, or all are, and the region has none
 };
 
 struct CountAndMass {
@@ -138,6 +161,7 @@ struct RockPicture {
     gsl::span<const Vec3> hydrodynamic_force;  ///< drag and the Du/Dt parts, mean over the step [N]
     gsl::span<const Vec3> contact_force;       ///< of rock and steel, mean over the step [N]
     gsl::span<const Fate> fate;                ///< empty when fates are not followed
+    gsl::span<const int> frozen;               ///< ids, sorted
 };
 
 /// An active sub-model, and why it is active.
@@ -161,6 +185,10 @@ public:
     virtual ~RunRecorder() = default;
     virtual void event(const RockEvent& event) = 0;
     virtual void rejected(const RejectedRock& rock) = 0;
+    virtual void account(double time, const AccountTotals& totals) = 0;
+    virtual void gate(const GateRow& row) = 0;
+    virtual void extraction(const ExtractionRow& row) = 0;
+    virtual void walls(double time, gsl::span<const WallForce> forces) = 0;
     virtual void fates(double time, const FateTotals& totals) = 0;
     virtual void ledger(double time, const RockLedger& ledger) = 0;
     /// \param radial_velocity  averaged over azimuth, one per axial bin [m/s]
@@ -181,10 +209,14 @@ public:
 };
 
 /// Discards everything: for ranks that do not write.
-class SilentRecorder final : public RunRecorder {
+class SilentRecorder : public RunRecorder {
 public:
     void event(const RockEvent&) override {}
     void rejected(const RejectedRock&) override {}
+    void account(double, const AccountTotals&) override {}
+    void gate(const GateRow&) override {}
+    void extraction(const ExtractionRow&) override {}
+    void walls(double, gsl::span<const WallForce>) override {}
     void fates(double, const FateTotals&) override {}
     void ledger(double, const RockLedger&) override {}
     void outflow(double, gsl::span<const double>) override {}

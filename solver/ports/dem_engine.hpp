@@ -2,6 +2,8 @@
 /// \file Port to the DEM: rocks and their contacts. solver/liggghts implements it; tests use fakes. Every call is collective.
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <gsl/span>
@@ -35,15 +37,22 @@ struct Rocks {
 /// engine's inertia).
 using HydrodynamicForce = std::function<Vec3(std::size_t index, const Vec3& velocity)>;
 
+/// Mean force [N] of rock on a wall.
+struct WallForce {
+    std::string wall;  ///< a name of the settings, or a side of the domain
+    Vec3 force = Vec3::Zero();
+};
+
 /// What one call of advance did.
 struct DemStep {
     std::vector<Vec3>
         impulse;  ///< of HydrodynamicForce on each rock of rocks() after the call [N s]: sum of force times DEM step, ends half
-    std::vector<Vec3> contact_impulse;  ///< of all contacts on each rock, in the order of `impulse` [N s]
+    std::vector<Vec3> contact_impulse;  ///< of all contacts on each rock, and of what holds a frozen one; in the order of `impulse` [N s]
     Rocks left;                         ///< rocks that left the DEM domain in the call, in their last state; no longer in rocks()
     std::vector<Vec3> left_impulse, left_contact_impulse;  ///< as `impulse` and `contact_impulse`, of `left` [N s]
     Vec3 gravity = Vec3::Zero();                           ///< that acted on all rocks [m/s2]
     double cutter_torque = 0.0;                            ///< mean torque of rock contacts on the rotating steel about the axis [N m]
+    std::vector<WallForce> wall_force;                     ///< over the call, of every wall
     double max_overlap_ratio = 0.0;                        ///< largest overlap over rock radius seen at the call's end
     int substeps = 0;                                      ///< DEM steps of the call
     int contacts = 0;                                      ///< rock-rock and rock-wall contacts at the call's end
@@ -67,6 +76,16 @@ public:
     virtual std::vector<int> insert(const Rocks& rocks) = 0;
     virtual void remove(gsl::span<const int> ids) = 0;
 
+    /// Ids of frozen rocks, sorted. A frozen rock has a velocity of exactly 0 and stays exactly where it is. It keeps its mass; in contacts
+    /// of others with it that counts as infinite, and two frozen rocks have no contact. The fluid's force on it counts in
+    /// DemStep::impulse as on any other.
+    virtual std::vector<int> frozen() const { return {}; }
+    virtual void freeze(gsl::span<const int>) { throw std::logic_error("this DEM does not hold rock"); }
+    virtual void thaw(gsl::span<const int>) { throw std::logic_error("this DEM does not hold rock"); }
+
+    /// Last time [s] at which a wall stops or is taken out; 0 when all stand.
+    virtual double walls_change_until() const { return 0.0; }
+
     /// Advances by `duration` [s] in a whole number of equal steps, at most largest_time_step() long; the rotor turns along.
     virtual DemStep advance(double duration, const HydrodynamicForce& force) = 0;
 
@@ -76,6 +95,9 @@ public:
     /// Writes rocks with their contact history into an existing folder / reads them back (before any insert).
     virtual void write_checkpoint(const std::filesystem::path& folder) = 0;
     virtual void read_checkpoint(const std::filesystem::path& folder) = 0;
+    /// Takes the rocks of another run's checkpoint with their contacts, also with walls of the same names, before any insert. Time stays
+    /// this run's.
+    virtual void start_from(const std::filesystem::path&) { throw std::logic_error("this DEM starts without rock"); }
 };
 
 }  // namespace cutterflow::coupling

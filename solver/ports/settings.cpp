@@ -106,6 +106,16 @@ void check_without_medium(Mistakes& mistakes, const CouplingSettings& settings) 
     refuse(!settings.patches.outlet.empty() || !settings.patches.steel.empty(), "section patches");
 }
 
+void check_without_rock(Mistakes& mistakes, const CouplingSettings& settings) {
+    const auto refuse = [&](bool wrong, const char* what) {
+        if (wrong) mistakes.add(fmt::format("{} without section rock", what), "It is about rock", "Remove it or add rock");
+    };
+    refuse(!settings.operations.empty(), "section events");
+    refuse(!settings.gates.empty(), "section gates");
+    refuse(settings.at_rest.has_value(), "stop.atRest");
+    refuse(settings.idle.has_value(), "stop.idle");
+}
+
 }  // namespace
 
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where) {
@@ -121,7 +131,9 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
             check_hindrance(mistakes, settings.closures);
         }
         if (settings.queue) mistakes.add(setting_mistakes(*settings.queue, "rock.queue", where));
-        if (settings.rock_feed.empty()) mistakes.add("rock.feed is missing", "Rock enters through a feed file", "Name a CSV file");
+        if (settings.rock_feed.empty() && settings.rock_start.empty())
+            mistakes.add("rock.feed is missing", "Rock enters through a feed file, or is there from the start on (rock.start)",
+                         "Name a CSV file");
     }
     if (settings.soil) mistakes.add(setting_mistakes(*settings.soil, "soil", where));
     if (settings.fates)
@@ -136,6 +148,10 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         mistakes.add("section stop without section rock", "Only rock is undecided", "Remove it or add rock");
     if (settings.stop && settings.has_rock && !settings.fates)
         mistakes.add("section stop without section fates", "Rock is undecided until it has a fate", "Add fates or remove stop");
+    check_bed_operations(mistakes, settings.operations, settings.gates, settings.at_rest, settings.idle);
+    if (!settings.has_rock) check_without_rock(mistakes, settings);
+    if (!settings.operations.empty() && settings.fates)
+        mistakes.add("section events with section fates", "Fates follow all rock of a cutter head", "Remove one of them");
     if (settings.checkpoint) mistakes.add(setting_mistakes(*settings.checkpoint, "checkpoint", where));
     if (settings.record) check_record(mistakes, *settings.record, settings.has_rock, where);
     if (!settings.replay.empty()) check_replay(mistakes, settings);

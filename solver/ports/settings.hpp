@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/vec3.hpp"
 #include "geometry/head/contour.hpp"
+#include "solver/ports/bed_operations.hpp"
 #include "solver/ports/setting_table.hpp"
 
 namespace cutterflow::coupling {
@@ -152,7 +153,12 @@ struct CouplingSettings {
     bool has_medium = true;  ///< false: rock moves by weight and contacts alone, without mesh and fields
     PatchSettings patches;
     std::optional<SoilSettings> soil;
-    std::filesystem::path rock_feed;     ///< CSV, with rock
+    std::filesystem::path rock_feed;   ///< CSV, with rock
+    std::filesystem::path rock_start;  ///< folder of a checkpoint of the DEM, whose rock is in from the start on; empty: none
+    std::vector<OperationSettings> operations;
+    std::vector<GateSettings> gates;
+    std::optional<AtRestSettings> at_rest;
+    std::optional<IdleSettings> idle;
     std::optional<QueueSettings> queue;  ///< none: the feed's rock comes in batches
     KernelSettings kernel;
     ClosureSettings closures;

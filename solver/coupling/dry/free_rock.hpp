@@ -14,6 +14,7 @@ public:
     std::vector<int> insert(const std::vector<FeedRock>& due) override;
     std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const override;
     void remove(gsl::span<const int> ids) override { dem_.remove(ids); }
+    void adopt_present_rock() override {}
     void sample() override {}
     /// Infinity: the DEM divides a step by its own rule.
     double travel_limit() const override;

@@ -117,6 +117,13 @@ std::optional<FeedRock> FeedQueue::turned(const Waiting& waiting, std::size_t pl
     return rock;
 }
 
+std::vector<int> FeedQueue::ids_to_come() const {
+    std::vector<int> ids;
+    for (const FeedRock& rock : upcoming_) ids.push_back(rock.id);
+    for (const Waiting& waiting : waiting_) ids.push_back(waiting.rock.id);
+    return ids;
+}
+
 bool FeedQueue::all_in() const {
     return upcoming_.empty() &&
            std::none_of(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) { return waiting.due.has_value(); });

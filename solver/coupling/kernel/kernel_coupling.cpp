@@ -123,6 +123,18 @@ std::vector<bool> KernelCoupling::room_for(const std::vector<FeedRock>& rocks) c
     return dem_.room_for(as_listed(rocks));
 }
 
+void KernelCoupling::adopt_present_rock() {
+    map_present_rock();
+    std::vector<FlowAtRock> flow;
+    sample_with(present_, flow);
+    for (std::size_t p = 0; p < dem_.rocks().size(); ++p) {
+        const double volume = sphere_volume(dem_.rocks().diameter[p]);
+        booked_.volume += volume;
+        booked_.momentum += properties_.density * volume * flow[p].velocity;
+    }
+    replace_void_fraction();
+}
+
 void KernelCoupling::remove(gsl::span<const int> ids) {
     const Rocks& rocks = dem_.rocks();
     Rocks leaving;

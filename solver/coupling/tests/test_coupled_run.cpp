@@ -28,7 +28,7 @@ using testing::TemporaryFolder;
 const FluidProperties k_water{998.2, 1.0034e-6};
 
 /// Keeps what a run tells.
-class MemoryRecorder final : public RunRecorder {
+class MemoryRecorder final : public SilentRecorder {
 public:
     void event(const RockEvent& e) override { events.push_back(e); }
     void rejected(const RejectedRock& r) override { rejections.push_back(r); }

@@ -51,6 +51,16 @@ void read_optional(DictionarySection& parent, const std::string& key, std::optio
     if (read_section(parent, key, k_optional, [&](DictionarySection& section) { read(section, values); })) settings = values;
 }
 
+/// `read(DictionarySection&)` of each section of a list.
+template <class Settings, class Read>
+void read_list(DictionarySection& parent, const std::string& key, std::vector<Settings>& settings, Read read) {
+    for (const Foam::dictionary& dict : parent.sections(key, k_optional)) {
+        DictionarySection section = parent.below(dict, key);
+        settings.push_back(read(section));
+        section.finish();
+    }
+}
+
 /// Reads every key of the struct's table. One without a default must be there.
 template <class Settings>
 void read_settings(DictionarySection& section, Settings& settings) {
@@ -130,19 +140,89 @@ void read_domain(DictionarySection& section, coupling::DomainSettings& domain) {
 
 void read_rock(DictionarySection& section, const std::filesystem::path& folder, CouplingDictionary& result) {
     coupling::DemSettings dem;
-    section.read("feed", result.coupling.rock_feed, folder, k_required);
+    section.read("start", result.coupling.rock_start, folder, k_optional);
+    section.read("feed", result.coupling.rock_feed, folder, result.coupling.rock_start.empty() ? k_required : k_optional);
     read_optional(section, "queue", result.coupling.queue, read_settings<coupling::QueueSettings>);
-    for (const Foam::dictionary& dict : section.sections("walls", k_optional)) {
-        DictionarySection wall = section.below(dict, "walls");
-        dem.walls.push_back(read_wall(wall, folder));
-        wall.finish();
-    }
+    read_list(section, "walls", dem.walls, [&](DictionarySection& wall) { return read_wall(wall, folder); });
     read_section(section, "domain", k_required, [&](DictionarySection& domain) { read_domain(domain, dem.domain); });
     std::set<std::string> materials{dem.domain.material};
     for (const coupling::WallSettings& wall : dem.walls) materials.insert(wall.material);
     read_section(section, "contact", k_required, [&](DictionarySection& contact) { read_contact(contact, materials, dem.contact); });
     result.coupling.has_rock = true;
     result.dem = dem;
+}
+
+void read_region(DictionarySection& section, coupling::Region& region) {
+    const std::string type = section.read_choice("type", {"everything", "box", "sphere", "cylinder", "halfSpace"}, k_required);
+    if (type == "box") {
+        coupling::BoxRegion box;
+        section.read("lower", box.lower, k_required);
+        section.read("upper", box.upper, k_required);
+        region = box;
+    } else if (type == "sphere") {
+        coupling::SphereRegion sphere;
+        section.read("centre", sphere.centre, k_required);
+        section.read("radius", sphere.radius, k_required);
+        region = sphere;
+    } else if (type == "cylinder") {
+        coupling::CylinderRegion cylinder;
+        section.read("from", cylinder.from, k_required);
+        section.read("to", cylinder.to, k_required);
+        section.read("radius", cylinder.radius, k_required);
+        region = cylinder;
+    } else if (type == "halfSpace") {
+        coupling::HalfSpaceRegion half;
+        section.read("point", half.point, k_required);
+        section.read("normal", half.normal, k_required);
+        region = half;
+    }
+}
+
+coupling::OperationSettings read_operation(DictionarySection& section) {
+    const auto& names = coupling::k_operation_names;
+    coupling::OperationSettings operation;
+    const std::string what = section.read_choice("do", {names.begin(), names.end()}, k_required);
+    if (const auto found = std::find(names.begin(), names.end(), what); found != names.end())
+        operation.kind = static_cast<coupling::OperationKind>(found - names.begin());
+    if (operation.kind == coupling::OperationKind::extract) {
+        section.read("from", operation.begin, k_required);
+        section.read("to", operation.end, k_required);
+        section.read("rate", operation.rate, k_required);
+    } else {
+        section.read("at", operation.begin, k_required);
+    }
+    read_section(section, "region", k_required, [&](DictionarySection& region) { read_region(region, operation.region); });
+    return operation;
+}
+
+coupling::GateSettings read_gate(DictionarySection& section) {
+    coupling::GateSettings gate;
+    section.read("name", gate.name, k_required);
+    section.read("normal", gate.normal, k_required);
+    if (!section.has("lower") && !section.has("upper")) {
+        section.read("centre", gate.centre, k_required);
+        section.read("radius", gate.radius, k_required);
+        return gate;
+    }
+    gate.rectangle.emplace();
+    section.read("lower", gate.rectangle->lower, k_required);
+    section.read("upper", gate.rectangle->upper, k_required);
+    return gate;
+}
+
+void read_stop(DictionarySection& section, coupling::CouplingSettings& settings) {
+    read_optional(section, "atRest", settings.at_rest, [](DictionarySection& rest, coupling::AtRestSettings& values) {
+        rest.read("energy", values.energy, k_optional);
+        rest.read("speed", values.speed, k_optional);
+        rest.read("hold", values.hold, k_optional);
+    });
+    read_optional(section, "idle", settings.idle, [](DictionarySection& idle, coupling::IdleSettings& values) {
+        idle.read("gate", values.gate, k_required);
+        idle.read("duration", values.duration, k_required);
+    });
+    if ((settings.at_rest || settings.idle) && !section.has("undecided")) return;
+    settings.stop.emplace();
+    read_settings(section, *settings.stop);
 }
 
 void read_mouth(DictionarySection& section, coupling::MouthSettings& mouth) {
@@ -264,7 +344,9 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
     read_optional(file, "outflow", settings.outflow, read_settings<coupling::OutflowSettings>);
     read_optional(file, "velocity", settings.velocity,
                   [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
-    read_optional(file, "stop", settings.stop, read_settings<coupling::StopSettings>);
+    read_section(file, "stop", k_optional, [&](DictionarySection& section) { read_stop(section, settings); });
+    read_list(file, "events", settings.operations, read_operation);
+    read_list(file, "gates", settings.gates, read_gate);
     read_optional(file, "checkpoint", settings.checkpoint, read_settings<coupling::CheckpointSettings>);
     read_optional(file, "record", settings.record, read_settings<coupling::RecordSettings>);
     read_section(file, "replay", k_optional,

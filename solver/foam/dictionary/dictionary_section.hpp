@@ -59,6 +59,8 @@ public:
     /// One of the words of `choices`; empty, with a mistake, when it is another.
     std::string read_choice(const std::string& key, const std::vector<std::string>& choices, Presence presence);
 
+    bool has(const std::string& key) const { return dict_.found(key, Foam::keyType::LITERAL); }
+
     /// The section of that key, or null.
     const Foam::dictionary* section(const std::string& key, Presence presence);
     /// The list of sections of that key.

@@ -345,6 +345,60 @@ TEST(CouplingDictionary, ReadsMaterialsByNameAndWallsThatTravelAndGo) {
     EXPECT_EQ(dem.domain.side_is_frictionless, (std::array<bool, 6>{true, true, false, false, false, false}));
 }
 
+TEST(CouplingDictionary, ReadsEventsGatesStopRulesAndTheStart) {
+    std::string text = k_room;
+    text.replace(text.find("feed \"f.csv\";"), 13, "start \"bed/checkpoints/0.5\";");
+    const coupling::CouplingSettings c = read("dictionary_events", text + R"(
+events
+(
+    { do remove; at 0; region { type box; lower (0 0 0); upper (1 1 1); } }
+    { do freeze; at 0.1; region { type everything; } }
+    { do thaw; at 0.2; region { type halfSpace; point (0 0 1); normal (0 0 2); } }
+    { do extract; from 0.3; to 1; rate 0.05; region { type cylinder; from (0 0 0); to (0 0 1); radius 0.2; } }
+    { do remove; at 0.5; region { type sphere; centre (1 2 3); radius 0.25; } }
+);
+gates ( { name outlet; centre (0 0 0.1); normal (0 0 -1); radius 0.05; } { name slot; lower (0 0 0); upper (1 1 0); normal (0 0 1); } );
+stop { atRest { energy 1e-5; hold 0.1; } idle { gate outlet; duration 5; } }
+)")
+                                             .coupling;
+    EXPECT_EQ(c.rock_start.filename(), "0.5");
+    EXPECT_TRUE(c.rock_feed.empty());
+    ASSERT_EQ(c.operations.size(), 5u);
+    EXPECT_EQ(c.operations[1].kind, coupling::OperationKind::freeze);
+    EXPECT_EQ(c.operations[1].begin, 0.1);
+    EXPECT_EQ(std::get<coupling::BoxRegion>(c.operations[0].region).upper, Vec3(1, 1, 1));
+    EXPECT_TRUE(std::holds_alternative<coupling::EverywhereRegion>(c.operations[1].region));
+    EXPECT_EQ(std::get<coupling::HalfSpaceRegion>(c.operations[2].region).normal, Vec3(0, 0, 2));
+    EXPECT_EQ(c.operations[3].kind, coupling::OperationKind::extract);
+    EXPECT_EQ(c.operations[3].begin, 0.3);
+    EXPECT_EQ(c.operations[3].end, 1.0);
+    EXPECT_EQ(c.operations[3].rate, 0.05);
+    EXPECT_EQ(std::get<coupling::CylinderRegion>(c.operations[3].region).to, Vec3(0, 0, 1));
+    EXPECT_EQ(std::get<coupling::SphereRegion>(c.operations[4].region).centre, Vec3(1, 2, 3));
+    ASSERT_EQ(c.gates.size(), 2u);
+    EXPECT_EQ(c.gates[0].radius, 0.05);
+    EXPECT_EQ(c.gates[1].rectangle->upper, Vec3(1, 1, 0));
+    ASSERT_TRUE(c.at_rest && c.idle);
+    EXPECT_EQ(c.at_rest->energy, 1e-5);
+    EXPECT_EQ(c.at_rest->speed, 0.01);
+    EXPECT_EQ(c.at_rest->hold, 0.1);
+    EXPECT_EQ(c.idle->gate, "outlet");
+    EXPECT_EQ(c.idle->duration, 5.0);
+    EXPECT_FALSE(c.stop);
+}
+
+TEST(CouplingDictionary, NamesWhatIsWrongWithEventsAndGates) {
+    EXPECT_THAT(mistakes_of([&] {
+                    read("dictionary_events_wrong", std::string(k_room) + R"(
+events ( { do melt; at 0; region { type ball; } } { do remove; region { type everything; } } );
+gates ( { name a; centre (0 0 0); normal (0 0 1); } );
+)");
+                }),
+                ::testing::UnorderedElementsAre(HasSubstr("events.do = melt"), HasSubstr("events.region.type = ball"),
+                                                HasSubstr("events.at is missing"), HasSubstr("gates.radius is missing"),
+                                                HasSubstr("gates.a.radius = 0")));
+}
+
 TEST(CouplingDictionary, NamesTheMaterialsWithoutAPairAndPairsOfNoWall) {
     std::string text = k_room;
     const auto replace = [&](const std::string& what, const std::string& with) { text.replace(text.find(what), what.size(), with); };

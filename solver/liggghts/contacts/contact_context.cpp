@@ -50,6 +50,7 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const coup
       shape(settings.shape),
       cylinder_length(settings.cylinder_length),
       half_gap(0.5 * settings.contact_gap) {
+    tally.force_on_body.assign(rock_on_body.size(), Vec3::Zero());
     if (settings.law != coupling::ContactLaw::linear) return;
     const coupling::LinearContactSettings& law = settings.linear;
     linear = LinearLaw{law.gravity / (law.theta * law.reference_length), law.damping, 0.5 / (1.0 + law.poisson), law.accumulated_shear,

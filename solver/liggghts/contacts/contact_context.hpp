@@ -1,6 +1,7 @@
 #pragma once
 /// \file Shared data of the contact models of one engine. LIGGGHTS creates the models; they find this object by their LIGGGHTS instance.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -22,12 +23,20 @@ namespace cutterflow::liggghts {
 /// Impact speed of a contact that begins without approach; its damping is that of the smallest restitution.
 inline constexpr double k_smallest_impact_speed = 1e-12;  // [m/s]
 
+/// LIGGGHTS' types of particles. Walls have the second one too, which says nothing there.
+inline constexpr int k_moving = 1, k_frozen = 2;
+
 /// Sums over the contacts of one force evaluation, this rank's share.
 struct ContactTally {
-    double torque = 0.0;         ///< of the rock on the rotating steel about the axis [N m]
-    double contacts = 0.0;       ///< a rock pair across two ranks counts half on each
-    double overlap_ratio = 0.0;  ///< largest overlap over rock radius
+    std::vector<Vec3> force_on_body;  ///< of rock on each wall [N]
+    double torque = 0.0;              ///< of the rock on the rotating steel about the axis [N m]
+    double contacts = 0.0;            ///< a rock pair across two ranks counts half on each
+    double overlap_ratio = 0.0;       ///< largest overlap over rock radius
 
+    void clear() {
+        torque = contacts = overlap_ratio = 0.0;
+        std::fill(force_on_body.begin(), force_on_body.end(), Vec3(Vec3::Zero()));
+    }
     void add(double count, double ratio) {
         contacts += count;
         overlap_ratio = std::max(overlap_ratio, ratio);
@@ -82,7 +91,11 @@ struct ContactContext {
     }
 
     /// Mass [kg] of a contact of two rocks: Hertz' effective one, or the linear law's mean.
-    double pair_mass(double a, double b) const { return linear ? 0.5 * (a + b) : a * b / (a + b); }
+    double pair_mass(double a, double b) const {
+        if (std::isinf(a)) return b;
+        if (std::isinf(b)) return a;
+        return linear ? 0.5 * (a + b) : a * b / (a + b);
+    }
 
     /// Mass [kg] with added mass of a rock of the given mass [kg] and radius [m].
     double mass_with_added_mass(double mass, double radius) const;

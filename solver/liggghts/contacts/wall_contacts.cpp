@@ -159,6 +159,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     Eigen::Map<Vec3>(atom.f[rock]) += force;
     Eigen::Map<Vec3>(atom.torque[rock]) += torque;
     context_.tally.add(1.0, touch.overlap / radius);
+    context_.tally.force_on_body[static_cast<std::size_t>(touch.body)] -= force;
     if (touch.rotating) {
         const Vec3 from_axis = Vec3(atom.x[rock]) - context_.axis.origin;
         context_.tally.torque -= context_.axis.direction.dot(from_axis.cross(force) + torque);

@@ -1,5 +1,6 @@
 #pragma once
 /// \file A fluid and a DEM that do what a test needs, and no more.
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -168,6 +169,11 @@ public:
             const Vec3 weight = (rocks_.density[p] - fluid_density_) * volume * gravity;
             Vec3 impulse = Vec3::Zero();
             Vec3& v = rocks_.velocity[p];
+            if (is_frozen(rocks_.id[p])) {
+                step.impulse.push_back(duration * force(p, v));
+                step.contact_impulse.push_back(-step.impulse.back() - duration * weight);
+                continue;
+            }
             for (int i = 0; i < step.substeps; ++i) {
                 const Vec3 first = force(p, v);
                 v += 0.5 * dt * (first + weight) / inertia;
@@ -193,6 +199,25 @@ public:
         return step;
     }
 
+    std::vector<int> frozen() const override { return frozen_; }
+    void freeze(gsl::span<const int> ids) override {
+        thaw(ids);
+        frozen_.insert(frozen_.end(), ids.begin(), ids.end());
+        std::sort(frozen_.begin(), frozen_.end());
+        for (std::size_t p = 0; p < rocks_.size(); ++p)
+            if (is_frozen(rocks_.id[p])) rocks_.velocity[p] = rocks_.angular_velocity[p] = Vec3::Zero();
+    }
+    void thaw(gsl::span<const int> ids) override {
+        const auto goes = [&](int id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); };
+        frozen_.erase(std::remove_if(frozen_.begin(), frozen_.end(), goes), frozen_.end());
+    }
+    double walls_change_until() const override { return walls_change; }
+    void start_from(const std::filesystem::path& folder) override {
+        const double now = time_;
+        read_checkpoint(folder);
+        time_ = now;
+    }
+
     std::vector<double> zone_angles() const override { return {std::remainder(motion_.angle(time_) + angle_error, 2.0 * k_pi)}; }
 
     void write_checkpoint(const std::filesystem::path& folder) override {
@@ -201,6 +226,7 @@ public:
         file.write(reinterpret_cast<const char*>(&n), sizeof n);
         file.write(reinterpret_cast<const char*>(&time_), sizeof time_);
         each_array([&](void* data, std::size_t size) { file.write(static_cast<const char*>(data), static_cast<std::streamsize>(size)); });
+        for (const int id : frozen_) file.write(reinterpret_cast<const char*>(&id), sizeof id);
     }
     void read_checkpoint(const std::filesystem::path& folder) override {
         std::ifstream file(folder / "dem.restart", std::ios::binary);
@@ -214,6 +240,8 @@ public:
         rocks_.diameter.resize(n);
         rocks_.density.resize(n);
         each_array([&](void* data, std::size_t size) { file.read(static_cast<char*>(data), static_cast<std::streamsize>(size)); });
+        frozen_.clear();
+        for (int id = 0; file.read(reinterpret_cast<char*>(&id), sizeof id);) frozen_.push_back(id);
     }
 
     Vec3 gravity = Vec3::Zero();
@@ -221,10 +249,13 @@ public:
     std::function<bool(const Vec3& position)> is_taken;
     std::function<bool(const Vec3& position)> leaves;
     double angle_error = 0.0;
+    double walls_change = 0.0;
 
 private:
+    bool is_frozen(int id) const { return std::binary_search(frozen_.begin(), frozen_.end(), id); }
     void erase(std::size_t p) {
         const auto at = static_cast<std::ptrdiff_t>(p);
+        frozen_.erase(std::remove(frozen_.begin(), frozen_.end(), rocks_.id[p]), frozen_.end());
         rocks_.id.erase(rocks_.id.begin() + at);
         rocks_.position.erase(rocks_.position.begin() + at);
         rocks_.velocity.erase(rocks_.velocity.begin() + at);
@@ -248,6 +279,7 @@ private:
     double time_ = 0.0;
 
 protected:
+    std::vector<int> frozen_;
     Rocks rocks_;
 };
 

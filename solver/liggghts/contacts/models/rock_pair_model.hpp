@@ -6,6 +6,7 @@ NORMAL_MODEL(ROCK_PAIR, rock, 40)
 #define CUTTERFLOW_ROCK_PAIR_MODEL
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -57,8 +58,8 @@ public:
     void surfacesIntersect(SurfacesIntersectData& pair, ForceData& on_i, ForceData& on_j) override {
         using cutterflow::Vec3;
         if (pair.contact_flags) *pair.contact_flags |= CONTACT_NORMAL_MODEL;
-        const double mass_i = context_.mass_with_added_mass(pair.mi, pair.radi);
-        const double mass_j = context_.mass_with_added_mass(pair.mj, pair.radj);
+        const double mass_i = is_frozen(pair.i) ? k_infinite : context_.mass_with_added_mass(pair.mi, pair.radi);
+        const double mass_j = is_frozen(pair.j) ? k_infinite : context_.mass_with_added_mass(pair.mj, pair.radj);
         const bool keep = pair.computeflag && pair.shearupdate;
         auto& record = *reinterpret_cast<RockPairRecord*>(pair.contact_history + offset_);
         update_record(record, pair, keep);
@@ -97,6 +98,10 @@ public:
     }
 
 private:
+    static constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+    bool is_frozen(int rock) const { return atom->type[rock] == cutterflow::liggghts::k_frozen; }
+
     /// A first touch stores the approach speed and clears all slip. LIGGGHTS clears the history of a separated pair only while the pair
     /// is in its neighbour list, therefore the step of the last touch decides.
     void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, bool keep) const {
@@ -114,7 +119,9 @@ private:
     cutterflow::liggghts::Rolling rolling_of(const SurfacesIntersectData& pair, const cutterflow::Vec3& normal) const {
         const cutterflow::Vec3 spin_i(atom->omega[pair.i]), spin_j(atom->omega[pair.j]);
         const double inertia_i = context_.rolling_inertia(pair.mi, pair.radi), inertia_j = context_.rolling_inertia(pair.mj, pair.radj);
-        return {spin_i - spin_j, 0.5 * normal.dot(spin_i + spin_j), inertia_i * inertia_j / (inertia_i + inertia_j)};
+        const double of_both = inertia_i * inertia_j / (inertia_i + inertia_j);
+        const double inertia = is_frozen(pair.i) ? inertia_j : is_frozen(pair.j) ? inertia_i : of_both;
+        return {spin_i - spin_j, 0.5 * normal.dot(spin_i + spin_j), inertia};
     }
 
     /// Harmonic mean of the diameters, mean of the densities: for equal rocks the rock's own, as on a wall.

@@ -1,0 +1,50 @@
+#include "solver/coupling/stop_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/base/sphere.hpp"
+
+namespace cutterflow::coupling {
+namespace {
+
+constexpr double k_rounding = 1e-9;  // of times that are sums of steps [s]
+
+}  // namespace
+
+Restlessness restlessness(const Rocks& rocks, const std::vector<int>& frozen, double gravity) {
+    Restlessness sum;
+    int moving = 0;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        if (std::binary_search(frozen.begin(), frozen.end(), rocks.id[p])) continue;
+        const double d = rocks.diameter[p], inertia_per_mass = sphere_inertia(d, 1.0);
+        const double energy_per_mass = 0.5 * (rocks.velocity[p].squaredNorm() + inertia_per_mass * rocks.angular_velocity[p].squaredNorm());
+        sum.energy += energy_per_mass / (gravity * d);
+        sum.speed = std::max(sum.speed, rocks.velocity[p].norm() / std::sqrt(gravity * d));
+        ++moving;
+    }
+    if (moving > 0) sum.energy /= moving;
+    return sum;
+}
+
+void StopRules::note_rest(double time, const Restlessness& now) {
+    if (!at_rest_) return;
+    if (now.energy > at_rest_->energy || now.speed > at_rest_->speed)
+        state_.at_rest_since.reset();
+    else if (!state_.at_rest_since)
+        state_.at_rest_since = time;
+}
+
+void StopRules::note_crossing(double time, const std::string& gate) {
+    if (idle_ && idle_->gate == gate) state_.last_crossing = time;
+}
+
+bool StopRules::at_rest(double time) const {
+    return at_rest_ && state_.at_rest_since && time - *state_.at_rest_since >= at_rest_->hold - k_rounding;
+}
+
+bool StopRules::idle(double time) const {
+    return idle_ && time - state_.last_crossing.value_or(time) >= idle_->duration - k_rounding;
+}
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,49 @@
+#pragma once
+/// \file Rules by which a run of rock ends: rock is at rest, or nothing crosses a gate.
+#include <optional>
+
+#include "solver/ports/bed_operations.hpp"
+#include "solver/ports/dem_engine.hpp"
+
+namespace cutterflow::coupling {
+
+/// Kept in a checkpoint. Times [s].
+struct StopState {
+    std::optional<double> at_rest_since;
+    std::optional<double> last_crossing;  ///< of the gate of IdleSettings, or the run's start
+};
+
+/// How much a bed moves. Both are 0 without rock that could.
+struct Restlessness {
+    double energy = 0.0;  ///< mean of E_kin/(m g d) [-]
+    double speed = 0.0;   ///< largest v/sqrt(g d) [-]
+};
+
+/// Of the rocks that are not frozen, as spheres. \param gravity  > 0 [m/s2]
+Restlessness restlessness(const Rocks& rocks, const std::vector<int>& frozen, double gravity);
+
+class StopRules {
+public:
+    StopRules() = default;
+    StopRules(std::optional<AtRestSettings> at_rest, std::optional<IdleSettings> idle, double start_time)
+        : at_rest_(std::move(at_rest)), idle_(std::move(idle)), state_{{}, start_time} {}
+
+    bool watches_rest() const { return at_rest_.has_value(); }
+    void note_rest(double time, const Restlessness& now);
+    void note_crossing(double time, const std::string& gate);
+
+    /// Whether rock has been at rest for long enough at `time` [s].
+    bool at_rest(double time) const;
+    /// Whether the gate has been idle for long enough.
+    bool idle(double time) const;
+
+    const StopState& state() const { return state_; }
+    void restore(const StopState& state) { state_ = state; }
+
+private:
+    std::optional<AtRestSettings> at_rest_;
+    std::optional<IdleSettings> idle_;
+    StopState state_;
+};
+
+}  // namespace cutterflow::coupling

@@ -1,0 +1,79 @@
+#pragma once
+/// \file What is done to rock in a region at a time, gates that count it, and rules by which a run of rock ends.
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/vec3.hpp"
+
+namespace cutterflow::coupling {
+
+/// Along the axes.
+struct BoxRegion {
+    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< opposite corners [m]
+};
+struct SphereRegion {
+    Vec3 centre = Vec3::Zero();  ///< [m]
+    double radius = 0.0;         ///< [m]
+};
+struct CylinderRegion {
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< centres of its ends [m]
+    double radius = 0.0;                          ///< [m]
+};
+/// The side of a plane to which its normal points.
+struct HalfSpaceRegion {
+    Vec3 point = Vec3::Zero();  ///< [m]
+    Vec3 normal = Vec3::UnitZ();
+};
+struct EverywhereRegion {};
+
+/// A part of space; its boundary belongs to it.
+using Region = std::variant<EverywhereRegion, BoxRegion, SphereRegion, CylinderRegion, HalfSpaceRegion>;
+bool is_within(const Region& region, const Vec3& point);
+
+enum class OperationKind { remove, freeze, thaw, extract };
+inline constexpr std::array<const char*, 4> k_operation_names{"remove", "freeze", "thaw", "extract"};  ///< in the order of OperationKind
+const char* name_of(OperationKind kind);
+
+/// What is done to the rock whose centre lies in a region. At a time rock is removed, held (freeze) or let go (thaw); over a time it is
+/// extracted: whole rocks, the first that came into the run first, so that their mass follows rate times time and never exceeds it. Held
+/// rock is not extracted.
+struct OperationSettings {
+    OperationKind kind = OperationKind::remove;
+    double begin = 0.0;  ///< the time, or the first time [s]
+    double end = 0.0;    ///< the last time, of an extraction [s]
+    double rate = 0.0;   ///< of an extraction [kg/s]
+    Region region;
+};
+
+/// A disc, or a rectangle along the axes, whose crossings by centres of rock are counted.
+struct GateSettings {
+    std::string name;
+    Vec3 centre = Vec3::Zero();          ///< of a disc [m]
+    double radius = 0.0;                 ///< of a disc [m]
+    std::optional<BoxRegion> rectangle;  ///< in place of the disc; flat in one direction
+    Vec3 normal = Vec3::UnitZ();         ///< a crossing along it counts as +1
+};
+
+/// Rock is at rest when the mean of E_kin/(m g d) over all rocks that are not held is at most `energy`, and the largest v/sqrt(g d) at most
+/// `speed`, for a time. E_kin counts rotation too.
+struct AtRestSettings {
+    double energy = 1e-6;  ///< [-]
+    double speed = 0.01;   ///< [-]
+    double hold = 0.05;    ///< [s]
+};
+
+/// Nothing crossed a gate for a time.
+struct IdleSettings {
+    std::string gate;
+    double duration = 0.0;  ///< [s]
+};
+
+/// Mistakes of all of these. \param gates  idle names one of them
+void check_bed_operations(Mistakes& mistakes, const std::vector<OperationSettings>& operations, const std::vector<GateSettings>& gates,
+                          const std::optional<AtRestSettings>& at_rest, const std::optional<IdleSettings>& idle);
+
+}  // namespace cutterflow::coupling
