@@ -13,6 +13,7 @@ void add_generate_solid(CLI::App& app);
 void add_mesh(CLI::App& app);
 void add_run(CLI::App& app);
 void add_report(CLI::App& app);
+void add_measure(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_calibrate(CLI::App& app);
 void add_compare(CLI::App& app);

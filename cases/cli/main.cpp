@@ -122,6 +122,7 @@ int run(int argc, char** argv) {
     cli::add_mesh(app);
     cli::add_run(app);
     cli::add_report(app);
+    cli::add_measure(app);
     cli::add_sweep(app);
     cli::add_compare(app);
     cli::add_calibrate(app);

@@ -392,7 +392,8 @@ void CoupledRun::record_picture() {
         contact.push_back(moved_.contact_impulse[p] / duration);
     }
     const std::vector<int> frozen = dem_->frozen();
-    recorder_.picture({fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, hydrodynamic, contact, fates, frozen});
+    recorder_.picture(
+        {fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, rocks.density, hydrodynamic, contact, fates, frozen});
 }
 
 void CoupledRun::report_cost(double step_seconds) {

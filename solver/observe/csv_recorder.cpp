@@ -203,6 +203,7 @@ void CsvRecorder::picture(const RockPicture& picture) {
     stream << "</Verts>\n<PointData>\n";
     array("Int32", "id", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", picture.id[p]); });
     array("Float64", "diameter", 1, [&](std::size_t p) { fmt::print(stream, "{:.9g}\n", picture.diameter[p]); });
+    array("Float64", "density", 1, [&](std::size_t p) { fmt::print(stream, "{:.9g}\n", picture.density[p]); });
     array("Float64", "velocity", 3, [&](std::size_t p) { vector(picture.velocity[p]); });
     array("Float64", "hydrodynamic_force", 3, [&](std::size_t p) { vector(picture.hydrodynamic_force[p]); });
     array("Float64", "contact_force", 3, [&](std::size_t p) { vector(picture.contact_force[p]); });

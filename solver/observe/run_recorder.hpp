@@ -157,7 +157,7 @@ struct RockPicture {
     double time = 0.0;
     gsl::span<const int> id;
     gsl::span<const Vec3> position, velocity;
-    gsl::span<const double> diameter;
+    gsl::span<const double> diameter, density;
     gsl::span<const Vec3> hydrodynamic_force;  ///< drag and the Du/Dt parts, mean over the step [N]
     gsl::span<const Vec3> contact_force;       ///< of rock and steel, mean over the step [N]
     gsl::span<const Fate> fate;                ///< empty when fates are not followed

@@ -79,7 +79,10 @@ const std::vector<Layer> k_layers = {
     {"postproc/draw/", {k_base, k_head_names, "postproc/run/", "postproc/draw/"}},
     {"postproc/analysis/", {k_base, k_axial_bins, k_head_names, "postproc/run/", "postproc/draw/", "postproc/analysis/"}},
     {"postproc/analysis/calibration/", {k_base, "postproc/analysis/sample.hpp", "postproc/analysis/calibration/"}},
+    {"postproc/analysis/measures/",
+     {k_base, "postproc/run/", "postproc/analysis/sample.hpp", "postproc/analysis/time_average.hpp", "postproc/analysis/measures/"}},
     {"postproc/pages/", {k_base, k_head_names, "postproc/"}},
+    {"postproc/pages/measures/", {k_base, "postproc/analysis/measures/", "postproc/draw/", "postproc/pages/measures/"}},
     {"postproc/tests/", {k_base, k_axial_bins, k_head_names, "postproc/"}},
 
     {"cases/study/",

@@ -1,0 +1,129 @@
+/// Angles and profiles of heaps whose shapes are known.
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "postproc/analysis/measures/heap.hpp"
+#include "postproc/tests/measures/packed_grains.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double k_d = 0.004;
+
+/// A cone of grains of `radius` [m]: centres under its surface.
+Grains cone(double angle_deg, double radius, unsigned seed) {
+    const double slope = std::tan(angle_deg * k_pi / 180.0);
+    return testing::packed_grains({-radius, -radius, 0.0}, {radius, radius, radius * slope}, k_d, seed,
+                                  [=](const Vec3& place) { return place.z() < slope * (radius - place.head<2>().norm()); });
+}
+
+class Cone : public ::testing::TestWithParam<double> {};
+
+TEST_P(Cone, has_its_angle_by_silhouettes_and_by_the_cone_through_its_surface) {
+    for (const unsigned seed : {1U, 2U}) {
+        const Slopes slopes = slopes_of(cone(GetParam(), 25.0 * k_d, seed), {});
+        ASSERT_TRUE(slopes.angle_deg) << slopes.reason;
+        EXPECT_EQ(slopes.sides.size(), 16U);
+        EXPECT_NEAR(*slopes.angle_deg, GetParam(), 0.5) << "seed " << seed;
+        EXPECT_NEAR(*slopes.cone_angle_deg, GetParam(), 0.5) << "seed " << seed;
+        EXPECT_FALSE(slopes.rises_outwards);
+        RecordProperty(fmt::format("silhouettes_{}_deg", seed), fmt::format("{:.2f}", *slopes.angle_deg));
+        RecordProperty(fmt::format("cone_{}_deg", seed), fmt::format("{:.2f}", *slopes.cone_angle_deg));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Heap, Cone, ::testing::Values(15.0, 25.0, 35.0));
+
+TEST(Heap, of_the_size_of_a_repose_test_still_has_an_angle) {
+    for (const double angle : {25.0, 30.0}) {
+        const Slopes slopes = slopes_of(cone(angle, 12.0 * k_d, 3), {});
+        RecordProperty(fmt::format("r2_{}", angle), fmt::format("{:.3f}", slopes.r2));
+        ASSERT_TRUE(slopes.angle_deg) << slopes.reason;
+        EXPECT_NEAR(*slopes.angle_deg, angle, 1.0);
+    }
+}
+
+TEST(Heap, with_two_bumps_has_no_angle) {
+    const double radius = 12.0 * k_d, slope = std::tan(30.0 * k_pi / 180.0);
+    for (const double apart : {1.0, 0.5}) {
+        const double middle = apart * radius;
+        const Grains grains =
+            testing::packed_grains({-2.0 * radius, -radius, 0.0}, {2.0 * radius, radius, radius * slope}, k_d, 1, [=](const Vec3& place) {
+                const double left = std::hypot(place.x() + middle, place.y()), right = std::hypot(place.x() - middle, place.y());
+                return place.z() < slope * (radius - std::min(left, right));
+            });
+        const Slopes slopes = slopes_of(grains, {});
+        EXPECT_FALSE(slopes.angle_deg) << apart;
+        EXPECT_FALSE(slopes.cone_angle_deg) << apart;
+        EXPECT_THAT(slopes.reason, HasSubstr("no angle")) << apart;
+        RecordProperty(fmt::format("r2_apart_{}", apart), fmt::format("{:.3f}", slopes.r2));
+    }
+}
+
+TEST(Heap, that_is_flat_or_absent_has_no_angle) {
+    EXPECT_THAT(slopes_of({}, {}).reason, HasSubstr("no grains"));
+    Grains one;
+    one.add({0.0, 0.0, 0.5 * k_d}, Vec3::Zero(), k_d, 2650.0);
+    EXPECT_FALSE(slopes_of(one, {}).angle_deg);
+}
+
+TEST(Heap, does_not_count_grains_that_fell_below_its_base) {
+    Grains grains = cone(25.0, 25.0 * k_d, 1);
+    const double expected = *slopes_of(grains, {}).angle_deg;
+    for (Vec3& place : grains.position) place.z() += 0.1;
+    for (int n = 0; n < 40; ++n) grains.add({0.2 + 0.002 * n, 0.0, 0.05}, Vec3::Zero(), k_d, 2650.0);
+    SlopeSearch search;
+    search.base = 0.1;
+    EXPECT_NEAR(*slopes_of(grains, search).angle_deg, expected, 1e-6);
+}
+
+TEST(Heap, between_plates_rises_outwards_from_an_opening) {
+    const double edge = 5.0 * k_d, wall = 40.0 * k_d, slope = std::tan(38.0 * k_pi / 180.0);
+    const Grains grains = testing::packed_grains({-wall, -4.0 * k_d, 0.0}, {wall, 4.0 * k_d, wall * slope}, k_d, 1,
+                                                 [=](const Vec3& place) { return place.z() < slope * (std::abs(place.x()) - edge); });
+    SlopeSearch search;
+    search.around = false;
+    search.inner_radius = edge;
+    search.radius = wall;
+    const Slopes slopes = slopes_of(grains, search);
+    ASSERT_TRUE(slopes.angle_deg) << slopes.reason;
+    EXPECT_TRUE(slopes.rises_outwards);
+    EXPECT_EQ(slopes.sides.size(), 2U);
+    EXPECT_NEAR(*slopes.angle_deg, 38.0, 0.5);
+    EXPECT_FALSE(slopes.cone_angle_deg);
+}
+
+TEST(Profile, is_the_upper_envelope_of_the_spheres) {
+    Grains grains;
+    grains.add({0.0, 0.3, 1.0}, Vec3::Zero(), 1.0, 1.0);
+    grains.add({0.4, -0.3, 0.9}, Vec3::Zero(), 1.0, 1.0);
+    const Profile profile = profile_of(grains, Eigen::Vector2d::UnitX(), {-1.0, 1.0, 20}, 0.25);
+    ASSERT_EQ(profile.place.size(), 20U);
+    for (std::size_t n = 0; n < profile.place.size(); ++n) {
+        const double u = profile.place[n];
+        double expected = 0.0;
+        if (std::abs(u) < 0.5) expected = std::max(expected, 0.75 + std::sqrt(0.25 - u * u));
+        if (std::abs(u - 0.4) < 0.5) expected = std::max(expected, 0.65 + std::sqrt(0.25 - (u - 0.4) * (u - 0.4)));
+        EXPECT_NEAR(profile.height[n], expected, 1e-12) << u;
+    }
+}
+
+TEST(Profile, error_is_the_mean_relative_one_and_leaves_out_low_places) {
+    const Profile given{{0.0, 1.0, 2.0}, {0.0, 1.0, 0.0}};
+    const Profile measured{{0.05, 0.5, 1.0, 1.5, 2.5}, {9.0, 0.55, 0.8, 0.5, 9.0}};
+    const ProfileError error = profile_error(measured, given, 0.1);
+    EXPECT_EQ(error.used, 3U);
+    EXPECT_EQ(error.left_out, 2U);
+    EXPECT_NEAR(error.error, (0.1 + 0.2 + 0.0) / 3.0, 1e-12);
+    EXPECT_THROW(profile_error(measured, given, 2.0), UserError);
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc

@@ -1,0 +1,239 @@
+/// Measures of a whole run directory: its files, its restarts, its mistakes; and their figures.
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/sphere.hpp"
+#include "postproc/analysis/measures/measure_run.hpp"
+#include "postproc/analysis/measures/measure_table.hpp"
+#include "postproc/draw/gnuplot.hpp"
+#include "postproc/pages/measures/measure_figures.hpp"
+#include "postproc/tests/measures/packed_grains.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double k_d = 0.01, k_density = 2650.0;
+
+class MeasuredRun : public ::testing::Test {
+protected:
+    MeasuredRun() {
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+        run_ = fs::path(::testing::TempDir()) / fmt::format("measured_run_{}", test->name());
+        fs::remove_all(run_);
+    }
+    ~MeasuredRun() override { fs::remove_all(run_); }
+
+    void write(const std::string& file, const std::string& text) { write_file(run_ / file, text); }
+
+    void picture(double time, const Grains& grains) {
+        std::string text = "<VTKFile>\n";
+        const auto array = [&](const char* name, const auto& value) {
+            text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" format=\"ascii\">\n", name);
+            for (std::size_t n = 0; n < grains.size(); ++n) text += value(n) + "\n";
+            text += "</DataArray>\n";
+        };
+        const auto vector = [](const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v[0], v[1], v[2]); };
+        array("Points", [&](std::size_t n) { return vector(grains.position[n]); });
+        array("diameter", [&](std::size_t n) { return fmt::format("{:.9g}", grains.diameter[n]); });
+        array("density", [&](std::size_t n) { return fmt::format("{:.9g}", grains.density[n]); });
+        array("velocity", [&](std::size_t n) { return vector(grains.velocity[n]); });
+        write(fmt::format("postProcessing/rock/vtk/rocks_{:g}.vtp", time), text + "</VTKFile>\n");
+    }
+
+    /// Grains leave one by one through the gate, 0.1 s apart; the run was resumed at 2 s.
+    void crossings() {
+        std::string first = "time_s,gate,id,direction,mass_kg\n", second = first;
+        for (int n = 1; n <= 40; ++n) {
+            const std::string row = fmt::format("{:.2f},{},{},1,0.5\n", 0.1 * n, n % 2 == 0 ? "outlet" : "other", n);
+            if (n <= 25) first += row;  // rows after 2 s were done again
+            if (n > 20) second += row;
+        }
+        write("postProcessing/rock/0/gates.csv", first);
+        write("postProcessing/rock/2/gates.csv", second);
+        write("postProcessing/cost/0/cost.csv", "time_s\n2.5\n");
+        write("postProcessing/cost/2/cost.csv", "time_s\n5\n");
+    }
+
+    fs::path run_;
+};
+
+TEST_F(MeasuredRun, counts_what_passes_a_gate_once_through_a_restart) {
+    crossings();
+    write(k_measures, R"([{"name": "outlet", "what": "passed_mass", "gate": {"disc_m": [0, 0, 0], "radius_m": 0.1}},
+                          {"name": "part", "what": "passed_mass", "gate": "outlet", "from_s": 1, "to_s": 2},
+                          {"name": "none", "what": "passed_mass", "gate": "absent"},
+                          {"name": "flow", "what": "rate", "gate": "outlet", "from_s": 0.5, "to_s": 3.5},
+                          {"name": "middle", "what": "rate", "gate": "outlet"},
+                          {"name": "half", "what": "time_of", "gate": "outlet", "share": 0.5},
+                          {"name": "never", "what": "time_of", "gate": "outlet", "share": 1, "of_kg": 20}])");
+    const json results = write_measures(run_);
+    const auto value = [&](const char* name) { return results[name]["value"].get<double>(); };
+    EXPECT_NEAR(value("outlet"), 10.0, 1e-12);
+    EXPECT_NEAR(value("part"), 2.5, 1e-12);
+    EXPECT_EQ(value("none"), 0.0);
+    EXPECT_NEAR(value("flow"), 2.5, 0.05);
+    EXPECT_NEAR(value("middle"), 2.5, 0.1);
+    EXPECT_NEAR(value("half"), 2.0, 1e-9);
+    EXPECT_TRUE(results["never"]["value"].is_null());
+    EXPECT_THAT(results["never"]["detail"]["reason"].get<std::string>(), HasSubstr("not 20"));
+    EXPECT_FALSE(results["flow"]["standard_error"].is_null());
+    EXPECT_EQ(read_measures(run_), results);
+    EXPECT_EQ(measure_figures(results).size(), 6U);
+}
+
+TEST_F(MeasuredRun, makes_one_measure_anew_and_keeps_the_others) {
+    crossings();
+    write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "outlet"}, {"name": "b", "what": "passed_mass", "gate": "other"}])");
+    json before = write_measures(run_);
+    before["b"]["value"] = 77.0;
+    write(k_measure_results, before.dump());
+    const json after = write_measures(run_, "a");
+    EXPECT_EQ(after["b"]["value"], 77.0);
+    EXPECT_EQ(after["a"]["value"], 10.0);
+    EXPECT_THROW(
+        {
+            try {
+                write_measures(run_, "aa");
+            } catch (const UserError& error) {
+                EXPECT_THAT(error.what(), AllOf(HasSubstr("no measure aa"), HasSubstr("a, b")));
+                throw;
+            }
+        },
+        UserError);
+}
+
+TEST_F(MeasuredRun, measures_grains_of_its_pictures) {
+    const double level = 0.06;
+    const Grains bed = testing::packed_grains({-0.1, -0.1, 0.0}, {0.1, 0.1, level}, k_d, 1, [](const Vec3&) { return true; });
+    Grains half = bed;
+    for (std::size_t n = 0; n < half.size(); ++n) half.velocity[n] = {half.position[n].x() > 0.0 ? 0.5 : 0.0, 0.0, 0.0};
+    for (const double time : {0.5, 1.0}) picture(time, bed);
+    picture(2.0, half);
+    const char* box = R"("region": {"box": {"lower_m": [-0.08, -0.08, 0.01], "upper_m": [0.08, 0.08, 0.05]}})";
+    const char* whole_height = R"("region": {"box": {"lower_m": [-0.08, -0.08, 0], "upper_m": [0.08, 0.08, 0.2]}})";
+    write(k_measures,
+          fmt::format(R"([{{"name": "all", "what": "mass_in", "region": {{"half_space": {{"point_m": [0, 0, 0], "normal": [0, 0, 1]}}}}}},
+              {{"name": "share", "what": "packing", {0}, "at_s": 0.9}},
+              {{"name": "moving", "what": "bed_velocity", {0}, "cell_m": 0.02, "from_s": 1.5}},
+              {{"name": "still", "what": "bed_velocity", {0}, "cell_m": 0.02, "to_s": 1.5}},
+              {{"name": "top", "what": "profile", "base_m": 0.01, "from_m": -0.09, "to_m": 0.09}},
+              {{"name": "hole", "what": "cavity", "undisturbed_m": {1}, "quantity": "depth", {2}}},
+              {{"name": "same", "what": "cavity"}},
+              {{"name": "gap", "what": "void_area", "seed_m": [0, 0, 0.03], {0}, "cell_m": 0.01}},
+              {{"name": "slope", "what": "angle", "radius_m": 0.09}}])",
+                      box, level + 0.05, whole_height));
+    const json results = measure_run(run_);
+    const auto value = [&](const char* name) { return results[name]["value"].get<double>(); };
+    EXPECT_NEAR(value("all"), mass_of(bed), 1e-6 * mass_of(bed));
+    EXPECT_EQ(results["share"]["detail"]["at_s"], 1.0);
+    EXPECT_NEAR(value("share"), testing::k_packed_share, 0.02);
+    EXPECT_NEAR(value("moving"), 0.25, 0.01);
+    EXPECT_NEAR(results["moving"]["detail"]["moving_share"].get<double>(), 0.5, 0.02);
+    EXPECT_EQ(value("still"), 0.0);
+    EXPECT_NEAR(value("top"), level - 0.01 + 0.5 * k_d, 0.2 * k_d);
+    EXPECT_NEAR(value("hole"), 0.05, k_d) << "the whole bed lies below";
+    EXPECT_TRUE(results["hole"]["detail"]["reaches_border"].get<bool>());
+    EXPECT_EQ(value("gap"), 0.0);
+    EXPECT_TRUE(results["slope"]["value"].is_null()) << "a level bed has no slope";
+    EXPECT_LT(value("same"), 4.0 * k_d) << "the roughness of a bed is taken for a cavity";
+    std::vector<std::string> names;
+    for (const Figure& figure : measure_figures(results)) {
+        names.push_back(figure.plot.name);
+        EXPECT_FALSE(gnuplot_commands(figure.plot).empty());
+        if (!gnuplot_is_installed()) continue;
+        EXPECT_THAT(draw_svg(figure.plot, run_ / "plots"), HasSubstr("<svg"));
+    }
+    EXPECT_THAT(
+        names, ::testing::IsSupersetOf({"measure_moving", "measure_still", "measure_top", "measure_hole", "measure_gap", "measure_slope"}));
+    EXPECT_THAT(measures_text(results), HasSubstr("no angle"));
+}
+
+TEST_F(MeasuredRun, compares_a_profile_with_a_given_one) {
+    Grains bar;
+    for (int n = 0; n < 101; ++n) bar.add({0.002 * n, 0.0, 0.05}, Vec3::Zero(), 0.02, k_density);
+    picture(1.0, bar);
+    write("heap.csv", "x_m,height_m\n0,0.03\n0.2,0.03\n");
+    write(k_measures, R"([{"name": "misfit", "what": "profile_error", "against": "heap.csv", "from_m": 0, "to_m": 0.2}])");
+    const json results = measure_run(run_);
+    EXPECT_NEAR(results["misfit"]["value"].get<double>(), 1.0, 0.01);
+    EXPECT_EQ(results["misfit"]["detail"]["points"], 100);
+    const auto figures = measure_figures(results);
+    ASSERT_EQ(figures.size(), 1U);
+    EXPECT_EQ(figures[0].plot.series.size(), 2U);
+}
+
+TEST_F(MeasuredRun, reads_forces_columns_and_probes) {
+    std::string walls = "time_s,wall,force_x_n,force_y_n,force_z_n\n", loads = "time_s,torque\n", probes = "# Probe 0 (0 0 0)\n# Time\n";
+    for (int n = 1; n <= 2000; ++n) {
+        const double time = 0.005 * n;
+        walls += fmt::format("{:.3f},plate,3,{:.6f},0\n{:.3f},tube,1,0,0\n", time, 4.0 + 0.5 * std::sin(2.0 * k_pi * 4.0 * time), time);
+        loads += fmt::format("{:.3f},{:.6f}\n", time, std::sin(2.0 * k_pi * 2.0 * time));
+        probes += fmt::format("{:.3f} 10 {:.6f}\n", time, 4.0 - 0.1 * time);
+    }
+    write("postProcessing/rock/0/walls.csv", walls);
+    write("postProcessing/loads/0/loads.csv", loads);
+    write("postProcessing/drop/0/p", probes);
+    write(k_measures, R"([{"name": "push", "what": "wall_force", "wall": "plate", "component": "y"},
+                          {"name": "size", "what": "wall_force", "wall": "tube"},
+                          {"name": "beat", "what": "spectrum", "wall": "plate", "component": "y", "length_m": 0.1, "velocity_m_s": 2,
+                           "quantity": "strouhal"},
+                          {"name": "turn", "what": "spectrum", "table": "loads/loads.csv", "column": "torque"},
+                          {"name": "drop", "what": "pressure_drop", "upstream_m": [0, 0, 0], "downstream_m": [0, 0, 1],
+                           "density_kg_m3": 1000, "from_s": 4, "to_s": 6}])");
+    const json results = measure_run(run_);
+    const auto value = [&](const char* name) { return results[name]["value"].get<double>(); };
+    EXPECT_NEAR(value("push"), 4.0, 0.01);
+    EXPECT_EQ(value("size"), 1.0);
+    EXPECT_NEAR(value("beat"), 4.0 * 0.1 / 2.0, 0.01 * 0.2);
+    EXPECT_NEAR(value("turn"), 2.0, 0.02);
+    EXPECT_NEAR(value("drop"), 1000.0 * (6.0 + 0.5), 1.0);
+    EXPECT_EQ(measure_figures(results).size(), 5U);
+}
+
+TEST_F(MeasuredRun, tells_all_that_it_cannot_measure_at_once) {
+    write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "outlet"}, {"name": "b", "what": "wall_force", "wall": "plate"},
+                          {"name": "c", "what": "cavity"}, {"name": "d", "what": "pressure_drop",
+                           "upstream_m": [0, 0, 0], "downstream_m": [0, 0, 1], "density_kg_m3": 1000}])");
+    try {
+        measure_run(run_);
+        FAIL() << "nothing was there to measure";
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 4U);
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("measure.a"), HasSubstr("gates.csv"), HasSubstr("measure.b"), HasSubstr("walls.csv"),
+                                        HasSubstr("measure.c"), HasSubstr("no picture"), HasSubstr("measure.d")));
+        EXPECT_EQ(error.code(), ExitCode::user_input);
+    }
+    write(k_measures, R"([{"name": "a", "what": "passed_masss", "gate": "outlet"}, {"what": "cavity"}])");
+    try {
+        measure_run(run_);
+        FAIL() << "the measures have mistakes";
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 2U) << error.what();
+    }
+}
+
+TEST_F(MeasuredRun, refuses_pictures_without_densities_and_broken_files) {
+    write("postProcessing/rock/vtk/rocks_1.vtp",
+          "<DataArray Name=\"Points\">0 0 0</DataArray><DataArray Name=\"velocity\">0 0 0</DataArray>"
+          "<DataArray Name=\"diameter\">1</DataArray>");
+    write(k_measures, R"([{"name": "c", "what": "cavity"}])");
+    EXPECT_THROW(measure_run(run_), UserError);
+    write(k_measures, "[{]");
+    EXPECT_THROW(measure_run(run_), UserError);
+    write(k_measure_results, R"({"c": {"value": "much"}})");
+    EXPECT_THROW(read_measures(run_), UserError);
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
