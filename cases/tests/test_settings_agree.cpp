@@ -60,6 +60,8 @@ std::vector<ParameterValue> values_of(const Parameter& parameter) {
             break;
         case ParameterKind::text:
         case ParameterKind::path:
+        case ParameterKind::numbers:
+        case ParameterKind::texts:
             break;
     }
     return values;

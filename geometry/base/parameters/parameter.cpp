@@ -37,6 +37,12 @@ const std::string& ParameterValues::text(const std::string& key) const {
 bool ParameterValues::boolean(const std::string& key) const {
     return get<bool>(key);
 }
+const std::vector<double>& ParameterValues::numbers(const std::string& key) const {
+    return get<std::vector<double>>(key);
+}
+const std::vector<std::string>& ParameterValues::texts(const std::string& key) const {
+    return get<std::vector<std::string>>(key);
+}
 
 const std::vector<ParameterValues>& ParameterValues::tables(const std::string& name) const {
     static const std::vector<ParameterValues> none;

@@ -13,9 +13,9 @@
 
 namespace cutterflow {
 
-enum class ParameterKind { number, integer, text, choice, boolean, path };
+enum class ParameterKind { number, integer, text, choice, boolean, path, numbers, texts };
 
-using ParameterValue = std::variant<double, std::int64_t, std::string, bool>;
+using ParameterValue = std::variant<double, std::int64_t, std::string, bool, std::vector<double>, std::vector<std::string>>;
 
 /// One key. Its name contains the unit (`rotor.speed_rpm`); values keep the file's unit, conversion happens where a struct is
 /// filled.
@@ -25,12 +25,16 @@ struct Parameter {
     std::string unit;                             ///< for people: "rpm", "m3/s", "-" ...
     std::optional<ParameterValue> default_value;  ///< none: the key is required, unless `optional`
     bool optional = false;                        ///< may be absent without a default; `derived_from` describes the value used
-    std::optional<double> minimum, maximum;       ///< inclusive bounds
+    std::optional<double> minimum, maximum;       ///< inclusive bounds; of a list: of each number
     bool minimum_excluded = false;                ///< the minimum itself is not allowed (a discharge of 0)
     std::vector<std::string> choices;             ///< for ParameterKind::choice
+    std::size_t length = 0;                       ///< of a list; 0: one or more
     std::string help;                             ///< one or two sentences
     std::string derived_from;                     ///< how an absent optional value is derived
-    bool repeated = false;  ///< member of an array of tables: of [[feed]] for "feed.count"; arrays nest ("feed.class.share")
+    /// Member of an array of tables: of [[feed]] for "feed.count"; arrays nest ("feed.class.share"). A key that is not and stands in a
+    /// table within an array's table ("side.flow.speed_m_s" in `flow = { speed_m_s = 1 }` of [[side]]) belongs to that one; it is optional
+    /// and has no default. A key may stand beside a table of its name, and is one of both.
+    bool repeated = false;
     std::string reference;  ///< key in docs/references.bib, may be empty
     std::string stage;      ///< of a run: the first one that uses the key; empty where the table's files have no stages
 };
@@ -49,6 +53,8 @@ public:
     std::int64_t integer(const std::string& key) const;
     const std::string& text(const std::string& key) const;  ///< text, choice or path
     bool boolean(const std::string& key) const;
+    const std::vector<double>& numbers(const std::string& key) const;
+    const std::vector<std::string>& texts(const std::string& key) const;
     /// The tables of an array of tables, in the file's order; their keys are full ("feed.count").
     const std::vector<ParameterValues>& tables(const std::string& name) const;
 
@@ -83,11 +89,15 @@ std::string toml_text(const ParameterValue& value);
 /// (may be null) replaces defaults.
 std::string commented_toml(const ParameterTable& table, const ParameterValues* values = nullptr);
 
+/// TOML text of all values, without comments.
+std::string plain_toml(const ParameterTable& table, const ParameterValues& values);
+
 /// The table as aligned text for a terminal, and as a Markdown manual page.
 std::string parameters_text(const ParameterTable& table);
 std::string parameters_markdown(const ParameterTable& table);
 
-/// Arrays of tables that stand directly in `section` ("": at the top of the file): {"feed.class"} in "feed".
+/// Arrays of tables that stand in the tables of an array ("": in the file, outside of arrays), but in none between: {"feed.class"} in
+/// "feed".
 std::vector<std::string> repeated_sections(const ParameterTable& table, const std::string& section);
 
 /// The word of `known` nearest to `word` (edit distance at most a third of its length), or empty.

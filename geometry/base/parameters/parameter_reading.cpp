@@ -67,6 +67,25 @@ std::optional<double> number_in(const toml::node& node) {
     return std::nullopt;
 }
 
+std::optional<std::string> text_in(const toml::node& node) {
+    if (const auto* text = node.as_string()) return text->get();
+    return std::nullopt;
+}
+
+/// A list of the parameter's length, of at least one, whose members `member(node)` reads.
+template <class Member, class Read>
+std::optional<ParameterValue> list_of(const Parameter& parameter, const toml::node& node, Read member) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->empty() || (parameter.length > 0 && array->size() != parameter.length)) return std::nullopt;
+    std::vector<Member> list;
+    for (const toml::node& item : *array) {
+        const std::optional<Member> value = member(item);
+        if (!value) return std::nullopt;
+        list.push_back(*value);
+    }
+    return list;
+}
+
 /// The node's value if it has the parameter's type.
 std::optional<ParameterValue> typed_value(const Parameter& parameter, const toml::node& node) {
     switch (parameter.kind) {
@@ -84,6 +103,10 @@ std::optional<ParameterValue> typed_value(const Parameter& parameter, const toml
         case ParameterKind::boolean:
             if (const auto* boolean = node.as_boolean()) return boolean->get();
             return std::nullopt;
+        case ParameterKind::numbers:
+            return list_of<double>(parameter, node, number_in);
+        case ParameterKind::texts:
+            return list_of<std::string>(parameter, node, text_in);
     }
     throw std::logic_error("unknown ParameterKind");
 }
@@ -139,10 +162,15 @@ private:
     }
 
     void read_entry(const std::string& key, const toml::node& node, ParameterValues& values) {
-        if (const Parameter* parameter = find_parameter(table_, key)) return read_value(*parameter, node, values);
+        const bool section_in_its_place = node.is_table() && is_section(table_, key);
+        if (const Parameter* parameter = find_parameter(table_, key); parameter != nullptr && !section_in_its_place)
+            return read_value(*parameter, node, values);
         if (!is_section(table_, key)) return report_unknown(key, node);
         if (is_repeated_section(table_, key)) return read_repeated(key, node, values);
-        if (const toml::table* section = node.as_table()) return read_section(*section, key, values);
+        if (const toml::table* section = node.as_table()) {
+            values.set_where(key, where(node));
+            return read_section(*section, key, values);
+        }
         add(where(node), fmt::format("{} = {} is not a section", key, node_text(node)), fmt::format("{} contains keys", key),
             fmt::format("Write [{}] on a separate line and its keys below", key));
     }
@@ -217,8 +245,9 @@ private:
     /// Defaults and missing keys of one place: the file outside its arrays of tables (section ""), or one table of an array.
     void fill_in(ParameterValues& values, const std::string& repeated_section, const std::string& place) {
         for (const Parameter& parameter : table_) {
-            const bool belongs = repeated_section.empty() ? !parameter.repeated : section_of(parameter.key) == repeated_section;
-            if (!belongs || values.has(parameter.key) || !values.where(parameter.key).empty()) continue;
+            if (enclosing_array(table_, parameter.key) != repeated_section || values.has(parameter.key) ||
+                !values.where(parameter.key).empty())
+                continue;
             if (parameter.default_value) {
                 values.set(parameter.key, *parameter.default_value);
             } else if (!parameter.optional) {
@@ -269,6 +298,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 std::optional<Mistake> value_mistake(const Parameter& parameter, const ParameterValue& value) {
     if (const auto* number = std::get_if<double>(&value)) return number_mistake(parameter, *number, value);
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return number_mistake(parameter, static_cast<double>(*integer), value);
+    if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+        for (const double number : *numbers)
+            if (std::optional<Mistake> mistake = number_mistake(parameter, number, value)) return mistake;
+        return std::nullopt;
+    }
     if (parameter.kind == ParameterKind::choice) return choice_mistake(parameter, std::get<std::string>(value));
     if (parameter.kind == ParameterKind::path && std::get<std::string>(value).empty())
         return Mistake{"", fmt::format("{} = \"\" is empty", parameter.key), "It must name a file",
@@ -280,6 +314,15 @@ ReadParameters parse_with_mistakes(const ParameterTable& table, const std::strin
     Reader reader(table, name);
     ParameterValues values = reader.read(parse_toml(toml, name));
     return {std::move(values), reader.mistakes(), reader.complete()};
+}
+
+std::optional<std::string> text_of_key(const std::string& toml, const std::string& key) {
+    try {
+        const toml::table root = parse_toml(toml, "");
+        if (const auto* text = root.at_path(key).as_string()) return text->get();
+    } catch (const UserError&) {
+    }
+    return std::nullopt;
 }
 
 ParameterValues parse_parameters(const ParameterTable& table, const std::string& toml, const std::string& name) {

@@ -16,4 +16,7 @@ struct ReadParameters {
 /// \throws UserError  when the text is not TOML
 ReadParameters parse_with_mistakes(const ParameterTable& table, const std::string& toml, const std::string& name);
 
+/// The text of one key ("scene.kind") of a file whose table is not known yet; none when it is no text, not there, or the file no TOML.
+std::optional<std::string> text_of_key(const std::string& toml, const std::string& key);
+
 }  // namespace cutterflow

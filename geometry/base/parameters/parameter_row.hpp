@@ -47,6 +47,12 @@ public:
         parameter_.choices = std::move(choices);
         return *this;
     }
+    ParameterRow& optional() { return derived(""); }
+    /// Of a list.
+    ParameterRow& of_length(std::size_t length) {
+        parameter_.length = length;
+        return *this;
+    }
     ParameterRow& repeated() {
         parameter_.repeated = true;
         return *this;

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/parameters/parameter_words.hpp"
@@ -67,6 +68,25 @@ std::string entries_of(const ParameterTable& table, const std::string& section, 
 
 std::string repeated_toml(const ParameterTable& table, const std::string& section, const ParameterValues* values);
 
+/// The values of a section, without comments.
+std::string values_of(const ParameterTable& table, const std::string& section, const ParameterValues& values) {
+    std::string text;
+    for (const Parameter& parameter : table)
+        if (section_of(parameter.key) == section && values.has(parameter.key)) text += entry_of(parameter, &values);
+    return text;
+}
+
+/// Sections of the file outside its arrays (array ""), or of one table of an array: those that have values.
+std::string sections_within(const ParameterTable& table, const std::string& array, const ParameterValues& values) {
+    std::string text;
+    for (const std::string& section : sections_of(table)) {
+        if (section.empty() || is_repeated_section(table, section) || enclosing_array(table, section) != array) continue;
+        if (const std::string entries = values_of(table, section, values); !entries.empty())
+            text += fmt::format("\n[{}]\n", section) + entries;
+    }
+    return text;
+}
+
 /// Arrays of tables directly inside `section`.
 std::string nested_toml(const ParameterTable& table, const std::string& section, const ParameterValues* values) {
     std::string text;
@@ -79,7 +99,16 @@ std::string repeated_toml(const ParameterTable& table, const std::string& sectio
         return fmt::format("\n[[{}]]\n", section) + entries_of(table, section, nullptr) + nested_toml(table, section, nullptr);
     std::string text;
     for (const ParameterValues& member : values->tables(section))
-        text += fmt::format("\n[[{}]]\n", section) + entries_of(table, section, &member) + nested_toml(table, section, &member);
+        text += fmt::format("\n[[{}]]\n", section) + entries_of(table, section, &member) + sections_within(table, section, member) +
+                nested_toml(table, section, &member);
+    return text;
+}
+
+std::string plain_part(const ParameterTable& table, const std::string& array, const ParameterValues& values) {
+    std::string text = values_of(table, array, values) + sections_within(table, array, values);
+    for (const std::string& inner : repeated_sections(table, array))
+        for (const ParameterValues& member : values.tables(inner))
+            text += fmt::format("\n[[{}]]\n", inner) + plain_part(table, inner, member);
     return text;
 }
 
@@ -98,7 +127,7 @@ std::string markdown_cell(std::string text) {
 std::vector<std::string> repeated_sections(const ParameterTable& table, const std::string& section) {
     std::vector<std::string> repeated;
     for (const std::string& inner : sections_of(table))
-        if (!inner.empty() && section_of(inner) == section && is_repeated_section(table, inner)) repeated.push_back(inner);
+        if (is_repeated_section(table, inner) && enclosing_array(table, inner) == section) repeated.push_back(inner);
     return repeated;
 }
 
@@ -106,17 +135,27 @@ std::string toml_text(const ParameterValue& value) {
     if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
     if (const auto* integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
     if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+    if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return fmt::format("[{}]", fmt::join(*numbers, ", "));
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
+        std::vector<std::string> written;
+        for (const std::string& text : *texts) written.push_back(quoted(text));
+        return "[" + join(written, ", ") + "]";
+    }
     return std::get<bool>(value) ? "true" : "false";
 }
 
 std::string commented_toml(const ParameterTable& table, const ParameterValues* values) {
     std::string text;
     for (const std::string& section : sections_of(table)) {
-        if (is_repeated_section(table, section)) continue;
+        if (is_repeated_section(table, section) || !enclosing_array(table, section).empty()) continue;
         if (!section.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
         text += entries_of(table, section, values);
     }
     return text + nested_toml(table, "", values);
+}
+
+std::string plain_toml(const ParameterTable& table, const ParameterValues& values) {
+    return plain_part(table, "", values);
 }
 
 std::string parameters_text(const ParameterTable& table) {

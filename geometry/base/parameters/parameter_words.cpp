@@ -36,6 +36,12 @@ bool is_repeated_section(const ParameterTable& table, const std::string& section
     return std::any_of(table.begin(), table.end(), [&](const Parameter& p) { return p.repeated && section_of(p.key) == section; });
 }
 
+std::string enclosing_array(const ParameterTable& table, const std::string& key) {
+    std::string section = section_of(key);
+    while (!section.empty() && !is_repeated_section(table, section)) section = section_of(section);
+    return section;
+}
+
 std::string kind_text(ParameterKind kind) {
     switch (kind) {
         case ParameterKind::number:
@@ -50,6 +56,10 @@ std::string kind_text(ParameterKind kind) {
             return "true or false";
         case ParameterKind::path:
             return "a path in quotes";
+        case ParameterKind::numbers:
+            return "a list of numbers";
+        case ParameterKind::texts:
+            return "a list of texts in quotes";
     }
     throw std::logic_error("unknown ParameterKind");
 }
@@ -63,7 +73,8 @@ std::string with_unit(const Parameter& parameter, const std::string& text) {
 }
 
 std::string kind_with_unit(const Parameter& parameter) {
-    const std::string kind = kind_text(parameter.kind);
+    std::string kind = kind_text(parameter.kind);
+    if (parameter.length > 0) kind.replace(0, std::string("a list of").size(), fmt::format("a list of {}", parameter.length));
     return has_unit(parameter) ? kind + " in " + parameter.unit : kind;
 }
 

@@ -14,6 +14,8 @@ std::string join(const std::vector<std::string>& words, const char* separator);
 /// Sections in the order of their first key; arrays of tables are sections that repeat.
 std::vector<std::string> sections_of(const ParameterTable& table);
 bool is_repeated_section(const ParameterTable& table, const std::string& section);
+/// The innermost array of tables that a key stands in, or empty.
+std::string enclosing_array(const ParameterTable& table, const std::string& key);
 
 std::string kind_text(ParameterKind kind);
 bool has_unit(const Parameter& parameter);

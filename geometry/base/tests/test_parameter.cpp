@@ -257,3 +257,81 @@ TEST(Parameter, nearest_word_allows_a_third_of_the_letters_to_differ) {
     EXPECT_EQ(nearest_word("abc", {"axx"}), "");
     EXPECT_EQ(nearest_word("", {"a"}), "");
 }
+
+namespace {
+
+/// Lists, a key beside a table of its name, and an array within a section.
+ParameterTable table_with_lists() {
+    Parameter size = make("room.size_m", ParameterKind::numbers);
+    size.length = 3;
+    size.unit = "m";
+    size.minimum = 0.0;
+    size.minimum_excluded = true;
+    Parameter cell = make("room.refine.cell_m", ParameterKind::number);
+    cell.repeated = true;
+    Parameter pair = make("contact.pair", ParameterKind::texts);
+    pair.repeated = true;
+    pair.length = 2;
+    Parameter flow = make("side.flow", ParameterKind::choice);
+    flow.repeated = flow.optional = true;
+    flow.choices = {"slip", "pressure"};
+    Parameter speed = make("side.flow.speed_m_s", ParameterKind::number);
+    speed.optional = true;
+    return {size, cell, pair, flow, speed};
+}
+
+std::string mistakes_with_lists(const std::string& toml) {
+    try {
+        parse_parameters(table_with_lists(), toml, "room.toml");
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+const char* const k_lists = R"([room]
+size_m = [1, 0.5, 2]
+[[room.refine]]
+cell_m = 0.01
+[[contact]]
+pair = ["gravel", "steel"]
+[[side]]
+flow = "slip"
+[[side]]
+flow = { speed_m_s = 1.5 }
+)";
+
+}  // namespace
+
+TEST(Parameter, reads_lists_and_tables_in_the_place_of_a_key_and_writes_them_back) {
+    const ParameterTable table = table_with_lists();
+    ParameterValues values = parse_parameters(table, k_lists, "room.toml");
+    const auto expect_values = [&] {
+        EXPECT_EQ(values.numbers("room.size_m"), (std::vector<double>{1.0, 0.5, 2.0}));
+        ASSERT_EQ(values.tables("room.refine").size(), 1u);
+        EXPECT_EQ(values.tables("room.refine")[0].number("room.refine.cell_m"), 0.01);
+        EXPECT_EQ(values.tables("contact").at(0).texts("contact.pair"), (std::vector<std::string>{"gravel", "steel"}));
+        ASSERT_EQ(values.tables("side").size(), 2u);
+        EXPECT_EQ(values.tables("side")[0].text("side.flow"), "slip");
+        EXPECT_FALSE(values.tables("side")[0].has("side.flow.speed_m_s"));
+        EXPECT_EQ(values.tables("side")[1].number("side.flow.speed_m_s"), 1.5);
+        EXPECT_FALSE(values.tables("side")[1].has("side.flow"));
+    };
+    expect_values();
+    EXPECT_EQ(values.where("room.size_m"), "room.toml:2");
+    EXPECT_EQ(values.tables("side")[1].where("side.flow"), "room.toml:10");
+    for (const std::string& written : {plain_toml(table, values), commented_toml(table, &values)}) {
+        values = parse_parameters(table, written, "written.toml");
+        expect_values();
+    }
+}
+
+TEST(Parameter, lists_have_a_length_a_type_and_bounds) {
+    expect_contains(mistakes_with_lists("room.size_m = [1, 2]\n"), "a list of 3 numbers in m");
+    expect_contains(mistakes_with_lists("room.size_m = [1, 2, \"x\"]\n"), "has the wrong type");
+    expect_contains(mistakes_with_lists("room.size_m = [1, 2, 0]\n"), "room.size_m = [1, 2, 0] is too low");
+    expect_contains(mistakes_with_lists("room.size_m = 1\n"), "has the wrong type");
+    expect_contains(mistakes_with_lists("room.size_m = [1, 2, 3]\n[[contact]]\npair = [\"a\"]\n"), "a list of 2 texts in quotes");
+    expect_contains(mistakes_with_lists("room.size_m = [1, 2, 3]\n[[side]]\nflow = { speed = 1 }\n"), "Did you mean side.flow.speed_m_s");
+    expect_contains(mistakes_with_lists("room.size_m = [1, 2, 3]\n[[side]]\nflow = 3\n"), "one of its choices");
+}
