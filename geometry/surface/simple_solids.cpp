@@ -16,6 +16,7 @@ namespace cutterflow::geometry {
 namespace {
 
 constexpr std::size_t k_least_segments = 64;
+constexpr double k_undivided = 1e6;  // [m]: sides stay whole
 
 struct NamedSize {
     const char* name;
@@ -99,6 +100,79 @@ TriangleSurface generate_box(const Vec3& size, double edge_length) {
     add_side(box, x, y, z, edge_length);
     const Eigen::Affine3d centred(Eigen::Translation3d(-0.5 * size.x(), -0.5 * size.y(), 0.0));
     return transformed(welded(box), centred);
+}
+
+TriangleSurface generate_block(const Vec3& lower, const Vec3& upper) {
+    const Vec3 size = upper - lower;
+    const TriangleSurface box = generate_box(size, size.maxCoeff());
+    return transformed(box, Eigen::Affine3d(Eigen::Translation3d(lower + Vec3(0.5 * size.x(), 0.5 * size.y(), 0.0))));
+}
+
+double BinParameters::volume() const {
+    const double outer = inner_radius + wall;
+    return k_pi * (wall * (2.0 * inner_radius + wall) * height + (outer * outer - orifice_radius * orifice_radius) * wall);
+}
+
+TriangleSurface generate_bin(const BinParameters& p) {
+    require_sizes({{"inner radius", p.inner_radius}, {"height", p.height}, {"wall", p.wall}, {"orifice radius", p.orifice_radius, true}});
+    if (p.orifice_radius >= p.inner_radius)
+        throw UserError(fmt::format("orifice radius = {} m", p.orifice_radius),
+                        fmt::format("It must be below the inner radius {} m", p.inner_radius), "Correct one of them");
+    const double outer = p.inner_radius + p.wall;
+    return revolved({{p.orifice_radius, -p.wall},
+                     {outer, -p.wall},
+                     {outer, p.height},
+                     {p.inner_radius, p.height},
+                     {p.inner_radius, 0.0},
+                     {p.orifice_radius, 0.0}},
+                    k_undivided);
+}
+
+double DishParameters::volume() const {
+    const double outer = radius + (rim_height > 0.0 ? rim_wall : 0.0);
+    return k_pi * (outer * outer * thickness + (outer * outer - radius * radius) * rim_height);
+}
+
+TriangleSurface generate_dish(const DishParameters& p) {
+    require_sizes({{"radius", p.radius},
+                   {"thickness", p.thickness},
+                   {"rim height", p.rim_height, true},
+                   {"rim wall", p.rim_wall, p.rim_height == 0.0}});
+    if (p.rim_height == 0.0) return revolved({{0.0, -p.thickness}, {p.radius, -p.thickness}, {p.radius, 0.0}, {0.0, 0.0}}, k_undivided);
+    const double outer = p.radius + p.rim_wall;
+    return revolved(
+        {{0.0, -p.thickness}, {outer, -p.thickness}, {outer, p.rim_height}, {p.radius, p.rim_height}, {p.radius, 0.0}, {0.0, 0.0}},
+        k_undivided);
+}
+
+double SlottedBoxParameters::volume() const {
+    return inner.y() * wall * (2.0 * inner.z() + inner.x() + 2.0 * wall - slot);
+}
+
+TriangleSurface generate_slotted_box(const SlottedBoxParameters& p) {
+    require_sizes({{"width", p.inner.x()}, {"length", p.inner.y()}, {"height", p.inner.z()}, {"wall", p.wall}, {"slot", p.slot}});
+    if (p.slot >= p.inner.x())
+        throw UserError(fmt::format("slot = {} m", p.slot), fmt::format("It must be narrower than the box, {} m", p.inner.x()),
+                        "Correct one of them");
+    // One L each side: its wall stands on the outer end of its floor plate.
+    const double in = 0.5 * p.slot, wall = 0.5 * p.inner.x(), out = wall + p.wall, half = 0.5 * p.inner.y();
+    const std::vector<Eigen::Vector2d> corners{{in, -p.wall},      {wall, -p.wall},     {out, -p.wall}, {out, 0.0},
+                                               {out, p.inner.z()}, {wall, p.inner.z()}, {wall, 0.0},    {in, 0.0}};
+    const std::vector<Triangle> cap{{0, 1, 6}, {0, 6, 7}, {1, 2, 3}, {1, 3, 6}, {6, 3, 4}, {6, 4, 5}};  // counter-clockwise in (x, z)
+    TriangleSurface right;
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    for (const double y : {-half, half})
+        for (const Eigen::Vector2d& corner : corners) right.points.emplace_back(corner.x(), y, corner.y());
+    for (const Triangle& t : cap) {
+        right.triangles.push_back(t);  // seen from -y: outward
+        right.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t next = (i + 1) % count;
+        right.triangles.push_back({i, i + count, next + count});
+        right.triangles.push_back({i, next + count, next});
+    }
+    return joined({right, transformed(right, Eigen::Affine3d(Eigen::Scaling(-1.0, 1.0, 1.0)))});
 }
 
 }  // namespace cutterflow::geometry

@@ -1,5 +1,5 @@
 #pragma once
-/// \file Simple solids of known volume, as verification cases need them: pipe, box, funnel.
+/// \file Simple solids of known volume, as verification cases and rooms need them: pipe, box, funnel, bin, dish, slotted box.
 #include "geometry/surface/surface.hpp"
 
 namespace cutterflow::geometry {
@@ -36,5 +36,43 @@ TriangleSurface generate_funnel(const FunnelParameters& parameters);
 /// The box of `size` [m] centred on the z axis, from z = 0 up. Its volume is exact.
 /// \throws UserError  with every size that is not positive
 TriangleSurface generate_box(const Vec3& size, double edge_length);
+
+/// The block between two opposite corners [m], of twelve triangles. \throws UserError  unless every coordinate of `upper` is above that of
+/// `lower`
+TriangleSurface generate_block(const Vec3& lower, const Vec3& upper);
+
+/// A flat-bottomed cylindrical bin about the z axis, open at its top, with a round orifice in its floor (none: 0). Its floor's upper face
+/// is at z = 0 [m].
+struct BinParameters {
+    double inner_radius = 0.0;
+    double height = 0.0;  ///< inside
+    double wall = 0.0;    ///< of the cylinder and of the floor
+    double orifice_radius = 0.0;
+
+    double volume() const;  ///< exact [m3]
+};
+TriangleSurface generate_bin(const BinParameters& parameters);
+
+/// A round plate about the z axis, whose upper face is at z = 0, with a rim around it; no rim: height 0 [m].
+struct DishParameters {
+    double radius = 0.0;  ///< inside the rim
+    double thickness = 0.0;
+    double rim_height = 0.0;
+    double rim_wall = 0.0;
+
+    double volume() const;  ///< exact [m3]
+};
+TriangleSurface generate_dish(const DishParameters& parameters);
+
+/// A box without lid and without ends along y, whose floor has a slot along y in its middle: two walls, two floor plates. The floor's upper
+/// face is at z = 0 [m].
+struct SlottedBoxParameters {
+    Vec3 inner = Vec3::Zero();  ///< width, length along y, height
+    double wall = 0.0;          ///< of walls and floor
+    double slot = 0.0;          ///< width along x, less than that of the box
+
+    double volume() const;  ///< exact [m3]
+};
+TriangleSurface generate_slotted_box(const SlottedBoxParameters& parameters);
 
 }  // namespace cutterflow::geometry

@@ -57,6 +57,34 @@ TEST(SimpleSolids, boxes_are_exact_and_divided) {
     EXPECT_TRUE(bounds.min.isApprox(Vec3(-0.2, -0.15, 0.0)) && bounds.max.isApprox(Vec3(0.2, 0.15, 0.2)));
 }
 
+TEST(SimpleSolids, bins_dishes_and_slotted_boxes_have_the_volume_of_their_parts) {
+    const auto ring = [](double out, double in, double h) { return k_pi * (out * out - in * in) * h; };
+    expect_solid(generate_bin({0.04, 0.1, 0.005, 0.014}), ring(0.045, 0.04, 0.1) + ring(0.045, 0.014, 0.005), "bin");
+    expect_solid(generate_bin({0.04, 0.1, 0.005, 0.0}), ring(0.045, 0.04, 0.1) + ring(0.045, 0.0, 0.005), "bin without orifice");
+    EXPECT_NEAR(BinParameters({0.04, 0.1, 0.005, 0.014}).volume(), ring(0.045, 0.04, 0.1) + ring(0.045, 0.014, 0.005), 1e-15);
+    expect_solid(generate_dish({0.028, 0.012, 0.002, 0.001}), ring(0.029, 0.0, 0.012) + ring(0.029, 0.028, 0.002), "dish");
+    expect_solid(generate_dish({0.028, 0.012, 0.0, 0.0}), ring(0.028, 0.0, 0.012), "plate");
+    EXPECT_NEAR(DishParameters({0.028, 0.012, 0.002, 0.001}).volume(), ring(0.029, 0.0, 0.012) + ring(0.029, 0.028, 0.002), 1e-15);
+
+    const SlottedBoxParameters box{{0.8, 0.15, 0.9}, 0.03, 0.15};
+    const double volume = 0.15 * (2.0 * 0.93 * 0.03 + 0.03 * (0.8 - 0.15));  // two walls down to the floor's lower face, two plates between
+    EXPECT_NEAR(box.volume(), volume, 1e-15);
+    const TriangleSurface surface = generate_slotted_box(box);
+    const SoundnessReport report = inspect_surface(surface);
+    EXPECT_TRUE(report.sound());
+    EXPECT_EQ(report.components.size(), 2u);
+    EXPECT_NEAR(report.volume, volume, 1e-12);
+    const Bounds bounds = bounds_of(surface);
+    EXPECT_TRUE(bounds.min.isApprox(Vec3(-0.43, -0.075, -0.03)) && bounds.max.isApprox(Vec3(0.43, 0.075, 0.9)));
+
+    const TriangleSurface block = generate_block({0.1, 0.2, 0.3}, {0.2, 0.4, 0.6});
+    expect_solid(block, 0.1 * 0.2 * 0.3, "block");
+    EXPECT_TRUE(bounds_of(block).min.isApprox(Vec3(0.1, 0.2, 0.3)) && bounds_of(block).max.isApprox(Vec3(0.2, 0.4, 0.6)));
+    EXPECT_EQ(block.triangles.size(), 12u);
+    EXPECT_THROW(generate_bin({0.04, 0.1, 0.005, 0.04}), UserError);
+    EXPECT_THROW(generate_slotted_box({{0.8, 0.15, 0.9}, 0.03, 0.8}), UserError);
+}
+
 TEST(SimpleSolids, every_size_without_meaning_is_named) {
     try {
         generate_funnel({0.3, -0.05, 0.0, 0.0, 0.02, 0.02});
