@@ -4,38 +4,63 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 
 namespace cutterflow::cases {
 namespace {
 
+/// At commas outside of brackets.
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+    int depth = 0;
+    for (const char c : text) {
+        if (parts.empty()) parts.emplace_back();
+        depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+        if (c == ',' && depth == 0)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
     return parts;
 }
 
-/// \throws UserError  when the text is no value of the parameter's kind
-ParameterValue value_of(const Parameter& parameter, const std::string& text) {
-    const auto refuse = [&](const char* rule) { throw UserError(fmt::format("--set {}={}", parameter.key, text), rule, "Correct it"); };
-    if (parameter.kind == ParameterKind::path) return std::filesystem::absolute(text).string();  // the points lie in other folders
-    if (parameter.kind == ParameterKind::boolean) {
-        if (text != "true" && text != "false") refuse("The value is true or false");
-        return text == "true";
-    }
-    if (parameter.kind != ParameterKind::number && parameter.kind != ParameterKind::integer) return text;
+std::optional<double> number_of(const std::string& text) {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' ||
-        (parameter.kind == ParameterKind::integer && number != static_cast<double>(static_cast<std::int64_t>(number))))
-        refuse("The value is a number");
-    if (parameter.kind == ParameterKind::integer) return static_cast<std::int64_t>(number);
+    while (*end == ' ') ++end;
+    if (text.empty() || *end != '\0') return std::nullopt;
     return number;
+}
+
+/// Of "[0, 0, 0.1]".
+std::optional<std::vector<double>> numbers_of(const std::string& text) {
+    if (text.size() < 2 || text.front() != '[' || text.back() != ']') return std::nullopt;
+    std::vector<double> numbers;
+    for (const std::string& part : split(text.substr(1, text.size() - 2))) {
+        const std::optional<double> number = number_of(part);
+        if (!number) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+/// What a table of an array is called: by its key `name`, else by the texts of its key `pair`.
+bool is_called(const ParameterValues& values, const std::string& array, const std::string& name) {
+    if (values.has(array + ".name")) return values.text(array + ".name") == name;
+    if (!values.has(array + ".pair")) return false;
+    const std::vector<std::string>& pair = values.texts(array + ".pair");
+    return pair.size() == 2 && (name == pair[0] + "-" + pair[1] || name == pair[1] + "-" + pair[0]);
+}
+
+/// The row of a key; null when the table has none.
+const Parameter* find_parameter(const ParameterTable& table, const std::string& key) {
+    const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter& parameter) { return parameter.key == key; });
+    return found == table.end() ? nullptr : &*found;
 }
 
 /// In the tables of `section` and of the sections within it.
@@ -64,7 +89,7 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
         const KeyAxis axis{word.substr(0, equals),
                            equals == std::string::npos ? std::vector<std::string>{} : split(word.substr(equals + 1))};
         if (axis.values.empty()) mistakes.push_back({"", fmt::format("--set {}", word), "It is written as KEY=a,b", "Give the values"});
-        if (!find_parameter(table, axis.key)) {
+        if (!find_key(table, axis.key)) {
             std::vector<std::string> known;
             for (const Parameter& parameter : table) known.push_back(parameter.key);
             const std::string nearest = nearest_word(axis.key, known);
@@ -77,29 +102,79 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
     return axes;
 }
 
-const Parameter* find_parameter(const ParameterTable& table, const std::string& key) {
-    const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter& parameter) { return parameter.key == key; });
-    return found == table.end() ? nullptr : &*found;
+std::optional<KeyPath> find_key(const ParameterTable& table, const std::string& text) {
+    using parameter_words::enclosing_array;
+    if (const Parameter* parameter = find_parameter(table, text)) return KeyPath{parameter, enclosing_array(table, text), ""};
+    std::optional<KeyPath> found;
+    for (const Parameter& parameter : table) {
+        const std::string array = enclosing_array(table, parameter.key);
+        if (array.empty() || text.rfind(array + ".", 0) != 0) continue;
+        const std::string key = parameter.key.substr(array.size()), rest = text.substr(array.size() + 1);  // ".friction"
+        if (rest.size() <= key.size() || rest.compare(rest.size() - key.size(), key.size(), key) != 0) continue;
+        const std::string member = rest.substr(0, rest.size() - key.size());
+        if (!found || member.size() < found->member.size()) found = KeyPath{&parameter, array, member};
+    }
+    return found;
 }
 
-int set_key(ParameterValues& values, const ParameterTable& table, const Parameter& parameter,
+int set_key(ParameterValues& values, const ParameterTable& table, const KeyPath& key,
             const std::function<ParameterValue(const ParameterValues&)>& value) {
-    if (parameter.repeated) return set_in_tables(values, table, "", parameter.key, value);
-    values.set(parameter.key, value(values));
-    return 1;
+    if (key.array.empty()) {
+        values.set(key.parameter->key, value(values));
+        return 1;
+    }
+    if (key.member.empty()) return set_in_tables(values, table, "", key.parameter->key, value);
+    int count = 0;
+    for (ParameterValues& one : values.tables_for_writing(key.array)) {
+        if (!is_called(one, key.array, key.member)) continue;
+        one.set(key.parameter->key, value(one));
+        ++count;
+    }
+    return count;
+}
+
+ParameterValue value_of_text(const Parameter& parameter, const std::string& text) {
+    const auto refuse = [&](const char* rule) { throw UserError(fmt::format("--set {}={}", parameter.key, text), rule, "Correct it"); };
+    const std::optional<double> number = number_of(text);
+    switch (parameter.kind) {
+        case ParameterKind::path:
+            return std::filesystem::absolute(text).string();  // the points lie in other folders
+        case ParameterKind::boolean:
+            if (text != "true" && text != "false") refuse("The value is true or false");
+            return text == "true";
+        case ParameterKind::text:
+        case ParameterKind::choice:
+            return text;
+        case ParameterKind::number:
+            if (!number) refuse("The value is a number");
+            return *number;
+        case ParameterKind::integer:
+            if (!number || *number != static_cast<double>(static_cast<std::int64_t>(*number))) refuse("The value is a number");
+            return static_cast<std::int64_t>(*number);
+        case ParameterKind::numbers: {
+            const std::optional<std::vector<double>> numbers = numbers_of(text);
+            if (!numbers) refuse("The value is a list of numbers in brackets, as [0,0,1]");
+            return *numbers;
+        }
+        case ParameterKind::texts:
+            refuse("It names what the table is about");
+    }
+    throw std::logic_error("unknown ParameterKind");
 }
 
 std::vector<KeySetting> key_settings(const ParameterTable& table, const ParameterValues& base, const std::vector<KeyAxis>& axes) {
     std::vector<KeySetting> settings{{"", base}};
     for (const KeyAxis& axis : axes) {
-        const Parameter& parameter = *find_parameter(table, axis.key);
+        const KeyPath key = *find_key(table, axis.key);
         std::vector<KeySetting> varied;
         for (const KeySetting& setting : settings)
             for (const std::string& text : axis.values) {
                 KeySetting one = setting;
-                const ParameterValue value = value_of(parameter, text);
-                if (set_key(one.values, table, parameter, [&](const ParameterValues&) { return value; }) == 0)
-                    throw UserError(fmt::format("--set {}: no table of the study gives this key", axis.key),
+                const ParameterValue value = value_of_text(*key.parameter, text);
+                if (set_key(one.values, table, key, [&](const ParameterValues&) { return value; }) == 0)
+                    throw UserError(key.member.empty()
+                                        ? fmt::format("--set {}: no table of the study gives this key", axis.key)
+                                        : fmt::format("--set {}: no table [[{}]] is called {}", axis.key, key.array, key.member),
                                     "A sweep changes what is there", "Write the key into the tables that it shall change");
                 one.name += fmt::format("_{}_{}", safe_name(axis.key.substr(axis.key.find('.') + 1)), safe_name(text));
                 varied.push_back(std::move(one));
@@ -110,6 +185,7 @@ std::vector<KeySetting> key_settings(const ParameterTable& table, const Paramete
 }
 
 std::string safe_name(std::string text) {
+    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '[' || c == ']'; }), text.end());
     for (char& c : text)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
     return text;

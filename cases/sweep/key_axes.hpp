@@ -1,6 +1,7 @@
 #pragma once
 /// \file Values of a study's keys that a sweep varies: `--set KEY=a,b`.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace cutterflow::cases {
 
-/// The values of one key: `swing.speed_m_min=4,8`.
+/// The values of one key: `swing.speed_m_min=4,8`. A list stands in brackets: `solid.tube.velocity_m_s=[0,0,0.1],[0,0,0.2]`.
 struct KeyAxis {
     std::string key;
     std::vector<std::string> values;  ///< as TOML writes them
@@ -18,12 +19,23 @@ struct KeyAxis {
 /// \throws UserError  with every word that is no key of the table with values
 std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std::string>& words, const std::string& params);
 
-/// The row of a key; null when the table has none.
-const Parameter* find_parameter(const ParameterTable& table, const std::string& key);
+/// A key of a study, perhaps of one table of an array of tables alone: `contact.gravel-steel.friction` is `friction` of the table
+/// [[contact]] with pair = ["gravel", "steel"], `solid.tube.material` that of the table [[solid]] with name = "tube".
+struct KeyPath {
+    const Parameter* parameter = nullptr;
+    std::string array;   ///< innermost array of tables that the key stands in; empty: none
+    std::string member;  ///< name of one table of it; empty: every table that gives the key
+};
 
-/// Changes a key; of a repeated section in every table that gives it. \return how many values were set
-int set_key(ParameterValues& values, const ParameterTable& table, const Parameter& parameter,
+/// None when the table has no such key. Whether there is a table of that name, a study tells.
+std::optional<KeyPath> find_key(const ParameterTable& table, const std::string& text);
+
+/// Changes a key. \return how many values were set: 0 when no table gives the key, or none has the name
+int set_key(ParameterValues& values, const ParameterTable& table, const KeyPath& key,
             const std::function<ParameterValue(const ParameterValues&)>& value);
+
+/// \throws UserError  when the text is no value of the parameter's kind
+ParameterValue value_of_text(const Parameter& parameter, const std::string& text);
 
 /// A study with some keys changed.
 struct KeySetting {

@@ -23,7 +23,7 @@ std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study,
             KeySetting one{safe_name(study.stem().string()) + setting.name, setting.values};
             if (repeats > 1) {
                 one.name += fmt::format("_repeat{}", repeat + 1);
-                set_key(one.values, table, *find_parameter(table, k_seed),
+                set_key(one.values, table, *find_key(table, k_seed),
                         [&](const ParameterValues& bodies) { return bodies.integer(k_seed) + repeat; });
             }
             one.values.set("name", fmt::format("{}: {}", values.text("name"), one.name));

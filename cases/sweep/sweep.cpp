@@ -78,7 +78,7 @@ ParameterValues values_of(const Combination& combination, ParameterValues values
 std::string shape_of(const ParameterValues& values, const std::vector<KeyAxis>& axes) {
     std::string shape;
     for (const KeyAxis& axis : axes) {
-        const Parameter& parameter = *find_parameter(study_table(), axis.key);
+        const Parameter& parameter = *find_key(study_table(), axis.key)->parameter;
         if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage)
             shape += fmt::format("|{}={}", axis.key, toml_text(*values.find(axis.key)));
     }
