@@ -183,7 +183,7 @@ void compare_surfaces(const CompareOptions& options) {
         throw UserError("--measured with free-surface runs", "Measured points are spillage and production of cutters", "Leave it out");
     if (options.still_folder) throw UserError("--static with free-surface runs", "Their page has no script to leave out", "Use --output");
     const auto settings = postproc::compare_surface_runs({options.runs.begin(), options.runs.end()});
-    std::cout << (options.json ? postproc::surface_comparison_json(settings).dump(2) + "\n" : postproc::surface_comparison_text(settings));
+    std::cout << (options.json ? postproc::surface_comparison_json(settings).dump(2) + "\n" : postproc::setting_comparison_text(settings));
     if (options.output) say(fmt::format("the page: {}", postproc::write_surface_comparison(settings, *options.output).string()));
 }
 

@@ -1,24 +1,12 @@
 #include "postproc/analysis/surface_comparison.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "geometry/base/file_content.hpp"
-#include "postproc/analysis/sample.hpp"
 #include "postproc/analysis/surface_results.hpp"
-#include "postproc/draw/html.hpp"
-#include "postproc/draw/page.hpp"
 
 namespace cutterflow::postproc {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr const char* k_repeat = "_repeat";
-constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* k_schema = "cutterflow.surface_comparison/1";
 
 struct Kind {
     const char *key, *name, *unit;
@@ -34,124 +22,26 @@ constexpr Kind k_kinds[] = {
     {"volume_error", "occupied volume lost or won", "-", [](const SurfaceResults& r) { return r.volume_error; }},
     {"core_s", "core time", "s", [](const SurfaceResults& r) { return r.core_s; }}};
 
-/// "pipe_hole_0_repeat2" as the setting and its repeat; a run that is alone is repeat 1.
-std::pair<std::string, int> setting_of(const fs::path& run) {
-    const std::string name = (run.has_filename() ? run : run.parent_path()).filename().string();
-    const std::size_t at = name.rfind(k_repeat);
-    if (at == std::string::npos) return {name, 1};
-    const std::string number = name.substr(at + std::string(k_repeat).size());
-    if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return {name, 1};
-    return {name.substr(0, at), std::stoi(number)};
-}
-
-std::vector<double> paired_differences(const SurfaceSetting& setting, const SurfaceSetting& first, std::size_t quantity) {
-    std::vector<double> differences;
-    for (std::size_t n = 0; n < setting.repeats.size(); ++n) {
-        for (std::size_t m = 0; m < first.repeats.size(); ++m) {
-            if (first.repeats[m] == setting.repeats[n])
-                differences.push_back(setting.quantities[quantity].each[n] - first.quantities[quantity].each[m]);
-        }
-    }
-    return differences;
-}
-
-/// "0.321 +- 0.012 s"; what is not known is left out.
-std::string mean_text(const RepeatMean& value, const std::string& unit, bool sign = false) {
-    if (!std::isfinite(value.mean)) return "-";
-    const std::string mean = sign ? fmt::format("{:+.4g}", value.mean) : fmt::format("{:.4g}", value.mean);
-    const std::string half = std::isfinite(value.half) ? fmt::format(" +- {:.2g}", value.half) : "";
-    return mean + half + (unit == "-" ? "" : " " + unit);
-}
-
-bool is_known(const std::vector<SurfaceSetting>& settings, std::size_t quantity) {
-    return std::any_of(settings.begin(), settings.end(), [&](const SurfaceSetting& setting) {
-        const SurfaceQuantity& found = setting.quantities[quantity];
-        return std::isfinite(found.mean.mean) && (found.mean.mean != 0.0 || found.key == "volume_error");
-    });
-}
-
-nlohmann::json json_of(const RepeatMean& value) {
-    const auto number = [](double n) { return std::isfinite(n) ? nlohmann::json(n) : nlohmann::json(nullptr); };
-    return {{"mean", number(value.mean)}, {"half_width", number(value.half)}};
+std::vector<RunQuantity> quantities_of(const std::filesystem::path& run) {
+    const SurfaceResults results = surface_results(read_surface_rows(run));
+    std::vector<RunQuantity> quantities;
+    for (const Kind& kind : k_kinds)
+        quantities.push_back({kind.key, kind.name, kind.unit, kind.value(results), std::string(kind.key) != "volume_error"});
+    return quantities;
 }
 
 }  // namespace
 
-RepeatMean repeat_mean(const std::vector<double>& values) {
-    if (values.empty() || !std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-        return {k_unknown, k_unknown};
-    const Sample sample = sample_of(values);
-    return {sample.mean, sample.count < 2 ? k_unknown : half_interval(sample)};
+std::vector<Setting> compare_surface_runs(const std::vector<std::filesystem::path>& runs) {
+    return compare_settings(runs, quantities_of);
 }
 
-std::vector<SurfaceSetting> compare_surface_runs(const std::vector<fs::path>& runs) {
-    std::vector<SurfaceSetting> settings;
-    for (const fs::path& run : runs) {
-        const SurfaceResults results = surface_results(read_surface_rows(run));
-        const auto [name, repeat] = setting_of(run);
-        auto setting = std::find_if(settings.begin(), settings.end(), [&, &wanted = name](const auto& one) { return one.name == wanted; });
-        if (setting == settings.end()) {
-            settings.push_back({name, {}, {}});
-            setting = settings.end() - 1;
-            for (const Kind& kind : k_kinds) setting->quantities.push_back({kind.key, kind.name, kind.unit, {}, {}, {}});
-        }
-        setting->repeats.push_back(repeat);
-        for (std::size_t q = 0; q < std::size(k_kinds); ++q) setting->quantities[q].each.push_back(k_kinds[q].value(results));
-    }
-    for (SurfaceSetting& setting : settings) {
-        for (std::size_t q = 0; q < std::size(k_kinds); ++q) {
-            setting.quantities[q].mean = repeat_mean(setting.quantities[q].each);
-            setting.quantities[q].difference = repeat_mean(paired_differences(setting, settings.front(), q));
-        }
-    }
-    return settings;
+nlohmann::json surface_comparison_json(const std::vector<Setting>& settings) {
+    return setting_comparison_json(settings, k_schema);
 }
 
-std::string surface_comparison_text(const std::vector<SurfaceSetting>& settings) {
-    std::string text;
-    for (std::size_t q = 0; q < std::size(k_kinds); ++q) {
-        if (!is_known(settings, q)) continue;
-        text += fmt::format("{}\n", k_kinds[q].name);
-        for (const SurfaceSetting& setting : settings) {
-            const SurfaceQuantity& found = setting.quantities[q];
-            text += fmt::format("  {:<40} {:<24}", setting.name, mean_text(found.mean, found.unit));
-            if (&setting != &settings.front()) text += " difference " + mean_text(found.difference, found.unit, true);
-            text += fmt::format("  ({} run{})\n", setting.repeats.size(), setting.repeats.size() == 1 ? "" : "s");
-        }
-    }
-    return text + "value +- half the 95 % interval (Student's t over repeats); differences from the first setting, in pairs of repeats\n";
-}
-
-nlohmann::json surface_comparison_json(const std::vector<SurfaceSetting>& settings) {
-    nlohmann::json rows = nlohmann::json::array();
-    for (const SurfaceSetting& setting : settings) {
-        nlohmann::json row{{"name", setting.name}, {"repeats", setting.repeats.size()}};
-        for (const SurfaceQuantity& quantity : setting.quantities)
-            row[quantity.key] = {{"value", json_of(quantity.mean)}, {"difference", json_of(quantity.difference)}};
-        rows.push_back(row);
-    }
-    return {{"schema", "cutterflow.surface_comparison/1"}, {"settings", rows}};
-}
-
-fs::path write_surface_comparison(const std::vector<SurfaceSetting>& settings, const fs::path& folder) {
-    require_own_folder(folder, "comparison.json");
-    fs::create_directories(folder);
-    write_file(folder / "comparison.json", surface_comparison_json(settings).dump(2) + "\n");
-    std::string body = "<header><h1>Comparison of runs</h1></header>\n";
-    for (std::size_t q = 0; q < std::size(k_kinds); ++q) {
-        if (!is_known(settings, q)) continue;
-        std::vector<std::vector<std::string>> rows;
-        for (const SurfaceSetting& setting : settings) {
-            const SurfaceQuantity& found = setting.quantities[q];
-            rows.push_back({html::escape(setting.name), fmt::format("{}", setting.repeats.size()), mean_text(found.mean, found.unit),
-                            &setting == &settings.front() ? "" : mean_text(found.difference, found.unit, true)});
-        }
-        body += html::section(k_kinds[q].name, html::table({"setting", "runs", "mean", "difference from the first"}, rows, true));
-    }
-    body += "<p>Mean and half of the 95 % interval (Student's t over repeats); differences in pairs of repeats.</p>";
-    const Page page(folder / "index.html", PageForm::live);
-    page.write("Comparison of runs", body, "");
-    return folder / "index.html";
+std::filesystem::path write_surface_comparison(const std::vector<Setting>& settings, const std::filesystem::path& folder) {
+    return write_setting_comparison(settings, k_schema, folder);
 }
 
 }  // namespace cutterflow::postproc

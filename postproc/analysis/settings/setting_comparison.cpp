@@ -1,0 +1,157 @@
+#include "postproc/analysis/settings/setting_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "postproc/analysis/sample.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/draw/page.hpp"
+
+namespace cutterflow::postproc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_repeat = "_repeat";
+constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// "pipe_hole_0_repeat2" as the setting and its repeat; a run that is alone is repeat 1.
+std::pair<std::string, int> setting_of(const fs::path& run) {
+    const std::string name = (run.has_filename() ? run : run.parent_path()).filename().string();
+    const std::size_t at = name.rfind(k_repeat);
+    if (at == std::string::npos) return {name, 1};
+    const std::string number = name.substr(at + std::string(k_repeat).size());
+    if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return {name, 1};
+    return {name.substr(0, at), std::stoi(number)};
+}
+
+std::vector<double> paired_differences(const Setting& setting, const Setting& first, std::size_t quantity) {
+    std::vector<double> differences;
+    for (std::size_t n = 0; n < setting.repeats.size(); ++n) {
+        for (std::size_t m = 0; m < first.repeats.size(); ++m) {
+            if (first.repeats[m] == setting.repeats[n])
+                differences.push_back(setting.quantities[quantity].each[n] - first.quantities[quantity].each[m]);
+        }
+    }
+    return differences;
+}
+
+/// "0.321 +- 0.012 s"; what is not known is left out.
+std::string mean_text(const RepeatMean& value, const std::string& unit, bool sign = false) {
+    if (!std::isfinite(value.mean)) return "-";
+    const std::string mean = sign ? fmt::format("{:+.4g}", value.mean) : fmt::format("{:.4g}", value.mean);
+    const std::string half = std::isfinite(value.half) ? fmt::format(" +- {:.2g}", value.half) : "";
+    return mean + half + (unit == "-" ? "" : " " + unit);
+}
+
+bool is_known(const std::vector<Setting>& settings, std::size_t quantity) {
+    return std::any_of(settings.begin(), settings.end(), [&](const Setting& setting) {
+        const SettingQuantity& found = setting.quantities[quantity];
+        return std::isfinite(found.mean.mean) && (found.mean.mean != 0.0 || !found.zero_is_nothing);
+    });
+}
+
+nlohmann::json json_of(const RepeatMean& value) {
+    const auto number = [](double n) { return std::isfinite(n) ? nlohmann::json(n) : nlohmann::json(nullptr); };
+    return {{"mean", number(value.mean)}, {"half_width", number(value.half)}};
+}
+
+void require_same_quantities(const Setting& first, const std::vector<RunQuantity>& quantities, const fs::path& run) {
+    const bool same = std::equal(first.quantities.begin(), first.quantities.end(), quantities.begin(), quantities.end(),
+                                 [](const SettingQuantity& a, const RunQuantity& b) { return a.key == b.key; });
+    if (!same)
+        throw UserError(fmt::format("{} measures something else than {}", run.string(), first.name),
+                        "Runs beside each other have the same measures",
+                        "Give them the same [[measure]] tables: cutterflow measure makes them anew");
+}
+
+}  // namespace
+
+RepeatMean repeat_mean(const std::vector<double>& values) {
+    if (values.empty() || !std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+        return {k_unknown, k_unknown};
+    const Sample sample = sample_of(values);
+    return {sample.mean, sample.count < 2 ? k_unknown : half_interval(sample)};
+}
+
+std::vector<Setting> compare_settings(const std::vector<fs::path>& runs,
+                                      const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
+    std::vector<Setting> settings;
+    for (const fs::path& run : runs) {
+        const std::vector<RunQuantity> quantities = quantities_of(run);
+        const auto [name, repeat] = setting_of(run);
+        auto setting = std::find_if(settings.begin(), settings.end(), [&, &wanted = name](const auto& one) { return one.name == wanted; });
+        if (setting == settings.end()) {
+            settings.push_back({name, {}, {}});
+            setting = settings.end() - 1;
+            for (const RunQuantity& one : quantities)
+                setting->quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}});
+        }
+        require_same_quantities(settings.front(), quantities, run);
+        setting->repeats.push_back(repeat);
+        for (std::size_t q = 0; q < quantities.size(); ++q) setting->quantities[q].each.push_back(quantities[q].value);
+    }
+    for (Setting& setting : settings) {
+        for (std::size_t q = 0; q < setting.quantities.size(); ++q) {
+            setting.quantities[q].mean = repeat_mean(setting.quantities[q].each);
+            setting.quantities[q].difference = repeat_mean(paired_differences(setting, settings.front(), q));
+        }
+    }
+    return settings;
+}
+
+std::string setting_comparison_text(const std::vector<Setting>& settings) {
+    std::string text;
+    for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
+        if (!is_known(settings, q)) continue;
+        text += fmt::format("{}\n", settings.front().quantities[q].name);
+        for (const Setting& setting : settings) {
+            const SettingQuantity& found = setting.quantities[q];
+            text += fmt::format("  {:<40} {:<24}", setting.name, mean_text(found.mean, found.unit));
+            if (&setting != &settings.front()) text += " difference " + mean_text(found.difference, found.unit, true);
+            text += fmt::format("  ({} run{})\n", setting.repeats.size(), setting.repeats.size() == 1 ? "" : "s");
+        }
+    }
+    return text + "value +- half the 95 % interval (Student's t over repeats); differences from the first setting, in pairs of repeats\n";
+}
+
+nlohmann::json setting_comparison_json(const std::vector<Setting>& settings, const std::string& schema) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (const Setting& setting : settings) {
+        nlohmann::json row{{"name", setting.name}, {"repeats", setting.repeats.size()}};
+        for (const SettingQuantity& quantity : setting.quantities)
+            row[quantity.key] = {{"value", json_of(quantity.mean)}, {"difference", json_of(quantity.difference)}};
+        rows.push_back(row);
+    }
+    return {{"schema", schema}, {"settings", rows}};
+}
+
+fs::path write_setting_comparison(const std::vector<Setting>& settings, const std::string& schema, const fs::path& folder) {
+    require_own_folder(folder, "comparison.json");
+    fs::create_directories(folder);
+    write_file(folder / "comparison.json", setting_comparison_json(settings, schema).dump(2) + "\n");
+    std::string body = "<header><h1>Comparison of runs</h1></header>\n";
+    for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
+        if (!is_known(settings, q)) continue;
+        std::vector<std::vector<std::string>> rows;
+        for (const Setting& setting : settings) {
+            const SettingQuantity& found = setting.quantities[q];
+            rows.push_back({html::escape(setting.name), fmt::format("{}", setting.repeats.size()), mean_text(found.mean, found.unit),
+                            &setting == &settings.front() ? "" : mean_text(found.difference, found.unit, true)});
+        }
+        body += html::section(settings.front().quantities[q].name,
+                              html::table({"setting", "runs", "mean", "difference from the first"}, rows, true));
+    }
+    body += "<p>Mean and half of the 95 % interval (Student's t over repeats); differences in pairs of repeats.</p>";
+    const Page page(folder / "index.html", PageForm::live);
+    page.write("Comparison of runs", body, "");
+    return folder / "index.html";
+}
+
+}  // namespace cutterflow::postproc
