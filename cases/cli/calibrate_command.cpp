@@ -8,10 +8,9 @@
 
 #include "cases/calibration/calibrate.hpp"
 #include "cases/cli/commands.hpp"
+#include "cases/cli/kinds/stage_lines.hpp"
+#include "cases/cli/kinds/study_kind.hpp"
 #include "cases/runner/machine.hpp"
-#include "cases/scenes/free_surface/surface_study.hpp"
-#include "cases/study/study.hpp"
-#include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
@@ -22,10 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void say(const std::string& text) {
-    std::cerr << "  " << text << std::endl;
-}
-
 /// "contact.friction=0.1,0.2" of each axis, as sweep --set takes them.
 std::vector<std::string> words_of(const std::vector<cases::KeyAxis>& axes) {
     std::vector<std::string> words;
@@ -34,18 +29,15 @@ std::vector<std::string> words_of(const std::vector<cases::KeyAxis>& axes) {
 }
 
 std::vector<cases::SweepPoint> points(const fs::path& study, const std::vector<cases::KeyAxis>& axes, int repeats, const fs::path& folder) {
-    if (cases::is_surface_study(study))
-        return cases::surface_sweep_points(
-            study, cases::key_axes(cases::surface_study_table(), words_of(axes), "cutterflow params --kind free_surface"), repeats);
-    cases::SweepAxes all;
-    all.repeats = repeats;
-    all.keys = cases::key_axes(cases::study_table(), words_of(axes), "cutterflow params");
-    return cases::sweep_points(study, all, folder);
+    SweepOptions options;
+    options.study = study.string();
+    options.axes.repeats = repeats;
+    options.set = words_of(axes);
+    return kind_of_study(study).points(options, folder);
 }
 
 std::optional<double> predicted_core_s(const fs::path& study) {
-    if (!cases::is_surface_study(study)) return std::nullopt;
-    return cases::check_surface_study(study).prediction.at("core_s").get<double>();
+    return kind_of_study(study).predicted_core_s(study);
 }
 
 cases::StudyAccess study_access() {

@@ -10,42 +10,24 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/kinds/stage_lines.hpp"
+#include "cases/cli/kinds/study_kind.hpp"
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/cli/replay_lines.hpp"
 #include "cases/runner/machine.hpp"
-#include "cases/scenes/free_surface/surface_study.hpp"
 #include "cases/study/study.hpp"
-#include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/shell_word.hpp"
-#include "postproc/analysis/surface_comparison.hpp"
 #include "postproc/pages/comparison_page.hpp"
-#include "postproc/pages/surface_page.hpp"
 
 namespace cutterflow::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-void say(const std::string& text) {
-    std::cerr << "  " << text << std::endl;
-}
-
-struct SweepOptions {
-    std::string study;
-    std::optional<std::string> output;
-    cases::SweepAxes axes;
-    std::vector<std::string> set;  ///< other keys of the study
-    int ranks = 1;
-    bool resume = false;
-    std::string launcher = "local";
-    bool emit = false;
-    int replays = 0;  ///< of every setting; 0: none
-};
 
 /// Options unknown to CLI11: most likely a key that a sweep does not vary.
 void require_known_axes(const std::vector<std::string>& words) {
@@ -65,16 +47,12 @@ void require_known_axes(const std::vector<std::string>& words) {
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-bool is_surface(const SweepOptions& options) {
-    return fs::exists(options.study) && cases::is_surface_study(options.study);
-}
-
 /// \throws UserError  when the points would record no flow, or run elsewhere
 void require_recorded_points(const SweepOptions& options) {
     if (options.replays == 0) return;
-    if (is_surface(options) || options.launcher != "local" || options.emit)
-        throw UserError("--replay with a free-surface study, --launcher slurm or --emit", "Replays follow cutters that run on this machine",
-                        "Leave it out, and use cutterflow replay on the finished runs");
+    if (!kind_of_study(options.study).replays || options.launcher != "local" || options.emit)
+        throw UserError("--replay with a study that is not a cutter's, --launcher slurm or --emit",
+                        "Replays follow cutters that run on this machine", "Leave it out, and use cutterflow replay on the finished runs");
     if (cases::read_study(options.study).number("run.record_revolutions") == 0.0)
         throw UserError({{options.study, "run.record_revolutions = 0 in a sweep with --replay",
                           "A replay needs the flow that its run recorded before the rock", "Set run.record_revolutions = 1"}});
@@ -100,26 +78,6 @@ void replay_settings(const SweepOptions& options, const std::vector<cases::Sweep
     }
 }
 
-/// The points of a study, of whichever kind it is.
-std::vector<cases::SweepPoint> points_of(const SweepOptions& options, const fs::path& folder) {
-    if (!is_surface(options)) {
-        cases::SweepAxes axes = options.axes;
-        axes.keys = cases::key_axes(cases::study_table(), options.set, "cutterflow params");
-        return cases::sweep_points(options.study, axes, folder);
-    }
-    if (!options.axes.speeds.empty() || !options.axes.discharges.empty() || !options.axes.designs.empty() || options.ranks != 1)
-        throw UserError("--rpm, --discharge, --design or --ranks in a sweep of a free-surface study", "They belong to cutters",
-                        "Use --set KEY=a,b and --repeats");
-    return cases::surface_sweep_points(options.study,
-                                       cases::key_axes(cases::surface_study_table(), options.set, "cutterflow params --kind free_surface"),
-                                       options.axes.repeats);
-}
-
-fs::path write_comparison(const std::vector<fs::path>& runs, bool surface, const fs::path& folder) {
-    return surface ? postproc::write_surface_comparison(postproc::compare_surface_runs(runs), folder)
-                   : postproc::write_comparison(postproc::compare_runs(runs), folder);
-}
-
 /// \param words  that belong to no option
 void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     const bool local = options.launcher == "local" && !options.emit;
@@ -131,7 +89,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     // Slurm's nodes may have more cores than the submitting machine.
     mistakes.gather([&] { cases::require_machine(local ? options.ranks : std::min(options.ranks, 1)); });
     mistakes.gather([&] { cases::require_sweep_folder(folder, options.resume); });
-    mistakes.gather([&] { points = points_of(options, folder); });
+    mistakes.gather([&] { points = kind_of_study(options.study).points(options, folder); });
     mistakes.gather([&] { require_recorded_points(options); });
     mistakes.refuse();
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
@@ -161,7 +119,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     }
     if (outcome.done.size() > 1)
         std::cout << fmt::format("the comparison: {}\n",
-                                 write_comparison(outcome.done, is_surface(options), folder / "comparison").string());
+                                 kind_of_study(options.study).write_comparison(outcome.done, folder / "comparison").string());
     if (options.replays > 0) replay_settings(options, points, outcome.done, folder);
     if (!outcome.failed.empty()) {
         std::vector<Mistake> failures;
@@ -170,40 +128,15 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     }
 }
 
-struct CompareOptions {
-    std::vector<std::string> runs;
-    std::optional<std::string> output, still_folder;
-    std::vector<std::string> measured;
-    bool measured_template = false;
-    bool json = false;
-};
-
-void compare_surfaces(const CompareOptions& options) {
-    if (!options.measured.empty())
-        throw UserError("--measured with free-surface runs", "Measured points are spillage and production of cutters", "Leave it out");
-    if (options.still_folder) throw UserError("--static with free-surface runs", "Their page has no script to leave out", "Use --output");
-    const auto settings = postproc::compare_surface_runs({options.runs.begin(), options.runs.end()});
-    std::cout << (options.json ? postproc::surface_comparison_json(settings).dump(2) + "\n" : postproc::setting_comparison_text(settings));
-    if (options.output) say(fmt::format("the page: {}", postproc::write_surface_comparison(settings, *options.output).string()));
-}
-
 void compare(const CompareOptions& options) {
     if (options.measured_template) {
         std::cout << postproc::measured_template() << std::flush;
         return;
     }
-    if (std::any_of(options.runs.begin(), options.runs.end(), [](const std::string& run) { return postproc::is_surface_run(run); }))
-        return compare_surfaces(options);
-    postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
-    postproc::add_measured(comparison, {options.measured.begin(), options.measured.end()});
-    if (options.output && options.still_folder) require_different_places("--output", *options.output, "--static", *options.still_folder);
-    for (const auto& folder : {options.output, options.still_folder})
-        if (folder) postproc::require_own_comparison(comparison, *folder);
-    std::cout << (options.json ? postproc::comparison_json(comparison).dump(2) + "\n" : postproc::comparison_text(comparison));
-    if (options.output) say(fmt::format("the page: {}", postproc::write_comparison(comparison, *options.output).string()));
-    if (options.still_folder)
-        say(fmt::format("the page without scripts: {}",
-                        postproc::write_comparison(comparison, *options.still_folder, postproc::PageForm::still).string()));
+    // A run that belongs to no other kind is taken for a cutter's.
+    const auto is_other = [](const std::string& run) { return &kind_of_run(run) != &study_kinds().front(); };
+    const auto other = std::find_if(options.runs.begin(), options.runs.end(), is_other);
+    (other == options.runs.end() ? study_kinds().front() : kind_of_run(*other)).compare(options);
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ void share_meshes(const std::vector<SweepPoint>& points, const SweepSettings& se
     for (const SweepPoint& point : points) {
         if (point.design.empty()) continue;
         const std::string& donor = donors.at(point.design);
-        if (donor != point.name) share_stages(settings.folder / donor, settings.folder / point.name, {"geometry", "mesh"});
+        if (donor != point.name) share_stages(settings.folder / donor, settings.folder / point.name, point.shared);
     }
 }
 

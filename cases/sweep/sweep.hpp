@@ -22,8 +22,9 @@ struct SweepAxes {
 struct SweepPoint {
     std::string name;           ///< also of its run directory
     std::string text;           ///< of its study file, which is in the sweep's folder
-    std::string design;         ///< points of one design share geometry and mesh; empty: none is made
+    std::string design;         ///< points of one design share the first stages; empty: it shares none
     std::string start_donor{};  ///< of a repeat: the first one of its setting, whose frozen-rotor flow it takes if that is done; else empty
+    std::vector<std::string> shared{"geometry", "mesh"};  ///< stages that points of one design share: what `cutterflow mesh` makes
 };
 
 /// \throws UserError  for a path that OpenFOAM does not take; when the folder holds something else, a sweep and `resume` is false, or

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/scenes/study_kind.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
 #include "solver/physics/contact.hpp"
@@ -405,7 +405,7 @@ TEST(Study, every_example_reads) {
     int studies = 0;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples")) {
         if (entry.path().extension() != ".toml" || entry.path().filename().string().rfind("study", 0) != 0) continue;
-        if (is_surface_study(entry.path())) continue;
+        if (!kind_named_in(entry.path()).empty()) continue;
         const ParameterValues values = read_study(entry.path());
         EXPECT_TRUE(check_study(resolve_study(values, k_model), k_model).empty()) << entry.path();
         ++studies;

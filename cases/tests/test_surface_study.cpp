@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/scenes/study_kind.hpp"
 #include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -51,9 +52,11 @@ protected:
 };
 
 TEST_F(SurfaceStudy, is_told_by_its_kind_alone) {
-    EXPECT_TRUE(is_surface_study(write("a.toml", "# kind = \"other\"\n\n  kind = \"free_surface\"\n[domain]\n")));
-    EXPECT_FALSE(is_surface_study(write("b.toml", "name = \"x\"\n[solid]\nkind = \"free_surface\"\n")));
-    EXPECT_THROW(is_surface_study(write("c.toml", "kind = \"free_surfaces\"\n")), UserError);
+    EXPECT_EQ(kind_named_in(write("a.toml", "# kind = \"other\"\n\n  kind = \"free_surface\"\n[domain]\n")), "free_surface");
+    EXPECT_EQ(kind_named_in(write("b.toml", "name = \"x\"\n[solid]\nkind = \"free_surface\"\n")), "");
+    EXPECT_EQ(kind_named_in(write("c.toml", "[scene]\nkind = \"room\"\n")), "room");
+    EXPECT_EQ(kind_named_in(write("d.toml", "[[[no TOML\n")), "");
+    EXPECT_EQ(kind_named_in(folder_ / "missing.toml"), "");
 }
 
 TEST_F(SurfaceStudy, template_is_valid_and_predicts_its_cost) {

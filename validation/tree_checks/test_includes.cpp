@@ -88,6 +88,7 @@ const std::vector<Layer> k_layers = {
     {"cases/study/",
      {k_base, "geometry/head/", "meshing/cutter/mesh_plan.hpp", "solver/physics/", "solver/ports/", "postproc/run/adv_points.hpp",
       "cases/study/"}},
+    {"cases/scenes/", {k_base, "cases/scenes/"}},
     {"cases/scenes/cutter/", {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "cases/study/", "cases/scenes/cutter/"}},
     {"cases/scenes/free_surface/", {k_base, "solver/free_surface/", "cases/scenes/free_surface/"}},
     {"cases/scenes/room/",

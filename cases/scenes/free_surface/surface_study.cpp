@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -17,31 +16,11 @@ namespace cutterflow::cases {
 
 namespace {
 
-constexpr const char* k_kind = "free_surface";
-
 /// A key that names a file, and what its copies in a run directory are called.
 struct FileKey {
     const char *table, *key, *name;
 };
 constexpr std::array<FileKey, 2> k_file_keys{{{"bodies", "bodies.file", "bodies"}, {"solid", "solid.file", "surface"}}};
-
-/// Text in quotes of the key `kind` above the first section of a TOML file; empty without it.
-std::string kind_of(const std::string& toml) {
-    std::istringstream lines(toml);
-    for (std::string line; std::getline(lines, line);) {
-        const std::size_t first = line.find_first_not_of(" \t");
-        if (first == std::string::npos || line[first] == '#') continue;
-        if (line[first] == '[') break;
-        const std::size_t equals = line.find('=');
-        if (equals == std::string::npos) continue;
-        const std::size_t last = line.find_last_not_of(" \t", equals - 1);
-        if (line.substr(first, last - first + 1) != "kind") continue;
-        const std::size_t quote = line.find_first_of("\"'", equals);
-        if (quote == std::string::npos) return line.substr(equals + 1);
-        return line.substr(quote + 1, line.find(line[quote], quote + 1) - quote - 1);
-    }
-    return "";
-}
 
 double memory_of_machine() {
     return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -74,14 +53,6 @@ nlohmann::json scene_json(const free_surface::Scene& scene) {
 }
 
 }  // namespace
-
-bool is_surface_study(const std::filesystem::path& file) {
-    const std::string kind = kind_of(read_file(file));
-    if (kind.empty()) return false;
-    if (kind == k_kind) return true;
-    throw UserError(fmt::format("{}: kind = \"{}\"", file.string(), kind),
-                    fmt::format("A study is of kind \"{}\", or has no kind: a cutter", k_kind), "Correct or remove the key");
-}
 
 const ParameterTable& surface_study_table() {
     return free_surface::scene_table();

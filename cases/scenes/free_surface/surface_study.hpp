@@ -11,10 +11,6 @@
 
 namespace cutterflow::cases {
 
-/// Whether a study file is one of a scene with a free surface: its key `kind`, before the first section, says so. A cutter study has none.
-/// \throws UserError  when the file cannot be read, or is of no known kind
-bool is_surface_study(const std::filesystem::path& file);
-
 /// Every key of such a study.
 const ParameterTable& surface_study_table();
 

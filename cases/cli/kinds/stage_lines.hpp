@@ -1,0 +1,38 @@
+#pragma once
+/// \file What a user reads while the stages of a run go on.
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cases/cli/kinds/study_kind.hpp"
+#include "cases/runner/stages.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/progress.hpp"
+#include "geometry/base/run_files.hpp"
+
+namespace cutterflow::cli {
+
+/// Progress goes to standard error; standard output has the requested result.
+inline void say(const std::string& text) {
+    std::cerr << "  " << text << std::endl;
+}
+
+inline cases::StageObserver stage_lines(std::size_t count) {
+    return [count, index = std::make_shared<std::size_t>(0)](const cases::Stage& stage, cases::StageEvent event, double wall_s) {
+        if (event != cases::StageEvent::ends) ++*index;
+        const std::string title = fmt::format("[{}/{}] {}", *index, count, stage.name);
+        if (event == cases::StageEvent::skipped) std::cerr << title << ": already done" << std::endl;
+        if (event == cases::StageEvent::begins) std::cerr << title << std::endl;
+        if (event == cases::StageEvent::ends) std::cerr << title << ": done in " << duration_text(wall_s) << std::endl;
+    };
+}
+
+inline void say_where_the_report_is(const RunOptions& options, const cases::RunDirectory& directory) {
+    std::cout << (options.json ? read_file(directory.file(names::results_json))
+                               : fmt::format("the report: {}\n", directory.file(names::report_page).string()))
+              << std::flush;
+}
+
+}  // namespace cutterflow::cli
