@@ -27,6 +27,11 @@ void RunProgress::finish() {
     progress_.finish();
 }
 
+void TimeProgress::take(const std::string& line) {
+    if (const std::optional<double> time = simulated_time(line))
+        progress_.update(*time / end_time_, fmt::format("{:.4g} of {:g} s", *time, end_time_));
+}
+
 void keep_older_log(const std::filesystem::path& log) {
     if (!std::filesystem::exists(log)) return;
     for (int i = 1;; ++i) {

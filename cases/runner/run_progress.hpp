@@ -24,6 +24,18 @@ private:
     Progress progress_;
 };
 
+/// The same of a run without a rotor, in seconds.
+class TimeProgress {
+public:
+    TimeProgress(const std::string& what, double end_time) : end_time_(end_time), progress_(what) {}
+    void take(const std::string& line);
+    void finish() { progress_.finish(); }
+
+private:
+    double end_time_;
+    Progress progress_;
+};
+
 /// Renames a log of an earlier attempt to the first free `<log>.<n>`, so that a resumed run does not overwrite it.
 void keep_older_log(const std::filesystem::path& log);
 

@@ -95,6 +95,6 @@ const StudyKind& kind_named(const std::string& name);
 const StudyKind& kind_of_study(const std::filesystem::path& file);
 const StudyKind& kind_of_run(const std::filesystem::path& folder);
 
-extern const StudyKind k_cutter_kind, k_surface_kind;
+extern const StudyKind k_cutter_kind, k_surface_kind, k_room_kind;
 
 }  // namespace cutterflow::cli

@@ -10,7 +10,7 @@
 namespace cutterflow::cli {
 
 const std::vector<StudyKind>& study_kinds() {
-    static const std::vector<StudyKind> kinds{k_cutter_kind, k_surface_kind};
+    static const std::vector<StudyKind> kinds{k_cutter_kind, k_surface_kind, k_room_kind};
     return kinds;
 }
 

@@ -154,6 +154,7 @@ struct PourStep {
     std::string grains;
     Region region;      ///< a box or an upright cylinder, whose lower end the grains come to lie on
     double mass = 0.0;  ///< [kg]
+    std::string where;  ///< in the study, for messages
 };
 /// Until the grains are at rest.
 struct SettleStep {
@@ -216,7 +217,7 @@ struct RoomRun {
 struct RoomScene {
     std::string name;
     Vec3 size = Vec3::Zero();
-    Vec3 gravity = Vec3(0.0, 0.0, -9.81);
+    Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< of the run; the preparation is upright, with as much
     RoomMedium medium;
     double cell = 0.0;  ///< of the mesh [m]; 0 without a medium
     std::vector<RoomRefinement> refinements;
@@ -241,6 +242,7 @@ struct RoomScene {
     coupling::KernelSettings kernel;
     coupling::ClosureSettings closures;
 
+    Vec3 upright_gravity() const { return {0.0, 0.0, -gravity.norm()}; }
     Vec3 lower() const { return {-0.5 * size.x(), -0.5 * size.y(), 0.0}; }
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
     const RoomGrains* find_grains(const std::string& name) const;

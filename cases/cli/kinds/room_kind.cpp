@@ -1,0 +1,148 @@
+/// \file Studies of a room.
+#include <iostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cases/cli/kinds/stage_lines.hpp"
+#include "cases/cli/kinds/study_kind.hpp"
+#include "cases/runner/machine.hpp"
+#include "cases/runner/room_stages.hpp"
+#include "cases/scenes/room/room_prediction.hpp"
+#include "cases/scenes/room/room_study.hpp"
+#include "cases/sweep/room_sweep.hpp"
+#include "geometry/base/installation.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/process/child_process.hpp"
+#include "geometry/base/process/shell_word.hpp"
+#include "geometry/base/versions.hpp"
+#include "postproc/pages/room/room_page.hpp"
+
+namespace cutterflow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string new_study(const NewOptions& options) {
+    if (!options.cutter.empty() || options.unit)
+        throw UserError("--cutter and --unit with --kind room", "Such a study has no cutter", "Leave them out");
+    return cases::room_template(fs::path(options.study).stem().string());
+}
+
+cases::RoomPrediction prediction_of(const std::string& study) {
+    const cases::RoomRequest request = cases::read_room_request(study);
+    return cases::predict(request.scene, request.pieces);
+}
+
+void check(const CheckOptions& options) {
+    const cases::RoomPrediction prediction = prediction_of(options.study);
+    if (options.json) {
+        std::cout << to_json(prediction).dump(2) << std::endl;
+        return;
+    }
+    const std::string next =
+        prediction.medium == "none" ? "next: cutterflow run " + shell_word(options.study) : "rooms with a medium are not run yet";
+    std::cout << to_text(prediction) << fmt::format("{} is valid; {}\n", options.study, next);
+}
+
+std::optional<double> predicted_core_s(const fs::path& study) {
+    return prediction_of(study.string()).core_seconds;
+}
+
+cases::RoomRequest begun_well(const RunOptions& options) {
+    Mistakes mistakes;
+    if (options.ranks != 1)
+        mistakes.add({"", fmt::format("--ranks {}", options.ranks), "A room without a medium runs on one core",
+                      "Leave it out; run several studies side by side"});
+    if (!options.start_from.empty()) mistakes.add({"", "--start-from with a room", "It has no frozen-rotor flow", "Leave it out"});
+    mistakes.gather([&] { cases::require_usable_run_directory(options.folder()); });
+    mistakes.gather([&] { cases::require_machine(1); });
+    cases::RoomRequest request;
+    mistakes.gather([&] { request = cases::read_room_request(options.study); });
+    if (request.scene.medium.present())
+        mistakes.add({request.values.where("room.medium"), fmt::format("room.medium = \"{}\"", request.scene.medium.name),
+                      "Rooms are run without a medium as yet: with one they are checked alone", "Set medium = \"none\""});
+    mistakes.refuse();
+    require_programs({(installation().programs / "cutterFoam").string()});
+    return request;
+}
+
+/// \return the run directory's path
+fs::path go_through(const RunOptions& options, const std::string& until) {
+    const cases::RoomRequest request = begun_well(options);
+    const cases::RunDirectory directory(options.folder());
+    cases::Manifest manifest(directory.file(names::manifest));
+    const auto versions = build_versions();
+    manifest.set_versions({versions.begin(), versions.end()});
+    const std::vector<cases::Stage> stages = cases::room_stages(directory, request, installation().programs / "cutterFoam", say);
+    const auto last = std::find_if(stages.begin(), stages.end(), [&](const cases::Stage& stage) { return stage.name == until; });
+    try {
+        cases::run_stages(directory, manifest, stages, until, options.resume,
+                          stage_lines(static_cast<std::size_t>(last - stages.begin()) + 1));
+    } catch (const Interrupted& interrupted) {
+        throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {} --resume", interrupted.what(),
+                                      directory.path().string(), shell_word(options.study), shell_word(options.folder().string())));
+    }
+    return directory.path();
+}
+
+void prepare(const RunOptions& options) {
+    const fs::path folder = go_through(options, "bed");
+    std::cout << fmt::format("the bed: {}\n", (folder / "bed").string()) << std::flush;
+}
+
+void run(const RunOptions& options) {
+    const fs::path folder = go_through(options, "report");
+    std::cout << (options.json ? read_file(folder / names::results_json)
+                               : fmt::format("the report: {}\n", (folder / names::report_page).string()))
+              << std::flush;
+}
+
+void report(const ReportOptions& options) {
+    if (options.adv_points || options.still_folder)
+        throw UserError("--adv or --static with a room", "They belong to cutters", "Leave them out");
+    const fs::path page = postproc::write_room_report(options.folder);
+    std::cout << (options.json ? read_file(fs::path(options.folder) / names::results_json) : fmt::format("the report: {}\n", page.string()))
+              << std::flush;
+}
+
+std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::path&) {
+    if (!options.axes.speeds.empty() || !options.axes.discharges.empty() || !options.axes.designs.empty() || options.ranks != 1)
+        throw UserError("--rpm, --discharge, --design or --ranks in a sweep of a room", "They belong to cutters",
+                        "Use --set KEY=a,b and --repeats");
+    return cases::room_sweep_points(options.study, cases::key_axes(cases::room_table(), options.set, k_room_kind.params),
+                                    options.axes.repeats);
+}
+
+fs::path write_comparison(const std::vector<fs::path>& runs, const fs::path& folder) {
+    return postproc::write_room_comparison(postproc::compare_room_runs(runs), folder);
+}
+
+void compare(const CompareOptions& options) {
+    if (!options.measured.empty())
+        throw UserError("--measured with runs of rooms", "Measured points are spillage and production of cutters", "Leave it out");
+    if (options.still_folder) throw UserError("--static with runs of rooms", "Their page has no script to leave out", "Use --output");
+    const auto settings = postproc::compare_room_runs({options.runs.begin(), options.runs.end()});
+    std::cout << (options.json ? postproc::room_comparison_json(settings).dump(2) + "\n" : postproc::setting_comparison_text(settings));
+    if (options.output) say(fmt::format("the page: {}", postproc::write_room_comparison(settings, *options.output).string()));
+}
+
+}  // namespace
+
+const StudyKind k_room_kind{"room",
+                            "a box with solids and grains",
+                            "cutterflow params --kind room",
+                            cases::room_table,
+                            new_study,
+                            check,
+                            predicted_core_s,
+                            prepare,
+                            run,
+                            postproc::is_room_run,
+                            report,
+                            points,
+                            false,
+                            write_comparison,
+                            compare};
+
+}  // namespace cutterflow::cli

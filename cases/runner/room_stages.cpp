@@ -1,0 +1,282 @@
+#include "cases/runner/room_stages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cases/runner/run_progress.hpp"
+#include "cases/scenes/room/room_case.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/io/write_stl.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "postproc/pages/room/room_page.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Say = std::function<void(const std::string&)>;
+
+constexpr const char* k_geometry = "geometry";
+constexpr const char* k_bed = "bed";
+constexpr const char* k_case = "case";
+constexpr const char* k_report = "report";
+
+/// Which stage uses a key first, by the longest beginning that fits.
+constexpr std::array<std::pair<const char*, const char*>, 25> k_stage_of_keys{{
+    {"name", k_report},        {"scene.", k_report},       {"measure.", k_case},
+    {"room.", k_bed},          {"room.medium", k_case},    {"room.tilt", k_case},
+    {"room.density", k_case},  {"room.kinematic", k_case}, {"room.turbulence", k_case},
+    {"room.cell", k_case},     {"room.refine", k_case},    {"solid.", k_geometry},
+    {"solid.material", k_bed}, {"solid.fluid", k_case},    {"solid.velocity", k_case},
+    {"solid.from_s", k_case},  {"solid.to_s", k_case},     {"solid.removed", k_case},
+    {"boundary.", k_case},     {"boundary.grains", k_bed}, {"run.", k_case},
+    {"run.seed", k_bed},       {"event.", k_case},         {"closures.", k_case},
+    {"kernel.", k_case},
+}};
+
+std::string stage_of(const std::string& key) {
+    std::string stage = k_bed;  // grains, contacts, materials, steps of the preparation
+    std::size_t longest = 0;
+    for (const auto& [beginning, name] : k_stage_of_keys) {
+        const std::size_t length = std::string(beginning).size();
+        if (key.compare(0, length, beginning) != 0 || length <= longest) continue;
+        longest = length;
+        stage = name;
+    }
+    return stage;
+}
+
+/// What a table of an array is called in messages: its name, its pair, or its number.
+std::string member_name(const ParameterValues& member, const std::string& array, std::size_t number) {
+    if (member.has(array + ".name")) return member.text(array + ".name");
+    if (member.has(array + ".pair")) return member.texts(array + ".pair")[0] + "-" + member.texts(array + ".pair")[1];
+    return std::to_string(number);
+}
+
+/// Adds the values that belong to `stage`. \param prefix  of the names, in the place of `array`
+void add_inputs(const ParameterValues& values, const std::string& array, const std::string& prefix, const std::string& stage,
+                std::map<std::string, std::string>& inputs) {
+    const ParameterTable& table = room_table();
+    for (const Parameter& parameter : table) {
+        if (parameter_words::enclosing_array(table, parameter.key) != array || !values.has(parameter.key) ||
+            stage_of(parameter.key) != stage)
+            continue;
+        const std::string name = prefix + parameter.key.substr(array.size());
+        inputs[name] =
+            parameter.kind == ParameterKind::path ? sha256_of_file(values.text(parameter.key)) : toml_text(*values.find(parameter.key));
+    }
+    for (const std::string& inner : repeated_sections(table, array)) {
+        std::size_t number = 0;
+        for (const ParameterValues& member : values.tables(inner))
+            add_inputs(member, inner, prefix + inner.substr(array.size()) + "." + member_name(member, inner, ++number), stage, inputs);
+    }
+}
+
+std::map<std::string, std::string> inputs_of(const ParameterValues& values, const std::string& stage) {
+    std::map<std::string, std::string> inputs;
+    add_inputs(values, "", "", stage, inputs);
+    return inputs;
+}
+
+void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
+    for (const CaseText& file : files) write_file(folder / file.path, file.text);
+}
+
+/// Runs cutterFoam in a folder and shows how far it is.
+double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end) {
+    const ChildCommand command = meshing::foam_command(folder, solver.string(), {}, 1);
+    keep_older_log(command.log);
+    TimeProgress progress(what, end);
+    const ChildResult result = run_child(command, [&](const std::string& line) { progress.take(line); });
+    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
+    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    progress.finish();
+    return result.core_s;
+}
+
+/// A room's run directory.
+class RoomWork {
+public:
+    RoomWork(const RunDirectory& directory, const RoomRequest& request, fs::path solver, Say say)
+        : directory_(directory),
+          scene_(request.scene),
+          pieces_(request.pieces),
+          values_(request.values),
+          solver_(std::move(solver)),
+          say_(std::move(say)),
+          bed_(bed_name(scene_, pieces_)) {}
+
+    StageOutcome make_geometry() const {
+        StageOutcome outcome;
+        fs::create_directories(directory_.file("geometry"));
+        for (const RoomSolid& solid : scene_.solids) {
+            geometry::write_stl(solid.surface, directory_.file(surface_file(solid)));
+            outcome.outputs.push_back(surface_file(solid));
+        }
+        return outcome;
+    }
+
+    /// Piece by piece; one that is done is not done again.
+    StageOutcome make_bed() const {
+        StageOutcome outcome;
+        std::string start;
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            const fs::path folder = piece_folder(i);
+            if (!fs::exists(folder / k_done)) {
+                write_texts(folder, bed_case(scene_, pieces_[i], start, "../../"));
+                outcome.core_s +=
+                    run_cutter_foam(folder, solver_, fmt::format("  bed, part {} of {}", i + 1, pieces_.size()), pieces_[i].end());
+                require_rest(i);
+                write_file(folder / k_done, "");
+            }
+            start = fmt::format("../{}/checkpoints/{}", i + 1, newest_checkpoint(folder).filename().string());
+        }
+        if (pieces_.empty()) return outcome;
+        keep_bed(newest_checkpoint(piece_folder(pieces_.size() - 1)));
+        for (const std::string& file : files_below(directory_.path(), bed_start())) outcome.outputs.push_back(file);
+        return outcome;
+    }
+
+    StageOutcome make_case() const {
+        std::vector<CaseText> files = grain_files(scene_, pieces_.empty() ? "" : bed_start(), first_fed_id());
+        files.push_back(dry_control(scene_.run.end, scene_.run.longest_step, scene_.run.write_interval));
+        files.push_back({k_measures, scene_.measures.dump(2) + "\n"});
+        files.push_back({postproc::k_room_file, room_json().dump(2) + "\n"});
+        files.push_back(
+            {names::resolved_study, "# The study as it was computed. Written by cutterflow: change the study, not this file.\n\n" +
+                                        plain_toml(room_table(), values_)});
+        write_texts(directory_.path(), files);
+        StageOutcome outcome;
+        for (const CaseText& file : files) outcome.outputs.push_back(file.path);
+        for (const std::string& file : directory_.apply_overrides(directory_.overrides())) {
+            say_("override: " + file);
+            if (std::find(outcome.outputs.begin(), outcome.outputs.end(), file) == outcome.outputs.end()) outcome.outputs.push_back(file);
+        }
+        return outcome;
+    }
+
+    StageOutcome run(bool resume) const {
+        if (resume && !newest_checkpoint(directory_.path()).empty()) say_("resuming from the last checkpoint");
+        return {{}, run_cutter_foam(directory_.path(), solver_, "  run", scene_.run.end)};
+    }
+
+    StageOutcome report() const {
+        postproc::write_room_report(directory_.path());
+        return {};
+    }
+
+private:
+    static constexpr const char* k_done = "done";
+    static constexpr const char* k_measures = "measures.json";
+
+    fs::path piece_folder(std::size_t piece) const { return directory_.file(fmt::format("bed/{}", piece + 1)); }
+    std::string bed_start() const { return "bed/checkpoints/" + bed_; }
+
+    /// A piece whose run went on to its end has grains that still move.
+    void require_rest(std::size_t piece) const {
+        const double end = pieces_[piece].end(), reached = std::stod(newest_checkpoint(piece_folder(piece)).filename().string());
+        if (reached < end - 0.5 * scene_.run.longest_step) return;
+        throw CheckFailure(
+            {"", fmt::format("the grains of {} are not at rest after {:g} s", piece_folder(piece).string(), end),
+             "A preparation ends with its mean kinetic energy below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
+             "Look at its pictures; give the step settle a larger longest_s, or the contacts friction and rolling friction"});
+    }
+
+    /// The last checkpoint of the preparation under its name.
+    void keep_bed(const fs::path& checkpoint) const {
+        const fs::path kept = directory_.file(bed_start()), part = directory_.file(bed_start() + ".part");
+        if (fs::exists(kept)) return;
+        fs::create_directories(kept.parent_path());
+        fs::remove_all(part);
+        fs::copy(checkpoint, part, fs::copy_options::recursive);
+        fs::rename(part, kept);
+    }
+
+    int first_fed_id() const {
+        int last = 0;
+        for (const BedPiece& piece : pieces_)
+            for (const PlacedGrain& grain : piece.grains) last = std::max(last, grain.id);
+        return last + 1;
+    }
+
+    nlohmann::json room_json() const {
+        std::size_t poured = 0;
+        double mass = 0.0;
+        for (const BedPiece& piece : pieces_)
+            for (const PlacedGrain& grain : piece.grains) {
+                ++poured;
+                mass += grain.density * 3.14159265358979323846 / 6.0 * grain.diameter * grain.diameter * grain.diameter;
+            }
+        nlohmann::json solids = nlohmann::json::array();
+        for (const RoomSolid& solid : scene_.solids) {
+            nlohmann::json one{{"name", solid.name}, {"file", surface_file(solid)}, {"material", solid.material}};
+            if (solid.travel)
+                one["travel"] = {{"velocity_m_s", {solid.travel->velocity.x(), solid.travel->velocity.y(), solid.travel->velocity.z()}},
+                                 {"from_s", solid.travel->begin},
+                                 {"to_s", solid.travel->end}};
+            if (solid.removed_at) one["removed_at_s"] = *solid.removed_at;
+            solids.push_back(one);
+        }
+        nlohmann::json grains = nlohmann::json::array();
+        for (const RoomGrains& kind : scene_.grains)
+            grains.push_back(
+                {{"name", kind.name}, {"density_kg_m3", kind.density}, {"smallest_m", kind.smallest()}, {"largest_m", kind.largest()}});
+        return {
+            {"name", scene_.name},
+            {"size_m", {scene_.size.x(), scene_.size.y(), scene_.size.z()}},
+            {"gravity_m_s2", {scene_.gravity.x(), scene_.gravity.y(), scene_.gravity.z()}},
+            {"medium", scene_.medium.name},
+            {"end_s", scene_.run.end},
+            {"seed", scene_.run.seed},
+            {"bed", pieces_.empty() ? nlohmann::json()
+                                    : nlohmann::json{{"name", bed_}, {"poured", poured}, {"poured_kg", mass}, {"parts", pieces_.size()}}},
+            {"grains", grains},
+            {"solids", solids}};
+    }
+
+    const RunDirectory& directory_;
+    const RoomScene& scene_;
+    const std::vector<BedPiece>& pieces_;
+    const ParameterValues& values_;
+    fs::path solver_;
+    Say say_;
+    std::string bed_;
+};
+
+}  // namespace
+
+RoomRequest read_room_request(const fs::path& study) {
+    RoomRequest request;
+    request.values = read_placed_room(study);
+    request.scene = room_scene(request.values, study.parent_path());
+    request.pieces = bed_pieces(request.scene);
+    return request;
+}
+
+std::map<std::string, std::string> bed_inputs(const ParameterValues& values) {
+    std::map<std::string, std::string> inputs = inputs_of(values, k_geometry);
+    inputs.merge(inputs_of(values, k_bed));
+    return inputs;
+}
+
+std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, Say say) {
+    const auto room = std::make_shared<const RoomWork>(directory, request, solver, std::move(say));
+    std::map<std::string, std::string> of_case = inputs_of(request.values, k_case);
+    for (const std::string& file : directory.overrides())
+        of_case["overrides/" + file] = sha256_of_file(directory.file("overrides/" + file));
+    return {{k_geometry, inputs_of(request.values, k_geometry), {}, false, [room](bool) { return room->make_geometry(); }},
+            {k_bed, inputs_of(request.values, k_bed), {}, true, [room](bool) { return room->make_bed(); }},
+            {k_case, of_case, {}, false, [room](bool) { return room->make_case(); }},
+            {"run", {}, {}, true, [room](bool resume) { return room->run(resume); }},
+            {k_report, inputs_of(request.values, k_report), {}, false, [room](bool) { return room->report(); }}};
+}
+
+}  // namespace cutterflow::cases

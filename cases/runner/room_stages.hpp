@@ -1,0 +1,31 @@
+#pragma once
+/// \file The stages of a room's study in its run directory: geometry, bed, case, run, report.
+#include <functional>
+#include <map>
+#include <string>
+
+#include "cases/runner/run_directory.hpp"
+#include "cases/runner/stages.hpp"
+#include "cases/scenes/room/bed.hpp"
+#include "cases/scenes/room/room_study.hpp"
+
+namespace cutterflow::cases {
+
+/// A checked study of a room.
+struct RoomRequest {
+    ParameterValues values;  ///< files by absolute paths
+    RoomScene scene;
+    std::vector<BedPiece> pieces;
+};
+
+/// \throws UserError  with every mistake of the file
+RoomRequest read_room_request(const std::filesystem::path& study);
+
+/// \param request  must outlive the stages, as must `directory` \param solver  cutterFoam \param say  receives lines for the user
+std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const std::filesystem::path& solver,
+                               std::function<void(const std::string&)> say);
+
+/// What the bed of a room depends on, by key: points of a sweep with equal ones share it.
+std::map<std::string, std::string> bed_inputs(const ParameterValues& values);
+
+}  // namespace cutterflow::cases

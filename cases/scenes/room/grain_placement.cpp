@@ -1,0 +1,282 @@
+#include "cases/scenes/room/grain_placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/cgal/solid_search.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+constexpr double k_falling_share = 0.3;  // of the free part of a region that a batch fills at most
+constexpr double k_falling_speed = 1.0;  // [m/s]
+constexpr double k_times_to_fall = 2.0;  // until the next batch
+constexpr int k_tries = 400;             // places tried for a grain before it waits for the next batch
+constexpr int k_most_batches = 10000;
+constexpr double k_gap = 1e-3;  // between grains that begin, over the diameter
+
+double volume_of(double diameter) {
+    return k_pi * diameter * diameter * diameter / 6.0;
+}
+
+double bottom_of(const Region& region) {
+    if (const auto* box = std::get_if<RegionBox>(&region)) return box->lower.z();
+    return std::get<RegionCylinder>(region).from.z();
+}
+
+std::pair<Eigen::Array2d, Eigen::Array2d> extent_of(const Region& region) {
+    if (const auto* box = std::get_if<RegionBox>(&region)) return {box->lower.head<2>().array(), box->upper.head<2>().array()};
+    const auto& cylinder = std::get<RegionCylinder>(region);
+    return {cylinder.from.head<2>().array() - cylinder.radius, cylinder.from.head<2>().array() + cylinder.radius};
+}
+
+bool overlap_seen_from_above(const Region& a, const Region& b) {
+    const auto [a_from, a_to] = extent_of(a);
+    const auto [b_from, b_to] = extent_of(b);
+    return (a_from < b_to).all() && (b_from < a_to).all();
+}
+
+/// Grains that begin, found by the cells of a grid.
+class Neighbours {
+public:
+    explicit Neighbours(double largest_diameter) : cell_(largest_diameter * (1.0 + k_gap)) {}
+
+    bool has_room(const Vec3& place, double diameter) const {
+        const auto [i, j, k] = cell_of(place);
+        for (std::int64_t a = i - 1; a <= i + 1; ++a)
+            for (std::int64_t b = j - 1; b <= j + 1; ++b)
+                for (std::int64_t c = k - 1; c <= k + 1; ++c) {
+                    const auto found = grains_.find(key(a, b, c));
+                    if (found == grains_.end()) continue;
+                    for (const auto& [other, size] : found->second)
+                        if ((other - place).norm() < 0.5 * (size + diameter) * (1.0 + k_gap)) return false;
+                }
+        return true;
+    }
+    void add(const Vec3& place, double diameter) {
+        const auto [i, j, k] = cell_of(place);
+        grains_[key(i, j, k)].emplace_back(place, diameter);
+    }
+
+private:
+    std::array<std::int64_t, 3> cell_of(const Vec3& place) const {
+        return {static_cast<std::int64_t>(std::floor(place.x() / cell_)), static_cast<std::int64_t>(std::floor(place.y() / cell_)),
+                static_cast<std::int64_t>(std::floor(place.z() / cell_))};
+    }
+    /// Cells of one key are tested by distance all the same.
+    static std::int64_t key(std::int64_t i, std::int64_t j, std::int64_t k) { return (i * 73856093) ^ (j * 19349663) ^ (k * 83492791); }
+
+    double cell_;
+    std::unordered_map<std::int64_t, std::vector<std::pair<Vec3, double>>> grains_;
+};
+
+/// Random places of a region, within it as a whole, clear of the solids.
+class Places {
+public:
+    Places(const RoomScene& scene, std::mt19937_64& random) : random_(random) {
+        for (const RoomSolid& solid : scene.solids) solids_.emplace_back(solid.surface);
+    }
+
+    /// \param from, to  levels between which the whole grain lies; none when there is no place between
+    std::optional<Vec3> draw(const Region& region, double from, double to, double diameter) {
+        const double radius = 0.5 * diameter;
+        if (to - from < diameter) return std::nullopt;
+        Vec3 place(0.0, 0.0, between(from + radius, to - radius));
+        if (const auto* box = std::get_if<RegionBox>(&region)) {
+            if (box->upper.x() - box->lower.x() < diameter || box->upper.y() - box->lower.y() < diameter) return std::nullopt;
+            place.x() = between(box->lower.x() + radius, box->upper.x() - radius);
+            place.y() = between(box->lower.y() + radius, box->upper.y() - radius);
+            return place;
+        }
+        const auto& cylinder = std::get<RegionCylinder>(region);
+        if (cylinder.radius < radius) return std::nullopt;
+        const double out = (cylinder.radius - radius) * std::sqrt(between(0.0, 1.0)), angle = between(0.0, 2.0 * k_pi);
+        place.head<2>() = cylinder.from.head<2>() + out * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        return place;
+    }
+
+    bool clear_of_solids(const Vec3& place, double diameter) const {
+        return std::none_of(solids_.begin(), solids_.end(), [&](const geometry::SolidSearch& solid) {
+            return solid.nearest(place).distance < 0.5 * diameter * (1.0 + k_gap) || solid.contains(place);
+        });
+    }
+
+private:
+    double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+    std::mt19937_64& random_;
+    std::vector<geometry::SolidSearch> solids_;
+};
+
+/// Time to fall a height from the speed with which grains begin.
+double time_to_fall(double height, double gravity) {
+    if (gravity == 0.0) return height / k_falling_speed;
+    return (std::sqrt(k_falling_speed * k_falling_speed + 2.0 * gravity * height) - k_falling_speed) / gravity;
+}
+
+double draw_diameter(const RoomGrains& grains, std::mt19937_64& random) {
+    if (const auto* uniform = std::get_if<UniformByNumber>(&grains.sizes))
+        return std::uniform_real_distribution<double>(uniform->smallest, uniform->largest)(random);
+    const auto& classes = std::get<std::vector<GrainClass>>(grains.sizes);
+    std::vector<double> numbers;  // grains per mass
+    for (const GrainClass& one : classes) numbers.push_back(one.mass_share / volume_of(one.diameter));
+    return classes[std::discrete_distribution<std::size_t>(numbers.begin(), numbers.end())(random)].diameter;
+}
+
+}  // namespace
+
+/// A pour in batches.
+struct Pouring::Impl {
+public:
+    Impl(const RoomScene& scene, std::mt19937_64& random) : scene_(scene), random_(random), places_(scene, random) {}
+
+    /// \throws UserError  when grains find no place
+    void pour(const PourStep& step) {
+        const RoomGrains& grains = *scene_.find_grains(step.grains);
+        const std::vector<double> diameters = draw_diameters(grains, step.mass, random_);
+        const double bottom = bottom_of(step.region), top = bottom + height_of(step.region), area = area_of(step.region);
+        double level = std::min(bottom + lying_in(step.region) / area, top);
+        std::size_t next = 0;
+        for (int batch = 0; next < diameters.size() && batch < k_most_batches; ++batch) {
+            const std::size_t before = next;
+            const double placed = place_batch(step, grains, diameters, next, level, top, area);
+            if (next == before) return refuse(step, diameters.size() - next, diameters.size());
+            deposits_.emplace_back(step.region, placed / k_packed_share);
+            level = std::min(level + placed / (k_packed_share * area), top);
+            time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity.norm());
+        }
+    }
+
+    std::vector<PlacedGrain> take() {
+        time_ = 0.0;
+        return std::exchange(grains_, {});
+    }
+
+private:
+    /// \return volume of the placed grains [m3]
+    double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<double>& diameters, std::size_t& next,
+                       double level, double top, double area) {
+        Neighbours neighbours(grains.largest());
+        const double allowed = k_falling_share * area * (top - level);
+        double placed = 0.0;
+        for (; next < diameters.size(); ++next) {
+            const double diameter = diameters[next];
+            if (placed > 0.0 && placed + volume_of(diameter) > allowed) break;
+            const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, diameter);
+            if (!place) break;
+            neighbours.add(*place, diameter);
+            placed += volume_of(diameter);
+            grains_.push_back({++last_id_, time_, *place, diameter, grains.density, Vec3(0.0, 0.0, -k_falling_speed)});
+        }
+        return placed;
+    }
+
+    std::optional<Vec3> free_place(const Region& region, const Neighbours& neighbours, double level, double top, double diameter) {
+        for (int i = 0; i < k_tries; ++i) {
+            const std::optional<Vec3> place = places_.draw(region, level, top, diameter);
+            if (!place) return std::nullopt;
+            if (neighbours.has_room(*place, diameter) && places_.clear_of_solids(*place, diameter)) return place;
+        }
+        return std::nullopt;
+    }
+
+    /// Bulk volume [m3] that earlier pours may have left in a region.
+    double lying_in(const Region& region) const {
+        double volume = 0.0;
+        for (const auto& [other, bulk] : deposits_)
+            if (overlap_seen_from_above(other, region)) volume += bulk;
+        return volume;
+    }
+
+    [[noreturn]] void refuse(const PourStep& step, std::size_t left, std::size_t all) const {
+        throw UserError(
+            {{step.where, fmt::format("{} of {} grains of {} find no place in the region of their pour", left, all, step.grains),
+              "They begin in its free part, above what has come down, clear of the solids", "Pour less, or give a larger region"}});
+    }
+
+    const RoomScene& scene_;
+    std::mt19937_64& random_;
+    Places places_;
+    std::vector<PlacedGrain> grains_;
+    double time_ = 0.0;
+    std::vector<std::pair<Region, double>> deposits_;  // bulk volume [m3] that came down in each region
+    int last_id_ = 0;
+};
+
+Pouring::Pouring(const RoomScene& scene, std::mt19937_64& random) : impl_(std::make_unique<Impl>(scene, random)) {}
+Pouring::~Pouring() = default;
+
+void Pouring::pour(const PourStep& step) {
+    impl_->pour(step);
+}
+
+std::vector<PlacedGrain> Pouring::take() {
+    return impl_->take();
+}
+
+double area_of(const Region& region) {
+    if (const auto* box = std::get_if<RegionBox>(&region)) return (box->upper.x() - box->lower.x()) * (box->upper.y() - box->lower.y());
+    const auto& cylinder = std::get<RegionCylinder>(region);
+    return k_pi * cylinder.radius * cylinder.radius;
+}
+
+double height_of(const Region& region) {
+    if (const auto* box = std::get_if<RegionBox>(&region)) return box->upper.z() - box->lower.z();
+    const auto& cylinder = std::get<RegionCylinder>(region);
+    return cylinder.to.z() - cylinder.from.z();
+}
+
+std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::mt19937_64& random) {
+    std::vector<double> diameters;
+    for (double drawn = 0.0;;) {
+        const double diameter = draw_diameter(grains, random), weight = grains.density * volume_of(diameter);
+        if (drawn + 0.5 * weight > mass && !diameters.empty()) return diameters;
+        diameters.push_back(diameter);
+        drawn += weight;
+    }
+}
+
+std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::mt19937_64& random) {
+    Places places(scene, random);
+    std::vector<PlacedGrain> grains;
+    for (const RoomEvent& event : scene.events) {
+        const auto* feed = std::get_if<FeedEvent>(&event);
+        if (feed == nullptr) continue;
+        const RoomGrains& kind = *scene.find_grains(feed->grains);
+        const double bottom = bottom_of(feed->region), top = bottom + height_of(feed->region);
+        double due = 0.0;
+        for (const double diameter : draw_diameters(kind, feed->rate * (feed->to - feed->from), random)) {
+            std::optional<Vec3> place;
+            for (int i = 0; i < k_tries; ++i) {
+                place = places.draw(feed->region, bottom, top, diameter);
+                if (!place || places.clear_of_solids(*place, diameter)) break;
+                place.reset();
+            }
+            if (!place)
+                throw UserError(fmt::format("grains of {} find no place in the region of their feed", feed->grains),
+                                "They begin in the region as a whole, clear of the solids", "Give a larger region");
+            grains.push_back(
+                {first_id + static_cast<int>(grains.size()), feed->from + due / feed->rate, *place, diameter, kind.density, Vec3::Zero()});
+            due += kind.density * volume_of(diameter);
+        }
+    }
+    std::stable_sort(grains.begin(), grains.end(), [](const PlacedGrain& a, const PlacedGrain& b) { return a.time < b.time; });
+    return grains;
+}
+
+std::string grain_feed_csv(const std::vector<PlacedGrain>& grains) {
+    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
+    for (const PlacedGrain& g : grains)
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", g.id, g.time, g.position.x(), g.position.y(), g.position.z(), g.diameter,
+                            g.density, g.velocity.x(), g.velocity.y(), g.velocity.z());
+    return text;
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,25 @@
+#pragma once
+/// \file The tables [[measure]] of a room's study: their keys are those of the measures that can be made of a run.
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "cases/scenes/room/room_scene.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/parameters/parameter.hpp"
+
+namespace cutterflow::cases {
+
+/// Rows of all keys that some kind of measure has. Bounds and choices differ between kinds; check_measures knows them.
+ParameterTable measure_rows();
+
+/// The tables as measures.json has them.
+nlohmann::json measures_json(const ParameterValues& values);
+
+/// Every mistake of the tables, with the place of the table that it is in.
+std::vector<Mistake> measure_mistakes(const ParameterValues& values);
+
+/// Gates that measures place themselves.
+std::vector<RoomGate> gates_of(const nlohmann::json& measures);
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,222 @@
+/// Rooms from their study file to their report, through the program itself.
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
+
+using namespace cutterflow;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path k_cutterflow = fs::path(CUTTERFLOW_BUILD_DIR) / "bin/cutterflow";
+
+class RoomRuns : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "cutterflow_rooms_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    /// \return what the program said
+    std::string call(std::vector<std::string> arguments, int exit_code = 0) {
+        arguments.insert(arguments.begin(), k_cutterflow.string());
+        const fs::path log = folder_ / "output";
+        const ChildResult result = run_child({arguments, folder_, log, {}});
+        const std::string text = read_file(log);
+        fs::remove(log);
+        EXPECT_EQ(result.exit_code, exit_code) << text;
+        return text;
+    }
+    nlohmann::json json_of(const fs::path& file) const { return nlohmann::json::parse(read_file(folder_ / file)); }
+
+    fs::path folder_;
+};
+
+const char* const k_materials = R"(
+[[material]]
+name = "plastic"
+youngs_modulus_pa = 5e6
+[[contact]]
+pair = ["plastic", "plastic"]
+friction = 0.5
+rolling = 0.1
+restitution = 0.6
+[[contact]]
+pair = ["plastic", "steel"]
+friction = 0.3
+rolling = 0.1
+restitution = 0.6
+[[grains]]
+name = "grains"
+material = "plastic"
+density_kg_m3 = 828
+diameter_m = { uniform_by_number = [0.0045, 0.0055] }
+)";
+
+/// A tube is lifted from a disc.
+const char* const k_heap = R"(
+name = "a small heap"
+[scene]
+kind = "room"
+[room]
+size_m = [0.10, 0.10, 0.12]
+[[solid]]
+name = "disc"
+generate = "disc_with_rim"
+centre_m = [0, 0, 0.02]
+radius_m = 0.035
+thickness_m = 0.01
+rim_height_m = 0.005
+rim_wall_m = 0.003
+[[solid]]
+name = "tube"
+generate = "tube"
+from_m = [0, 0, 0.0202]
+to_m = [0, 0, 0.11]
+inner_radius_m = 0.015
+wall_m = 0.003
+velocity_m_s = [0, 0, 0.1]
+from_s = 0.0
+to_s = 0.5
+[[prepare]]
+do = "pour"
+grains = "grains"
+count = 120
+region = { cylinder = { from_m = [0, 0, 0.02], to_m = [0, 0, 0.11], radius_m = 0.015 } }
+[[prepare]]
+do = "settle"
+[[measure]]
+name = "on_disc"
+what = "mass_in"
+region = { cylinder = { from_m = [0, 0, 0.02], to_m = [0, 0, 0.12], radius_m = 0.038 } }
+[[measure]]
+name = "height"
+what = "profile"
+base_m = 0.02
+region = { cylinder = { from_m = [0, 0, 0.02], to_m = [0, 0, 0.12], radius_m = 0.038 } }
+[run]
+end_s = 3
+stop = { settled = true }
+write_interval_s = 0.25
+)";
+
+/// Grains run through a narrow waist below a piston that comes down after them.
+const char* const k_hourglass = R"(
+name = "an hourglass with a piston"
+[scene]
+kind = "room"
+[room]
+size_m = [0.08, 0.08, 0.20]
+[[solid]]
+name = "waist"
+generate = "funnel"
+centre_m = [0, 0, 0.06]
+inlet_radius_m = 0.025
+outlet_radius_m = 0.012
+cone_height_m = 0.02
+spout_length_m = 0.005
+wall_m = 0.003
+[[solid]]
+name = "chamber"
+generate = "tube"
+from_m = [0, 0, 0.0851]
+to_m = [0, 0, 0.18]
+inner_radius_m = 0.025
+wall_m = 0.003
+[[solid]]
+name = "stopper"
+generate = "box"
+lower_m = [-0.02, -0.02, 0.05]
+upper_m = [0.02, 0.02, 0.0595]
+removed_at_s = 0
+[[solid]]
+name = "piston"
+generate = "box"
+lower_m = [-0.017, -0.017, 0.185]
+upper_m = [0.017, 0.017, 0.19]
+velocity_m_s = [0, 0, -0.1]
+from_s = 0
+to_s = 0.5
+[[prepare]]
+do = "pour"
+grains = "grains"
+count = 100
+region = { cylinder = { from_m = [0, 0, 0.09], to_m = [0, 0, 0.17], radius_m = 0.025 } }
+[[measure]]
+name = "sand"
+what = "passed_mass"
+gate = { disc_m = [0, 0, 0.055], radius_m = 0.03, normal = [0, 0, -1] }
+[run]
+end_s = 1.5
+write_interval_s = 0.25
+)";
+
+TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
+    write_file(folder_ / "heap.toml", std::string(k_heap) + k_materials);
+    call({"check", "heap.toml"});
+    call({"run", "heap.toml", "-o", "heap"});
+    const nlohmann::json room = json_of("heap/room.json"), results = json_of("heap/report/results.json"),
+                         measures = json_of("heap/report/measures.json");
+    EXPECT_EQ(room.at("bed").at("poured"), 120);
+    EXPECT_TRUE(fs::exists(folder_ / "heap/bed/checkpoints" / room.at("bed").at("name").get<std::string>()));
+    EXPECT_TRUE(results.at("finished").get<bool>());
+    EXPECT_EQ(results.at("grains"), 120);  // the room has a floor and walls
+    const double poured = room.at("bed").at("poured_kg").get<double>();
+    EXPECT_NEAR(results.at("grains_kg").get<double>(), poured, 1e-6 * poured);
+    // It ends before its end, when all is at rest and the tube stands; most of the grains are a heap on the disc, one layer at least.
+    EXPECT_LT(results.at("time_s").get<double>(), 3.0);
+    EXPECT_GE(results.at("time_s").get<double>(), 0.4);
+    EXPECT_GT(measures.at("on_disc").at("value").get<double>(), 0.5 * poured);
+    EXPECT_GT(measures.at("height").at("value").get<double>(), 0.005);
+    EXPECT_LT(measures.at("height").at("value").get<double>(), 0.03);
+    EXPECT_NE(read_file(folder_ / "heap/report/index.html").find("a small heap"), std::string::npos);
+
+    EXPECT_NE(call({"run", "heap.toml", "-o", "heap"}).find("run: already done"), std::string::npos);
+    std::string other = read_file(folder_ / "heap.toml");
+    other.replace(other.find("friction = 0.5"), 14, "friction = 0.6");
+    write_file(folder_ / "other.toml", other);
+    EXPECT_NE(call({"run", "other.toml", "-o", "heap"}, 2).find("contact.plastic-plastic.friction (0.5 -> 0.6)"), std::string::npos);
+}
+
+TEST_F(RoomRuns, a_study_that_nobody_foresaw_runs) {
+    write_file(folder_ / "hourglass.toml", std::string(k_hourglass) + k_materials);
+    call({"run", "hourglass.toml", "-o", "hourglass"});
+    const double poured = json_of("hourglass/room.json").at("bed").at("poured_kg").get<double>();
+    EXPECT_NEAR(json_of("hourglass/report/measures.json").at("sand").at("value").get<double>(), poured, 0.05 * poured);
+}
+
+/// 5/7 g (sin - rolling cos) moves the sphere of the example by 18 mm in half a second at 12.5 degrees, and not at all at 10.5.
+TEST_F(RoomRuns, sweep_over_the_tilt_finds_where_a_sphere_begins_to_roll) {
+    const std::string study = (fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/plate/study.toml").string();
+    call({"sweep", study, "--set", "room.tilt_deg=10.5,12.5", "-o", "tilt"});
+    const double mass = 828.0 * k_pi / 6.0 * 6.4e-8;
+    EXPECT_EQ(json_of("tilt/study_tilt_deg_10.5/report/measures.json").at("moved").at("value").get<double>(), 0.0);
+    EXPECT_NEAR(json_of("tilt/study_tilt_deg_12.5/report/measures.json").at("moved").at("value").get<double>(), mass, 1e-6 * mass);
+    // One of them made the bed, the other took it.
+    EXPECT_NE(fs::exists(folder_ / "tilt/study_tilt_deg_10.5/bed/1"), fs::exists(folder_ / "tilt/study_tilt_deg_12.5/bed/1"));
+    EXPECT_TRUE(fs::exists(folder_ / "tilt/comparison/comparison.json"));
+}
+
+TEST_F(RoomRuns, commands_refuse_what_rooms_have_no_use_for) {
+    call({"new", "room.toml", "--kind", "room"});
+    EXPECT_NE(call({"new", "cut.toml", "--kind", "room", "--cutter", "a.stl"}, 2).find("Such a study has no cutter"), std::string::npos);
+    EXPECT_NE(call({"run", "room.toml", "--ranks", "2"}, 2).find("runs on one core"), std::string::npos);
+    EXPECT_NE(call({"sweep", "room.toml", "--rpm", "30"}, 2).find("They belong to cutters"), std::string::npos);
+    EXPECT_NE(call({"params", "--kind", "room"}).find("[[solid]]"), std::string::npos);
+    write_file(folder_ / "typo.toml", "[scene]\nkind = \"rooom\"\n");
+    EXPECT_NE(call({"check", "typo.toml"}, 2).find("Did you mean \"room\"?"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,327 @@
+/// Studies of rooms: reading, mistakes, preparation, files of the cases.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cases/runner/room_stages.hpp"
+#include "cases/scenes/room/room_case.hpp"
+#include "cases/scenes/room/room_prediction.hpp"
+#include "cases/scenes/room/room_study.hpp"
+#include "cases/scenes/study_kind.hpp"
+#include "cases/sweep/room_sweep.hpp"
+#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class RoomStudy : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("cutterflow_room_" + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    fs::path write(const std::string& text, const std::string& name = "room.toml") const {
+        write_file(folder_ / name, text);
+        return folder_ / name;
+    }
+    /// The template with one part exchanged.
+    static std::string changed(const std::string& from, const std::string& to) {
+        std::string text = room_template("heap");
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return text.replace(at, from.size(), to);
+    }
+    std::string mistakes_of(const std::string& text) const {
+        try {
+            read_room_request(write(text));
+        } catch (const UserError& error) {
+            EXPECT_EQ(error.code(), ExitCode::user_input);
+            return error.what();
+        }
+        return {};
+    }
+
+    fs::path folder_;
+};
+
+double mass_of(const std::vector<PlacedGrain>& grains) {
+    double mass = 0.0;
+    for (const PlacedGrain& g : grains) mass += g.density * k_pi / 6.0 * std::pow(g.diameter, 3);
+    return mass;
+}
+
+TEST_F(RoomStudy, template_reads_and_predicts_its_cost) {
+    const RoomRequest request = read_room_request(write(room_template("heap \"1\"")));
+    EXPECT_EQ(request.scene.name, "heap \"1\"");
+    ASSERT_EQ(request.scene.solids.size(), 2u);
+    EXPECT_EQ(request.scene.solids[1].travel->velocity, Vec3(0.0, 0.0, 0.03));
+    EXPECT_EQ(request.scene.pairs.size(), 2u);
+    ASSERT_EQ(request.pieces.size(), 1u);
+    // 0.6 of a cylinder of radius 20 mm and height 60 mm, of grains whose mean volume is that of 4 mm and a bit more.
+    const double mass = 2500.0 * 0.6 * k_pi * 4e-4 * 0.06;
+    EXPECT_NEAR(mass_of(request.pieces[0].grains), mass, 0.5e-3 * mass);
+    EXPECT_NEAR(static_cast<double>(request.pieces[0].grains.size()), mass / (2500.0 * k_pi / 6.0 * 6.4e-8 * (1.0 + 0.01 / 12.0)), 30.0);
+    const RoomPrediction prediction = predict(request.scene, request.pieces);
+    // 0.15 of the Rayleigh time of 3.8 mm at 5 MPa: pi R sqrt(rho/G)/(0.1631 nu + 0.8766)
+    const double rayleigh = k_pi * 0.0019 * std::sqrt(2500.0 * 2.5 / 5e6) / (0.1631 * 0.25 + 0.8766);
+    EXPECT_LE(prediction.contact_step, 0.15 * rayleigh * (1.0 + 1e-12));
+    EXPECT_GT(prediction.contact_step, 0.05 * rayleigh);
+    EXPECT_THAT(to_text(prediction), HasSubstr("tube moves from 0 to 4 s"));
+}
+
+TEST_F(RoomStudy, every_example_reads) {
+    int studies = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples")) {
+        if (entry.path().extension() != ".toml" || kind_named_in(entry.path()) != "room") continue;
+        EXPECT_NO_THROW(read_room(entry.path())) << entry.path();
+        ++studies;
+    }
+    EXPECT_EQ(studies, 8);
+}
+
+/// Grains of a pour lie in its region as a whole, clear of each other and of the solids; batches come when earlier ones have fallen.
+TEST_F(RoomStudy, poured_grains_have_room) {
+    const RoomRequest request = read_room_request(write(room_template("heap")));
+    const std::vector<PlacedGrain>& grains = request.pieces.at(0).grains;
+    std::set<int> ids;
+    std::set<double> times;
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+        const PlacedGrain& a = grains[i];
+        ids.insert(a.id);
+        times.insert(a.time);
+        EXPECT_GE(a.diameter, 0.0038);
+        EXPECT_LE(a.diameter, 0.0042);
+        EXPECT_LE(a.position.head<2>().norm() + 0.5 * a.diameter, 0.02 + 1e-12);
+        EXPECT_GE(a.position.z() - 0.5 * a.diameter, 0.03);
+        EXPECT_LE(a.position.z() + 0.5 * a.diameter, 0.15 + 1e-12);
+        EXPECT_EQ(a.velocity, Vec3(0.0, 0.0, -1.0));
+        for (std::size_t j = 0; j < i; ++j)
+            if (grains[j].time == a.time) {
+                ASSERT_GE((grains[j].position - a.position).norm(), 0.5 * (a.diameter + grains[j].diameter)) << i << " " << j;
+            }
+    }
+    EXPECT_EQ(ids.size(), grains.size());
+    // 1,350 grains: 0.3 of the tube holds 0.12 m * 0.3, they need 0.06 m * 0.6 and less room each time: two batches and more.
+    EXPECT_GE(times.size(), 2u);
+    const double fall = (std::sqrt(1.0 + 2.0 * 9.81 * 0.12) - 1.0) / 9.81;
+    EXPECT_GE(*std::next(times.begin()), 2.0 * fall - 1e-12);
+}
+
+TEST_F(RoomStudy, seeds_draw_other_grains_and_the_same_seed_the_same) {
+    const auto grains_of = [&](const std::string& text) { return read_room_request(write(text)).pieces.at(0).grains; };
+    const auto a = grains_of(room_template("heap")), b = grains_of(room_template("heap")),
+               c = grains_of(changed("[run]\n", "[run]\nseed = 2\n"));
+    EXPECT_EQ(a.front().position, b.front().position);
+    EXPECT_NE(a.front().position, c.front().position);
+    EXPECT_NEAR(mass_of(a), mass_of(c), 1e-4);
+}
+
+TEST_F(RoomStudy, classes_have_their_shares_of_the_mass) {
+    const std::string text =
+        changed("diameter_m = { uniform_by_number = [0.0038, 0.0042] }\n",
+                "[[grains.class]]\ndiameter_m = 0.004\nmass_share = 3\n[[grains.class]]\ndiameter_m = 0.002\nmass_share = 1\n");
+    const RoomRequest request = read_room_request(write(text));
+    double fine = 0.0, all = 0.0;
+    for (const PlacedGrain& g : request.pieces.at(0).grains) {
+        const double volume = std::pow(g.diameter, 3);
+        all += volume;
+        if (g.diameter < 0.003) fine += volume;
+    }
+    EXPECT_NEAR(fine / all, 0.25, 0.03);
+}
+
+/// Before grains are taken out or frozen they come to rest, and so they do at the end.
+TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
+    const std::string text = changed("[[prepare]]\ndo = \"settle\"\n",
+                                     "[[prepare]]\ndo = \"trim\"\nabove_m = 0.06\n\n[[prepare]]\ndo = \"freeze\"\nbelow_m = 0.035\n");
+    const RoomRequest request = read_room_request(write(text));
+    ASSERT_EQ(request.pieces.size(), 2u);
+    EXPECT_FALSE(request.pieces[0].grains.empty());
+    EXPECT_TRUE(request.pieces[0].events.empty());
+    EXPECT_TRUE(request.pieces[1].grains.empty());
+    ASSERT_EQ(request.pieces[1].events.size(), 2u);
+    EXPECT_EQ(request.pieces[1].events[0].what, "remove");
+    EXPECT_TRUE(contains(request.pieces[1].events[0].region, Vec3(0.0, 0.0, 0.061)));
+    EXPECT_FALSE(contains(request.pieces[1].events[0].region, Vec3(0.0, 0.0, 0.059)));
+    EXPECT_EQ(request.pieces[1].events[1].what, "freeze");
+
+    const std::vector<CaseText> files = bed_case(request.scene, request.pieces[1], "../1/checkpoints/0.5", "../../");
+    EXPECT_EQ(files.front().path, "constant/couplingProperties");
+    EXPECT_THAT(files.front().text, HasSubstr("start           \"../1/checkpoints/0.5\";"));
+    EXPECT_THAT(files.front().text, HasSubstr("halfSpace"));
+    EXPECT_THAT(files.front().text, HasSubstr("atRest"));
+    EXPECT_THAT(files.front().text, Not(HasSubstr("travel")));
+    for (const CaseText& file : files) EXPECT_NE(file.path, "constant/rockFeed.csv");
+}
+
+TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {
+    const RoomRequest request = read_room_request(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/hopper/study.toml");
+    const std::string bed = bed_case(request.scene, request.pieces.at(0), "", "../../").front().text;
+    EXPECT_THAT(bed, HasSubstr("\"../../geometry/plug.stl\""));
+    const std::string run = grain_files(request.scene, "bed/checkpoints/x", 1).front().text;
+    EXPECT_THAT(run, Not(HasSubstr("plug")));
+    EXPECT_THAT(run, HasSubstr("medium          none;"));
+    EXPECT_THAT(run, HasSubstr("rock_polypropylene"));
+    EXPECT_THAT(run, Not(HasSubstr("feed ")));
+    EXPECT_THAT(run, HasSubstr("gates"));
+    EXPECT_THAT(run, HasSubstr("idle"));
+    const std::string heap = grain_files(read_room(write(room_template("heap"))), "bed/checkpoints/x", 1).front().text;
+    EXPECT_THAT(heap, HasSubstr("travel"));
+}
+
+TEST_F(RoomStudy, fed_grains_come_at_their_rate) {
+    const std::string text = room_template("heap") +
+                             "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 0.05\n"
+                             "region = { box = { lower_m = [-0.01, -0.01, 0.13], upper_m = [0.01, 0.01, 0.15] } }\n";
+    const RoomScene scene = read_room(write(text));
+    std::mt19937_64 random(1);
+    const std::vector<PlacedGrain> fed = place_feeds(scene, 5000, random);
+    EXPECT_NEAR(mass_of(fed), 0.05, 1e-4);
+    EXPECT_EQ(fed.front().id, 5000);
+    EXPECT_EQ(fed.front().time, 1.0);
+    EXPECT_LT(fed.back().time, 2.0);
+    double half = 0.0;
+    for (const PlacedGrain& g : fed)
+        if (g.time < 1.5) half += g.density * k_pi / 6.0 * std::pow(g.diameter, 3);
+    EXPECT_NEAR(half, 0.025, 2e-4);
+}
+
+TEST_F(RoomStudy, bed_is_named_by_what_makes_it) {
+    const auto name_of = [&](const std::string& text) {
+        const RoomRequest request = read_room_request(write(text));
+        return bed_name(request.scene, request.pieces);
+    };
+    const std::string name = name_of(room_template("heap"));
+    EXPECT_EQ(name_of(room_template("another name")), name);
+    EXPECT_EQ(name_of(changed("velocity_m_s = [0, 0, 0.03]", "velocity_m_s = [0, 0, 0.06]")), name);
+    EXPECT_NE(name_of(changed("rolling = 0.015", "rolling = 0.02")), name);
+    EXPECT_NE(name_of(changed("inner_radius_m = 0.02", "inner_radius_m = 0.0201")), name);
+    EXPECT_NE(name_of(changed("[run]\n", "[run]\nseed = 2\n")), name);
+}
+
+TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
+    const fs::path study = write(room_template("heap"));
+    const auto axes = [](const std::vector<std::string>& words) { return key_axes(room_table(), words, "params"); };
+    auto points = room_sweep_points(study, axes({"solid.tube.velocity_m_s=[0,0,0.03],[0,0,0.015]"}), 2);
+    ASSERT_EQ(points.size(), 4u);
+    EXPECT_EQ(points[2].name, "room_tube.velocity_m_s_0_0_0.015_repeat1");
+    EXPECT_EQ(room_scene(parse_parameters(room_table(), points[2].text, "x"), folder_).solids[1].travel->velocity.z(), 0.015);
+    EXPECT_EQ(points[0].design, points[2].design);  // one bed for both speeds, of each pour
+    EXPECT_NE(points[0].design, points[1].design);
+    EXPECT_EQ(points[0].shared, (std::vector<std::string>{"geometry", "bed"}));
+
+    points = room_sweep_points(study, axes({"contact.steel-glass.friction=0.1,0.2"}), 1);
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_TRUE(points[0].design.empty());  // its bed is its own
+    const RoomScene scene = room_scene(parse_parameters(room_table(), points[1].text, "x"), folder_);
+    EXPECT_EQ(scene.pairs[0].settings.friction, 0.3);
+    EXPECT_EQ(scene.pairs[1].settings.friction, 0.2);
+
+    const auto text_of = [&](const std::string& word) {
+        try {
+            room_sweep_points(study, axes({word}), 1);
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(text_of("contact.glass-wood.friction=1"), HasSubstr("no table [[contact]] is called glass-wood"));
+    EXPECT_THAT(text_of("solid.tube.velocity_m_s=1"), HasSubstr("in brackets"));
+    EXPECT_THAT(text_of("contact.glass-glass.frictoin=1"), HasSubstr("there is no such key"));
+}
+
+TEST_F(RoomStudy, names_mistakes_of_all_sections_at_once) {
+    std::string text = changed("generate = \"disc_with_rim\"", "generate = \"disk\"");
+    text += "[[prepare]]\ndo = \"freeze\"\n\n[[event]]\ndo = \"extract\"\nfrom_s = 1\n";
+    const std::string mistakes = mistakes_of(text);
+    EXPECT_THAT(mistakes, HasSubstr("solid.generate = \"disk\" is no choice"));
+    EXPECT_THAT(mistakes, HasSubstr("room.toml:"));
+
+    text = changed("centre_m = [0, 0, 0.03]\nradius_m = 0.04", "centre_m = [0, 0, 0.03]\nradius_m = 0.06");
+    text +=
+        "[[prepare]]\ndo = \"freeze\"\n\n[[event]]\ndo = \"extract\"\nfrom_s = 1\nregion = { sphere = { centre_m = [9, 9, 9], radius_m = 1 "
+        "} }\n";
+    const std::string more = mistakes_of(text);
+    EXPECT_THAT(more, HasSubstr("disc reaches from"));
+    EXPECT_THAT(more, HasSubstr("do = \"freeze\" without a region"));
+    EXPECT_THAT(more, HasSubstr("event.to_s is missing"));
+    EXPECT_THAT(more, HasSubstr("event.rate_kg_s is missing"));
+    EXPECT_THAT(more, HasSubstr("a region outside the room"));
+}
+
+struct Bad {
+    const char *from, *to, *what;
+};
+
+class BadRoom : public RoomStudy, public ::testing::WithParamInterface<Bad> {};
+
+TEST_P(BadRoom, is_refused_with_what_value_rule_and_remedy) {
+    const std::string mistakes = mistakes_of(changed(GetParam().from, GetParam().to));
+    EXPECT_THAT(mistakes, HasSubstr(GetParam().what));
+    EXPECT_THAT(mistakes, HasSubstr("room.toml:"));
+}
+
+const char* const k_end = "[run]\n";
+const char* const k_dry = "medium = \"none\"              # weight and contacts alone\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Rooms, BadRoom,
+    ::testing::Values(
+        Bad{"generate = \"tube\"", "generate = \"tubes\"", "Did you mean \"tube\""},
+        Bad{"generate = \"tube\"\n", "", "neither generate nor file"},
+        Bad{"generate = \"tube\"\n", "file = \"missing.stl\"\n", "missing.stl"},
+        Bad{"to_m = [0, 0, 0.15]", "to_m = [0, 0, 0.17]", "It must lie in the room"},
+        Bad{"wall_m = 0.002\nvelocity_m_s", "velocity_m_s", "solid.wall_m is missing for tube"},
+        Bad{"wall_m = 0.002\nvelocity_m_s", "wall_m = 0.002\nslot_m = 0.1\nvelocity_m_s", "solid.slot_m of tube"},
+        Bad{"inner_radius_m = 0.02\n", "inner_radius_m = 0.006\n", "An opening below 3 diameters"},
+        Bad{"name = \"tube\"\n", "name = \"disc\"\n", "is given twice"}, Bad{"from_s = 0.0\n", "", "the motion of tube is not complete"},
+        Bad{"to_s = 4.0\n", "to_s = 0.0\n", "It is after from_s"},
+        Bad{"[[contact]]\npair = [\"glass\", \"steel\"]", "[[contact]]\npair = [\"glass\", \"steeel\"]", "Did you mean steel"},
+        Bad{"pair = [\"glass\", \"steel\"]", "pair = [\"glass\", \"glass\"]", "[[contact]] of glass and steel is missing"},
+        Bad{"pair = [\"glass\", \"steel\"]", "pair = [\"wood\", \"steel\"]", "One of the two is the grains' material"},
+        Bad{"youngs_modulus_pa = 5e6\n", "", "Young's modulus of glass"},
+        Bad{"uniform_by_number = [0.0038, 0.0042]", "uniform_by_number = [0.0042, 0.0038]", "The smaller diameter comes first"},
+        Bad{"diameter_m = { uniform_by_number = [0.0038, 0.0042] }\n", "", "have no diameter"},
+        Bad{"grains = \"beads\"", "grains = \"bead\"", "Did you mean beads"}, Bad{"depth_m = 0.06", "depth_m = 0.13", "Their region holds"},
+        Bad{"depth_m = 0.06", "depth_m = 0.06\ncount = 10", "a pour with 2 of depth_m, mass_kg and count"},
+        Bad{"radius_m = 0.02 } }", "radius_m = 0.0018 } }", "find no place in the region of their pour"},
+        Bad{"[[prepare]]\ndo = \"pour\"", "[[prepare]]\ndo = \"settle\"\n\n[[prepare]]\ndo = \"pour\"", "before anything is poured"},
+        Bad{k_end, "[[prepare]]\ndo = \"freeze\"\nabove_m = 0.2\n\n[run]\n", "a region outside the room"},
+        Bad{k_end, "[[prepare]]\ndo = \"trim\"\nabove_m = 0.1\nbelow_m = 0.2\n\n[run]\n", "A step has one region"},
+        Bad{k_end, "[[event]]\ndo = \"remove\"\nat_s = 9\nregion = { above_m = 0.05 }\n\n[run]\n", "The run ends at 4 s"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angel\"\n\n[run]\n", "angel"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = \"door\"\n\n[run]\n", "measure.gate = \"door\""},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"wall_force\"\nwall = \"lid\"\n\n[run]\n", "measure.wall = \"lid\""},
+        Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }", "It names a measure with a gate"},
+        Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},
+        Bad{k_dry, "medium = \"none\"\ncell_m = 0.01\n", "Without a medium there are neither flow nor mesh"},
+        Bad{k_dry, "medium = \"water\"\n", "room.cell_m is missing"},
+        Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n\n[[boundary]]\non = \"top\"\nflow = { inflow_m_s = 1 }\n",
+            "an inflow without an outlet"},
+        Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n\n[[boundary]]\non = \"top\"\ninside = \"disc\"\nflow = \"pressure\"\n",
+            "boundary.inside = \"disc\""},
+        Bad{k_dry, "medium = \"none\"\n\n[[boundary]]\non = \"top\"\nflow = \"pressure\"\n", "boundary.flow in a room without a medium"},
+        Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n", "The mesh stands still"}));
+
+TEST_F(RoomStudy, grains_without_a_way_into_the_room_are_refused) {
+    std::string text = room_template("heap");
+    const std::size_t from = text.find("[[prepare]]"), to = text.find("[run]");
+    text.erase(from, to - from);
+    EXPECT_THAT(mistakes_of(text), HasSubstr("No grains come into the room"));
+}
+
+}  // namespace
+}  // namespace cutterflow::cases

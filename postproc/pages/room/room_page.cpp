@@ -1,0 +1,170 @@
+#include "postproc/pages/room/room_page.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
+#include "geometry/base/progress.hpp"
+#include "geometry/base/run_files.hpp"
+#include "postproc/analysis/measures/measure_run.hpp"
+#include "postproc/analysis/measures/measure_source.hpp"
+#include "postproc/draw/html.hpp"
+#include "postproc/draw/page.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/pages/measures/measure_figures.hpp"
+#include "postproc/pages/room/room_pictures.hpp"
+#include "postproc/run/run_table.hpp"
+
+namespace cutterflow::postproc {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_schema = "cutterflow.room_comparison/1";
+constexpr const char* k_dry_bed =
+    "Grains are spheres or rigid clumps; they neither break nor wear nor stick together. The preparation is computed without a medium.";
+
+nlohmann::json read_room(const fs::path& run) {
+    return read_json_document(run / k_room_file, {{"name", JsonKind::text, true}, {"end_s", JsonKind::number, true}},
+                              "Keep the run directory as the run wrote it");
+}
+
+nlohmann::json read_if_there(const fs::path& file) {
+    return fs::exists(file) ? nlohmann::json::parse(read_file(file)) : nlohmann::json::object();
+}
+
+/// cost.json of the last start of the run; empty while the run goes on.
+nlohmann::json cost_of(const fs::path& run) {
+    nlohmann::json cost = nlohmann::json::object();
+    for (const auto& [time, folder] : start_folders(run, "cost")) cost = read_if_there(folder / "cost.json");
+    return cost;
+}
+
+/// Core seconds of a stage, from the manifest.
+double core_seconds(const nlohmann::json& manifest, const char* stage) {
+    return manifest.value("stages", nlohmann::json::object()).value(stage, nlohmann::json::object()).value("core_s", 0.0);
+}
+
+nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const Grains& grains, double time) {
+    const nlohmann::json manifest = read_if_there(run / names::manifest);
+    return {{"schema", "cutterflow.room/1"},
+            {"name", room.at("name")},
+            {"time_s", time},
+            {"end_s", room.at("end_s")},
+            {"finished", !cost_of(run).empty()},
+            {"grains", grains.size()},
+            {"grains_kg", mass_of(grains)},
+            {"bed", room.value("bed", nlohmann::json())},
+            {"core_s", {{"bed", core_seconds(manifest, "bed")}, {"run", core_seconds(manifest, "run")}}}};
+}
+
+std::string answers(const nlohmann::json& results, const nlohmann::json& measures) {
+    std::string markup;
+    for (const auto& [name, measure] : measures.items())
+        markup += html::answer(palette::sucked_up, html::escape(name), html::escape(measure_value_text(measure)),
+                               html::escape(measure.at("what").get<std::string>()));
+    markup += html::answer(palette::rock_load, "grains in the room", fmt::format("{}", results.at("grains").get<std::size_t>()),
+                           fmt::format("{:.4g} kg at {:.4g} s", results.at("grains_kg").get<double>(), results.at("time_s").get<double>()));
+    const double core = results.at("core_s").at("bed").get<double>() + results.at("core_s").at("run").get<double>();
+    markup += html::answer(palette::faint, "cost", duration_text(core), "on one core, of bed and run");
+    return "<div class=\"answers\">" + markup + "</div>";
+}
+
+std::string what_was_run(const nlohmann::json& room, const nlohmann::json& results) {
+    const auto numbers = [](const nlohmann::json& list) {
+        return fmt::format("{:g} x {:g} x {:g}", list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
+    };
+    std::vector<std::vector<std::string>> rows{
+        {"room", numbers(room.at("size_m")) + " m"},
+        {"medium", html::escape(room.at("medium").get<std::string>())},
+        {"simulated time", fmt::format("{:.4g} of {:g} s{}", results.at("time_s").get<double>(), room.at("end_s").get<double>(),
+                                       results.at("finished").get<bool>() ? "" : "; the run is not finished")},
+        {"seed", room.at("seed").dump()}};
+    for (const nlohmann::json& kind : room.at("grains"))
+        rows.push_back({html::escape(kind.at("name").get<std::string>()),
+                        fmt::format("{:g} kg/m3, {:.4g} to {:.4g} mm", kind.at("density_kg_m3").get<double>(),
+                                    1e3 * kind.at("smallest_m").get<double>(), 1e3 * kind.at("largest_m").get<double>())});
+    const nlohmann::json& bed = room.at("bed");
+    if (!bed.is_null())
+        rows.push_back(
+            {"bed", fmt::format("{} grains poured, {:.4g} kg, in {} part(s); checkpoint {}", bed.at("poured").get<std::size_t>(),
+                                bed.at("poured_kg").get<double>(), bed.at("parts").get<int>(), bed.at("name").get<std::string>())});
+    for (const nlohmann::json& solid : room.at("solids")) {
+        std::string text = html::escape(solid.at("material").get<std::string>());
+        if (solid.contains("travel"))
+            text += fmt::format("; moves from {:g} to {:g} s", solid.at("travel").at("from_s").get<double>(),
+                                solid.at("travel").at("to_s").get<double>());
+        if (solid.contains("removed_at_s")) text += fmt::format("; taken away at {:g} s", solid.at("removed_at_s").get<double>());
+        rows.push_back({html::escape(solid.at("name").get<std::string>()), text});
+    }
+    return html::table({"", ""}, rows, false);
+}
+
+std::string models_and_cost(const fs::path& run, const nlohmann::json& results) {
+    const nlohmann::json cost = cost_of(run);
+    std::vector<std::vector<std::string>> rows;
+    for (const nlohmann::json& model : cost.value("models", nlohmann::json::array()))
+        rows.push_back({html::escape(model.at("name").get<std::string>()), html::escape(model.at("why").get<std::string>())});
+    std::string markup = rows.empty() ? "" : html::table({"model", "why"}, rows, false);
+    rows = {{"bed", duration_text(results.at("core_s").at("bed").get<double>())},
+            {"run", duration_text(results.at("core_s").at("run").get<double>())}};
+    if (cost.contains("steps")) rows.push_back({"steps of the run", cost.at("steps").dump()});
+    return markup + html::table({"stage", "core time"}, rows, true);
+}
+
+std::vector<RunQuantity> quantities_of(const fs::path& run) {
+    if (!is_room_run(run))
+        throw UserError(fmt::format("{} is no run of a room", run.string()), fmt::format("It has a {}", k_room_file),
+                        "Compare runs of one kind");
+    std::vector<RunQuantity> quantities;
+    const nlohmann::json measures = read_measures(run);
+    for (const auto& [name, measure] : measures.items()) {
+        const nlohmann::json& value = measure.at("value");
+        quantities.push_back({name, fmt::format("{} ({})", name, measure.at("what").get<std::string>()), measure.value("unit", "-"),
+                              value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN()});
+    }
+    return quantities;
+}
+
+}  // namespace
+
+bool is_room_run(const fs::path& run) {
+    return fs::exists(run / k_room_file);
+}
+
+fs::path write_room_report(const fs::path& run) {
+    const nlohmann::json room = read_room(run);
+    const MeasureSource source(run);
+    const std::size_t last = source.picture_near(std::nullopt);
+    const nlohmann::json results = results_of(run, room, source.grains(last), source.picture_times().at(last));
+    const nlohmann::json measures = has_measures(run) ? write_measures(run) : nlohmann::json::object();
+    write_file(run / names::results_json, results.dump(2) + "\n");
+    const fs::path file = run / names::report_page;
+    const Page page(file, PageForm::live);
+    const std::string title = html::escape(room.at("name").get<std::string>());
+    const std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + answers(results, measures) +
+                             html::section("What was run", what_was_run(room, results)) +
+                             html::section("Grains and solids", room_pictures(page, room, source)) +
+                             (measures.empty() ? "" : measures_section(page, measures)) +
+                             html::section("Models and cost", models_and_cost(run, results)) + fmt::format("<p>{}</p>", k_dry_bed);
+    page.write(title, body, "");
+    return file;
+}
+
+std::vector<Setting> compare_room_runs(const std::vector<fs::path>& runs) {
+    return compare_settings(runs, quantities_of);
+}
+
+nlohmann::json room_comparison_json(const std::vector<Setting>& settings) {
+    return setting_comparison_json(settings, k_schema);
+}
+
+fs::path write_room_comparison(const std::vector<Setting>& settings, const fs::path& folder) {
+    return write_setting_comparison(settings, k_schema, folder);
+}
+
+}  // namespace cutterflow::postproc

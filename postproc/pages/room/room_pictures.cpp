@@ -1,0 +1,115 @@
+#include "postproc/pages/room/room_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "postproc/draw/html.hpp"
+#include "postproc/draw/palette.hpp"
+#include "postproc/draw/rendering.hpp"
+
+namespace cutterflow::postproc {
+
+namespace {
+
+constexpr int k_width = 420, k_highest = 640;  // pixels
+constexpr double k_margin = 1.06;
+constexpr double k_slowest_scale = 0.01;  // [m/s]: slower grains all look at rest
+
+Vec3 vec3_in(const nlohmann::json& list) {
+    return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+/// The solids as they stand at a time.
+TriangleSurface solids_at(const nlohmann::json& room, const std::filesystem::path& run, double time) {
+    TriangleSurface all;
+    for (const nlohmann::json& solid : room.at("solids")) {
+        if (solid.contains("removed_at_s") && time >= solid.at("removed_at_s").get<double>()) continue;
+        Vec3 way = Vec3::Zero();
+        if (solid.contains("travel")) {
+            const nlohmann::json& travel = solid.at("travel");
+            const double begin = travel.at("from_s").get<double>(), end = travel.at("to_s").get<double>();
+            way = vec3_in(travel.at("velocity_m_s")) * std::clamp(time - begin, 0.0, end - begin);
+        }
+        for (Triangle triangle : read_binary_stl(run / solid.at("file").get<std::string>())) {
+            for (Vec3& corner : triangle) corner += way;
+            all.push_back(triangle);
+        }
+    }
+    return all;
+}
+
+Colour mixed(const Colour& a, const Colour& b, double share) {
+    return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green), a.blue + share * (b.blue - a.blue)};
+}
+
+double fastest(const Grains& grains) {
+    double speed = k_slowest_scale;
+    for (const Vec3& velocity : grains.velocity) speed = std::max(speed, velocity.norm());
+    return speed;
+}
+
+std::vector<Sphere> spheres_of(const Grains& grains, double fastest_speed) {
+    const Colour rest = colour_of(palette::in_cutter), fast = colour_of(palette::sucked_up);
+    std::vector<Sphere> spheres;
+    for (std::size_t i = 0; i < grains.size(); ++i)
+        spheres.push_back(
+            {grains.position[i], 0.5 * grains.diameter[i], mixed(rest, fast, std::min(1.0, grains.velocity[i].norm() / fastest_speed))});
+    return spheres;
+}
+
+/// What lies behind the plane y = 0, seen from -y.
+HeadScene behind_plane(const HeadScene& whole) {
+    HeadScene cut;
+    for (const Triangle& triangle : whole.ghosts)
+        if (triangle[0].y() + triangle[1].y() + triangle[2].y() >= 0.0) cut.steel.push_back(triangle);
+    std::copy_if(whole.rocks.begin(), whole.rocks.end(), std::back_inserter(cut.rocks),
+                 [](const Sphere& rock) { return rock.centre.y() >= 0.0; });
+    return cut;
+}
+
+/// The room as a whole, from -y; \param height  of the eye over the horizon, as a slope
+View view_of(const nlohmann::json& room, double slope) {
+    const Vec3 size = vec3_in(room.at("size_m"));
+    View view;
+    view.towards = Vec3(0.0, -1.0, slope).normalized();
+    view.right = Vec3::UnitX();
+    view.up = view.towards.cross(view.right);
+    view.centre = Vec3(0.0, 0.0, 0.5 * size.z());
+    const double seen = size.z() * std::abs(view.up.z()) + size.y() * std::abs(view.up.y());
+    view.width = k_width;
+    view.height = std::clamp(static_cast<int>(std::lround(k_width * seen / size.x())), k_width / 3, k_highest);
+    view.height_m = k_margin * std::max(seen, size.x() * view.height / view.width);
+    return view;
+}
+
+}  // namespace
+
+std::string room_pictures(const Page& page, const nlohmann::json& room, const MeasureSource& source) {
+    const std::vector<double>& times = source.picture_times();
+    std::string markup;
+    std::size_t last = times.size();
+    for (const std::size_t index : {std::size_t{0}, times.size() / 2, times.size() - 1}) {
+        if (index == last) continue;
+        last = index;
+        const Grains& grains = source.grains(index);
+        const double speed = fastest(grains);
+        HeadScene scene;
+        scene.ghosts = solids_at(room, source.directory(), times[index]);
+        scene.rocks = spheres_of(grains, speed);
+        const std::string caption =
+            fmt::format("{:.4g} s; {} grains; blue: {:.2g} m/s and more, yellow: at rest", times[index], grains.size(), speed);
+        const auto image = [&](const HeadScene& drawn, const View& view, const char* name) {
+            return fmt::format("<img src=\"{}\" width=\"{}\" alt=\"{}\">",
+                               page.address(render(drawn, view), fmt::format("{}_{}", name, index)), view.width, name);
+        };
+        markup += html::figure(image(scene, view_of(room, 0.25), "side"), "From the side, " + caption + ".");
+        markup +=
+            html::figure(image(behind_plane(scene), view_of(room, 0.0), "cut"), "Cut by the plane y = 0, seen from -y, " + caption + ".");
+    }
+    return "<div class=\"figures\">" + markup + "</div>";
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,15 @@
+#pragma once
+/// \file Pictures of a room's grains and solids.
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "postproc/analysis/measures/measure_source.hpp"
+#include "postproc/draw/page.hpp"
+
+namespace cutterflow::postproc {
+
+/// At the start, in the middle and at the end of the run: from the side, and cut by the plane y = 0; markup.
+std::string room_pictures(const Page& page, const nlohmann::json& room, const MeasureSource& source);
+
+}  // namespace cutterflow::postproc
