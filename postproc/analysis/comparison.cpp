@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/statistics/sample.hpp"
+#include "postproc/analysis/best_speed.hpp"
 #include "postproc/analysis/not_modelled.hpp"
-#include "postproc/analysis/sample.hpp"
 #include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
@@ -70,6 +72,15 @@ Estimate share_of(const Production& production) {
     Estimate estimate = plain(production.delivered / production.fed);
     if (production.share) estimate.half_width = production.share->half_interval;
     return estimate;
+}
+
+/// u_t / (Q / (pi R^2)); none without the settling speed.
+std::optional<double> settling_number(const ComparedRun& compared) {
+    const std::optional<double>& settling = compared.results.scale.settling_ratio;
+    if (!settling) return std::nullopt;
+    const double radius = compared.run.contour.ring_radius();
+    const OperatingPoint& point = compared.run.operating_point;
+    return *settling * point.angular_speed() * radius / (point.discharge / (k_pi * radius * radius));
 }
 
 using Evaluate = std::function<Estimate(const ComparedRun&)>;
@@ -157,7 +168,43 @@ std::vector<QuantityRule> fed_rules() {
     const auto rate = [&](double Production::*mass) {
         return of([=](const FedHead& head) { return plain(head.production.*mass / (head.production.to - head.production.from)); });
     };
-    return {{"ratio", "spillage: 1 - delivered / fed", "-", true, of([](const FedHead& head) { return spillage_of(head.production); })},
+    using Number = std::function<std::optional<double>(const Dredging&)>;
+    const auto of_work = [](const Number& number) -> Evaluate {
+        return [=](const ComparedRun& r) { return r.results.dredging ? plain(number(*r.results.dredging)) : Estimate{}; };
+    };
+    const auto of_point = [](double OperatingPoint::*member) -> Evaluate {
+        return [=](const ComparedRun& r) {
+            const double value = r.run.operating_point.*member;
+            return value > 0.0 ? plain(value) : Estimate{};
+        };
+    };
+    return {{"cut_height_m", "height of the bank", "m", false, of_point(&OperatingPoint::cut_height)},
+            {"step_m", "step", "m", false, of_point(&OperatingPoint::step)},
+            {"pipe_velocity_m_s", "speed in the suction mouth", "m/s", false,
+             [](const ComparedRun& r) { return plain(r.results.delivery.pipe_velocity); }},
+            {"settling_number", "settling number u_t / (Q / (π R²))", "-", false,
+             [](const ComparedRun& r) { return plain(settling_number(r)); }},
+            {"cut_in_situ_m3_h", "cut, soil in situ", "m³/h", true, of_work([](const Dredging& work) {
+                 return work.cut_in_situ ? std::optional<double>(3600.0 * *work.cut_in_situ) : std::nullopt;
+             })},
+            {"spilled_mixing_share", "spilled by mixing / fed", "-", true, of_work([](const Dredging& work) { return work.mixing; })},
+            {"spilled_cutting_share", "spilled by cutting / fed", "-", true, of_work([](const Dredging& work) { return work.cutting; })},
+            {"left_behind_share", "left behind / fed", "-", true, of_work([](const Dredging& work) { return work.left_behind; })},
+            {"concentration", "delivered rock in the mixture, by volume", "-", true,
+             of_work([](const Dredging& work) { return work.concentration; })},
+            {"mixture_density_kg_m3", "density of the mixture", "kg/m³", true,
+             of_work([](const Dredging& work) { return work.mixture_density; })},
+            {"spill_layer_m", "layer that the spillage leaves", "m", true, of_work([](const Dredging& work) { return work.spill_layer; })},
+            {"cutting_torque_n_m", "torque of cutting, from the specific energy", "N m", true,
+             [](const ComparedRun& r) {
+                 if (!r.results.dredging || !r.results.dredging->cutting_power) return Estimate{};
+                 return plain(*r.results.dredging->cutting_power / r.run.operating_point.angular_speed());
+             }},
+            {"energy_in_situ_j_m3", "energy for flow and rock per delivered m³ in situ", "J/m³", true,
+             of_work([](const Dredging& work) { return work.energy; })},
+            {"residence_time_s", "time of delivered rock from cut to mouth", "s", true,
+             of_work([](const Dredging& work) { return work.residence_time; })},
+            {"ratio", "spillage: 1 - delivered / fed", "-", true, of([](const FedHead& head) { return spillage_of(head.production); })},
             {"production", "production: delivered / fed", "-", true, of([](const FedHead& head) { return share_of(head.production); })},
             {"hold_up_kg", "hold-up: owed, in the head or on the bed", "kg", true,
              of([](const FedHead& head) { return plain(head.production.held); })},
@@ -576,10 +623,11 @@ std::map<std::string, std::vector<std::string>> differing_keys(const Comparison&
 }
 
 Scope scope_of(const Comparison& comparison) {
-    Scope scope{false, true, true};
+    Scope scope{false, true, true, true, true};
     for (const ComparedRun& compared : comparison.runs) {
         const Scope run = scope_of(compared.run);
-        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting, scope.feels_bank && run.feels_bank};
+        scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting, scope.feels_bank && run.feels_bank,
+                 scope.hauls && run.hauls, scope.fed_by_layer && run.fed_by_layer};
     }
     return scope;
 }
@@ -610,6 +658,7 @@ json comparison_json(const Comparison& comparison) {
     document["differing_batches"] = differing_batches(comparison);
     document["equal_time_s"] = or_null(comparison.equal_time);
     document["equal_revolutions"] = or_null(comparison.equal_revolutions);
+    document["best_speed"] = best_speed_text(comparison);
     document["measured"] = json::array();
     for (const MeasuredDifference& beside : measured_differences(comparison)) {
         json entry{{"series", beside.series},
@@ -641,6 +690,7 @@ std::string comparison_text(const Comparison& comparison) {
             text += "\n";
         }
     }
+    for (const std::string& sentence : best_speed_text(comparison)) text += sentence + "\n";
     for (const MeasuredDifference& beside : measured_differences(comparison))
         text += fmt::format("{} less {} of {}: {}, {}\n", comparison.settings[beside.setting].label, beside.key, beside.series,
                             estimate_text(beside.difference.estimate), verdict_text(beside.difference.verdict));

@@ -3,7 +3,8 @@
 namespace cutterflow::postproc {
 
 Scope scope_of(const RunData& run) {
-    return {run.rock.has_value(), run.operating_point.fed_by_cutting, run.operating_point.has_bank};
+    const OperatingPoint& point = run.operating_point;
+    return {run.rock.has_value(), point.fed_by_cutting, point.has_bank, point.hauls, point.spill_layer > 0.0};
 }
 
 std::vector<NotModelled> not_modelled(const Scope& scope) {
@@ -15,9 +16,13 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
         {"bank and breach", scope.feels_bank
                                 ? "the bank stands still as the swings before left it; it does not breach"
                                 : "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
-        {"bed", scope.feels_bank ? "rock that is left on what the swings cut stays there; the next swing does not pick it up"
-                                 : "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
-        {"hauling (swing motion)", "the head turns but does not travel; rock is not swept into the head by the swing"},
+        {"bed", scope.fed_by_layer
+                    ? "what the swing before left comes in as a level layer of given thickness; it is not the rock that this run leaves"
+                : scope.feels_bank ? "rock that is left on what the swings cut stays there; the next swing does not pick it up"
+                                   : "the bed is a flat wall; spilled rock stays spilled and is not picked up again by a later cut"},
+        {"hauling (swing motion)",
+         scope.hauls ? "the head travels along a straight line at constant speed; the swing's arc and its ends are left out"
+                     : "the head turns but does not travel; rock is not swept into the head by the swing"},
         {"pick points and adapters", "only what the cutter's surface file contains; teeth missing there affect neither flow nor rock"},
         {"lift and rock spin forces",
          "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source is valid for grains"},
@@ -35,7 +40,10 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
 const std::string& scope_sentence(const Scope& scope) {
     static const std::string cutting =
         "Rock comes from the cut face as fast as the head swings, beside a bank that stands still. Hauling is not modelled, nor what a "
-        "later swing picks up of the bed, so this report names no best speed.";
+        "later swing picks up of the bed; one run names no best speed.";
+    static const std::string hauled =
+        "Rock comes from the cut face as fast as the head swings, and bank, bed and water move past it. Forces of cutting, a bank that "
+        "breaches and the arc of the swing are not modelled; one run names no best speed.";
     static const std::string rock =
         "This is spillage by mixing of loose rock in a turning head with imposed discharge: cutting, bank, hauling and continuous feed are "
         "not modelled, so there is no optimum over speed here as there is in practice, and this report names no best speed.";
@@ -49,7 +57,7 @@ const std::string& scope_sentence(const Scope& scope) {
         "This is the flow of clear water through a turning head with imposed discharge beside a bank that stands still, without hauling "
         "and rock; it shows where water leaves the head, not how much rock would, and this report names no best speed.";
     if (!scope.with_rock) return scope.feels_bank ? flow_at_bank : flow;
-    if (scope.fed_by_cutting) return cutting;
+    if (scope.fed_by_cutting) return scope.hauls ? hauled : cutting;
     return scope.feels_bank ? rock_at_bank : rock;
 }
 

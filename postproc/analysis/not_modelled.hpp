@@ -17,6 +17,8 @@ struct Scope {
     bool with_rock = false;
     bool fed_by_cutting = false;  ///< rock comes all the time, from a cut face
     bool feels_bank = false;      ///< soil stands beside the head
+    bool hauls = false;           ///< the run's frame travels with the head
+    bool fed_by_layer = false;    ///< loose rock that the swing before left comes in, too
 };
 
 Scope scope_of(const RunData& run);

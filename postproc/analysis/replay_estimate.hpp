@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 
 namespace cutterflow::postproc {
 

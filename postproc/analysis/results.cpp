@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/base/axis_frame.hpp"
+#include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 
 namespace cutterflow::postproc {
@@ -258,6 +259,29 @@ json fed_json(const FedHead& head, double in_situ_density) {
     return object;
 }
 
+json dredging_json(const Dredging& dredging) {
+    json object{{"cut_in_situ_m3_h", dredging.cut_in_situ ? json(3600.0 * *dredging.cut_in_situ) : json(nullptr)},
+                {"left_by_swing_before_share", dredging.layer_share},
+                {"spilled_mixing_share", dredging.mixing},
+                {"spilled_cutting_share", dredging.cutting},
+                {"left_behind_share", dredging.left_behind},
+                {"concentration", dredging.concentration},
+                {"mixture_density_kg_m3", dredging.mixture_density},
+                {"spill_layer_m", or_null(dredging.spill_layer)},
+                {"cutting_power_w", or_null(dredging.cutting_power)},
+                {"energy_j_m3", or_null(dredging.energy)},
+                {"cutting_energy_j_m3", or_null(dredging.cutting_energy)},
+                {"spillage_with_fines", or_null(dredging.spillage_with_fines)},
+                {"residence_time_s", or_null(dredging.residence_time)},
+                {"largest_delivered_m", or_null(dredging.largest_delivered)}};
+    object["ways_out"] = nullptr;
+    if (const auto& ways = dredging.ways_out)
+        object["ways_out"] = {{"with_outflow_share", ways->with_outflow},
+                              {"against_inflow_share", ways->against_inflow},
+                              {"by_cutting_share", or_null(ways->by_cutting)}};
+    return object;
+}
+
 json spillage_json(const Spillage& spillage, const std::vector<BinOutflow>& outflow) {
     json object = ratios_json(spillage.ratios);
     object["replicates"] = "no replicate";
@@ -363,6 +387,7 @@ Results compute_results(const RunData& run) {
     results.fed = evaluate_fed_head(run);
     results.rotor = average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
+    if (results.fed) results.dredging = dredging_of(results, run);
     results.scale = compute_scale(run);
     results.conservation = worst_balance(run.balance, results.spillage.has_value());
     results.cost = sum_cost(run, results.end_time, results.rotor.revolutions);
@@ -389,6 +414,7 @@ json results_json(const Results& results, const RunData& run) {
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},
                           {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)}};
     document["production"] = results.fed ? fed_json(*results.fed, run.operating_point.in_situ_density) : json(nullptr);
+    document["dredging"] = results.dredging ? dredging_json(*results.dredging) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},
                              {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};

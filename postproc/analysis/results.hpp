@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "postproc/analysis/production.hpp"
+#include "geometry/base/statistics/production.hpp"
 #include "postproc/analysis/spillage.hpp"
 #include "postproc/analysis/time_average.hpp"
 #include "postproc/run/run_reader.hpp"
@@ -45,6 +45,31 @@ struct Mixing {
 struct FedHead {
     Production production;
     bool is_full = false;  ///< for a revolution more was owed than 5 % of what a blade passing cuts: the head cannot take what it cuts
+};
+
+/// Ways out of a head that is fed from a cut face, as shares of what left it outside the mouth, by mass.
+struct WaysOut {
+    double with_outflow = 0.0;         ///< last exit through a bin where the mean flow goes outwards
+    double against_inflow = 0.0;       ///< through one where it goes inwards: rock falls or is thrown out
+    std::optional<double> by_cutting;  ///< never taken in: lost where it was cut, over all that was spilled in the window
+};
+
+/// What a head that is fed from a cut face does in the window of its production (dredging.hpp).
+struct Dredging {
+    std::optional<double> cut_in_situ;                      ///< soil that the swing cuts [m3/s]
+    std::optional<double> delivered_in_situ;                ///< [m3/s]
+    double layer_share = 0.0;                               ///< of what was fed: loose rock that the swing before left
+    double mixing = 0.0, cutting = 0.0, left_behind = 0.0;  ///< spilled each way, over fed
+    double concentration = 0.0;                             ///< delivered rock's volume over the mixture's
+    double mixture_density = 0.0;                           ///< [kg/m3]
+    std::optional<double> spill_layer;          ///< (1 - P) M_fed / (rho_grain (1 - n)) B / (v_h s): thickness that the spillage makes [m]
+    std::optional<double> cutting_power;        ///< specific energy given by the user, times cut_in_situ [W]
+    std::optional<double> energy;               ///< of the drive for flow and rock, per delivered volume of soil [J/m3]
+    std::optional<double> cutting_energy;       ///< of cutting, per delivered volume of soil [J/m3]
+    std::optional<double> spillage_with_fines;  ///< fines spilled as neutral rock: ((1 - P) fed + S_mix fines) / (fed + fines)
+    std::optional<double> residence_time;       ///< from feed to mouth, mean by mass of delivered rock [s]
+    std::optional<double> largest_delivered;    ///< diameter [m]
+    std::optional<WaysOut> ways_out;            ///< none while nothing was spilled or the outflow is unknown
 };
 
 /// What the suction pipe carries.
@@ -88,9 +113,10 @@ struct Results {
     double end_time = 0.0;             ///< of the last step [s]
     std::optional<Spillage> spillage;  ///< none: no rock
     std::int64_t rock_requested = 0, rock_rejected = 0;
-    std::vector<BinOutflow> outflow;  ///< empty when the run did not sample it
-    std::optional<Mixing> mixing;     ///< of the outflow
-    std::optional<FedHead> fed;       ///< of a head that is fed all the time, once it has run long enough
+    std::vector<BinOutflow> outflow;   ///< empty when the run did not sample it
+    std::optional<Mixing> mixing;      ///< of the outflow
+    std::optional<FedHead> fed;        ///< of a head that is fed all the time, once it has run long enough
+    std::optional<Dredging> dredging;  ///< of the same
     RotorLoads rotor;
     Delivery delivery;
     ScaleNumbers scale;

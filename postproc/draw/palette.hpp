@@ -13,6 +13,7 @@ inline constexpr const char* flow_load = "#3b5b76";
 inline constexpr const char* rock_load = "#a34b86";
 inline constexpr const char* ink = "#26303a";
 inline constexpr const char* faint = "#8a94a0";
+inline constexpr const char* soil = "#b89461";
 
 /// Of a field, light to dark, the same in print; no darker, because arrows lie over it.
 inline constexpr const char* field[] = {"#f4f8fb", "#cfe3f1", "#93c4e4", "#4f9fd1", "#0072b2"};

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/file_content.hpp"
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 #include "postproc/draw/contour.hpp"
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"

@@ -1,10 +1,13 @@
 #include "postproc/pages/comparison_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
+#include <boost/math/tools/minima.hpp>
 
+#include "postproc/analysis/best_speed.hpp"
 #include "postproc/analysis/text.hpp"
 #include "postproc/pages/onset_band.hpp"
 
@@ -211,6 +214,69 @@ void add_measured_points(Plot& plot, const Comparison& comparison) {
     }
 }
 
+/// A value of each setting of a series, linear between its speeds.
+double between(const std::vector<double>& speeds, const std::vector<double>& values, double speed) {
+    const auto after = std::upper_bound(speeds.begin(), speeds.end(), speed);
+    const auto i =
+        static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - speeds.begin(), 1, static_cast<std::ptrdiff_t>(speeds.size()) - 1));
+    return values[i - 1] + (speed - speeds[i - 1]) / (speeds[i] - speeds[i - 1]) * (values[i] - values[i - 1]);
+}
+
+/// 1 - P = 1 - (1 - S_out) exp(-(n_0/n)^2): below its speed n_0 rock falls through between two blades.
+double hypothesis(double outflow, double speed, double fall_through) {
+    return 1.0 - (1.0 - outflow) * std::exp(-fall_through * fall_through / (speed * speed));
+}
+
+/// The speed n_0 [rpm] with which the hypothesis is nearest to the computed spillage, by least squares.
+double fitted_fall_through(const std::vector<double>& speeds, const std::vector<double>& outflow, const std::vector<double>& spillage) {
+    const auto error = [&](double fall_through) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < speeds.size(); ++i) sum += std::pow(hypothesis(outflow[i], speeds[i], fall_through) - spillage[i], 2);
+        return sum;
+    };
+    constexpr int bits = 24;  // of the double's 53: the minimum of a parabola is not known better
+    return boost::math::tools::brent_find_minima(error, 0.0, 10.0 * speeds.back(), bits).first;
+}
+
+/// Beside what heads that are fed all the time spill: what neutral rock would, from each run's own outflow, and a hypothesis of what falls
+/// through at low speed, fitted to the runs themselves.
+void add_outflow_lines(Plot& plot, const Comparison& comparison) {
+    constexpr int points = 60;
+    const Quantity *mixed = find_quantity(comparison, "well_mixed_spillage"), *spilled = find_quantity(comparison, "ratio"),
+                   *speed = find_quantity(comparison, "speed_rpm");
+    if (!mixed) return;
+    for (const SpeedSeries& series : speed_series(comparison)) {
+        std::vector<double> speeds, outflow, computed_at, of_computed, computed;
+        for (const std::size_t i : series.settings) {
+            if (!mixed->settings[i].value) continue;
+            speeds.push_back(*speed->settings[i].value);
+            outflow.push_back(*mixed->settings[i].value);
+            if (!spilled->settings[i].value) continue;
+            computed_at.push_back(speeds.back());
+            of_computed.push_back(outflow.back());
+            computed.push_back(*spilled->settings[i].value);
+        }
+        if (speeds.size() < 2) continue;
+        const std::string of = series.what.empty() ? "" : ", " + series.what;
+        Series line{"S_out: neutral rock" + of, palette::outflow, speeds, {}};
+        line.line_width = 1.4;
+        for (const double share : outflow) line.y.push_back(k_percent * share);
+        plot.series.push_back(line);
+        if (computed.size() < 3) continue;
+        const double fall_through = fitted_fall_through(computed_at, of_computed, computed);
+        Series dashed{
+            fmt::format("hypothesis: outflow and fall-through, n₀ = {:.3g} rpm fitted{}", fall_through, of), palette::faint, {}, {}};
+        dashed.line_width = 1.4;
+        dashed.dashed = true;
+        for (int k = 0; k <= points; ++k) {
+            const double at = speeds.front() + (speeds.back() - speeds.front()) * k / points;
+            dashed.x.push_back(at);
+            dashed.y.push_back(k_percent * hypothesis(between(speeds, outflow, at), at, fall_through));
+        }
+        plot.series.push_back(dashed);
+    }
+}
+
 std::vector<std::string> bins_of(const Comparison& comparison, const std::string& what, const std::string& unit) {
     std::vector<std::string> names;
     for (const geometry::AxialBin& bin : comparison.runs.front().run.bins) {
@@ -314,9 +380,16 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
                                const std::string& what, bool with_measured) {
         Plot plot = trend_plot(comparison, operating, name, x_title, tip);
         if (with_measured) add_measured_points(plot, comparison);
+        const bool with_lines = with_measured && fed;
+        if (with_lines) add_outflow_lines(plot, comparison);
         figures.push_back(with_legend_that_fits(
             plot,
-            shares + ", against " + what + bars + (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "")));
+            shares + ", against " + what + bars + (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "") +
+                (with_lines
+                     ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow. Dashed, a hypothesis and no "
+                       "result: 1 − (1 − S<sub>out</sub>) exp(−(n<sub>0</sub>/n)²), rock that falls through between two blades "
+                       "below the speed n<sub>0</sub>, which is fitted to these runs."
+                     : "")));
         if (drawn_delivery)
             figures.push_back(
                 with_legend_that_fits(delivered_plot(comparison, operating, "delivered_" + name, x_title, tip),

@@ -1,12 +1,14 @@
 #include "postproc/pages/comparison_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "postproc/analysis/best_speed.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/text.hpp"
 #include "postproc/draw/gnuplot.hpp"
@@ -102,6 +104,87 @@ std::string settings_table(const Comparison& comparison) {
     return "<div class=\"legend\">" + html::table({"setting", "name", "cutter", "mesh", "runs", "finished"}, rows, false) + "</div>";
 }
 
+/// A column of the table of operating points.
+struct PointColumn {
+    const char* key;
+    const char* title;
+    double factor;    ///< from the quantity's unit to the column's
+    double exponent;  ///< of the length ratio, by Froude's law
+};
+constexpr PointColumn k_point_columns[] = {{"speed_rpm", "rpm", 1.0, -0.5},
+                                           {"swing_speed_m_min", "swing, m/min", 1.0, 0.5},
+                                           {"discharge_m3_s", "Q, m³/s", 1.0, 2.5},
+                                           {"cut_height_m", "cut, m", 1.0, 1.0},
+                                           {"step_m", "step, m", 1.0, 1.0},
+                                           {"cut_in_situ_m3_h", "cut in situ, m³/h", 1.0, 2.5},
+                                           {"delivered_in_situ_m3_h", "delivered in situ, m³/h", 1.0, 2.5},
+                                           {"delivered_kg_s", "delivered dry, t/h", 3.6, 2.5},
+                                           {"ratio", "spillage, %", 100.0, 0.0},
+                                           {"spilled_mixing_share", "mixing, %", 100.0, 0.0},
+                                           {"spilled_cutting_share", "cutting, %", 100.0, 0.0},
+                                           {"left_behind_share", "left behind, %", 100.0, 0.0},
+                                           {"hold_up_kg", "hold-up, kg", 1.0, 3.0},
+                                           {"mixture_density_kg_m3", "mixture, kg/m³", 1.0, 0.0},
+                                           {"concentration", "C<sub>vd</sub>, %", 100.0, 0.0},
+                                           {"pipe_velocity_m_s", "mouth, m/s", 1.0, 0.5},
+                                           {"spill_layer_m", "spill layer, m", 1.0, 1.0},
+                                           {"torque_flow_mean_n_m", "torque flow, kN m", 1e-3, 4.0},
+                                           {"torque_rock_mean_n_m", "torque rock, kN m", 1e-3, 4.0},
+                                           {"cutting_torque_n_m", "torque cutting, kN m", 1e-3, 3.0},
+                                           {"power_mean_w", "power flow and rock, kW", 1e-3, 3.5},
+                                           {"energy_in_situ_j_m3", "MJ per delivered m³", 1e-6, 1.0},
+                                           {"flow_number", "θ", 1.0, 0.0},
+                                           {"settling_number", "S<sub>t</sub>", 1.0, 0.0},
+                                           {"well_mixed_spillage", "S<sub>mix</sub>, %", 100.0, 0.0},
+                                           {"head_is_full", "full", 1.0, 0.0}};
+
+Estimate scaled(Estimate estimate, double factor) {
+    for (auto* number : {&estimate.value, &estimate.low, &estimate.high, &estimate.half_width})
+        if (*number) *number = factor * **number;
+    return estimate;
+}
+
+std::string points_table(const Comparison& comparison, double length_ratio) {
+    std::vector<std::string> header{"setting"};
+    std::vector<const PointColumn*> columns;
+    for (const PointColumn& column : k_point_columns) {
+        const Quantity* quantity = find_quantity(comparison, column.key);
+        const auto is_known = [](const Estimate& estimate) { return estimate.value || estimate.low; };
+        if (!quantity || std::none_of(quantity->settings.begin(), quantity->settings.end(), is_known)) continue;
+        columns.push_back(&column);
+        header.emplace_back(column.title);
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t i = 0; i < comparison.settings.size(); ++i) {
+        rows.push_back({fmt::format("{}", i + 1)});
+        for (const PointColumn* column : columns) {
+            const double factor = column->factor * std::pow(length_ratio, column->exponent);
+            rows.back().push_back(estimate_markup(scaled(find_quantity(comparison, column->key)->settings[i], factor)));
+        }
+    }
+    return html::scrolling(html::table(header, rows, true));
+}
+
+/// Every operating point of heads that are fed all the time in one line, in the model and, where all have the same, in the prototype.
+std::string points_section(const Comparison& comparison) {
+    std::string content = points_table(comparison, 1.0);
+    const double ratio = comparison.runs.front().run.operating_point.length_ratio;
+    const bool same = std::all_of(comparison.runs.begin(), comparison.runs.end(),
+                                  [&](const ComparedRun& r) { return r.run.operating_point.length_ratio == ratio; });
+    if (same && ratio != 1.0)
+        content += fmt::format("<h3>Prototype, {:g} times as long, by Froude’s law</h3>", ratio) + points_table(comparison, ratio);
+    content +=
+        "<p>θ = Q/(ωR³); S<sub>t</sub> = u<sub>t</sub>/(Q/(πR²)); S<sub>mix</sub>: spillage of neutral, well-mixed rock. Torque of cutting "
+        "only where soil.specific_energy_mj_m3 is given; it is the same energy per volume in the prototype.</p>";
+    return html::section("The operating points", content);
+}
+
+std::string best_speeds(const Comparison& comparison) {
+    std::string content;
+    for (const std::string& sentence : best_speed_text(comparison)) content += fmt::format("<p><b>{}</b></p>\n", escape(sentence));
+    return content;
+}
+
 /// Keys that differ between the studies, with the sizes derived from them.
 std::string studies_table(const Comparison& comparison) {
     std::vector<std::vector<std::string>> rows;
@@ -193,6 +276,7 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder, 
         body +=
             "<p>No replicate: each setting is one batch. The ranges are bounds by the undecided rock, not intervals; three or more repeats "
             "of a setting give intervals.</p>\n";
+    if (scope_of(comparison).fed_by_cutting) body += best_speeds(comparison) + points_section(comparison);
     body += plots(comparison, page);
     body += html::section("The numbers",
                           quantities_table(comparison) +

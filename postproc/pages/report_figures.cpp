@@ -336,8 +336,23 @@ Figure ratio_over_time(const Table& fates, const Spillage& spillage, double revo
     return {plot, "Spillage ratio over time with its bounds: lower, all undecided rock is sucked up; upper, all is spilled.", ""};
 }
 
+/// Azimuths between which the bank stands beside the ring, from the lowest side to the bank's top; none without a bank.
+std::optional<std::pair<double, double>> bank_sector(const RunData& run) {
+    const OperatingPoint& point = run.operating_point;
+    if (!point.has_bank || !(point.cut_height > 0.0)) return std::nullopt;
+    const double inclination = point.inclination_deg * k_pi / 180.0, c = std::cos(inclination), s = std::sin(inclination);
+    const geometry::Contour& head = run.contour;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < head.z().size(); ++i) lowest = std::min(lowest, head.z()[i] * s - head.radius()[i] * c);
+    const double top = lowest - point.standing_out + point.cut_height;
+    const double reach = (head.ring_radius() + point.standing_out) * c;
+    const double up_to = reach > 0.0 ? std::acos(std::clamp(-top / reach, -1.0, 1.0)) : k_pi;
+    const bool at_90 = (point.swing_direction == "under_cut") == (point.rotor_direction == "right_handed");
+    return at_90 ? std::pair(0.0, up_to) : std::pair(-up_to, 0.0);
+}
+
 /// Rocks by azimuth of their first exit, in sectors of 15 degrees, seen from the hub, lowest side down.
-Figure first_exit(const std::vector<double>& azimuths) {
+Figure first_exit(const std::vector<double>& azimuths, const std::optional<std::pair<double, double>>& bank) {
     std::array<int, k_sectors> counts{};
     for (const double azimuth : azimuths) {
         const double turn = azimuth / (2.0 * k_pi) - std::floor(azimuth / (2.0 * k_pi));
@@ -375,6 +390,14 @@ Figure first_exit(const std::vector<double>& azimuths) {
             fmt::format("{} to {}°: {} rock{}", k * 360 / k_sectors, (k + 1) * 360 / k_sectors, count, count == 1 ? "" : "s"));
     }
     plot.polygons.push_back(sectors);
+    if (bank) {
+        constexpr int steps = 40;
+        Polygon soil{palette::soil, {}, {}};
+        const auto at = [&](int step) { return bank->first + (bank->second - bank->first) * step / steps; };
+        for (int step = 0; step <= steps; ++step) add(soil, 1.03, at(step));
+        for (int step = steps; step >= 0; --step) add(soil, 1.1, at(step));
+        plot.polygons.push_back(soil);
+    }
     plot.series.push_back(middles);
     for (const double ring : {0.5, 1.0}) {
         plot.circles.push_back({ring, "#c3cad1"});
@@ -389,8 +412,9 @@ Figure first_exit(const std::vector<double>& azimuths) {
     }
     return {
         plot,
-        "Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock left out). Seen from the hub, "
-        "the lowest side down.",
+        std::string("Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock left out). Seen from "
+                    "the hub, the lowest side down.") +
+            (bank ? " Brown: where the bank stands beside the ring, up to its top." : ""),
         "rose"};
 }
 
@@ -486,7 +510,7 @@ std::vector<PlacedFigure> report_figures(const Results& results, const RunData& 
     if (rock && has_outflow(results) && rock->fates.placed.mass > 0.0) add(Place::figures, top_bin(results));
     for (const auto& plane : {axial_plane(run), plane_under_ring(run)})
         if (plane) add(Place::figures, *plane);
-    if (rock && !rock->first_exit_azimuths.empty()) add(Place::figures, first_exit(rock->first_exit_azimuths));
+    if (rock && !rock->first_exit_azimuths.empty()) add(Place::figures, first_exit(rock->first_exit_azimuths, bank_sector(run)));
     if (rock) add(Place::figures, fates_over_time(run.rock->fates, *rock, revolution));
     if (rock && !run.operating_point.fed_by_cutting) add(Place::figures, ratio_over_time(run.rock->fates, *rock, revolution));
     add(Place::figures, torque(run.loads, results.rotor, revolution, rock.has_value()));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/text.hpp"
 #include "postproc/draw/html.hpp"
@@ -182,20 +183,39 @@ std::string production_table(const Results& results, const RunData& run) {
     const auto mean = [](const std::optional<TimeAverage>& average) {
         return average ? std::optional<double>(average->mean) : std::nullopt;
     };
+    const Dredging& dredging = *results.dredging;
+    const auto times = [](double factor, const std::optional<double>& value) {
+        return value ? std::optional<double>(factor * *value) : std::nullopt;
+    };
+    const auto given = [](double value) { return value > 0.0 ? std::optional<double>(value) : std::nullopt; };
+    const std::optional<double> cutting_torque = times(1.0 / point.angular_speed(), dredging.cutting_power);
     const std::vector<ScaledValue> values{
         {"rotor speed", "rpm", point.speed_rpm, -0.5},
-        {"swing speed", "m/min", point.swing_speed > 0.0 ? std::optional<double>(60.0 * point.swing_speed) : std::nullopt, 0.5},
+        {"swing speed", "m/min", times(60.0, given(point.swing_speed)), 0.5},
+        {"cut: height of the bank", "m", given(point.cut_height), 1.0},
+        {"cut: step", "m", given(point.step), 1.0},
         {"discharge of the mixture", "m³/h", 3600.0 * point.discharge, 2.5},
         {"speed in the suction mouth", "m/s", results.delivery.pipe_velocity, 0.5},
+        {"cut, soil in situ", "m³/h", times(3600.0, dredging.cut_in_situ), 2.5},
         {"fed, dry", "t/h", tonnes(production.fed), 2.5},
         {"fed, soil in situ", "m³/h", in_situ(production.fed), 2.5},
         {"delivered, dry", "t/h", tonnes(production.delivered), 2.5},
         {"delivered, soil in situ", "m³/h", in_situ(production.delivered), 2.5},
         {"spilled, dry", "t/h", tonnes(production.spilled), 2.5},
         {"hold-up grows by", "t/h", tonnes(production.held_change), 2.5},
+        {"hold-up", "kg", production.held, 3.0},
+        {"density of the mixture", "kg/m³", given(dredging.mixture_density), 0.0},
+        {"delivered rock in the mixture, by volume", "%", 100.0 * dredging.concentration, 0.0},
+        {"thickness of the layer that this spillage leaves", "m", dredging.spill_layer, 1.0},
         {"torque of the flow", "kN m", scaled_down(mean(results.rotor.torque_flow)), 4.0},
         {"torque of the rock", "kN m", scaled_down(mean(results.rotor.torque_rock)), 4.0},
-        {"power of the drive, cutting excluded", "kW", scaled_down(mean(results.rotor.power)), 3.5}};
+        {"torque of cutting, from soil.specific_energy_mj_m3", "kN m", scaled_down(cutting_torque), 3.0},
+        {"power of the drive for flow and rock", "kW", scaled_down(mean(results.rotor.power)), 3.5},
+        {"power of cutting, from soil.specific_energy_mj_m3", "kW", scaled_down(dredging.cutting_power), 2.5},
+        {"energy for flow and rock, per delivered m³ in situ", "MJ/m³", times(1e-6, dredging.energy), 1.0},
+        {"energy of cutting, per delivered m³ in situ", "MJ/m³", times(1e-6, dredging.cutting_energy), 0.0},
+        {"time of delivered rock from cut to mouth, mean", "s", dredging.residence_time, 0.5},
+        {"largest rock delivered", "mm", times(1e3, dredging.largest_delivered), 1.0}};
     const bool has_prototype = point.length_ratio != 1.0;
     std::vector<std::vector<std::string>> rows;
     for (const ScaledValue& value : values) {
@@ -205,10 +225,28 @@ std::string production_table(const Results& results, const RunData& run) {
     }
     std::vector<std::string> header{"steady production", "model"};
     if (has_prototype) header.push_back(fmt::format("prototype, {:g} times as long", point.length_ratio));
-    return fmt::format("<p>Means over {:.0f} revolutions, {:.3f} to {:.3f} s{}.{}</p>\n", duration / point.revolution_s(), production.from,
-                       production.to, production.start ? "" : "; start-up never ended",
-                       has_prototype ? " The prototype’s by Froude’s law in the same water." : "") +
+    const std::string cutting_note =
+        dredging.cutting_power ? " The energy of cutting a volume of soil is the user’s; it is the same in the prototype."
+                               : " Power of cutting: not known without soil.specific_energy_mj_m3; forces on picks are not computed.";
+    return fmt::format("<p>Means over {:.0f} revolutions, {:.3f} to {:.3f} s{}.{}{}</p>\n", duration / point.revolution_s(),
+                       production.from, production.to, production.start ? "" : "; start-up never ended",
+                       has_prototype ? " The prototype’s by Froude’s law in the same water." : "", cutting_note) +
            html::table(header, rows, true);
+}
+
+/// Shares of what was fed, in the window of the production.
+std::string losses_table(const Results& results, const RunData& run) {
+    const Dredging& dredging = *results.dredging;
+    std::vector<std::vector<std::string>> rows{{"spilled by mixing: had been in the head’s flow", percent(dredging.mixing)},
+                                               {"spilled by cutting: lost where it was cut, never taken in", percent(dredging.cutting)},
+                                               {"left behind: outside and far off, taken out of the run", percent(dredging.left_behind)}};
+    if (dredging.layer_share > 0.0)
+        rows.push_back({"of what was fed, loose rock that the swing before left", percent(dredging.layer_share)});
+    if (run.operating_point.rock_share < 1.0) {
+        rows.push_back({"fines, of what was cut (not followed)", percent(1.0 - run.operating_point.rock_share)});
+        rows.push_back({"spillage of rock and fines, these as neutral rock", percent(dredging.spillage_with_fines)});
+    }
+    return html::table({"lost on its way", "share of what was fed"}, rows, true);
 }
 
 /// The mean of an average and, in small print, its error.
@@ -288,7 +326,8 @@ std::string answers(const Results& results, const RunData& run) {
     if (!results.spillage) return blocks(flow_answers(results));
     if (!run.operating_point.fed_by_cutting) return blocks(rock_answers(results, revolution));
     if (!results.fed) return blocks(early_answers(results.spillage->fates));
-    return blocks(fed_answers(*results.fed)) + production_table(results, run);
+    return blocks(fed_answers(*results.fed)) + fmt::format("<p>{}</p>\n", escape(limits_text(results))) + production_table(results, run) +
+           losses_table(results, run);
 }
 
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {

@@ -9,6 +9,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/sphere.hpp"
 #include "geometry/base/toml.hpp"
 #include "geometry/head/head_names.hpp"
 
@@ -28,6 +29,7 @@ const std::vector<JsonField> k_geometry_fields{{"file", JsonKind::text},
 const std::vector<JsonField> k_feed_fields{{"feeds/*/requested", JsonKind::whole, true},
                                            {"feeds/*/rejected", JsonKind::whole, true},
                                            {"feeds/*/reasons/*", JsonKind::text},
+                                           {"feeds/*/left_by_swing_before", JsonKind::truth},
                                            {"feeds/*/classes/*/diameter_m", JsonKind::number, true},
                                            {"feeds/*/classes/*/density_kg_m3", JsonKind::number, true},
                                            {"feeds/*/classes/*/count", JsonKind::number, true},
@@ -108,6 +110,9 @@ public:
         });
         return text.str();
     }
+    bool is_true(const std::string& key) const { return root_.at_path(key).value_or(false); }
+    /// Share of what is cut that becomes rock of the feed's sizes.
+    double rock_share() const { return root_["feed"][0]["disintegration"].value_or(1.0); }
     bool is_fed_by_cutting() const { return root_["feed"][0]["kind"].value_or(std::string()) == "cut_face"; }
     bool has_bank() const { return root_["bank"]["model"].value_or(std::string()) == "wall"; }
     int seed() const { return root_["feed"][0]["seed"].value_or(0); }
@@ -168,6 +173,14 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.fed_by_cutting = study.is_fed_by_cutting();
     point.has_bank = study.has_bank();
     point.swing_speed = study.number_or("swing.speed_m_min", 0.0) / 60.0;
+    point.bulking = study.number_or("soil.bulking", point.bulking);
+    point.cut_height = study.number_or("bank.cut_height_m", 0.0);
+    point.step = study.number_or("bank.step_m", 0.0);
+    point.standing_out = study.number_or("bank.pick_length_m", 0.0) + study.number_or("bank.clearance_m", 0.0);
+    point.spill_layer = study.number_or("bed.spill_layer_m", 0.0);
+    point.rock_share = study.rock_share();
+    point.hauls = study.is_true("hauling.water");
+    if (const double energy = study.number_or("soil.specific_energy_mj_m3", 0.0); energy > 0.0) point.specific_energy = 1e6 * energy;
     point.in_situ_density = study.number_or("soil.grain_density_kg_m3", 0.0) * (1.0 - study.number_or("soil.porosity", 0.0));
     return point;
 }
@@ -193,6 +206,7 @@ std::optional<FeedSummary> read_feed(const fs::path& file) {
     if (!fs::exists(file)) return std::nullopt;
     const json report = read_json(file, k_feed_fields);
     FeedSummary summary;
+    double mass = 0.0, left = 0.0;
     for (const json& feed : report.at("feeds")) {
         summary.requested += feed.at("requested").get<std::int64_t>();
         summary.rejected += feed.at("rejected").get<std::int64_t>();
@@ -202,8 +216,12 @@ std::optional<FeedSummary> read_feed(const fs::path& file) {
             const json speed = item.value("settling_velocity_m_s", json());
             if (!speed.is_null()) rock_class.settling_velocity = speed;
             summary.classes.push_back(rock_class);
+            const double of_class = rock_class.count * sphere_mass(rock_class.diameter, rock_class.density);
+            mass += of_class;
+            if (feed.value("left_by_swing_before", false)) left += of_class;
         }
     }
+    if (mass > 0.0) summary.left_share = left / mass;
     return summary;
 }
 

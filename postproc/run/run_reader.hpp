@@ -27,15 +27,22 @@ struct OperatingPoint {
     double mouth_offset = 0.0;  ///< of the mouth's centre from the rotor's axis [m]
     double mouth_azimuth_deg = 0.0;
     double inclination_deg = 0.0;
-    double fluid_density = 0.0;    ///< [kg/m3], > 0
-    double outflow_start = 0.0;    ///< start of the averaging window of outflow and loads [s]
-    double length_ratio = 1.0;     ///< prototype length over model length, > 0
-    std::string swing_direction;   ///< may be empty
-    std::string mesh_preset;       ///< may be empty
-    bool fed_by_cutting = false;   ///< rock comes all the time, from a cut face
-    bool has_bank = false;         ///< soil stands beside the head
-    double swing_speed = 0.0;      ///< [m/s]; 0: not given
-    double in_situ_density = 0.0;  ///< dry grains per volume of soil, rho_grain (1 - n) [kg/m3]; 0: not given
+    double fluid_density = 0.0;             ///< [kg/m3], > 0
+    double outflow_start = 0.0;             ///< start of the averaging window of outflow and loads [s]
+    double length_ratio = 1.0;              ///< prototype length over model length, > 0
+    std::string swing_direction;            ///< may be empty
+    std::string mesh_preset;                ///< may be empty
+    bool fed_by_cutting = false;            ///< rock comes all the time, from a cut face
+    bool has_bank = false;                  ///< soil stands beside the head
+    double swing_speed = 0.0;               ///< [m/s]; 0: not given
+    double in_situ_density = 0.0;           ///< dry grains per volume of soil, rho_grain (1 - n) [kg/m3]; 0: not given
+    double bulking = 1.5;                   ///< volume of loose rock over that of soil
+    double cut_height = 0.0, step = 0.0;    ///< of the bank [m]; 0: not given
+    double standing_out = 0.0;              ///< of picks and clearance beyond the contour [m]
+    double spill_layer = 0.0;               ///< that the swing before left [m]
+    double rock_share = 1.0;                ///< of what is cut; the rest are fines, which are not followed
+    bool hauls = false;                     ///< the run's frame travels with the head
+    std::optional<double> specific_energy;  ///< of cutting [J/m3]
     double revolution_s() const { return 60.0 / speed_rpm; }
     double angular_speed() const { return rpm_to_rad_s(speed_rpm); }  ///< [rad/s], > 0
 };
@@ -54,6 +61,7 @@ struct FeedSummary {
     std::int64_t rejected = 0;
     std::vector<std::string> reasons;
     std::vector<RockClass> classes;
+    double left_share = 0.0;  ///< of the mass: loose rock that the swing before left
 };
 
 /// Tables of the rock; present once rock was put in.

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 
 namespace cutterflow::postproc::calibration {
 

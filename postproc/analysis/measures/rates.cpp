@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/base/statistics/sample.hpp"
 #include "postproc/analysis/measures/line_fit.hpp"
-#include "postproc/analysis/sample.hpp"
 
 namespace cutterflow::postproc {
 

@@ -11,7 +11,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 
 namespace cutterflow::postproc {
 

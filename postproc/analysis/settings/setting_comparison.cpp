@@ -8,7 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
 

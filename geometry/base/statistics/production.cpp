@@ -1,13 +1,13 @@
-#include "postproc/analysis/production.hpp"
+#include "geometry/base/statistics/production.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 
-namespace cutterflow::postproc {
+namespace cutterflow {
 namespace {
 
 constexpr std::size_t k_values_per_group = 5;  // of MSER-5
@@ -128,6 +128,10 @@ std::optional<BatchMeans> batch_means(const std::vector<double>& values, std::si
     return std::nullopt;
 }
 
+double gain_over(const std::vector<double>& times, const std::vector<double>& values, double from, double to) {
+    return at(times, values, to) - at(times, values, from);
+}
+
 double longest_time_above(const std::vector<double>& time, const std::vector<double>& values, double limit) {
     double longest = 0.0;
     std::optional<double> since;
@@ -160,9 +164,7 @@ std::optional<Production> production_of(const ProductionSeries& series, double r
     if (revolutions < 1.0) return std::nullopt;
     production.to = end;
     production.from = end - revolutions * revolution;
-    const auto gain = [&](const std::vector<double>& values) {
-        return at(series.time, values, production.to) - at(series.time, values, production.from);
-    };
+    const auto gain = [&](const std::vector<double>& values) { return gain_over(series.time, values, production.from, production.to); };
     production.fed = gain(series.fed);
     if (!(production.fed > 0.0)) return std::nullopt;
     production.delivered = gain(series.delivered);
@@ -179,4 +181,4 @@ std::optional<Production> production_of(const ProductionSeries& series, double r
     return production;
 }
 
-}  // namespace cutterflow::postproc
+}  // namespace cutterflow

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "postproc/analysis/production.hpp"
+#include "geometry/base/statistics/production.hpp"
 
-namespace cutterflow::postproc {
+namespace cutterflow {
 namespace {
 
 std::vector<double> noise(std::size_t count, std::uint64_t seed) {
@@ -147,4 +147,4 @@ TEST(Production, starts_later_where_hold_up_grows_slowly) {
 }
 
 }  // namespace
-}  // namespace cutterflow::postproc
+}  // namespace cutterflow

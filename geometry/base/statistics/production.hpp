@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-namespace cutterflow::postproc {
+namespace cutterflow {
 
 /// What a run did up to each time, by mass [kg]: all but held-up rock grows only.
 struct ProductionSeries {
@@ -30,6 +30,9 @@ struct BatchMeans {
 /// \return nothing when fewer than 8 batches are left before they do
 std::optional<BatchMeans> batch_means(const std::vector<double>& values, std::size_t shortest);
 
+/// What a growing series gained over [from, to], linear between its times.
+double gain_over(const std::vector<double>& times, const std::vector<double>& values, double from, double to);
+
 /// Longest stretch of time [s] over which a series stays above a limit.
 double longest_time_above(const std::vector<double>& time, const std::vector<double>& values, double limit);
 
@@ -51,4 +54,4 @@ struct Production {
 /// \param revolution  [s] \return nothing when nothing was fed or no whole revolution is left
 std::optional<Production> production_of(const ProductionSeries& series, double revolution);
 
-}  // namespace cutterflow::postproc
+}  // namespace cutterflow

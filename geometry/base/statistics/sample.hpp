@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace cutterflow::postproc {
+namespace cutterflow {
 
 struct Sample {
     double mean = 0.0;
@@ -20,4 +20,4 @@ double half_interval(const Sample& sample);
 /// neither scatters. \pre two values or more in both
 double half_interval_of_two(const Sample& a, const Sample& b);
 
-}  // namespace cutterflow::postproc
+}  // namespace cutterflow

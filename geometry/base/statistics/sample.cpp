@@ -1,10 +1,10 @@
-#include "postproc/analysis/sample.hpp"
+#include "geometry/base/statistics/sample.hpp"
 
 #include <cmath>
 
 #include <boost/math/distributions/students_t.hpp>
 
-namespace cutterflow::postproc {
+namespace cutterflow {
 
 namespace {
 
@@ -39,4 +39,4 @@ double half_interval_of_two(const Sample& a, const Sample& b) {
     return student_factor(freedom) * std::sqrt(va + vb);
 }
 
-}  // namespace cutterflow::postproc
+}  // namespace cutterflow

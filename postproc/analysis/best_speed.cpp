@@ -1,0 +1,101 @@
+#include "postproc/analysis/best_speed.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace cutterflow::postproc {
+namespace {
+
+constexpr const char *k_production = "production", *k_speed = "speed_rpm";
+
+double speed_of(const Comparison& comparison, std::size_t setting) {
+    return find_quantity(comparison, k_speed)->settings[setting].value.value_or(0.0);
+}
+
+const Estimate& production_of(const Comparison& comparison, std::size_t setting) {
+    return find_quantity(comparison, k_production)->settings[setting];
+}
+
+bool is_known(const Estimate& estimate) {
+    return estimate.value && estimate.half_width;
+}
+
+/// Whether the interval of a lies above that of b.
+bool is_above(const Estimate& a, const Estimate& b) {
+    return *a.value - *a.half_width > *b.value + *b.half_width;
+}
+
+/// Place in the series of the highest production. \pre all are known
+std::size_t highest(const Comparison& comparison, const SpeedSeries& series) {
+    const auto less = [&](std::size_t a, std::size_t b) {
+        return *production_of(comparison, a).value < *production_of(comparison, b).value;
+    };
+    return static_cast<std::size_t>(std::max_element(series.settings.begin(), series.settings.end(), less) - series.settings.begin());
+}
+
+bool all_known(const Comparison& comparison, const SpeedSeries& series) {
+    return std::all_of(series.settings.begin(), series.settings.end(),
+                       [&](std::size_t setting) { return is_known(production_of(comparison, setting)); });
+}
+
+std::string sentence(const Comparison& comparison, const SpeedSeries& series) {
+    const std::string of = series.what.empty() ? "" : fmt::format(" ({})", series.what);
+    const auto rpm = [&](std::size_t place) { return fmt::format("{:g} rpm", speed_of(comparison, series.settings[place])); };
+    if (const auto best = best_speed(comparison, series))
+        return fmt::format("Of these speeds {:g} rpm delivers most of what is fed{}: its interval is apart from its neighbours'.",
+                           speed_of(comparison, *best), of);
+    const std::string none = fmt::format("No optimum found within the error{}: ", of);
+    if (!all_known(comparison, series)) return none + "not every speed has an interval of its production.";
+    const std::size_t top = highest(comparison, series);
+    if (top == 0 || top + 1 == series.settings.size())
+        return none + fmt::format("production is highest at the end of the range, {}.", rpm(top));
+    return none + fmt::format("production is highest at {}, but its interval is not apart from its neighbours'.", rpm(top));
+}
+
+}  // namespace
+
+std::vector<SpeedSeries> speed_series(const Comparison& comparison) {
+    const std::map<std::string, std::vector<std::string>> differing = differing_keys(comparison);
+    std::map<std::string, SpeedSeries> by_rest;
+    for (std::size_t setting = 0; setting < comparison.settings.size(); ++setting) {
+        std::vector<std::string> rest;
+        for (const auto& [key, values] : differing)
+            // What follows from the speed by itself differs, too.
+            if (key != "rotor.speed_rpm" && key.rfind("run.", 0) != 0 && key.rfind("report.", 0) != 0 && key != "rock.youngs_modulus_pa")
+                rest.push_back(fmt::format("{} = {}", key, values[setting]));
+        SpeedSeries& series = by_rest[fmt::format("{}", fmt::join(rest, ", "))];
+        series.settings.push_back(setting);
+    }
+    std::vector<SpeedSeries> all;
+    for (auto& [what, series] : by_rest) {
+        if (series.settings.size() < 2) continue;
+        series.what = what;
+        std::stable_sort(series.settings.begin(), series.settings.end(),
+                         [&](std::size_t a, std::size_t b) { return speed_of(comparison, a) < speed_of(comparison, b); });
+        all.push_back(series);
+    }
+    return all;
+}
+
+std::optional<std::size_t> best_speed(const Comparison& comparison, const SpeedSeries& series) {
+    if (series.settings.size() < 3 || !all_known(comparison, series)) return std::nullopt;
+    const std::size_t top = highest(comparison, series);
+    if (top == 0 || top + 1 == series.settings.size()) return std::nullopt;
+    const Estimate& best = production_of(comparison, series.settings[top]);
+    for (const std::size_t neighbour : {top - 1, top + 1})
+        if (!is_above(best, production_of(comparison, series.settings[neighbour]))) return std::nullopt;
+    return series.settings[top];
+}
+
+std::vector<std::string> best_speed_text(const Comparison& comparison) {
+    if (!scope_of(comparison).fed_by_cutting || !find_quantity(comparison, k_production)) return {};
+    std::vector<std::string> sentences;
+    for (const SpeedSeries& series : speed_series(comparison))
+        if (series.settings.size() >= 3) sentences.push_back(sentence(comparison, series));
+    return sentences;
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,27 @@
+#pragma once
+/// \file Whether runs at several speeds tell which one delivers most.
+#include <string>
+#include <vector>
+
+#include "postproc/analysis/comparison.hpp"
+
+namespace cutterflow::postproc {
+
+/// Settings that differ in nothing but the rotor's speed, by increasing speed.
+struct SpeedSeries {
+    std::vector<std::size_t> settings;
+    std::string what;  ///< where there are several series: what this one has in common, as "swing.speed_m_min = 6"
+};
+
+/// Series of two speeds and more.
+std::vector<SpeedSeries> speed_series(const Comparison& comparison);
+
+/// The setting whose production (delivered / fed) is highest, when it lies between two others of the series and its 95 % interval is apart
+/// from both neighbours'; none otherwise.
+std::optional<std::size_t> best_speed(const Comparison& comparison, const SpeedSeries& series);
+
+/// A sentence for every series of three speeds and more: the best speed, or that no optimum was found within the error, and why. Empty for
+/// runs that are not fed all the time.
+std::vector<std::string> best_speed_text(const Comparison& comparison);
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,114 @@
+#include "postproc/analysis/dredging.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "geometry/base/sphere.hpp"
+#include "postproc/analysis/text.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+/// Of delivered rock: how long it was on its way, and its sizes.
+void follow_delivered(const Table& events, const Production& window, Dredging& dredging) {
+    std::map<int, double> fed;
+    double mass = 0.0, mass_time = 0.0, largest = 0.0;
+    for (std::size_t row = 0; row < events.rows(); ++row) {
+        const int id = static_cast<int>(events.number("id")[row]);
+        const double time = events.number("time_s")[row];
+        const std::string& surface = events.text("surface")[row];
+        if (surface == "feed") fed[id] = time;
+        const auto start = fed.find(id);
+        if (surface != "mouth" || start == fed.end() || time < window.from || time > window.to) continue;
+        const double diameter = events.number("diameter_m")[row], of_rock = sphere_mass(diameter, events.number("density_kg_m3")[row]);
+        mass += of_rock;
+        mass_time += of_rock * (time - start->second);
+        largest = std::max(largest, diameter);
+        fed.erase(start);
+    }
+    if (!(mass > 0.0)) return;
+    dredging.residence_time = mass_time / mass;
+    dredging.largest_delivered = largest;
+}
+
+std::optional<WaysOut> ways_out_of(const Results& results, double by_cutting, double spilled) {
+    const std::vector<BinSpillage>& bins = results.spillage->bins;
+    double with = 0.0, against = 0.0;
+    for (std::size_t i = 0; i < bins.size() && i < results.outflow.size(); ++i) {
+        const std::optional<TimeAverage>& velocity = results.outflow[i].radial_velocity;
+        if (!velocity) return std::nullopt;
+        (velocity->mean > 0.0 ? with : against) += bins[i].spilled.mass;
+    }
+    if (!(with + against > 0.0)) return std::nullopt;
+    WaysOut ways{with / (with + against), against / (with + against), std::nullopt};
+    if (spilled > 0.0) ways.by_cutting = by_cutting / spilled;
+    return ways;
+}
+
+}  // namespace
+
+Dredging dredging_of(const Results& results, const RunData& run) {
+    const Production& window = results.fed->production;
+    const OperatingPoint& point = run.operating_point;
+    const Table& ledger = run.rock->ledger;
+    const double duration = window.to - window.from;
+    const auto gain = [&](const char* column) { return gain_over(ledger.number("time_s"), ledger.number(column), window.from, window.to); };
+
+    Dredging dredging;
+    dredging.layer_share = run.feed ? run.feed->left_share : 0.0;
+    dredging.mixing = gain("spilled_mixing_kg") / window.fed;
+    dredging.cutting = gain("spilled_cutting_kg") / window.fed;
+    dredging.left_behind = gain("left_behind_kg") / window.fed;
+    follow_delivered(run.rock->events, window, dredging);
+    dredging.ways_out = ways_out_of(results, dredging.cutting, dredging.mixing + dredging.cutting + dredging.left_behind);
+
+    double mass = 0.0, volume = 0.0;  // of the feed
+    if (run.feed)
+        for (const RockClass& rock : run.feed->classes) {
+            mass += rock.count * sphere_mass(rock.diameter, rock.density);
+            volume += rock.count * sphere_volume(rock.diameter);
+        }
+    if (volume > 0.0) {
+        const double mixture = point.discharge * duration;
+        dredging.concentration = window.delivered * volume / mass / mixture;
+        dredging.mixture_density = point.fluid_density * (1.0 - dredging.concentration) + window.delivered / mixture;
+    }
+
+    const double of_soil = (1.0 - dredging.layer_share) * window.fed / point.rock_share;  // cut, rock and fines [kg]
+    const double fines = of_soil * (1.0 - point.rock_share);
+    if (window.is_steady && results.mixing)
+        dredging.spillage_with_fines =
+            (window.spillage_max * window.fed + results.mixing->well_mixed_spillage * fines) / (window.fed + fines);
+    if (!(point.in_situ_density > 0.0)) return dredging;
+    dredging.cut_in_situ = of_soil / duration / point.in_situ_density;
+    dredging.delivered_in_situ = window.delivered / duration / point.in_situ_density;
+    if (window.is_steady && point.swing_speed > 0.0 && point.step > 0.0)
+        dredging.spill_layer =
+            window.spillage_max * window.fed / duration / point.in_situ_density * point.bulking / (point.swing_speed * point.step);
+    if (point.specific_energy) dredging.cutting_power = *point.specific_energy * *dredging.cut_in_situ;
+    if (!(*dredging.delivered_in_situ > 0.0)) return dredging;
+    if (results.rotor.power) dredging.energy = results.rotor.power->mean / *dredging.delivered_in_situ;
+    if (dredging.cutting_power) dredging.cutting_energy = *dredging.cutting_power / *dredging.delivered_in_situ;
+    return dredging;
+}
+
+std::string limits_text(const Results& results) {
+    if (!results.dredging) return "";
+    const std::optional<WaysOut>& ways = results.dredging->ways_out;
+    std::string sentence = "What limits: ";
+    if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts. ";
+    if (!ways) return results.fed->is_full ? sentence : "What limits: nothing was spilled.";
+    sentence += fmt::format(
+        "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
+        "flows inwards (it fell through or was thrown out)",
+        text::percent(ways->with_outflow), text::percent(ways->against_inflow));
+    if (ways->by_cutting)
+        sentence += fmt::format("; {} of what was spilled had never been taken in (lost in cutting)", text::percent(*ways->by_cutting));
+    if (results.mixing)
+        sentence += fmt::format(". Neutral rock, well mixed, would spill {}", text::percent(results.mixing->well_mixed_spillage));
+    return sentence + ".";
+}
+
+}  // namespace cutterflow::postproc

@@ -1,0 +1,144 @@
+// A fed head whose rates are known by hand: 10 kg/s of 2000 kg/m3 of soil, 60 % delivered.
+#include "postproc/analysis/dredging.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "postproc/analysis/best_speed.hpp"
+#include "postproc/tests/synthetic_run.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::read_text;
+using testing::SmallRun;
+using testing::write_text;
+
+constexpr double k_swing = 0.1, k_step = 0.16, k_bulking = 1.4;  // [m/s], [m]
+
+/// Adds keys at the end of the section that they belong to.
+void add_to_study(const fs::path& directory, const std::string& section, const std::string& keys) {
+    std::string study = read_text(directory / "study.resolved.toml");
+    const std::string title = "[" + section + "]\n";
+    const std::size_t at = study.find(title);
+    ASSERT_NE(at, std::string::npos) << title;
+    study.insert(at + title.size(), keys);
+    write_text(directory / "study.resolved.toml", study);
+}
+
+fs::path at_work(const std::string& name, double rpm = 60.0, double stuck = 0.0) {
+    SmallRun run(name);
+    run.speed_rpm = rpm;
+    run.write();
+    testing::make_fed(run, 5.0, stuck);
+    add_to_study(run.directory, "swing", fmt::format("speed_m_min = {}\n", 60.0 * k_swing));
+    add_to_study(run.directory, "bank", fmt::format("step_m = {}\ncut_height_m = 0.32\n", k_step));
+    add_to_study(run.directory, "soil", fmt::format("bulking = {}\nspecific_energy_mj_m3 = 0.5\n", k_bulking));
+    return run.directory;
+}
+
+TEST(Dredging, has_the_rates_of_the_swing) {
+    const RunData run = read_run(at_work("dredging"));
+    const Results results = compute_results(run);
+    ASSERT_TRUE(results.dredging);
+    const Dredging& work = *results.dredging;
+    EXPECT_NEAR(*work.cut_in_situ, 10.0 / 2000.0, 1e-6);
+    EXPECT_NEAR(*work.delivered_in_situ, 6.0 / 2000.0, 5e-5);
+    EXPECT_NEAR(work.mixing, 0.4, 0.01);
+    EXPECT_EQ(work.cutting, 0.0);
+    EXPECT_EQ(work.left_behind, 0.0);
+    // Of 0.12 m3/s of mixture.
+    double mass = 0.0, volume = 0.0;
+    for (const RockClass& rock : run.feed->classes) {
+        const double one = k_pi / 6.0 * std::pow(rock.diameter, 3);
+        volume += rock.count * one;
+        mass += rock.count * one * rock.density;
+    }
+    EXPECT_NEAR(work.concentration, 6.0 * volume / mass / 0.12, 1e-3);
+    EXPECT_NEAR(work.mixture_density, run.operating_point.fluid_density * (1.0 - work.concentration) + 6.0 / 0.12, 1.0);
+    // 4 kg/s are 2 l/s of soil, 2.8 l/s loose; the swing passes 0.016 m2/s of bed.
+    EXPECT_NEAR(*work.spill_layer, 0.002 * k_bulking / (k_swing * k_step), 0.005);
+    EXPECT_NEAR(*work.cutting_power, 0.5e6 * 0.005, 1.0);
+    EXPECT_NEAR(*work.cutting_energy, 0.5e6 / 0.6, 1e4);
+    EXPECT_NEAR(*work.energy, results.rotor.power->mean / *work.delivered_in_situ, 1e-6);
+    ASSERT_TRUE(work.ways_out);
+    EXPECT_NEAR(work.ways_out->with_outflow + work.ways_out->against_inflow, 1.0, 1e-12);
+    // Of 11 masses spilled 3 left through the gap and the bin below the ring, where water flows in at 0.3 and 0.2 m/s.
+    EXPECT_GE(work.ways_out->against_inflow, 3.0 / 11.0 - 1e-9);
+    EXPECT_NEAR(*work.ways_out->by_cutting, 0.0, 1e-12);
+    EXPECT_NE(limits_text(results).find("where the water flows outwards (outflow)"), std::string::npos);
+}
+
+TEST(Dredging, tells_no_layer_and_no_total_while_the_head_fills) {
+    const RunData run = read_run(at_work("dredging_filling", 60.0, 0.2));
+    const Results results = compute_results(run);
+    ASSERT_TRUE(results.dredging);
+    EXPECT_FALSE(results.dredging->spill_layer);
+    EXPECT_FALSE(results.dredging->spillage_with_fines);
+    EXPECT_TRUE(results.dredging->delivered_in_situ);
+}
+
+TEST(Dredging, counts_fines_as_neutral_rock_and_the_layer_as_not_cut) {
+    const RunData plain = read_run(at_work("dredging_plain"));
+    RunData run = plain;
+    run.operating_point.rock_share = 0.8;
+    run.feed->left_share = 0.25;
+    const Results results = compute_results(run);
+    const Dredging& work = *results.dredging;
+    // 7.5 of 10 kg/s are cut rock, 80 % of what is cut.
+    EXPECT_NEAR(*work.cut_in_situ, 7.5 / 0.8 / 2000.0, 1e-6);
+    ASSERT_TRUE(results.mixing && work.spillage_with_fines);
+    const double fines = 7.5 / 0.8 * 0.2, spilled = results.fed->production.spillage_max * 10.0;
+    EXPECT_NEAR(*work.spillage_with_fines, (spilled + results.mixing->well_mixed_spillage * fines) / (10.0 + fines), 1e-6);
+    EXPECT_EQ(work.layer_share, 0.25);
+}
+
+TEST(Dredging, follows_delivered_rock_from_cut_to_mouth) {
+    const fs::path directory = at_work("dredging_time");
+    RunData run = read_run(directory);
+    const Results results = compute_results(run);
+    EXPECT_FALSE(results.dredging->residence_time) << "no rock came to the mouth in the window";
+    const std::string header =
+        "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,density_kg_m3,bin\n";
+    const auto row = [](double time, int id, const char* surface, double diameter) {
+        return fmt::format("{},{},{},in,0,0,0,0,0,0,0,0,0,{},2650,\n", time, id, surface, diameter);
+    };
+    // 20 mm after 2 s, 40 mm (8 times the mass) after 3 s; one that came before the window does not count.
+    write_text(directory / "events.csv", header + row(1, 1, "feed", 0.02) + row(2, 1, "mouth", 0.02) + row(10, 2, "feed", 0.02) +
+                                             row(10, 3, "feed", 0.04) + row(12, 2, "mouth", 0.02) + row(13, 3, "mouth", 0.04));
+    run.rock->events =
+        read_table(directory / "events.csv", {{"time_s", "id", "diameter_m", "density_kg_m3"}, {"surface", "direction", "bin"}, {}, ""});
+    const Dredging work = dredging_of(results, run);
+    EXPECT_NEAR(*work.residence_time, (2.0 + 8.0 * 3.0) / 9.0, 1e-9);
+    EXPECT_EQ(*work.largest_delivered, 0.04);
+}
+
+/// Three speeds; production is 0.6 times what does not stay in the head. \param hold_ups  shares that stay at each speed
+std::string sentence_for(const std::string& name, const std::vector<double>& stuck) {
+    std::vector<fs::path> runs;
+    const double speeds[] = {30.0, 60.0, 90.0};
+    for (std::size_t i = 0; i < stuck.size(); ++i) runs.push_back(at_work(fmt::format("{}_{}", name, i), speeds[i], stuck[i]));
+    const std::vector<std::string> sentences = best_speed_text(compare_runs(runs));
+    EXPECT_EQ(sentences.size(), 1u);
+    return sentences.empty() ? "" : sentences.front();
+}
+
+TEST(BestSpeed, is_named_only_where_its_interval_is_apart_from_its_neighbours) {
+    EXPECT_EQ(sentence_for("best_middle", {0.3, 0.0, 0.3}),
+              "Of these speeds 60 rpm delivers most of what is fed: its interval is apart from "
+              "its neighbours'.");
+    EXPECT_EQ(sentence_for("best_end", {0.0, 0.3, 0.5}),
+              "No optimum found within the error: production is highest at the end of the range, 30 rpm.");
+    EXPECT_EQ(sentence_for("best_within", {0.01, 0.0, 0.01}),
+              "No optimum found within the error: production is highest at 60 rpm, but its interval is not apart from its neighbours'.");
+}
+
+TEST(BestSpeed, is_not_asked_of_two_speeds) {
+    EXPECT_TRUE(best_speed_text(compare_runs({at_work("best_two_a", 30.0), at_work("best_two_b", 60.0)})).empty());
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
