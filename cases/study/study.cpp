@@ -79,8 +79,10 @@ double derived_outflow_start(const ParameterValues& values) {
 }
 
 /// Keys that say something of a bank or its soil.
-constexpr std::array<const char*, 8> k_bank_keys = {"swing.speed_m_min",  "bank.cut_height_m",        "bank.step_m",   "bank.clearance_m",
-                                                    "bank.pick_length_m", "soil.grain_density_kg_m3", "soil.porosity", "bank.file"};
+constexpr std::array<const char*, 11> k_bank_keys = {
+    "swing.speed_m_min",  "bank.cut_height_m",          "bank.step_m",      "bank.clearance_m",
+    "bank.pick_length_m", "soil.grain_density_kg_m3",   "soil.porosity",    "bank.file",
+    "soil.bulking",       "soil.specific_energy_mj_m3", "bed.spill_layer_m"};
 constexpr double k_wider_by_picks = 0.03;  // of the ring radius: a head that is wider than its ring by this has picks
 
 bool has_bank(const ParameterValues& values) {
@@ -96,14 +98,25 @@ void resolve_bank(ParameterValues& values, const HeadSize& head) {
     fill(values, "bank.pick_length_m", has_picks ? 0.0 : 0.1 * ring);
     fill(values, "soil.grain_density_kg_m3", 2650.0);
     fill(values, "soil.porosity", 0.15);
+    fill(values, "soil.bulking", 1.5);
+    fill(values, "bed.spill_layer_m", 0.0);
 }
 
 Study::Bank make_bank(const ParameterValues& resolved, const std::filesystem::path& folder) {
     const auto number = [&](const char* key) { return resolved.number(key); };
     std::optional<std::filesystem::path> file;
     if (resolved.has("bank.file")) file = std::filesystem::absolute(folder / resolved.text("bank.file"));
-    return {number("swing.speed_m_min") / 60.0, number("bank.cut_height_m"),        number("bank.step_m"),   number("bank.clearance_m"),
-            number("bank.pick_length_m"),       number("soil.grain_density_kg_m3"), number("soil.porosity"), file};
+    return {number("swing.speed_m_min") / 60.0,
+            number("bank.cut_height_m"),
+            number("bank.step_m"),
+            number("bank.clearance_m"),
+            number("bank.pick_length_m"),
+            number("soil.grain_density_kg_m3"),
+            number("soil.porosity"),
+            file,
+            resolved.boolean("hauling.water"),
+            number("soil.bulking"),
+            number("bed.spill_layer_m")};
 }
 
 void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
@@ -190,8 +203,8 @@ public:
 private:
     static std::string value_text(const ParameterValues& table, const std::string& key) {
         const ParameterValue& value = *table.find(key);
-        return fmt::format("{} = {}", key,
-                           std::holds_alternative<std::string>(value) ? toml_text(value) : fmt::format("{:.6g}", table.number(key)));
+        const bool is_number = !std::holds_alternative<std::string>(value) && !std::holds_alternative<bool>(value);
+        return fmt::format("{} = {}", key, is_number ? fmt::format("{:.6g}", table.number(key)) : toml_text(value));
     }
     const ParameterValues& values_;
     Mistakes mistakes_;
@@ -203,6 +216,9 @@ void check_bank_keys(const ParameterValues& study, Rules& rules) {
         rules.require(!lacks_swing(study), "bank.model", "A bank is cut by a swing: swing.speed_m_min is missing", "Add swing.speed_m_min");
         return;
     }
+    rules.require(!study.boolean("hauling.water"), "hauling.water",
+                  fmt::format("A head travels as it swings into a bank, and bank.model = \"{}\"", k_no_bank),
+                  fmt::format("Set bank.model = \"{}\" and swing.speed_m_min, or remove the key", k_wall_bank));
     for (const char* key : k_bank_keys)
         if (study.has(key))
             rules.require(false, key, fmt::format("It belongs to a bank, and bank.model = \"{}\"", k_no_bank),
@@ -559,8 +575,12 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
     study.closures = k_closure_section.read(resolved);
     study.kernel = k_kernel_section.read(resolved);
     study.length_ratio = number("scale.length_ratio");
-    study.run = {number("run.flow_revolutions"),  number("run.max_revolutions"),       {number("run.stop_undecided")},
-                 number("run.max_courant"),       number("run.checkpoint_interval_s"), number("run.write_interval_s"),
+    study.run = {number("run.flow_revolutions"),
+                 number("run.max_revolutions"),
+                 {number("run.stop_undecided"), number("run.target_half_width")},
+                 number("run.max_courant"),
+                 number("run.checkpoint_interval_s"),
+                 number("run.write_interval_s"),
                  number("run.record_revolutions")};
     study.report = {number("report.bin_width_m"), number("report.outflow_offset_m"), number("report.outflow_start_s"), {}, {}};
     if (resolved.has("report.adv_points")) {

@@ -91,6 +91,9 @@ struct Study {
         double grain_density = 0.0;                                               ///< of the soil [kg/m3]
         double porosity = 0.0;                                                    ///< of the soil
         std::optional<std::filesystem::path> file;  ///< the soil's surface, absolute; none: what earlier swings left
+        bool hauls = false;                         ///< the run's frame travels with the head
+        double bulking = 1.5;                       ///< volume of loose rock over that of soil
+        double spill_layer = 0.0;                   ///< left by the swing before [m]
     };
     std::optional<Bank> bank;
     struct Tank {

@@ -118,11 +118,32 @@ ParameterTable bank_rows() {
             "along y, lowest side of the head at positive x. Water and rock feel it in the place of the bank that earlier swings left; cut "
             "face and production still follow from the other keys.")
             .derived("what earlier swings left"),
+        row(k_case_stage, "hauling.water", ParameterKind::boolean, "-",
+            "Whether the run's frame travels with the head at swing.speed_m_min: far water, bank and bed move past it, and the cut soil's "
+            "volume comes into the water. Otherwise water and bank stand still.")
+            .by_default(false),
         number(k_case_stage, "soil.grain_density_kg_m3", "kg/m3", "Density of the soil's grains.")
             .at_least(100.0)
             .at_most(30000.0)
             .derived("2650"),
         number(k_case_stage, "soil.porosity", "-", "Share of the standing soil that is water.").at_least(0.0).at_most(0.9).derived("0.15"),
+        number(k_case_stage, "soil.bulking", "-", "Volume of loose rock over that of the soil it was cut from.")
+            .at_least(1.0)
+            .at_most(3.0)
+            .derived("1.5"),
+        number(
+            k_report_stage, "soil.specific_energy_mj_m3", "MJ/m3",
+            "Energy that cutting takes per volume of standing soil, from tests or a cutting theory of your own. The report adds the power "
+            "that it needs; the program computes none.")
+            .above(0.0)
+            .at_most(1000.0)
+            .derived("no power of cutting"),
+        number(k_case_stage, "bed.spill_layer_m", "m",
+               "Thickness of the loose rock that the swing before left on what it cut; it comes in beside the cut rock, as loose as "
+               "soil.bulking says. A report tells the thickness that its own spillage makes.")
+            .at_least(0.0)
+            .at_most(k_largest_length)
+            .derived("0"),
     };
 }
 
@@ -226,6 +247,7 @@ ParameterTable run_rows() {
             .at_most(k_most_revolutions)
             .by_default(4.0),
         setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.0),
+        setting<coupling::StopSettings>("run.target_half_width", "targetHalfWidth").by_default(0.03),
         number(
             k_case_stage, "run.record_revolutions", "-",
             "Revolutions of the flow before the first rock that are recorded by rotor phase, for `cutterflow replay`; 0 records nothing.")

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_state_file = "state.json";
 constexpr const char* k_velocity_file = "velocity.sums";
+constexpr const char* k_production_file = "production.series";
 constexpr const char* k_schema = "cutterflow.state/3";
 constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
 
@@ -256,6 +257,20 @@ void read_velocity(const fs::path& folder, VelocitySets& sets) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || !sets.restore(stream))
         refuse(file, "it does not hold the sums of this run's velocity sets", "A run resumes with the points that it began with");
+}
+
+void write_production(const fs::path& folder, const ProductionWatch& production) {
+    std::ofstream stream(folder / k_production_file, std::ios::binary);
+    production.write(stream);
+    stream.close();
+    if (!stream) throw std::runtime_error((folder / k_production_file).string() + ": the checkpoint cannot be written");
+}
+
+void read_production(const fs::path& folder, ProductionWatch& production) {
+    const fs::path file = folder / k_production_file;
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || !production.restore(stream))
+        refuse(file, "it does not hold the ledger of the run so far", "A run that ends by the interval of its production resumes with it");
 }
 
 void prune_checkpoints(const fs::path& case_folder, int keep) {

@@ -12,6 +12,7 @@
 #include "solver/coupling/rock_coupling.hpp"
 #include "solver/coupling/stop_rules.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
+#include "solver/observe/head/production_watch.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
 #include "solver/ports/communicator.hpp"
 
@@ -44,6 +45,11 @@ std::vector<Vec3> read_carry(const std::filesystem::path& folder, int written_by
 void write_velocity(const std::filesystem::path& folder, const VelocitySets& sets);
 /// \throws UserError  when the file is missing or has sums of other points
 void read_velocity(const std::filesystem::path& folder, VelocitySets& sets);
+
+/// production.series: the ledger so far, of a run that ends by the interval of its production.
+void write_production(const std::filesystem::path& folder, const ProductionWatch& production);
+/// \throws UserError  when the file is missing or holds no series
+void read_production(const std::filesystem::path& folder, ProductionWatch& production);
 
 /// Removes all but the `keep` newest checkpoints and what an interrupted one left.
 void prune_checkpoints(const std::filesystem::path& case_folder, int keep);

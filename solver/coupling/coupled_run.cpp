@@ -89,6 +89,13 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
             if (settings.outflow) fluid.watch(outflow_places(contour, tracker.bins(), settings.outflow->offset));
             if (settings.has_rock) fates_ = tracker;
         });
+    if (settings.has_rock && settings.stop && settings.stop->target_half_width > 0.0) {
+        if (rotor.speed == 0.0)
+            mistakes.add("stop.targetHalfWidth without a turning zone", "Production is told over whole revolutions",
+                         "Remove the key, or let a zone turn");
+        else
+            production_.emplace(2.0 * k_pi / std::abs(rotor.speed), settings.stop->target_half_width);
+    }
     if (settings.velocity && mistakes.empty()) mistakes.gather([&] { velocity_.emplace(*settings.velocity, fluid); });
     mistakes.refuse();
     if (settings.has_rock) {
@@ -372,6 +379,7 @@ void CoupledRun::report_loads_and_balance() {
 void CoupledRun::report_ledger() {
     const RockLedger ledger = ledger_of(fates_->rocks(), dem_->rocks(), feed_.fed_mass(), feed_.owed_mass());
     recorder_.ledger(fluid_.time(), ledger);
+    if (production_) production_->add(fluid_.time(), ledger);
     if (ledger.error() <= k_largest_ledger_error) return;
     throw CheckFailure(
         {"",
@@ -415,7 +423,8 @@ bool CoupledRun::finished() const {
     const double time = fluid_.time();
     const bool decided = settings_.stop && fates_ && feed_.all_in() && fates_->totals().undecided() <= settings_.stop->undecided;
     const bool settled = stops_.at_rest(time) && feed_.all_in() && operations_.all_done() && time >= dem_->walls_change_until();
-    return decided || settled || stops_.idle(time);
+    const bool known = production_ && production_->is_known();
+    return decided || known || settled || stops_.idle(time);
 }
 
 void CoupledRun::finish() {
@@ -498,6 +507,7 @@ void CoupledRun::write_state_files(const fs::path& folder) {
     if (communicator_.rank() != 0) return;
     write_state(folder, state);
     if (velocity_) write_velocity(folder, *velocity_);
+    if (production_) write_production(folder, *production_);
 }
 
 /// A checkpoint without an account is of a run that had neither events nor gates.
@@ -540,6 +550,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     last_checkpoint_ = fluid_.time();
     // Every rank holds the same sums and reads the same file.
     if (velocity_) read_velocity(checkpoint, *velocity_);
+    if (production_) read_production(checkpoint, *production_);
     if (phases_ && fs::exists(checkpoint / names::recording))
         phases_->restore(checkpoint / names::recording);
     else

@@ -14,6 +14,7 @@
 #include "solver/coupling/stop_rules.hpp"
 #include "solver/observe/head/fate_tracker.hpp"
 #include "solver/observe/head/outflow_places.hpp"
+#include "solver/observe/head/production_watch.hpp"
 #include "solver/observe/momentum_balance.hpp"
 #include "solver/observe/run_recorder.hpp"
 #include "solver/observe/velocity/velocity_sets.hpp"
@@ -51,8 +52,8 @@ public:
     /// One step, see above. \throws CheckFailure when the engines disagree about the rotor's angle, or rock is outside the fluid's mesh
     void step();
 
-    /// True when a stop rule holds: every feed is in and the undecided share is small enough; every feed is in, every event is over, every
-    /// wall stands for good and rock is at rest; a gate is idle.
+    /// True when a stop rule holds: every feed is in and the undecided share is small enough; production is known well enough; every feed
+    /// is in, every event is over, every wall stands for good and rock is at rest; a gate is idle.
     bool finished() const;
 
     /// Takes the rock of another run's checkpoint into a run that begins. \throws UserError  when the feed brings one of its ids
@@ -108,6 +109,7 @@ private:
     std::unique_ptr<RockCoupling> rock_;
     std::unique_ptr<MomentumBalance> momentum_;
     std::optional<FateTracker> fates_;
+    std::optional<ProductionWatch> production_;
     std::optional<VelocitySets> velocity_;
     std::unique_ptr<PhaseRecorder> phases_;  // while the flow is recorded
     FeedQueue feed_;

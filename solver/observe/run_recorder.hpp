@@ -104,6 +104,8 @@ struct RockLedger {
     double on_bed = 0.0;           ///< outside the head, never having been in it
     double left_behind = 0.0;      ///< outside and so far off that it was taken out
 
+    double spilled() const { return spilled_mixing + spilled_cutting + left_behind; }
+    double held() const { return owed + in_head + on_bed; }  ///< neither delivered nor spilled
     /// |fed - sum of the others| / fed; 0 while nothing was fed.
     double error() const;
 };

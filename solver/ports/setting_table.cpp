@@ -155,6 +155,12 @@ SettingTable<StopSettings> stop_rows() {
                    "and the same time in all runs, to compare speeds.")
                 .at_least(0.0)
                 .at_most(0.99))
+        .add(&StopSettings::target_half_width,
+             number("targetHalfWidth", "-",
+                    "Rock from a cut face: the run ends earlier when production is steady and half its 95 % interval, as a share of what "
+                    "was fed, is at most this; 0 goes on to the end.")
+                 .at_least(0.0)
+                 .at_most(1.0))
         .take();
 }
 

@@ -94,9 +94,11 @@ struct VelocitySettings {
     std::vector<VelocitySetSettings> sets;
 };
 
-/// The run ends when the undecided share of the placed mass is this small and every feed has been inserted.
+/// The run ends when the undecided share of the placed mass is this small and every feed has been inserted, or when production of a head
+/// that is fed all the time is steady and half its 95 % interval at most `target_half_width`.
 struct StopSettings {
-    double undecided = 0.0;  ///< [-]
+    double undecided = 0.0;          ///< [-]
+    double target_half_width = 0.0;  ///< of delivered over fed [-]; 0: the interval ends no run
 };
 
 template <>
@@ -141,6 +143,7 @@ const SettingTable<QueueSettings>& setting_table<QueueSettings>();
 struct SoilSettings {
     std::filesystem::path surface;  ///< STL [m] that closes it, absolute frame
     double permeability = 0.0;      ///< [m2]; 0: solid
+    Vec3 velocity = Vec3::Zero();   ///< with which soil flows through its surface, which is at rest [m/s]
 };
 
 template <>

@@ -380,6 +380,47 @@ TEST(CoupledRun, stops_when_little_enough_is_undecided_and_every_feed_is_in) {
     EXPECT_LT(rig.fluid.time(), 0.4);
 }
 
+/// A feed that goes on: half of it is carried to the mouth, half is thrown out.
+CouplingSettings endless_settings(const TemporaryFolder& folder, int rocks) {
+    std::string feed;
+    for (int i = 0; i < rocks; ++i) feed += fmt::format("{},{},0.1,{},-0.02,0.02,2650\n", i + 1, 0.06 * i, i % 2 == 0 ? 0.05 : -0.05);
+    CouplingSettings settings = case_settings(folder, feed);
+    settings.queue = QueueSettings{0.01, 0.05, 0.1};
+    settings.fates->cutting = CuttingSettings{0.1, Vec3(0, -1, 0), 0.25};
+    settings.stop = StopSettings{0.0, 0.05};
+    return settings;
+}
+
+/// Time at which the run ended, 0 when it did not by 20 s.
+double end_of(const CouplingSettings& settings, const std::filesystem::path& folder) {
+    MemoryRecorder recorder;
+    FakeFluid fluid(head_mesh(), turning(), 0.02);
+    fluid.flow = through_the_head;
+    FakeDem dem(turning(), 0.5, k_water.density);
+    SerialCommunicator serial;
+    CoupledRun run(settings, k_water, fluid, &dem, serial, recorder, folder);
+    while (!run.finished() && fluid.time() < 20.0) run.step();
+    return run.finished() ? fluid.time() : 0.0;
+}
+
+TEST(CoupledRun, ends_a_feed_once_its_production_is_known) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = endless_settings(folder, 400);
+    const double end = end_of(settings, folder.path());
+    // Start-up takes 3 s, eight batches of a revolution follow.
+    const double revolution = 2.0 * k_pi / turning().speed;
+    EXPECT_GE(end, 3.0 + 8.0 * revolution);
+    EXPECT_LE(end, 15.0);
+    settings.stop->target_half_width = 0.0;
+    EXPECT_EQ(end_of(settings, folder.path()), 0.0) << "without a target it goes on";
+}
+
+TEST(CoupledRun, needs_a_turning_zone_to_know_production) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    EXPECT_THROW(Rig(endless_settings(folder, 1), folder.path(), recorder, Vec3::Zero(), k_still), UserError);
+}
+
 TEST(CoupledRun, records_rejected_rock_and_pictures_at_field_writes) {
     const TemporaryFolder folder;
     MemoryRecorder recorder;
@@ -631,7 +672,9 @@ TEST(Checkpoint, resumes_to_the_bit) {
 
 TEST(Checkpoint, resumes_a_feed_to_the_bit) {
     const TemporaryFolder folder;
-    expect_same_to_the_bit(fed_settings(folder), folder, [](Rig& rig) {
+    CouplingSettings settings = fed_settings(folder);
+    settings.stop = StopSettings{0.0, 0.03};
+    expect_same_to_the_bit(settings, folder, [](Rig& rig) {
         rig.fluid.flow = through_the_head;
         rig.dem.is_taken = [](const Vec3& x) { return x[0] < -0.12; };
     });
