@@ -1,10 +1,12 @@
 // Rock from a cut face: sizes by a law, leading faces of a head's steel, and a schedule that delivers the mass rate ahead of the blades.
 #include "cases/scenes/cutter/cut_face_feed.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_bank.hpp"
@@ -252,6 +254,29 @@ TEST(CutFaceFeed, of_a_study_follows_from_its_bank_and_soil) {
     EXPECT_NEAR(mass, expected, 0.01 * expected);
     const std::string csv = rock_feed_csv(feeds);
     EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s,place");
+}
+
+TEST(CutFaceFeed, of_a_study_brings_what_the_swing_before_left) {
+    const std::string text =
+        "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n[swing]\nspeed_m_min = 6\n"
+        "[bank]\nmodel = \"wall\"\n[bed]\nspill_layer_m = 0.05\n[soil]\nbulking = 1.25\n[run]\nmax_revolutions = 4\n"
+        "[[feed]]\nkind = \"cut_face\"\ndisintegration = 0.8\n[[feed.class]]\ndiameter_m = 0.02\n";
+    HeadSize size{0.40, 0.40, 0.485};
+    size.blades = 6;
+    const Study study = make_study(resolve_study(parse_parameters(study_table(), text, "study.toml"), size), "/");
+    const std::vector<PlacedFeed> feeds = place_feeds(study, feed_scene(study, size, crown().contour, crown().surface));
+    ASSERT_EQ(feeds.size(), 2u);
+    EXPECT_FALSE(feeds[0].is_spill_layer);
+    EXPECT_TRUE(feeds[1].is_spill_layer);
+    const geometry::Bank bank = bank_of(study, crown().contour);
+    // Loose rock without fines, over three turns.
+    const double one = sphere_mass(0.02, 2650.0), left = 0.1 * bank.layer_section(0.05) * 2650.0 * 0.85 / 1.25 * 3.0;
+    EXPECT_NEAR(static_cast<double>(feeds[1].rocks.size()) * one, left, std::max(0.01 * left, one));
+    EXPECT_GT(feeds[1].rocks.size(), 50u);
+    EXPECT_EQ(nlohmann::json::parse(feed_json(feeds, study)).at("feeds").at(1).at("left_by_swing_before"), true);
+    const std::vector<std::string> lines = feed_lines(feeds);
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(),
+                            [](const std::string& line) { return line.find("left by the swing before") != std::string::npos; }));
 }
 
 TEST(CutFaceFeed, a_seed_repeats_and_another_varies_the_places) {

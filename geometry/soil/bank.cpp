@@ -143,8 +143,31 @@ double Bank::cut_section() const {
 }
 
 CutFace Bank::cut_face(double length) const {
-    const int segments = parameters_.segments;
     const PlanarLoop cut_before = moved(outline_, {-parameters_.step, 0.0});
+    return front(length, [&](const PlanarLoop& facet) {
+        const PlanarLoop below = clipped(facet, {0.0, top()}, {0.0, -1.0});
+        return moment_of(below) - moment_of(clipped(below, cut_before));
+    });
+}
+
+/// What of a convex part of K lies in the layer that the last swing left.
+PlanarMoment Bank::layer_of(const PlanarLoop& part, double thickness) const {
+    const PlanarLoop before = moved(outline_, {-parameters_.step, 0.0});
+    const PlanarLoop taken = clipped(part, before);
+    return moment_of(taken) - moment_of(clipped(taken, moved(before, {0.0, thickness})));
+}
+
+double Bank::layer_section(double thickness) const {
+    return layer_of(outline_, thickness).area;
+}
+
+CutFace Bank::layer_face(double thickness, double length) const {
+    return front(length, [&](const PlanarLoop& facet) { return layer_of(facet, thickness); });
+}
+
+/// The facets of the body's front in patches, with what is taken there. \param taken  of a facet, as seen
+CutFace Bank::front(double length, const Taken& taken) const {
+    const int segments = parameters_.segments;
     const double least_area = k_least_share * moment_of(outline_).area;
     const Eigen::Affine3d back = to_run_frame();
     std::vector<MeridianPoint> points;
@@ -161,8 +184,7 @@ CutFace Bank::cut_face(double length) const {
             PlanarLoop facet;
             for (const Vec3& corner : corners) facet.emplace_back(corner.x(), corner.y());
             if (parameters_.swing_sign < 0.0) std::reverse(facet.begin(), facet.end());
-            const PlanarLoop below = clipped(facet, {0.0, top()}, {0.0, -1.0});
-            const PlanarMoment cut = moment_of(below) - moment_of(clipped(below, cut_before));
+            const PlanarMoment cut = taken(facet);
             if (!(cut.area > least_area)) continue;
             const Eigen::Vector2d centre = cut.first / cut.area;
             // On the facet's plane.

@@ -1,5 +1,6 @@
 #pragma once
 /// \file The bank that a swinging, stepping head leaves standing, and the face at which it cuts.
+#include <functional>
 #include <vector>
 
 #include "geometry/head/contour.hpp"
@@ -59,6 +60,13 @@ public:
     /// to rounding, because patches are seen along e as parts of K. Depths are kept between the ring plane and the head's lowest point.
     CutFace cut_face(double length) const;
 
+    /// Loose rock that the last swing left lies `thickness` [m] deep on what it cut. What this swing takes of it per length [m2]: of K and
+    /// K - s f together, the part no higher than that above the lower side of K - s f.
+    double layer_section(double thickness) const;
+
+    /// Where the head meets that layer, in patches as cut_face() has them; their flux areas add up to layer_section().
+    CutFace layer_face(double thickness, double length) const;
+
     /// P0 with a swing of that length [m], and the sweep of the swing j steps before, from -length to length; closed, in the run's frame.
     TriangleSurface sweep(double length) const;
     TriangleSurface earlier_sweep(int steps, double length) const;
@@ -81,6 +89,9 @@ private:
     Vec3 seen(const Vec3& point) const;  ///< run's frame -> (along f, along k, along e)
     Eigen::Affine3d to_run_frame() const;
     Vec3 corner(const MeridianPoint& at, int k) const;  ///< of B on the k-th plane about the axis, as seen
+    using Taken = std::function<PlanarMoment(const PlanarLoop&)>;
+    CutFace front(double length, const Taken& taken) const;
+    PlanarMoment layer_of(const PlanarLoop& part, double thickness) const;
     // As seen:
     std::vector<Vec3> body() const;                         ///< corners of B
     TriangleSurface swept(double length) const;             ///< P0

@@ -144,6 +144,32 @@ TEST(CutFace, adds_up_to_the_cut_section) {
             }
 }
 
+TEST(SpillLayer, adds_up_to_its_section_and_goes_with_a_small_thickness) {
+    for (const double inclination : {0.0, 30.0, 45.0})
+        for (const double swing : {1.0, -1.0}) {
+            const Bank bank(model_head(), model_bank(inclination, swing));
+            for (const double thickness : {0.01, 0.05})
+                EXPECT_NEAR(flux_of(bank.layer_face(thickness, 0.01)) / bank.layer_section(thickness), 1.0, 1e-9) << inclination;
+            EXPECT_EQ(bank.layer_section(0.0), 0.0);
+            EXPECT_NEAR(bank.layer_section(0.002) / bank.layer_section(0.001), 2.0, 0.01);
+        }
+}
+
+// A drum that lies along the advance has a level bottom, of its length less the step: there the last swing left its layer.
+TEST(SpillLayer, of_a_lying_drum_covers_what_both_swings_passed) {
+    BankParameters parameters;
+    parameters.cut_height = k_radius;
+    parameters.step = 0.1;
+    parameters.segments = 192;
+    const Bank bank(drum(), parameters);
+    const double thickness = 0.01, length = bank.head_length() - parameters.step;
+    EXPECT_NEAR(bank.layer_section(thickness), thickness * length, 1e-3 * thickness * length);
+    for (const CutFacePatch& patch : bank.layer_face(thickness, 0.02).patches) {
+        EXPECT_LT(patch.depth_m, k_depth - parameters.step + 0.02) << "not ahead of the last cut";
+        EXPECT_LT(k_radius * (1.0 - std::cos(patch.azimuth_rad)), 1.05 * thickness) << "at the bottom";
+    }
+}
+
 TEST(CutFace, lies_on_the_side_of_the_bank_and_outside_the_head) {
     for (const double swing : {1.0, -1.0}) {
         const CutFace face = Bank(model_head(), model_bank(45.0, swing)).cut_face(0.02);

@@ -24,6 +24,7 @@ namespace {
 constexpr double k_clearance_per_diameter = 0.05;
 constexpr double k_patch_per_ring_radius = 0.02;  // of the cut face
 constexpr double k_share_without_blade = 0.05;
+constexpr std::int64_t k_seed_of_layer = 1000003;  // beside the cut face's: their rock comes at times of its own
 
 double mass_of(const FeedClass& rock) {
     return sphere_mass(rock.diameter, rock.density);
@@ -85,7 +86,7 @@ PlacedFeed place_batch(const FeedRequest& request, const Study& study, const Fee
     const AxialCylinder water = study.water(scene.size);
     const geometry::RockPlacement placement = geometry::place_rocks(batch_of(request, count), scene.head, water, {&cutter, &stationary});
 
-    PlacedFeed feed{request, placement.requested, {}, {}};
+    PlacedFeed feed{request, placement.requested, {}, {}, false};
     const std::vector<std::size_t> classes = shuffled_classes(counts, request.seed);
     for (std::size_t i = 0; i < placement.positions.size(); ++i)
         feed.rocks.push_back({request.start, {{placement.positions[i], std::nullopt}}, classes[i]});
@@ -93,17 +94,17 @@ PlacedFeed place_batch(const FeedRequest& request, const Study& study, const Fee
     return feed;
 }
 
-/// \pre the scene has a cut face
-PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const FeedScene& scene) {
-    const Study::Bank& bank = *study.bank;
+/// Rock from a face of the bank that the head passes. \param mass_rate  of rock [kg/s]
+PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const FeedScene& scene, const geometry::CutFace& face,
+                          double mass_rate) {
     CutRequest cut;
-    cut.face = *scene.cut_face;
-    cut.mass_rate = request.disintegration * cut_mass_rate(cut.face, bank.swing_speed, bank.grain_density, bank.porosity);
+    cut.face = face;
+    cut.mass_rate = mass_rate;
     cut.begin = request.start;
     cut.end = request.end;
     cut.seed = static_cast<std::uint64_t>(request.seed);
     cut.classes = request.classes;
-    PlacedFeed feed{request, 0, {}, {}};
+    PlacedFeed feed{request, 0, {}, {}, false};
     const CutSchedule schedule = cut_face_schedule(cut, {scene.head, scene.cutter, study.rotation_speed});
     for (const CutRock& rock : schedule.rocks) feed.rocks.push_back(placed_rock(rock, request.velocity_share * study.rotation_speed));
     if (schedule.share_without_blade > k_share_without_blade)
@@ -114,6 +115,20 @@ PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const 
                         100.0 * schedule.share_without_blade));
     feed.requested = feed.rocks.size();
     return feed;
+}
+
+/// What the swing cuts and, as another feed of the same sizes, the loose rock that the swing before left. \pre the scene has a cut face
+std::vector<PlacedFeed> place_swing(const FeedRequest& request, const Study& study, const FeedScene& scene) {
+    const Study::Bank& bank = *study.bank;
+    const double cut = request.disintegration * cut_mass_rate(*scene.cut_face, bank.swing_speed, bank.grain_density, bank.porosity);
+    std::vector<PlacedFeed> feeds{place_cut_face(request, study, scene, *scene.cut_face, cut)};
+    if (!scene.spill_layer) return feeds;
+    FeedRequest of_layer = request;
+    of_layer.seed += k_seed_of_layer;
+    const double left = cut_mass_rate(*scene.spill_layer, bank.swing_speed, bank.grain_density, bank.porosity) / bank.bulking;
+    feeds.push_back(place_cut_face(of_layer, study, scene, *scene.spill_layer, left));
+    feeds.back().is_spill_layer = true;
+    return feeds;
 }
 
 }  // namespace
@@ -140,7 +155,11 @@ std::vector<std::size_t> rocks_per_class(const FeedRequest& request) {
 
 FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::Contour& head, const geometry::TriangleSurface& cutter) {
     FeedScene scene{head, cutter, geometry::generate_stationary_steel(stationary_steel_of(study, size)).solid(), size};
-    if (study.is_fed_by_cutting()) scene.cut_face = bank_of(study, head).cut_face(k_patch_per_ring_radius * size.ring_radius);
+    if (!study.is_fed_by_cutting()) return scene;
+    const geometry::Bank bank = bank_of(study, head);
+    const double patch = k_patch_per_ring_radius * size.ring_radius;
+    scene.cut_face = bank.cut_face(patch);
+    if (study.bank->spill_layer > 0.0) scene.spill_layer = bank.layer_face(study.bank->spill_layer, patch);
     return scene;
 }
 
@@ -148,7 +167,8 @@ std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
     std::vector<std::string> lines;
     for (const PlacedFeed& feed : feeds) {
         lines.push_back(feed.request.kind == FeedKind::cut_face
-                            ? fmt::format("{} rocks from {:.4g} to {:.4g} s", feed.rocks.size(), feed.request.start, feed.request.end)
+                            ? fmt::format("{} rocks from {:.4g} to {:.4g} s{}", feed.rocks.size(), feed.request.start, feed.request.end,
+                                          feed.is_spill_layer ? ", left by the swing before" : "")
                             : fmt::format("{} rocks requested, {} placed", feed.requested, feed.rocks.size()));
         for (const std::string& reason : feed.reasons) lines.push_back("warning: " + reason);
     }
@@ -158,9 +178,13 @@ std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) {
     const geometry::SolidSearch stationary(scene.stationary);
     std::vector<PlacedFeed> feeds;
-    for (const FeedRequest& request : study.feeds)
-        feeds.push_back(request.kind == FeedKind::cut_face ? place_cut_face(request, study, scene)
-                                                           : place_batch(request, study, scene, stationary));
+    for (const FeedRequest& request : study.feeds) {
+        if (request.kind == FeedKind::batch) {
+            feeds.push_back(place_batch(request, study, scene, stationary));
+            continue;
+        }
+        for (PlacedFeed& feed : place_swing(request, study, scene)) feeds.push_back(std::move(feed));
+    }
     return feeds;
 }
 
@@ -202,6 +226,7 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
                         {"rejected", feed.requested - feed.rocks.size()},
                         {"reasons", feed.reasons},
                         {"start_s", feed.request.start},
+                        {"left_by_swing_before", feed.is_spill_layer},
                         {"classes", classes}});
     }
     return nlohmann::json{{"feeds", list}}.dump(2) + "\n";

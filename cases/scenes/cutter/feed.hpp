@@ -35,6 +35,7 @@ struct PlacedFeed {
     std::size_t requested = 0;
     std::vector<PlacedRock> rocks;
     std::vector<std::string> reasons;  ///< why rocks were rejected or start elsewhere
+    bool is_spill_layer = false;       ///< loose rock that the swing before left, of a feed from a cut face
 };
 
 /// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses are in proportion to the shares.
@@ -47,7 +48,8 @@ struct FeedScene {
     geometry::TriangleSurface cutter;      ///< at rotor angle 0, run's frame
     geometry::TriangleSurface stationary;  ///< closed
     HeadSize size;
-    std::optional<geometry::CutFace> cut_face{};  ///< of a study with a bank
+    std::optional<geometry::CutFace> cut_face{};     ///< of a study with a bank
+    std::optional<geometry::CutFace> spill_layer{};  ///< of a study whose swing before left one
 };
 
 /// The scene of a study's cutter. \param cutter  as FeedScene has it

@@ -59,6 +59,10 @@ void check_shape(const ParameterValues& resolved, const Study& study, const Head
                                "between two swings",
                                bank.head_length()),
                    "Make shorter steps"));
+    if (!(study.bank->spill_layer < study.bank->cut_height))
+        mistakes.add(broken(resolved, "bed.spill_layer_m",
+                            fmt::format("What the swing before left would be as high as the bank, {:.4g} m", study.bank->cut_height),
+                            "Make the layer thinner; its unit is m"));
     if (!mistakes.empty()) return;
     if (!(bank.width_at_top() >= study.bank->step))
         mistakes.add(broken(resolved, "bank.step_m",
