@@ -81,7 +81,7 @@ bool same(const ParameterValue& a, const ParameterValue& b) {
 bool belongs_to_flow(const Parameter& parameter) {
     if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage) return true;
     const std::string section = parameter.key.substr(0, parameter.key.find('.'));
-    return section == "rotor" || section == "suction" || section == "fluid";
+    return section == "rotor" || section == "suction" || section == "fluid" || section == "bank" || section == "hauling";
 }
 
 /// The table of a study of which all that belongs to the flow may be left out.

@@ -40,7 +40,7 @@ struct ReplayResults {
 };
 
 /// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,
-/// and sections rotor, suction and fluid. Both are resolved. \param file  of the study, for messages
+/// and sections rotor, suction, fluid, bank and hauling. Both are resolved. \param file  of the study, for messages
 std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const std::filesystem::path& file);
 
 /// Runs every replay and writes replays.csv and replays.json into the folder.

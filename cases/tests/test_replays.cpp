@@ -36,5 +36,14 @@ TEST(SameFlow, every_key_of_another_flow_is_named) {
     EXPECT_THAT(all, ::testing::Not(::testing::HasSubstr("mouth_offset")));
 }
 
+TEST(SameFlow, a_recorded_flow_keeps_its_bank_and_its_hauling) {
+    const std::string bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
+    EXPECT_THAT(check_same_flow(study(bank), study(bank), "other.toml"), ::testing::IsEmpty());
+    const std::vector<Mistake> mistakes = check_same_flow(study(bank), study(""), "other.toml");
+    ASSERT_EQ(mistakes.size(), 1u);
+    EXPECT_THAT(mistakes.front().text(), ::testing::HasSubstr("bank.model = \"none\""));
+    EXPECT_EQ(check_same_flow(study(bank), study(bank + "[hauling]\nwater = true\n"), "other.toml").size(), 1u);
+}
+
 }  // namespace
 }  // namespace cutterflow::cases

@@ -134,6 +134,9 @@ TEST(StudyBank, and_its_keys_need_each_other) {
     const auto without = broken("[swing]\nspeed_m_min = 6\n[bank]\nstep_m = 0.1\n[soil]\nporosity = 0.3\n");
     EXPECT_EQ(without.size(), 3u);
     EXPECT_TRUE(has(without, "bank.step_m = 0.1. It belongs to a bank"));
+    EXPECT_TRUE(has(broken("[bed]\nspill_layer_m = 0.1\n"), "bed.spill_layer_m = 0.1. It belongs to a bank"));
+    EXPECT_TRUE(has(mistakes_of(std::string("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[bed]\nspill_layer_m = 1\n")),
+                    "as high as the bank"));
     EXPECT_TRUE(broken("").empty());
     EXPECT_THROW(values_of("[soil]\nporosity = 0.95\n"), UserError);
     EXPECT_THROW(values_of("[swing]\nspeed_m_min = -1\n"), UserError);
@@ -161,6 +164,27 @@ TEST(StudyBank, is_felt_by_water_and_by_rock) {
     EXPECT_FALSE(dem.walls[3].rotating);
     EXPECT_EQ(dem.contact.rock_soil.friction, 0.7);
     EXPECT_EQ(dem.contact.rock_soil.rolling_friction, 0.15);
+}
+
+TEST(StudyBank, moves_past_a_head_that_travels) {
+    const geometry::Head& head = model_head();
+    const auto inputs_of = [&](const std::string& more) {
+        const Study study = make_study(resolved_of(more), "/tmp");
+        return case_inputs_of(study, head_size(head), head_contour(head, study.suction.gap), 1);
+    };
+    const std::string keys = std::string(k_bank) + k_rock;
+    const CaseInputs still = inputs_of(keys);
+    EXPECT_EQ(still.hauling, Vec3(0, 0, 0));
+    EXPECT_EQ(coupling_dictionary(still).text().find("elocity (0 "), std::string::npos);
+    // Over-cut of a right-handed rotor: the bank stands at -y, so that ground and water come from there.
+    const CaseInputs over = inputs_of(keys + "[hauling]\nwater = true\n");
+    EXPECT_NEAR(over.hauling.y(), 0.1, 1e-12);
+    EXPECT_EQ(solver_settings(over).soil->velocity, over.hauling);
+    EXPECT_EQ(dem_settings(over).walls.back().surface_velocity, over.hauling);
+    EXPECT_EQ(dem_settings(over).walls.front().surface_velocity, Vec3(0, 0, 0)) << "steel travels with the frame";
+    const std::string text = coupling_dictionary(over).text();
+    EXPECT_NE(text.find("surfaceVelocity (0 0.1 0);"), std::string::npos) << text;
+    EXPECT_TRUE(has(texts(check_file_rules(values_of("[hauling]\nwater = true\n"), "study.toml")), "hauling.water = true. A head travels"));
 }
 
 // Half a millimetre at 0.4 m is what rock may feel wrong.

@@ -43,6 +43,7 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
       may_be_open_(given.material == coupling::k_soil),
       removed_at_(given.removed_at),
       travel_(given.travel),
+      surface_velocity_(given.surface_velocity),
       rotor_(rotor) {}
 
 WallPose SteelWall::pose(double time) const {
@@ -79,7 +80,8 @@ void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallConta
             touch.rotating = rotating_;
             touch.normal = now.turn * (centre - point.place).normalized();
             touch.overlap = radius - point.distance;
-            touch.wall_velocity = now.velocity_at(position - point.distance * touch.normal);
+            touch.wall_velocity = now.velocity_at(position - point.distance * touch.normal) + surface_velocity_ -
+                                  touch.normal.dot(surface_velocity_) * touch.normal;
             contacts.add(touch);
         }
     }

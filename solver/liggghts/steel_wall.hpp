@@ -73,6 +73,7 @@ private:
     bool may_be_open_;
     double removed_at_;
     coupling::WallTravel travel_;
+    Vec3 surface_velocity_;
     coupling::ZoneMotion rotor_;
     std::vector<Neighbourhood> neighbourhoods_;  // of the rocks, in LIGGGHTS' order
 };

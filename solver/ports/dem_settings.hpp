@@ -100,7 +100,8 @@ struct WallTravel {
 };
 
 /// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels is given where
-/// it stands at first. Its material says which pair its contacts with rock follow.
+/// it stands at first. Its material says which pair its contacts with rock follow. A wall whose surface runs, as a belt's, is at rest but
+/// for the velocity along it.
 struct WallSettings {
     std::string name;
     std::filesystem::path file;
@@ -108,6 +109,7 @@ struct WallSettings {
     WallTravel travel{};
     std::string material = k_steel;
     double removed_at = std::numeric_limits<double>::infinity();  ///< from then on it exerts nothing [s]
+    Vec3 surface_velocity = Vec3::Zero();                         ///< of which the part along the surface counts [m/s]
 };
 
 enum class DomainShape { box, cylinder };

@@ -29,12 +29,12 @@ meshing::FoamValue file_name(const fs::path& file) {
 
 meshing::FoamValue wall_list(const std::vector<coupling::WallSettings>& walls) {
     std::vector<meshing::FoamValue> items;
-    for (const coupling::WallSettings& wall : walls)
-        items.emplace_back(meshing::FoamDictionary()
-                               .add("name", wall.name)
-                               .add("file", file_name(wall.file))
-                               .add("rotating", wall.rotating)
-                               .add("material", wall.material));
+    for (const coupling::WallSettings& wall : walls) {
+        meshing::FoamDictionary section;
+        section.add("name", wall.name).add("file", file_name(wall.file)).add("rotating", wall.rotating).add("material", wall.material);
+        if (wall.surface_velocity != Vec3::Zero()) section.add("surfaceVelocity", wall.surface_velocity);
+        items.emplace_back(section);
+    }
     return meshing::FoamValue::list(items);
 }
 
@@ -64,7 +64,9 @@ meshing::FoamDictionary rock_section(const coupling::CouplingSettings& settings,
 }
 
 meshing::FoamDictionary soil_section(const coupling::SoilSettings& soil) {
-    return section_of(soil).add("surface", file_name(soil.surface));
+    meshing::FoamDictionary section = section_of(soil).add("surface", file_name(soil.surface));
+    if (soil.velocity != Vec3::Zero()) section.add("velocity", soil.velocity);
+    return section;
 }
 
 meshing::FoamDictionary fates_section(const coupling::FateSettings& fates) {
@@ -168,9 +170,10 @@ std::vector<coupling::WallSettings> standard_walls() {
     return walls;
 }
 
-coupling::WallSettings bank_wall() {
+coupling::WallSettings bank_wall(const Vec3& hauling) {
     coupling::WallSettings wall{"bank", "constant/triSurface/bank_dem.stl", false};
     wall.material = coupling::k_soil;
+    wall.surface_velocity = hauling;
     return wall;
 }
 

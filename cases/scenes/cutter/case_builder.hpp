@@ -22,8 +22,8 @@ struct WallSource {
 std::vector<WallSource> wall_sources();
 std::vector<coupling::WallSettings> standard_walls();
 
-/// The soil of a study with a bank; write_contact_surfaces makes its file.
-coupling::WallSettings bank_wall();
+/// The soil of a study with a bank; write_contact_surfaces makes its file. \param hauling  with which it flows through its surface [m/s]
+coupling::WallSettings bank_wall(const Vec3& hauling = Vec3::Zero());
 
 /// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of
 /// geometry/*.stl, with rock only; write_contact_surfaces puts better ones in their place) and the empty file by which ParaView opens the

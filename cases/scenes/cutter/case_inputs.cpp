@@ -101,7 +101,7 @@ coupling::CouplingSettings solver_settings(const CaseInputs& inputs) {
     settings.record = inputs.record;
     settings.replay = inputs.replay;
     if (!inputs.replay.empty()) return settings;  // nothing of the flow is observed or saved
-    if (inputs.bank) settings.soil = coupling::SoilSettings{names::bank_surface};
+    if (inputs.bank) settings.soil = coupling::SoilSettings{names::bank_surface, 0.0, inputs.hauling};
     settings.outflow = inputs.outflow;
     if (!inputs.velocity_sets.empty()) {
         settings.velocity.emplace();

@@ -62,6 +62,7 @@ struct CaseInputs {
     Rotor rotor;
     double discharge = 0.0;       ///< [m3/s], of the mixture, out of the suction pipe
     Vec3 gravity = Vec3::Zero();  ///< [m/s2]
+    Vec3 hauling = Vec3::Zero();  ///< of soil and of water far off, in the frame that travels with the head [m/s]; 0: it does not travel
     coupling::FluidProperties fluid{998.2, 1.0034e-6};
     AxialCylinder tank;  ///< the water
     FlowNumerics numerics;

@@ -35,15 +35,15 @@ meshing::FoamDictionary typed(const std::string& type, meshing::FoamValue value)
 
 /// Boundary conditions of one field by group of patches.
 struct Boundary {
-    meshing::FoamDictionary inlet, outlet, cutter, wall;
+    meshing::FoamDictionary inlet, outlet, cutter, steel, tank;
 };
 
 FoamFile field_file(const std::string& name, const std::string& foam_class, const std::array<int, 7>& dimensions,
                     meshing::FoamValue internal, const Boundary& boundary) {
     meshing::FoamDictionary patches;
     patches.add(names::inlet_patch, boundary.inlet).add(names::outlet_patch, boundary.outlet).add(names::cutter_patch, boundary.cutter);
-    for (const char* wall : {names::backplate_patch, names::suction_pipe_patch, names::tank_top_patch, names::tank_bottom_patch})
-        patches.add(wall, boundary.wall);
+    for (const char* wall : {names::backplate_patch, names::suction_pipe_patch}) patches.add(wall, boundary.steel);
+    for (const char* wall : {names::tank_top_patch, names::tank_bottom_patch}) patches.add(wall, boundary.tank);
     for (const char* side : {names::rotor_interface_patch, names::stator_interface_patch}) patches.add(side, typed("cyclicAMI"));
 
     meshing::FoamDictionary field;
@@ -58,7 +58,7 @@ FoamFile turbulence_field(const std::string& name, const std::array<int, 7>& dim
                           const std::string& wall_function) {
     const meshing::FoamDictionary open = typed("inletOutlet").add("inletValue", uniform(inlet)).add("value", uniform(inlet));
     const meshing::FoamDictionary wall = typed(wall_function, start);
-    return field_file(name, "volScalarField", dimensions, start, {open, open, wall, wall});
+    return field_file(name, "volScalarField", dimensions, start, {open, open, wall, wall, wall});
 }
 
 FoamFile property_file(const std::string& name, meshing::FoamDictionary contents) {
@@ -148,7 +148,7 @@ Turbulence turbulence_of(double speed, double length) {
 
 Turbulence inlet_turbulence(const CaseInputs& inputs) {
     const double area = 2.0 * k_pi * inputs.tank.radius * (inputs.tank.z_max - inputs.tank.z_min);
-    return turbulence_of(inputs.discharge / area, k_length_per_ring_radius * inputs.contour.ring_radius());
+    return turbulence_of(inputs.discharge / area + inputs.hauling.norm(), k_length_per_ring_radius * inputs.contour.ring_radius());
 }
 
 Turbulence initial_turbulence(const CaseInputs& inputs) {
@@ -160,20 +160,25 @@ std::vector<FoamFile> field_files(const CaseInputs& inputs) {
     const Turbulence start = initial_turbulence(inputs);
     const Turbulence inlet = inlet_turbulence(inputs);
 
-    const Boundary velocity = {typed("pressureInletOutletVelocity", zero),
-                               typed("flowRateOutletVelocity").add("volumetricFlowRate", inputs.discharge).add("value", uniform(zero)),
-                               typed("movingWallVelocity", zero), typed("noSlip")};
+    // In the frame of a head that travels the water far from it moves past: it comes in with its velocity, and goes out at its pressure.
+    const bool travels = inputs.hauling != Vec3::Zero();
+    const meshing::FoamValue far = inputs.hauling;
+    const Boundary velocity = {
+        travels ? typed("freestreamVelocity", far).add("freestreamValue", uniform(far)) : typed("pressureInletOutletVelocity", zero),
+        typed("flowRateOutletVelocity").add("volumetricFlowRate", inputs.discharge).add("value", uniform(zero)),
+        typed("movingWallVelocity", zero), typed("noSlip"), travels ? typed("fixedValue", far) : typed("noSlip")};
     // Where the velocity is given: the gradient that balances the forces of rock near the patch; zero without rock.
     const meshing::FoamDictionary given_flux = typed("fixedFluxPressure", 0.0);
-    const Boundary pressure = {typed("fixedValue", 0.0), given_flux, given_flux, given_flux};
+    const Boundary pressure = {travels ? typed("freestreamPressure", 0.0).add("freestreamValue", uniform(0.0)) : typed("fixedValue", 0.0),
+                               given_flux, given_flux, given_flux, given_flux};
     const meshing::FoamDictionary calculated = typed("calculated", 0.0);
     const meshing::FoamDictionary wall_viscosity = typed("nutkWallFunction", 0.0);
 
-    return {
-        field_file("U", "volVectorField", k_velocity, zero, velocity), field_file("p", "volScalarField", k_pressure, 0.0, pressure),
-        turbulence_field("k", k_pressure, start.k, inlet.k, "kqRWallFunction"),
-        turbulence_field("epsilon", k_dissipation, start.epsilon, inlet.epsilon, "epsilonWallFunction"),
-        field_file("nut", "volScalarField", k_viscosity, start.eddy_viscosity(), {calculated, calculated, wall_viscosity, wall_viscosity})};
+    return {field_file("U", "volVectorField", k_velocity, far, velocity), field_file("p", "volScalarField", k_pressure, 0.0, pressure),
+            turbulence_field("k", k_pressure, start.k, inlet.k, "kqRWallFunction"),
+            turbulence_field("epsilon", k_dissipation, start.epsilon, inlet.epsilon, "epsilonWallFunction"),
+            field_file("nut", "volScalarField", k_viscosity, start.eddy_viscosity(),
+                       {calculated, calculated, wall_viscosity, wall_viscosity, wall_viscosity})};
 }
 
 std::vector<FoamFile> property_files(const CaseInputs& inputs) {

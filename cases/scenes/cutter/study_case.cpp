@@ -26,13 +26,19 @@ constexpr double k_left_behind_per_ring_radius = 0.75, k_left_behind_the_axis_pe
 // The Courant limit takes over after the first step.
 constexpr double k_first_step_per_revolution = 1e-4;
 
+/// Velocity of ground and far water in the run's frame [m/s].
+Vec3 hauling_of(const Study& study) {
+    if (!study.bank || !study.bank->hauls) return Vec3::Zero();
+    return Vec3(0.0, -study.bank_side() * study.bank->swing_speed, 0.0);
+}
+
 CaseInputs::Rock rock_of(const Study& study) {
     CaseInputs::Rock rock;
     for (const FeedRequest& feed : study.feeds)
         for (const FeedClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
     rock.contact = study.contact;
     rock.walls = standard_walls();
-    if (study.bank) rock.walls.push_back(bank_wall());
+    if (study.bank) rock.walls.push_back(bank_wall(hauling_of(study)));
     return rock;
 }
 
@@ -164,6 +170,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
     inputs.rotor.speed = study.rotation_speed;
     inputs.discharge = study.suction.discharge;
     inputs.gravity = gravity_of(study.inclination);
+    inputs.hauling = hauling_of(study);
     inputs.fluid = study.fluid;
     inputs.tank = study.water(head);
     const double azimuth = study.suction.mouth_azimuth;

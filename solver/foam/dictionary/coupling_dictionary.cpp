@@ -101,6 +101,7 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
         travel.read("to", wall.travel.end, k_required);
     });
     section.read("removedAt", wall.removed_at, k_optional);
+    section.read("surfaceVelocity", wall.surface_velocity, k_optional);
     return wall;
 }
 
@@ -334,6 +335,7 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
     });
     read_optional(file, "soil", settings.soil, [&](DictionarySection& section, coupling::SoilSettings& soil) {
         section.read("surface", soil.surface, folder, k_required);
+        section.read("velocity", soil.velocity, k_optional);
         read_settings(section, soil);
     });
     read_section(file, "rock", k_optional, [&](DictionarySection& section) { read_rock(section, folder, result); });

@@ -11,7 +11,7 @@ using namespace Foam;
 tmp<fvVectorMatrix> CutterFluid::momentum_matrix(const fvVectorMatrix& stress) {
     tmp<fvVectorMatrix> matrix(fvm::ddt(alpha_, U_) + convection(alphaPhi_) - fvm::Sp(fvc::ddt(alpha_) + fvc::div(alphaPhi_), U_) + stress);
     if (rock_ == RockPresence::present) add_exchange(matrix.ref());
-    if (soil_) matrix.ref() += fvm::Sp(soil_->sink().internalField(), U_);
+    if (soil_) matrix.ref() += fvm::Sp(soil_->sink().internalField(), U_) - soil_->sink().internalField() * soil_->velocity();
     if (!sources_.empty()) matrix.ref() -= sources_(U_);
     matrix.ref().relax();
     sources_.constrain(matrix.ref());

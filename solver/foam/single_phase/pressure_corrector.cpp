@@ -18,6 +18,10 @@ using namespace Foam;
 void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     const volScalarField rAU(free_time(momentum));
     volVectorField H(momentum.H());
+    if (soil_) {  // its part is in the share of the soil's velocity below
+        H.primitiveFieldRef() -= soil_->sink().primitiveField() * soil_->velocity().value();
+        H.correctBoundaryConditions();
+    }
     if (!half_turn_.empty()) {
         H.primitiveFieldRef() -= turning_force();
         H.correctBoundaryConditions();
@@ -38,8 +42,11 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
 
     surfaceScalarField alpha_rAtUf(rAtU().name(), alphaf_ * fvc::interpolate(rAtU()));
     if (soil_) {
+        const surfaceScalarField soil_flux(soil_->velocity() & mesh_.Sf());
+        phiHbyA -= soil_flux;
         soil_->set_drive(phiHbyA / (fvc::interpolate(rAtU()) * mesh_.magSf()));
         phiHbyA *= soil_->face_mobility();
+        phiHbyA += soil_flux;
         alpha_rAtUf *= soil_->face_mobility();
     }
     close_interfaces(phiHbyA, alpha_rAtUf);
@@ -54,7 +61,10 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     report_continuity();
     p_.relax();
     U_ = HbyA - rAtU * pressure_gradient();
-    if (soil_) U_.primitiveFieldRef() *= soil_->mobility().primitiveField();
+    if (soil_) {
+        const vector& of_soil = soil_->velocity().value();
+        U_.primitiveFieldRef() = of_soil + soil_->mobility().primitiveField() * (U_.primitiveField() - of_soil);
+    }
     U_.correctBoundaryConditions();
     sources_.correct(U_);
     fvc::correctUf(Uf_, U_, phi_);

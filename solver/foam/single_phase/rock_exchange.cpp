@@ -85,7 +85,7 @@ void CutterFluid::update_received(const fvVectorMatrix& stress) {
     received_ = fvc::ddt(alpha_, U_)().primitiveField() + fvc::div(through)().primitiveField() -
                 continuity_residual() / mesh_.V().field() * U_.primitiveField() + pressure_gradient()().primitiveField() +
                 (stress & U_)().primitiveField();
-    if (soil_) received_ += soil_->sink().primitiveField() * U_.primitiveField();
+    if (soil_) received_ += soil_->resistance(U_);
     update_outside_momentum(stress, through);
     turn_received();
 }

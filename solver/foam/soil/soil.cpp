@@ -46,6 +46,7 @@ Soil::Soil(const fvMesh& mesh, const MovingZones& zones, const coupling::SoilSet
     : mesh_(mesh),
       surface_(read_soil_surface(settings.surface)),
       permeability_(settings.permeability),
+      velocity_("soilVelocity", dimVelocity, to_foam(settings.velocity)),
       share_(number_field("soil", mesh, dimless, 0.0, IOobject::AUTO_WRITE)),
       shear_(mesh.nCells(), Zero),
       sink_(number_field("soilSink", mesh, dimless / dimTime, 0.0, IOobject::NO_WRITE)),
@@ -166,8 +167,12 @@ tmp<surfaceScalarField> Soil::at_faces(const volScalarField& pressure) const {
     return (fvc::interpolate(mobility_ * pressure) - jump * drive_) / fvc::interpolate(mobility_);
 }
 
+tmp<vectorField> Soil::resistance(const volVectorField& velocity) const {
+    return sink_.primitiveField() * (velocity.primitiveField() - velocity_.value());
+}
+
 vector Soil::force(const volVectorField& velocity) const {
-    return gSum((mesh_.V().field() * sink_.primitiveField() * velocity.primitiveField())());
+    return gSum((mesh_.V().field() * resistance(velocity))());
 }
 
 }  // namespace cutterflow::foam

@@ -172,8 +172,9 @@ TEST(Soil, BoundsASteadyShearFlow) {
     EXPECT_GT(coarse, 1e-3);
 }
 
-/// A duct from (0, 0, 0) to (1, 0.25, 0.25) with a pressure difference of 1 m2/s2 and soil from x = 0.4 to 0.6.
-double flow_through_plug(const std::string& name, double permeability, double time_step) {
+/// A duct from (0, 0, 0) to (1, 0.25, 0.25) with a pressure difference and soil from x = 0.4 to 0.6.
+/// \param velocity  of the soil along the duct [m/s] \param drop  of pressure along the duct [m2/s2] \return mean velocity [m/s]
+double flow_through_plug(const std::string& name, double permeability, double time_step, double velocity = 0.0, double drop = 1.0) {
     testing::Box box;
     box.cells[0] = 20;
     box.cells[1] = box.cells[2] = 5;
@@ -181,12 +182,16 @@ double flow_through_plug(const std::string& name, double permeability, double ti
     box.duct = true;
     testing::TinyCase tiny = box_case(name, box, time_step, 20.0 * time_step);
     tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0 0 0)", "\"[yz]_.*\" { type slip; } \".*let\" { type zeroGradient; }");
-    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0",
-                                              "\"[yz]_.*\" { type zeroGradient; } inlet { type fixedValue; value uniform 1; } "
-                                              "outlet { type fixedValue; value uniform 0; }");
+    tiny.files["0/p"] =
+        testing::volume_field("[0 2 -2 0 0 0 0]", "0",
+                              fmt::format("\"[yz]_.*\" {{ type zeroGradient; }} inlet {{ type fixedValue; value uniform {}; }} "
+                                          "outlet {{ type fixedValue; value uniform 0; }}",
+                                          drop));
     tiny.files["constant/transportProperties"] = "transportModel Newtonian; nu 1e-3; rho 1000;";
     const fs::path folder = testing::build_case(tiny);
-    FluidRun run(folder, false, {"outlet", {}}, soil_of(folder, {Vec3(0.5, 0.0, 0.0), Vec3(0.1, 2.0, 2.0)}, permeability));
+    coupling::SoilSettings soil = soil_of(folder, {Vec3(0.5, 0.0, 0.0), Vec3(0.1, 2.0, 2.0)}, permeability);
+    soil.velocity = Vec3(velocity, 0.0, 0.0);
+    FluidRun run(folder, false, {"outlet", {}}, soil);
     while (run.engine().running()) {
         run.begin();
         run.end({}, {});
@@ -203,6 +208,42 @@ TEST(Soil, LetsWaterThroughByDarcysLaw) {
 TEST(Soil, OfNoPermeabilityIsTight) {
     // A thousandth of what the pressure would move in a step: 1e-3 * 0.01 s * 1 m2/s2 / 0.2 m = 5e-5 m/s, where free water would have 1.4.
     EXPECT_NEAR(flow_through_plug("soil_tight", 0.0, 0.01), 5e-5, 1e-5);
+}
+
+/// Soil that flows through its surface brings its volume into the water, also against a pressure.
+TEST(SoilOnTheMove, BringsItsVolumeIntoTheWater) {
+    // 0.1 m/s, less the thousandth that a pressure difference moves through a tight plug in a step.
+    EXPECT_NEAR(flow_through_plug("soil_pushes", 0.0, 0.01, 0.1, 0.0), 0.1, 1e-4);
+    EXPECT_NEAR(flow_through_plug("soil_pushes_against", 0.0, 0.01, 0.1, -1.0), 0.1 - 5e-5, 2e-4);
+    EXPECT_NEAR(flow_through_plug("soil_lies", 0.0, 0.01, 0.0, 0.0), 0.0, 1e-9) << "soil at rest brings nothing";
+}
+
+/// A stream that fills a cylinder of turning mesh, and a block in it. \return largest deviation from the stream over its speed
+double disturbance_of_a_stream(const std::string& name, const Vec3& of_block) {
+    const Vec3 stream(0.2, -0.1, 0.0);
+    testing::TurningCylinder shape;
+    testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(shape), 0.004, 0.08);
+    tiny.files["0/U"] = testing::volume_field("[0 1 -1 0 0 0 0]", "(0.2 -0.1 0)",
+                                              "\".*ends\" { type slip; } rim { type fixedValue; value uniform (0.2 -0.1 0); }");
+    tiny.files["0/p"] = testing::volume_field("[0 2 -2 0 0 0 0]", "0", "\".*\" { type zeroGradient; }");
+    tiny.files["constant/dynamicMeshDict"] = testing::turning(7.0);
+    const fs::path folder = testing::build_case(tiny);
+    coupling::SoilSettings soil = soil_of(folder, {Vec3(0.09, 0.03, 0.0), Vec3(0.05, 0.04, 0.5), 0.3});
+    soil.velocity = of_block;
+    FluidRun run(folder, false, {}, soil);
+    double worst = 0.0;
+    while (run.engine().running()) {
+        run.begin();
+        run.end({}, {});
+        for (const Vec3& u : run.engine().fields().velocity) worst = std::max(worst, (u - stream).norm() / stream.norm());
+    }
+    return run.largest(worst);
+}
+
+/// In the frame of the soil the water is at rest, whatever mesh turns through its surface.
+TEST(SoilOnTheMove, DoesNotDisturbAStreamThatItMovesWith) {
+    EXPECT_LE(disturbance_of_a_stream("soil_in_stream", Vec3(0.2, -0.1, 0.0)), 1e-6);
+    EXPECT_GE(disturbance_of_a_stream("soil_against_stream", Vec3::Zero()), 0.5) << "a block at rest does";
 }
 
 TEST(Soil, HidesWhatIsInIt) {

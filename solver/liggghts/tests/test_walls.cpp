@@ -129,6 +129,31 @@ TEST(Walls, a_wall_that_travels_carries_rock_and_stops) {
     EXPECT_EQ(engine.insert(rocks), (std::vector<int>{3}));
 }
 
+/// A rock at rest on a plate whose surface runs along x, like a belt; it slides, with the pair's friction, until it has the belt's speed.
+TEST(Walls, a_belt_drags_rock_along_and_its_end_face_pushes_none) {
+    constexpr double speed = 0.2, friction = 0.4;
+    Lift lift;
+    lift.settings.walls[0].travel = {};
+    lift.settings.walls[0].surface_velocity = Vec3(speed, 0.0, 0.0);
+    lift.settings.contact.rock_steel.friction = friction;
+    lift.settings.contact.rock_steel.rolling_friction = 10.0;  // it does not roll
+    LiggghtsEngine engine(lift.settings, no_zones(), MPI_COMM_WORLD);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(-0.05, 0.0, 0.01));
+    add_rock(rocks, 2, Vec3(0.1101, 0.0, -0.05));  // beside the end face, through which the belt runs out
+    rocks.velocity.back() = Vec3(-0.01, 0.0, 0.0);
+    ASSERT_EQ(engine.insert(rocks).size(), 2u);
+    // Added mass takes part, buoyancy lightens: a = mu (rho_s - rho_f) g / (rho_s + rho_f/2).
+    const double acceleration = friction * (k_rock_density - k_water_density) * 9.81 / (k_rock_density + 0.5 * k_water_density);
+    for (int call = 0; call < 20; ++call) engine.advance(1e-3, no_force);
+    EXPECT_NEAR(engine.rocks().velocity[0].x(), 0.02 * acceleration, 0.02 * 0.02 * acceleration);
+    for (int call = 0; call < 180; ++call) engine.advance(1e-3, no_force);
+    EXPECT_NEAR(engine.rocks().velocity[0].x(), speed, 0.01 * speed);
+    // It came at 10 mm/s and went: a face that moved would have thrown it at the belt's speed or more.
+    EXPECT_GT(engine.rocks().velocity[1].x(), 0.0);
+    EXPECT_LT(engine.rocks().velocity[1].x(), 0.01) << "the face stands still";
+}
+
 TEST(Walls, a_wall_that_travels_goes_on_after_a_checkpoint_where_it_stands) {
     Lift lift;
     for (const double stop : {0.03, 0.10, 0.18}) {
