@@ -1,20 +1,26 @@
-/// Rock from the cut face of a bank ahead of the blades of a turning rotor, in small, over one revolution: it comes at the rate of the
-/// swing, starts ahead of a blade and outside steel, and the ledger closes in every step.
+/// A turning rotor in small that cuts a bank: rock comes at the rate of the swing, starts ahead of a blade and outside steel and soil,
+/// leaves through the mouth, and the ledger closes in every step, also over a kill.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/cut_face_feed.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
+#include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "geometry/head/head_names.hpp"
+#include "geometry/io/write_stl.hpp"
 #include "geometry/soil/bank.hpp"
 #include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/killed_run.hpp"
 #include "validation/harness/scenes/rotor_case.hpp"
 
 namespace cutterflow::validation {
@@ -22,11 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double k_period = 1.0, k_speed = 2.0 * k_pi / k_period;                          // 60 rpm
-constexpr double k_swing_speed = 0.008, k_grain_density = 2650.0, k_porosity = 0.15;       // [m/s], [kg/m3], -
-constexpr double k_begin = 0.1, k_end_of_feed = k_begin + k_period, k_end_of_run = 1.15;   // [s]
+constexpr double k_period = 1.0, k_speed = 2.0 * k_pi / k_period;  // 60 rpm
+constexpr double k_grain_density = 1100.0, k_porosity = 0.15;      // [kg/m3], -: gravel that the small flow carries to the mouth
+constexpr double k_diameter = 0.008;                               // [m]
+constexpr double k_begin = 0.1;                                    // of the feed [s]
 constexpr double k_inner_radius = 0.1, k_outer_radius = cases::test::k_tiny_rotor_radius;  // of the steel [m]
 constexpr double k_lump = k_pi / 4.0, k_pitch = k_pi, k_reach = k_pi / 6.0;                // [rad]
+constexpr double k_reach_of_soil = 0.45;                                                   // [m]
+constexpr double k_discharge = 0.05;                                                       // [m3/s]
 
 /// The rotor's steel at angle 0: a cylinder with two lumps, one from azimuth 0 to 45 degrees, the other opposite.
 geometry::TriangleSurface steel() {
@@ -68,20 +77,68 @@ geometry::Bank bank(const geometry::Contour& head) {
     return {head, parameters};
 }
 
-cases::PlacedFeed feed_from(const geometry::Bank& bank, const geometry::Contour& head, const geometry::TriangleSurface& cutter) {
+/// A run of the rotor beside its bank. Its water is gone from the outlet ring in the top, which is the mouth.
+struct CutFaceRun {
+    double end = 0.0;            ///< [s]
+    double swing_speed = 0.008;  ///< [m/s]; a blade takes a layer of v_h T / 2
+    bool with_rock = true;
+    double lost_share = 0.0;  ///< of the schedule: a lie
+    Vec3 hauling = Vec3::Zero();
+    double checkpoint_interval = 1.0;  ///< [s]
+};
+
+cases::PlacedFeed feed_of(const CutFaceRun& run, const geometry::Bank& bank, const geometry::Contour& head,
+                          const geometry::TriangleSurface& cutter) {
     cases::CutRequest cut;
     cut.face = bank.cut_face(0.01);
-    cut.mass_rate = cases::cut_mass_rate(cut.face, k_swing_speed, k_grain_density, k_porosity);
+    cut.mass_rate = cases::cut_mass_rate(cut.face, run.swing_speed, k_grain_density, k_porosity);
     cut.begin = k_begin;
-    cut.end = k_end_of_feed;
+    cut.end = run.end;
     cut.seed = 1;
-    cut.classes = {{0.008, k_grain_density, 1.0}};
+    cut.classes = {{k_diameter, k_grain_density, 1.0}};
     cases::PlacedFeed feed;
     feed.request.kind = cases::FeedKind::cut_face;
     feed.request.classes = cut.classes;
-    for (const cases::CutRock& rock : cut_face_schedule(cut, {head, cutter, k_speed}).rocks)
-        feed.rocks.push_back(cases::placed_rock(rock, 0.5 * k_speed));
+    int number = 0;
+    for (const cases::CutRock& rock : cut_face_schedule(cut, {head, cutter, k_speed}).rocks) {
+        const bool kept = std::floor(run.lost_share * (number + 1)) == std::floor(run.lost_share * number);
+        ++number;
+        if (kept) feed.rocks.push_back(cases::placed_rock(rock, 0.5 * k_speed));
+    }
     return feed;
+}
+
+/// \param folder  absent
+void write_run(const fs::path& folder, const CutFaceRun& run) {
+    cases::CaseInputs inputs = cases::test::tiny_inputs();
+    const geometry::Contour head = inputs.contour;
+    inputs.discharge = k_discharge;
+    inputs.times.end = run.end;
+    inputs.times.write_interval = run.end;
+    inputs.checkpoint.interval = run.checkpoint_interval;
+    inputs.hauling = run.hauling;
+    inputs.bank = true;
+    inputs.fates.mouth.centre = Vec3(0.0, 0.0, 0.03);
+    inputs.fates.mouth.radius = 0.32;
+    inputs.fates.mouth.depth = 0.055;
+    const geometry::Bank soil = bank(head);
+    const geometry::TriangleSurface cutter = steel();
+    std::string feed;
+    if (run.with_rock) {
+        inputs.rock.emplace();
+        inputs.rock->density = k_grain_density;
+        inputs.rock->walls = {cases::bank_wall(run.hauling)};
+        inputs.queue = coupling::QueueSettings{0.005, 0.5 * k_period, k_reach};
+        inputs.fates.cutting = coupling::CuttingSettings{0.75 * k_outer_radius, Vec3(0.0, -1.0, 0.0), 1.5 * k_outer_radius};
+        feed = cases::rock_feed_csv({feed_of(run, soil, head, cutter)});
+    }
+    write_rotor_case(folder, inputs, feed);
+    geometry::write_stl(soil.soil(k_reach_of_soil), folder / names::bank_surface);
+    if (run.with_rock) geometry::write_stl(soil.wall({k_reach_of_soil, 1e-4, 0.05}), folder / cases::bank_wall().file);
+}
+
+double fed_mass_of(const CutFaceRun& run, double section) {
+    return run.swing_speed * section * k_grain_density * (1.0 - k_porosity) * (run.end - k_begin);
 }
 
 /// A rock that came in.
@@ -118,43 +175,168 @@ void expect_ahead_of_a_blade(const Start& start, const geometry::SolidSearch& cu
     EXPECT_LE(ahead, k_reach + (0.55 * start.diameter + 0.005) / radius) << "azimuth " << azimuth;
 }
 
-TEST(CutFace, feeds_a_turning_rotor_at_the_rate_of_the_swing) {
-    cases::CaseInputs inputs = cases::test::tiny_inputs();
-    const geometry::Contour head({-0.25, 0.0}, {k_outer_radius, k_outer_radius}, k_outer_radius, 0.02);
-    inputs.times.end = k_end_of_run;
-    inputs.times.write_interval = k_end_of_run;
-    inputs.checkpoint.interval = 0.5;
-    inputs.rock.emplace();
-    inputs.rock->density = k_grain_density;
-    inputs.queue = coupling::QueueSettings{0.005, 0.5 * k_period, k_reach};
-    inputs.fates.cutting = coupling::CuttingSettings{0.75 * k_outer_radius, Vec3(0.0, -1.0, 0.0), 1.5 * k_outer_radius};
+using Table = std::map<std::string, std::vector<double>>;
+
+Table table_of(const fs::path& folder, const std::string& name) {
+    const std::size_t slash = name.find('/');
+    return read_columns(folder / "postProcessing" / name.substr(0, slash) / "0" / name.substr(slash + 1));
+}
+
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
+
+/// Largest less smallest value of a column from `from` on [s].
+double range_of(const Table& table, const char* column, double from) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = 0; i < table.at("time_s").size(); ++i) {
+        if (table.at("time_s")[i] < from) continue;
+        least = std::min(least, table.at(column)[i]);
+        most = std::max(most, table.at(column)[i]);
+    }
+    return most - least;
+}
+
+TEST(CutFace, feeds_three_revolutions_beside_its_bank) {
+    const CutFaceRun run{k_begin + 3.0 * k_period};
+    const geometry::Contour head = cases::test::tiny_inputs().contour;
     const geometry::Bank soil = bank(head);
-    const geometry::TriangleSurface cutter = steel();
-    const cases::PlacedFeed feed = feed_from(soil, head, cutter);
     const fs::path folder = scratch_folder("cut_face");
-    write_rotor_case(folder, inputs, cases::rock_feed_csv({feed}));
+    write_run(folder, run);
     run_cutter_foam(folder, 1);
 
-    const auto ledger = read_columns(folder / "postProcessing/rock/0/ledger.csv");
-    ASSERT_NEAR(ledger.at("time_s").back(), k_end_of_run, 1e-9);
-    EXPECT_LE(*std::max_element(ledger.at("error").begin(), ledger.at("error").end()), 1e-9);
-    const double expected = k_swing_speed * soil.cut_section() * k_grain_density * (1.0 - k_porosity) * k_period;
-    EXPECT_NEAR(ledger.at("fed_kg").back(), expected, 0.01 * expected);
+    const Table ledger = table_of(folder, "rock/ledger.csv");
+    ASSERT_NEAR(ledger.at("time_s").back(), run.end, 1e-9);
+    EXPECT_LE(largest(ledger.at("error")), 1e-9);
+    const double expected = fed_mass_of(run, soil.cut_section()), fed = ledger.at("fed_kg").back();
+    EXPECT_NEAR(fed, expected, 0.01 * expected);
+    EXPECT_GT(ledger.at("delivered_kg").back(), 0.02 * expected) << "else nothing is said of the mixture at the outlet";
 
-    const std::vector<Start> starts = starts_of(folder);
+    const geometry::SolidSearch search(steel()), in_soil(soil.soil(k_reach_of_soil));
     double placed = 0.0;
-    const geometry::SolidSearch search(cutter);
-    for (const Start& start : starts) {
+    for (const Start& start : starts_of(folder)) {
         placed += sphere_mass(start.diameter, k_grain_density);
         expect_ahead_of_a_blade(start, search, head);
+        EXPECT_FALSE(in_soil.contains(start.position));
     }
-    EXPECT_NEAR(placed + ledger.at("owed_kg").back(), ledger.at("fed_kg").back(), 1e-6 * expected);
-    // A blade takes a layer of v_h T / 2 = 4 mm, half a rock: it finds room in one layer of rock ahead of the blade.
-    EXPECT_GT(starts.size(), feed.rocks.size() / 2);
-    fmt::print("{} of {} rocks placed; fed {:.4f} kg, v_h A_cut rho (1 - n) t = {:.4f} kg, off by {:+.2f} %; owed {:.4f} kg\n",
-               starts.size(), feed.rocks.size(), ledger.at("fed_kg").back(), expected,
-               100.0 * (ledger.at("fed_kg").back() / expected - 1.0), ledger.at("owed_kg").back());
+    EXPECT_NEAR(placed + ledger.at("owed_kg").back(), fed, 1e-6 * expected);
+
+    // Rock is taken out without a source: what flows through the outlet is water and rock together, and what comes in is as much.
+    const Table balance = table_of(folder, "balance/balance.csv");
+    double off = 0.0, flow_balance = 0.0;
+    for (std::size_t i = 0; i < balance.at("time_s").size(); ++i) {
+        if (balance.at("time_s")[i] < k_begin) continue;
+        off = std::max(off, std::abs(balance.at("outlet_flow_m3_s")[i] / k_discharge - 1.0));
+        flow_balance = std::max(flow_balance, balance.at("flow_balance_error")[i]);
+    }
+    EXPECT_LE(off, 1e-3);
+    EXPECT_LE(flow_balance, 1e-3);
+    EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
+
+    const fs::path without = scratch_folder("cut_face_without_feed");
+    CutFaceRun water = run;
+    water.with_rock = false;
+    write_run(without, water);
+    run_cutter_foam(without, 1);
+    const Table still = table_of(without, "balance/balance.csv");
+    const double from = k_begin + 0.5 * k_period;  // after the start from water at rest
+    const double range = range_of(balance, "outlet_pressure_m2_s2", from), usual = range_of(still, "outlet_pressure_m2_s2", from);
+    EXPECT_LE(range, 1.05 * usual);
+    fmt::print(
+        "fed {:.4f} kg, v_h A_cut rho (1 - n) t = {:.4f} kg, off by {:+.2f} %; owed {:.4f}, delivered {:.4f} kg; outlet flow off by "
+        "{:.1e} of Q, flow balance {:.1e}; range of the outlet pressure {:.4f} of that without feed\n",
+        fed, expected, 100.0 * (fed / expected - 1.0), ledger.at("owed_kg").back(), ledger.at("delivered_kg").back(), off, flow_balance,
+        range / usual);
 }
+
+TEST(CutFace, finds_a_schedule_that_loses_a_twentieth) {
+    CutFaceRun run{k_begin + 0.5 * k_period};
+    run.lost_share = 0.05;
+    const geometry::Bank soil = bank(cases::test::tiny_inputs().contour);
+    const fs::path folder = scratch_folder("cut_face_lying");
+    write_run(folder, run);
+    run_cutter_foam(folder, 1);
+    const double fed = table_of(folder, "rock/ledger.csv").at("fed_kg").back(), expected = fed_mass_of(run, soil.cut_section());
+    EXPECT_GT(std::abs(fed - expected), 0.01 * expected);
+}
+
+TEST(CutFace, of_a_swing_ten_times_as_fast_fills_the_head_and_loses_nothing) {
+    CutFaceRun run{k_begin + 0.4 * k_period};
+    run.swing_speed = 0.08;
+    const fs::path folder = scratch_folder("cut_face_fast");
+    write_run(folder, run);
+    run_cutter_foam(folder, 1);
+    const Table ledger = table_of(folder, "rock/ledger.csv");
+    EXPECT_LE(largest(ledger.at("error")), 1e-9);
+    const double fed = ledger.at("fed_kg").back(), owed = ledger.at("owed_kg").back();
+    EXPECT_GT(owed, 0.2 * fed) << "the head cannot take it";
+    EXPECT_LT(owed, fed) << "and takes some";
+    fmt::print("ten times the swing: {:.0f} % of {:.3f} kg waits\n", 100.0 * owed / fed, fed);
+}
+
+/// The head travels towards the bank at +y: water, bank and bed come from there.
+TEST(CutFace, of_a_head_that_travels_keeps_volume_and_momentum) {
+    CutFaceRun run{k_begin + 0.3 * k_period};
+    run.hauling = Vec3(0.0, -0.1, 0.0);
+    const fs::path folder = scratch_folder("cut_face_hauled");
+    write_run(folder, run);
+    run_cutter_foam(folder, 1);
+    const Table balance = table_of(folder, "balance/balance.csv"), ledger = table_of(folder, "rock/ledger.csv");
+    double flow_balance = 0.0, momentum = 0.0, off = 0.0;
+    for (std::size_t i = 0; i < balance.at("time_s").size(); ++i) {
+        if (balance.at("time_s")[i] < k_begin) continue;
+        flow_balance = std::max(flow_balance, balance.at("flow_balance_error")[i]);
+        momentum = std::max(momentum, balance.at("momentum_error")[i]);
+        off = std::max(off, std::abs(balance.at("outlet_flow_m3_s")[i] / k_discharge - 1.0));
+    }
+    EXPECT_LE(flow_balance, 1e-6);
+    EXPECT_LE(momentum, 1e-5);
+    EXPECT_LE(off, 1e-3);
+    EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
+    EXPECT_LE(largest(ledger.at("error")), 1e-9);
+    fmt::print("head that travels: flow balance {:.1e}, momentum error {:.1e}\n", flow_balance, momentum);
+}
+
+class KilledFeed : public ::testing::TestWithParam<int> {};
+
+/// A column of the ledger over all starts of a run.
+std::vector<double> ledger_column(const fs::path& folder, std::size_t number) {
+    std::vector<double> values;
+    for (const std::string& row : rows_of_all_starts(folder / "postProcessing/rock", "ledger.csv")) {
+        std::istringstream fields(row);
+        std::string field;
+        for (std::size_t i = 0; i <= number; ++i) std::getline(fields, field, ',');
+        values.push_back(std::stod(field));
+    }
+    return values;
+}
+
+TEST_P(KilledFeed, resumes_with_every_kilogram_where_it_was) {
+    CutFaceRun run{0.45};
+    run.checkpoint_interval = 0.1;
+    const fs::path whole = scratch_folder(fmt::format("cut_face_whole_{}", GetParam()));
+    const fs::path killed = scratch_folder(fmt::format("cut_face_killed_{}", GetParam()));
+    write_run(whole, run);
+    run_cutter_foam(whole, GetParam());
+    write_run(killed, run);
+    if (GetParam() > 1) decompose(killed, {1, 1, GetParam()});
+    run_and_kill_after(killed, "0.3", GetParam());
+    run_cutter_foam(killed, GetParam());
+    ASSERT_GE(std::distance(fs::directory_iterator(killed / "postProcessing/rock"), fs::directory_iterator()), 2) << "it was resumed";
+
+    // time, fed, owed, in head, delivered, by mixing, by cutting, on bed, left behind, error
+    const std::vector<double> error = ledger_column(killed, 9);
+    EXPECT_LE(largest(error), 1e-9);
+    EXPECT_EQ(ledger_column(killed, 1).back(), ledger_column(whole, 1).back()) << "fed";
+    ASSERT_GT(ledger_column(whole, 1).back(), 0.0);
+    const double one = sphere_mass(k_diameter, k_grain_density);
+    for (const std::size_t column : {2u, 3u, 4u, 5u, 6u, 7u, 8u})
+        EXPECT_NEAR(ledger_column(killed, column).back(), ledger_column(whole, column).back(), 2.0 * one) << column;
+    fmt::print("{} rank(s): largest error of the ledger over kill and resume {:.1e}, fed {:.4f} kg\n", GetParam(), largest(error),
+               ledger_column(killed, 1).back());
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, KilledFeed, ::testing::Values(1, 2));
 
 }  // namespace
 }  // namespace cutterflow::validation

@@ -1,15 +1,9 @@
 /// Rock between the blades of a turning rotor, in small: 2,928 cells, 20 rocks, a sliding interface, walls that push both. What must hold
 /// in every step of every run is held here: volume, momentum and flow balances, a batch that enters without a blow, a killed run that
 /// resumes.
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,9 +13,9 @@
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
-#include "meshing/dictionary/foam_command.hpp"
 #include "postproc/draw/head_series.hpp"
 #include "validation/harness/scenes/box_case.hpp"
+#include "validation/harness/scenes/killed_run.hpp"
 #include "validation/harness/scenes/rotor_case.hpp"
 
 namespace cutterflow::validation {
@@ -122,51 +116,6 @@ TEST_P(Rotor, takes_a_batch_of_rock_without_a_blow) {
 
 INSTANTIATE_TEST_SUITE_P(Ranks, Rotor, ::testing::Values(1, 2));
 
-/// Starts cutterFoam and kills it some steps after its first checkpoint with rock.
-void run_and_kill(const fs::path& folder) {
-    const ChildCommand command = meshing::foam_command(folder, cutter_foam());
-    const pid_t child = fork();
-    if (child == 0) {
-        if (chdir(folder.c_str()) != 0) _exit(1);
-        for (const auto& [name, value] : command.environment) setenv(name.c_str(), value.c_str(), 1);
-        if (freopen("log.killed", "w", stdout) == nullptr) _exit(1);
-        execl(command.arguments[0].c_str(), command.arguments[0].c_str(), nullptr);
-        _exit(127);
-    }
-    const fs::path checkpoint = folder / names::checkpoints / "0.1";
-    for (int wait = 0; wait < 6000 && !fs::exists(checkpoint); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(fs::exists(checkpoint));
-    ASSERT_TRUE(WIFSIGNALED(status)) << "the run ended before it could be killed";
-}
-
-std::vector<std::string> lines_of(const fs::path& file) {
-    std::vector<std::string> lines;
-    std::ifstream stream(file);
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
-}
-
-/// Lines of a table of all starts of a run, in order, without headers.
-std::vector<std::string> rows_of(const fs::path& folder, const std::string& file) {
-    std::map<double, fs::path> starts;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        char* end = nullptr;
-        const std::string name = entry.path().filename().string();
-        const double start = std::strtod(name.c_str(), &end);
-        if (*end == '\0') starts[start] = entry.path() / file;
-    }
-    std::vector<std::string> rows;
-    for (const auto& [start, path] : starts) {
-        const std::vector<std::string> lines = lines_of(path);
-        rows.insert(rows.end(), lines.begin() + 1, lines.end());
-    }
-    return rows;
-}
-
 /// Rock, surface and direction of an event.
 std::string what_happened(const std::string& event) {
     const std::size_t first = event.find(',');
@@ -179,19 +128,19 @@ TEST(KilledRun, resumes_with_the_same_rock_and_no_event_twice) {
     const fs::path whole = rotor_case("rotor_whole");
     run_cutter_foam(whole);
     const fs::path killed = rotor_case("rotor_killed");
-    run_and_kill(killed);
-    drop_times_after_checkpoint(killed);
+    run_and_kill_after(killed, "0.1", 1);
     run_cutter_foam(killed);
 
-    const std::vector<std::string> events = rows_of(killed / "postProcessing/rock", "events.csv");
+    const std::vector<std::string> events = rows_of_all_starts(killed / "postProcessing/rock", "events.csv");
     EXPECT_EQ(std::set<std::string>(events.begin(), events.end()).size(), events.size());
-    const std::vector<std::string> uninterrupted_events = rows_of(whole / "postProcessing/rock", "events.csv");
+    const std::vector<std::string> uninterrupted_events = rows_of_all_starts(whole / "postProcessing/rock", "events.csv");
     ASSERT_EQ(events.size(), uninterrupted_events.size());
     for (std::size_t i = 0; i < events.size(); ++i) {
         EXPECT_EQ(what_happened(events[i]), what_happened(uninterrupted_events[i]));
         EXPECT_NEAR(std::stod(events[i]), std::stod(uninterrupted_events[i]), 1e-6);
     }
-    EXPECT_EQ(rows_of(killed / "postProcessing/rock", "fates.csv").size(), rows_of(whole / "postProcessing/rock", "fates.csv").size());
+    EXPECT_EQ(rows_of_all_starts(killed / "postProcessing/rock", "fates.csv").size(),
+              rows_of_all_starts(whole / "postProcessing/rock", "fates.csv").size());
 
     const RockSnapshot resumed = last_rocks(killed), uninterrupted = last_rocks(whole);
     ASSERT_EQ(resumed.position.size(), static_cast<std::size_t>(k_rocks));
