@@ -304,6 +304,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end, "[[event]]\ndo = \"remove\"\nat_s = 9\nregion = { above_m = 0.05 }\n\n[run]\n", "The run ends at 4 s"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angel\"\n\n[run]\n", "angel"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = \"door\"\n\n[run]\n", "measure.gate = \"door\""},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"profile_error\"\nagainst = \"gone.csv\"\n\n[run]\n", "there is no file gone.csv"},
+        Bad{k_end,
+            "[[measure]]\nname = \"x\"\nwhat = \"pressure_drop\"\nupstream_m = [0, 0, 0]\ndownstream_m = [0, 0, 1]\n"
+            "density_kg_m3 = 1\n\n[run]\n",
+            "in a room without a medium"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"wall_force\"\nwall = \"lid\"\n\n[run]\n", "measure.wall = \"lid\""},
         Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }", "It names a measure with a gate"},
         Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},

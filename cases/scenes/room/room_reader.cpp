@@ -825,6 +825,12 @@ private:
         scene_.gates = gates_of(scene_.measures);
         for (const ParameterValues& measure : values_.tables("measure")) {
             const std::string where = measure.where("measure.name");
+            if (measure.text("measure.what") == "pressure_drop" && !scene_.medium.present())
+                refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
+                       "Remove the measure, or choose a room.medium");
+            if (measure.has("measure.against") && !fs::is_regular_file(folder_ / measure.text("measure.against")))
+                refuse(measure.where("measure.against"), fmt::format("there is no file {}", measure.text("measure.against")),
+                       "It is a CSV file of a profile", "Check the path");
             if (measure.has("measure.gate") && find_gate(measure.text("measure.gate")) == nullptr)
                 refuse(measure.where("measure.gate"), fmt::format("measure.gate = \"{}\"", measure.text("measure.gate")),
                        "It names a measure that places a gate, or places one itself",
@@ -925,6 +931,7 @@ ParameterValues read_placed_room(const fs::path& study) {
     for (ParameterValues& solid : values.tables_for_writing("solid")) place(solid, "solid.file");
     for (ParameterValues& grains : values.tables_for_writing("grains")) place(grains, "grains.shape");
     for (ParameterValues& boundary : values.tables_for_writing("boundary")) place(boundary, "boundary.flow.profile");
+    for (ParameterValues& measure : values.tables_for_writing("measure")) place(measure, "measure.against");
     return values;
 }
 

@@ -274,15 +274,15 @@ std::vector<MeasureKind> make_table() {
                      packing_rules});
     table.push_back({"profile", measure_profile, "m", "Upper envelope of the grains seen from a side; its value is the greatest height.",
                      profile_keys(), profile_rules});
-    table.push_back(
-        {"profile_error", measure_profile_error, "-",
-         "Mean of |h - h_given| / h_given over the points of a profile. Points where the given height is below 1 mean diameter "
-         "are left out and counted.",
-         joined({profile_keys(),
-                 {single(ParameterRow("against", k_path, "-",
-                                      "CSV file with the columns x_m,height_m, relative to the run directory; linear between its points.")
-                             .source("WasserfallCoetzeeMeyer2024"))}}),
-         profile_rules});
+    table.push_back({"profile_error", measure_profile_error, "-",
+                     "Mean of |h - h_given| / h_given over the points of a profile. Points where the given height is below 1 mean diameter "
+                     "are left out and counted.",
+                     joined({profile_keys(),
+                             {single(ParameterRow("against", k_path, "-",
+                                                  "CSV file with the columns x_m,height_m, linear between its points; relative to the "
+                                                  "study, in a measures.json by hand to the run directory.")
+                                         .source("WasserfallCoetzeeMeyer2024"))}}),
+                     profile_rules});
     table.push_back(angle_kind());
     table.push_back(
         {"cavity",
