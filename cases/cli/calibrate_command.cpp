@@ -36,12 +36,17 @@ std::vector<cases::SweepPoint> points(const fs::path& study, const std::vector<c
     return kind_of_study(study).points(options, folder);
 }
 
-std::optional<double> predicted_core_s(const fs::path& study) {
-    return kind_of_study(study).predicted_core_s(study);
+/// Names of the tables [[measure]]; empty where the kind has none.
+std::vector<std::string> measures(const fs::path& study) {
+    const ParameterTable& table = kind_of_study(study).table();
+    std::vector<std::string> names;
+    if (!cases::find_key(table, "measure.name")) return names;
+    for (const ParameterValues& measure : read_parameters(table, study).tables("measure")) names.push_back(measure.text("measure.name"));
+    return names;
 }
 
 cases::StudyAccess study_access() {
-    return {points, predicted_core_s, [](const fs::path&) { return std::vector<std::string>(); }};
+    return {points, [](const fs::path& study) { return kind_of_study(study).predicted_core_s(study); }, measures};
 }
 
 struct CalibrateOptions {
