@@ -8,6 +8,7 @@ void add_new(CLI::App& app);
 void add_check(CLI::App& app);
 void add_inspect(CLI::App& app);
 void add_repair(CLI::App& app);
+void add_clump(CLI::App& app);
 void add_generate_cutter(CLI::App& app);
 void add_generate_solid(CLI::App& app);
 void add_mesh(CLI::App& app);

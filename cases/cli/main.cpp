@@ -116,6 +116,7 @@ int run(int argc, char** argv) {
     cli::add_params(app);
     cli::add_generate_cutter(app);
     cli::add_generate_solid(app);
+    cli::add_clump(app);
     cli::add_inspect(app);
     cli::add_repair(app);
     cli::add_check(app);

@@ -38,7 +38,7 @@ bool parse(const std::string& field, double& value) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::string>& required, const std::vector<std::string>& optional,
-                   std::vector<Mistake>& mistakes)
+                   std::vector<Mistake>& mistakes, const std::vector<std::string>& words)
     : name_(file.string()) {
     std::ifstream stream(file);
     std::string line;
@@ -63,16 +63,17 @@ CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::str
         if (!has(column))
             mistakes.push_back({fmt::format("{}:{}", name_, header), fmt::format("column '{}' is missing", column),
                                 fmt::format("The header line must name {}", fmt::join(required, ",")), "Add the column"});
-    for (const std::string& column : columns_) {
-        const auto known = [&](const std::vector<std::string>& names) {
-            return std::find(names.begin(), names.end(), column) != names.end();
-        };
-        if (!known(required) && !known(optional))
+    const auto among = [](const std::vector<std::string>& names, const std::string& column) {
+        return std::find(names.begin(), names.end(), column) != names.end();
+    };
+    std::vector<std::string> extra = optional;
+    extra.insert(extra.end(), words.begin(), words.end());
+    for (const std::string& column : columns_)
+        if (!among(required, column) && !among(extra, column))
             mistakes.push_back({fmt::format("{}:{}", name_, header), fmt::format("column '{}' is not known", column),
-                                fmt::format("Columns are {}{}{}", fmt::join(required, ","), optional.empty() ? "" : " and optionally ",
-                                            fmt::join(optional, ",")),
+                                fmt::format("Columns are {}{}{}", fmt::join(required, ","), extra.empty() ? "" : " and optionally ",
+                                            fmt::join(extra, ",")),
                                 "Rename or remove it"});
-    }
     while (next_line()) {
         const std::vector<std::string> fields = split(line);
         std::vector<double> row(columns_.size());
@@ -81,13 +82,14 @@ CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::str
             mistakes.push_back({fmt::format("{}:{}", name_, number), fmt::format("{} fields instead of {}", fields.size(), columns_.size()),
                                 "Every line needs one field per column of the header", "Complete the line"});
         for (std::size_t i = 0; good && i < fields.size(); ++i)
-            if (!parse(fields[i], row[i])) {
+            if (!among(words, columns_[i]) && !parse(fields[i], row[i])) {
                 mistakes.push_back({fmt::format("{}:{}", name_, number), fmt::format("{} = '{}' is not a number", columns_[i], fields[i]),
                                     "Fields are finite numbers with a decimal point", "Correct the field"});
                 good = false;
             }
         if (!good) continue;
         values_.push_back(std::move(row));
+        fields_.push_back(fields);
         lines_.push_back(number);
     }
 }
@@ -104,6 +106,10 @@ std::size_t CsvTable::index(const std::string& column) const {
 
 double CsvTable::at(std::size_t row, const std::string& column) const {
     return values_.at(row)[index(column)];
+}
+
+const std::string& CsvTable::word(std::size_t row, const std::string& column) const {
+    return fields_.at(row)[index(column)];
 }
 
 std::string CsvTable::where(std::size_t row) const {

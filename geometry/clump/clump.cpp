@@ -212,16 +212,22 @@ ShadowAreas extreme_shadows(const Clump& clump) {
     return {extreme_shadow(clump, -1.0), extreme_shadow(clump, 1.0)};
 }
 
+PrincipalInertia principal_inertia(const MassProperties& mass) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(mass.inertia);
+    PrincipalInertia principal{solver.eigenvalues(), solver.eigenvectors()};
+    if (principal.axes.determinant() < 0.0) principal.axes.col(2) *= -1.0;
+    return principal;
+}
+
 ClumpProperties clump_properties(const Clump& clump) {
     const MassProperties mass = union_mass_properties(clump);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(mass.inertia);
+    const PrincipalInertia principal = principal_inertia(mass);
     ClumpProperties properties;
     properties.volume = mass.volume;
     properties.equivalent_diameter = std::cbrt(6.0 * mass.volume / k_pi);
     properties.centroid = mass.centroid;
-    properties.principal_moments = principal.eigenvalues();
-    properties.axes = principal.eigenvectors();
-    if (properties.axes.determinant() < 0.0) properties.axes.col(2) *= -1.0;
+    properties.principal_moments = principal.moments;
+    properties.axes = principal.axes;
     properties.shadow = extreme_shadows(clump);
     return properties;
 }

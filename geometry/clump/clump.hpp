@@ -1,5 +1,6 @@
 #pragma once
 /// \file A clump: overlapping spheres that move as one rigid rock.
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +19,7 @@ struct Ball {
 /// The rock is the union of the balls, of one density: room that two balls share counts once.
 struct Clump {
     std::vector<Ball> balls;
+    std::optional<double> sphericity{};  ///< of the rock that the clump stands for [-], for drag laws that use it
 };
 
 /// Areas of a solid's shadows.
@@ -49,6 +51,14 @@ double shadow_area(const Clump& clump, const Vec3& direction);
 /// Smallest and largest shadow: the best of 2,000 even directions, improved until it turns by less than 1e-6 rad. A second extreme that is
 /// deeper than the one found by less than 1e-3 of the area may be missed.
 ShadowAreas extreme_shadows(const Clump& clump);
+
+/// Principal moments and axes of a body.
+struct PrincipalInertia {
+    Vec3 moments = Vec3::Zero();                         ///< per density, ascending [m5]
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: right-handed, in the order of the moments
+};
+
+PrincipalInertia principal_inertia(const MassProperties& mass);
 
 ClumpProperties clump_properties(const Clump& clump);
 

@@ -19,6 +19,11 @@ ParameterRow length(const char* key, const char* help) {
 
 const ParameterTable& clump_file_table() {
     static const ParameterTable table{
+        ParameterRow("sphericity", ParameterKind::number, "-",
+                     "Surface of the sphere of equal volume over that of the rock, for drag laws that use it.")
+            .above(0.0)
+            .at_most(1.0)
+            .derived("closures.sphericity"),
         length("sphere.x_m", "Centre of the sphere, x."),
         length("sphere.y_m", "Centre of the sphere, y."),
         length("sphere.z_m", "Centre of the sphere, z."),
@@ -33,6 +38,7 @@ Clump read_clump(const std::filesystem::path& file) {
     for (const ParameterValues& sphere : values.tables("sphere"))
         clump.balls.push_back({Vec3(sphere.number("sphere.x_m"), sphere.number("sphere.y_m"), sphere.number("sphere.z_m")),
                                sphere.number("sphere.radius_m")});
+    if (values.has("sphericity")) clump.sphericity = values.number("sphericity");
     Mistakes mistakes(file.string());
     mistakes.add(clump_mistakes(clump));
     mistakes.refuse();
@@ -43,6 +49,7 @@ void write_clump(const Clump& clump, const std::string& remark, const std::files
     std::string text;
     std::istringstream lines(remark);
     for (std::string line; std::getline(lines, line);) text += "# " + line + '\n';
+    if (clump.sphericity) text += fmt::format("\nsphericity = {:.17g}\n", *clump.sphericity);
     for (const Ball& ball : clump.balls)
         text += fmt::format("\n[[sphere]]\nx_m = {:.17g}\ny_m = {:.17g}\nz_m = {:.17g}\nradius_m = {:.17g}\n", ball.centre.x(),
                             ball.centre.y(), ball.centre.z(), ball.radius);
