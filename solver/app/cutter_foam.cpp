@@ -38,8 +38,9 @@ void print_models(const std::vector<coupling::ModelNote>& models) {
 /// The feed alone does not know the domain, which ends what can be placed.
 void require_feed_in_domain(const foam::CouplingDictionary& dictionary) {
     if (!dictionary.dem || dictionary.coupling.rock_feed.empty()) return;
-    coupling::read_rock_feed(dictionary.coupling.rock_feed,
-                             [&](const Vec3& place) { return coupling::contains(dictionary.dem->domain, place); });
+    coupling::read_rock_feed(
+        dictionary.coupling.rock_feed, [&](const Vec3& place) { return coupling::contains(dictionary.dem->domain, place); },
+        dictionary.coupling.shapes);
 }
 
 /// Of the rank that writes.

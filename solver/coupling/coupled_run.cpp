@@ -81,7 +81,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     const auto moving = fluid.moving_zones();
     const ZoneMotion rotor = moving.empty() ? ZoneMotion{} : moving[0];
     if (settings.has_rock && !settings.rock_feed.empty())
-        mistakes.gather([&] { feed_ = FeedQueue(read_rock_feed(settings.rock_feed), settings.queue, rotor); });
+        mistakes.gather([&] { feed_ = FeedQueue(read_rock_feed(settings.rock_feed, {}, settings.shapes), settings.queue, rotor); });
     if (settings.fates && mistakes.empty())
         mistakes.gather([&] {
             const geometry::Contour contour = read_contour(*settings.fates);
@@ -400,8 +400,23 @@ void CoupledRun::record_picture() {
         contact.push_back(moved_.contact_impulse[p] / duration);
     }
     const std::vector<int> frozen = dem_->frozen();
-    recorder_.picture(
-        {fluid_.time(), rocks.id, rocks.position, rocks.velocity, rocks.diameter, rocks.density, hydrodynamic, contact, fates, frozen});
+    RockPicture picture{fluid_.time(),
+                        rocks.id,
+                        rocks.position,
+                        rocks.velocity,
+                        rocks.diameter,
+                        rocks.density,
+                        hydrodynamic,
+                        contact,
+                        fates,
+                        frozen,
+                        {},
+                        {}};
+    if (!settings_.shapes.empty()) {
+        picture.shape = rocks.shape;
+        picture.orientation = rocks.orientation;
+    }
+    recorder_.picture(picture);
 }
 
 void CoupledRun::report_cost(double step_seconds) {

@@ -528,12 +528,7 @@ private:
         if (into > 0.0)
             refuse(where, fmt::format("Body {} at {} stands in a solid, {:.3g} m deep", id, text_of(place), into), "Bodies start free",
                    "Move it, or the stack");
-        rocks.id.push_back(id);
-        rocks.position.push_back(place);
-        rocks.velocity.push_back(body.velocity);
-        rocks.angular_velocity.emplace_back(0.0, body.spin, 0.0);
-        rocks.diameter.push_back(diameter);
-        rocks.density.push_back(density);
+        rocks.append({id, place, body.velocity, Vec3(0.0, body.spin, 0.0), diameter, density});
     }
 
     /// The DEM keeps bodies by their ids.

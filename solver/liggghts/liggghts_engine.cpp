@@ -28,9 +28,11 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/sphere.hpp"
+#include "solver/liggghts/clump_state.hpp"
 #include "solver/liggghts/contacts/contact_registration.hpp"
 #include "solver/liggghts/contacts/wall_contacts.hpp"
 #include "solver/liggghts/liggghts_commands.hpp"
+#include "solver/liggghts/rigid_bodies.hpp"
 #include "solver/liggghts/rock_grid.hpp"
 #include "solver/liggghts/rock_motion.hpp"
 #include "solver/liggghts/settings_check.hpp"
@@ -46,12 +48,14 @@ using coupling::Rocks;
 constexpr double k_skin_in_radii = 0.4;       // of the largest rock: neighbour lists hold until something moved half of it
 constexpr double k_skin_without_rock = 4e-4;  // of the domain's half width
 constexpr double k_margin_in_radii = 0.25;    // of the domain's half width: room that a rock may use between leaving it and being removed
+constexpr double k_clump_margin = 0.5;        // the same with clumps, half of it for their spheres beyond the centre
 constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at each rebuild
 constexpr const char* k_restart_file = "dem.restart";
 constexpr const char* k_state_file = "dem.json";
 constexpr const char* k_rolling_history = "rolling_history";
 constexpr const char* k_walls = "walls";
 constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
+constexpr const char* k_clumps = "clumps";
 constexpr const char* k_motion = "rock_motion";
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_wall_rolling = "wall_rolling";
@@ -134,7 +138,9 @@ private:
     void gather();
     void require_all_rocks(const std::vector<int>& before) const;
     bool overlaps_wall(const Vec3& centre, double radius) const;
-    void create_rock(const Rocks& rocks, std::size_t k);
+    bool fits_margin(const coupling::Rock& rock) const;
+    void create_rock(const coupling::Rock& rock);
+    void create_particle(const coupling::Rock& rock, int tag, const geometry::Ball& ball);
     void delete_rocks(const std::vector<int>& sorted_ids);
     void after_change_of_rocks();
     std::vector<std::string> body_names() const;
@@ -154,6 +160,7 @@ private:
     ContactContext context_;
     std::optional<WallContacts> wall_contacts_;
     std::vector<SteelWall> walls_;
+    RigidBodies bodies_;
     std::unique_ptr<LAMMPS_NS::LAMMPS> lammps_;
     RockMotion* motion_ = nullptr;  // LIGGGHTS owns it
     LAMMPS_NS::FixPropertyAtom* contact_forces_ = nullptr;
@@ -182,7 +189,8 @@ LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& sett
     : settings_(checked(settings)),
       has_rotor_(!moving.empty()),
       rotor_(has_rotor_ ? moving.front() : coupling::ZoneMotion{}),
-      context_(settings, rotor_) {
+      context_(settings, rotor_),
+      bodies_(settings_.shapes, context_) {
     Expects(moving.size() <= 1);
     forces_on_bodies_ = context_.tally.force_on_body;
     for (const coupling::WallSettings& wall : settings_.walls) walls_.emplace_back(wall, static_cast<int>(walls_.size()), rotor_);
@@ -200,7 +208,7 @@ LiggghtsEngine::Implementation::~Implementation() {
 
 /// Encloses the domain with room for rock that is leaving.
 commands::Box LiggghtsEngine::Implementation::box() const {
-    const double margin = k_margin_in_radii * half_width(settings_.domain);
+    const double margin = (context_.has_clumps ? k_clump_margin : k_margin_in_radii) * half_width(settings_.domain);
     commands::Box box = bounds(settings_.domain);
     box.low.array() -= margin;
     box.high.array() += margin;
@@ -270,7 +278,7 @@ void LiggghtsEngine::Implementation::declare_motion() {
     modify.fix[place] = nullptr;
     std::string id = k_motion, group = "all", style = "cutterflow/motion";
     char* arguments[] = {id.data(), group.data(), style.data()};
-    motion_ = new RockMotion(lammps_.get(), 3, arguments, context_, walls_, settings_.gravity);
+    motion_ = new RockMotion(lammps_.get(), 3, arguments, context_, walls_, bodies_, settings_.gravity);
     modify.fix[place] = motion_;
     modify.fmask[place] = motion_->setmask();
 }
@@ -332,8 +340,13 @@ void LiggghtsEngine::Implementation::gather() {
     constexpr int columns = 13;
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     std::vector<double> mine;
+    int spheres_of_bodies = 0;
     for (int i = 0; i < atom.nlocal; ++i) {
-        mine.push_back(atom.tag[i]);
+        if (bodies_.hold(atom.tag[i])) {
+            ++spheres_of_bodies;
+            continue;
+        }
+        mine.push_back(context_.rock_of(atom.tag[i]));
         mine.insert(mine.end(), atom.x[i], atom.x[i] + 3);
         mine.insert(mine.end(), atom.v[i], atom.v[i] + 3);
         mine.insert(mine.end(), atom.omega[i], atom.omega[i] + 3);
@@ -350,20 +363,24 @@ void LiggghtsEngine::Implementation::gather() {
     std::vector<double> all(starts.back() + counts.back());
     MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator_);
 
-    std::vector<const double*> rows;
-    for (std::size_t k = 0; k < all.size(); k += columns) rows.push_back(all.data() + k);
-    std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[0] < b[0]; });
-    rocks_ = Rocks{};
+    if (!bodies_.empty() && static_cast<std::size_t>(std::lround(sum(spheres_of_bodies))) != bodies_.spheres())
+        throw std::logic_error(fmt::format("{:.0f} of {} spheres of clumps are in the DEM", sum(spheres_of_bodies), bodies_.spheres()));
+
+    std::vector<coupling::Rock> found;
     frozen_.clear();
-    for (const double* row : rows) {
-        rocks_.id.push_back(static_cast<int>(row[0]));
-        rocks_.position.emplace_back(row + 1);
-        rocks_.velocity.emplace_back(row + 4);
-        rocks_.angular_velocity.emplace_back(row + 7);
-        rocks_.diameter.push_back(row[10]);
-        rocks_.density.push_back(row[11]);
-        if (row[12] != 0.0) frozen_.push_back(rocks_.id.back());
+    for (std::size_t k = 0; k < all.size(); k += columns) {
+        const double* row = all.data() + k;
+        found.push_back({static_cast<int>(row[0]), Vec3(row + 1), Vec3(row + 4), Vec3(row + 7), row[10], row[11]});
+        if (row[12] != 0.0) frozen_.push_back(found.back().id);
     }
+    for (const RigidBody& body : bodies_.all()) {
+        found.push_back(body.state);
+        if (body.frozen) frozen_.push_back(body.state.id);
+    }
+    std::sort(frozen_.begin(), frozen_.end());
+    std::sort(found.begin(), found.end(), [](const coupling::Rock& a, const coupling::Rock& b) { return a.id < b.id; });
+    rocks_ = Rocks{};
+    for (const coupling::Rock& rock : found) rocks_.append(rock);
 }
 
 double LiggghtsEngine::Implementation::largest_time_step() const {
@@ -372,16 +389,13 @@ double LiggghtsEngine::Implementation::largest_time_step() const {
         const coupling::LinearContactSettings& law = settings_.linear;
         return physics::linear_contact_step(law.theta, law.reference_length, law.gravity, law.steps_per_period);
     }
-    const ElasticPair steel = elastic_pair(contact.youngs_modulus, contact.poisson_rock, contact.poisson_steel);
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
-        const double radius = 0.5 * rocks_.diameter[k];
-        const double mass = context_.mass_of(0.5 * rocks_.diameter[k], rocks_.density[k]);
-        const physics::Impact on_rock{0.5 * mass, 0.5 * radius, context_.rock_rock.elastic.youngs, contact.max_speed};
-        const physics::Impact on_steel{mass, radius, steel.youngs, contact.max_speed};
-        shortest = std::min({shortest, physics::hertz_time(on_rock), physics::hertz_time(on_steel),
-                             physics::rayleigh_time(radius, rocks_.density[k], contact.youngs_modulus, contact.poisson_rock)});
+        if (rocks_.shape[k] != coupling::k_sphere_shape) continue;
+        const double radius = 0.5 * rocks_.diameter[k], density = rocks_.density[k];
+        shortest = std::min(shortest, context_.shortest_contact_time(radius, context_.mass_of(radius, density), density));
     }
+    for (const RigidBody& body : bodies_.all()) shortest = std::min(shortest, body.shortest);
     return contact.time_step_fraction * shortest;
 }
 
@@ -407,16 +421,28 @@ std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidat
     for (const std::vector<double>* diameters : {&rocks_.diameter, &candidates.diameter})
         for (const double diameter : *diameters) largest = std::max(largest, diameter);
     RockGrid grid(largest);
-    for (std::size_t k = 0; k < rocks_.size(); ++k) grid.add(rocks_.position[k], rocks_.diameter[k]);
+    const auto add = [&](const coupling::Rock& rock) {
+        for (const geometry::Ball& ball : bodies_.balls_of(rock)) grid.add(ball.centre, 2.0 * ball.radius);
+    };
+    for (std::size_t k = 0; k < rocks_.size(); ++k) add(rocks_.at(k));
     std::vector<bool> room(candidates.size(), false);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const Vec3& centre = candidates.position[k];
-        const double diameter = candidates.diameter[k];
-        if (!contains(settings_.domain, centre) || grid.overlaps(centre, diameter) || overlaps_wall(centre, 0.5 * diameter)) continue;
+        const coupling::Rock rock = candidates.at(k);
+        const std::vector<geometry::Ball> balls = bodies_.balls_of(rock);
+        const auto is_blocked = [&](const geometry::Ball& ball) {
+            return grid.overlaps(ball.centre, 2.0 * ball.radius) || overlaps_wall(ball.centre, ball.radius);
+        };
+        if (!contains(settings_.domain, rock.position) || !fits_margin(rock) || std::any_of(balls.begin(), balls.end(), is_blocked))
+            continue;
         room[k] = true;
-        grid.add(centre, diameter);
+        add(rock);
     }
     return room;
+}
+
+/// LIGGGHTS loses particles outside its box, in which spheres of a clump may lie beyond the domain that the centre of mass is in.
+bool LiggghtsEngine::Implementation::fits_margin(const coupling::Rock& rock) const {
+    return rock.shape == coupling::k_sphere_shape || bodies_.reach_of(rock) <= 0.5 * k_clump_margin * half_width(settings_.domain);
 }
 
 std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates) {
@@ -429,29 +455,36 @@ std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates)
         if (room[k]) accepted.append(candidates, k);
     if (accepted.size() == 0) return {};
     store_contact_forces();
-    for (std::size_t k = 0; k < accepted.size(); ++k) {
-        create_rock(accepted, k);
-        largest_radius_ = std::max(largest_radius_, 0.5 * accepted.diameter[k] + context_.half_gap);
-    }
+    for (std::size_t k = 0; k < accepted.size(); ++k) create_rock(accepted.at(k));
     after_change_of_rocks();
     return accepted.id;
 }
 
+void LiggghtsEngine::Implementation::create_rock(const coupling::Rock& rock) {
+    if (rock.id > std::numeric_limits<int>::max() / context_.spheres_per_rock)
+        throw std::invalid_argument(fmt::format("rock id {} times {} spheres of a clump is too large", rock.id, context_.spheres_per_rock));
+    const std::vector<geometry::Ball> balls = bodies_.balls_of(rock);
+    for (std::size_t k = 0; k < balls.size(); ++k) create_particle(rock, context_.tag_of(rock.id, static_cast<int>(k)), balls[k]);
+    if (rock.shape != coupling::k_sphere_shape) bodies_.add(rock);
+}
+
 /// On the rank whose part of the box holds the centre.
-void LiggghtsEngine::Implementation::create_rock(const Rocks& rocks, std::size_t k) {
+void LiggghtsEngine::Implementation::create_particle(const coupling::Rock& rock, int tag, const geometry::Ball& ball) {
+    largest_radius_ = std::max(largest_radius_, ball.radius + context_.half_gap);
     LAMMPS_NS::Atom& atom = *lammps_->atom;
     const LAMMPS_NS::Domain& domain = *lammps_->domain;
-    Vec3 position = rocks.position[k];
+    Vec3 position = ball.centre;
     for (int axis = 0; axis < 3; ++axis)
         if (position[axis] < domain.sublo[axis] || position[axis] >= domain.subhi[axis]) return;
     atom.avec->create_atom(1, position.data());
     const int i = atom.nlocal - 1;
-    atom.tag[i] = rocks.id[k];
-    std::copy_n(rocks.velocity[k].data(), 3, atom.v[i]);
-    std::copy_n(rocks.angular_velocity[k].data(), 3, atom.omega[i]);
-    atom.radius[i] = 0.5 * rocks.diameter[k] + context_.half_gap;
-    atom.density[i] = rocks.density[k];
-    atom.rmass[i] = context_.mass_of(0.5 * rocks.diameter[k], rocks.density[k]);
+    const Vec3 velocity = rock.velocity + rock.angular_velocity.cross(position - rock.position);
+    atom.tag[i] = tag;
+    std::copy_n(velocity.data(), 3, atom.v[i]);
+    std::copy_n(rock.angular_velocity.data(), 3, atom.omega[i]);
+    atom.radius[i] = ball.radius + context_.half_gap;
+    atom.density[i] = rock.density;
+    atom.rmass[i] = context_.mass_of(0.5 * rock.diameter, rock.density);
     for (int f = 0; f < lammps_->modify->nfix; ++f)
         if (lammps_->modify->fix[f]->create_attribute) lammps_->modify->fix[f]->set_arrays(i);
 }
@@ -469,13 +502,14 @@ void LiggghtsEngine::Implementation::delete_rocks(const std::vector<int>& sorted
     // Contacts are kept in the neighbour list, by local numbers that are about to change; this does nothing when that was done already.
     lammps_->modify->find_fix_style_strict("contacthistory", 0)->setup_pre_exchange();
     for (int i = 0; i < atom.nlocal;) {
-        if (std::binary_search(sorted_ids.begin(), sorted_ids.end(), atom.tag[i])) {
+        if (std::binary_search(sorted_ids.begin(), sorted_ids.end(), context_.rock_of(atom.tag[i]))) {
             atom.avec->copy(atom.nlocal - 1, i, 1);
             --atom.nlocal;
         } else {
             ++i;
         }
     }
+    bodies_.remove(sorted_ids);
     after_change_of_rocks();
 }
 
@@ -486,12 +520,13 @@ void LiggghtsEngine::Implementation::set_frozen(gsl::span<const int> ids, bool f
     if (sorted.empty()) return;
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     for (int i = 0; i < atom.nlocal; ++i) {
-        if (!std::binary_search(sorted.begin(), sorted.end(), atom.tag[i])) continue;
+        if (!std::binary_search(sorted.begin(), sorted.end(), context_.rock_of(atom.tag[i]))) continue;
         atom.type[i] = frozen ? k_frozen : k_moving;
         if (!frozen) continue;
         std::fill_n(atom.v[i], 3, 0.0);
         std::fill_n(atom.omega[i], 3, 0.0);
     }
+    bodies_.set_frozen(sorted, frozen);
     gather();
     context_.time = time_;
     command(commands::run(0, true));
@@ -580,8 +615,9 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     if (is_first_rank()) {
         std::ofstream stream(folder / k_state_file);
         const bool rolling = context_.rock_rock.resists_rolling();
-        stream << nlohmann::json{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}, {k_walls, bodies}}.dump(2)
-               << '\n';
+        nlohmann::json state{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}, {k_walls, bodies}};
+        if (context_.has_clumps) state[k_clumps] = clump_state(settings_.shapes, bodies_);
+        stream << state.dump(2) << '\n';
         if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / k_state_file).string()));
     }
     MPI_Barrier(communicator_);
@@ -602,7 +638,9 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                                                      {"torque_n_m", JsonKind::number, true},
                                                      {k_rolling_history, JsonKind::truth, false},
                                                      {"walls/*/name", JsonKind::text, false},
-                                                     {"walls/*/force_n/*", JsonKind::number, false}},
+                                                     {"walls/*/force_n/*", JsonKind::number, false},
+                                                     {k_clumps, JsonKind::object, false},
+                                                     {"clumps/shapes/*/name", JsonKind::text, true}},
                                                     k_remedy);
     const bool written_with = state.value(k_rolling_history, false), rolling = context_.rock_rock.resists_rolling();
     if (written_with != rolling)
@@ -613,6 +651,7 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
     if (!std::filesystem::is_regular_file(folder / k_restart_file))
         throw UserError(
             {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", k_remedy}});
+    require_same_clumps(settings_.shapes, state.value(k_clumps, nlohmann::json::object()), (folder / k_state_file).string());
     return state;
 }
 
@@ -652,9 +691,13 @@ void LiggghtsEngine::Implementation::read_rocks(const std::filesystem::path& fol
     }
     set_up_needed_ = true;
     command("clear");
+    bodies_.clear();
     declare(folder / k_restart_file, names_before);
+    if (context_.has_clumps) restore_bodies(state.at(k_clumps), settings_.shapes.size(), bodies_);
     gather();
-    for (const double diameter : rocks_.diameter) largest_radius_ = std::max(largest_radius_, 0.5 * diameter + context_.half_gap);
+    for (std::size_t k = 0; k < rocks_.size(); ++k)
+        for (const geometry::Ball& ball : bodies_.balls_of(rocks_.at(k)))
+            largest_radius_ = std::max(largest_radius_, ball.radius + context_.half_gap);
     set_neighbours();
     set_up_needed_ = true;
 }

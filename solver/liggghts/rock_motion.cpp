@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "atom.h"
+#include "comm.h"
 #include "update.h"
 
 #include "geometry/base/sphere.hpp"
@@ -11,8 +12,8 @@
 namespace cutterflow::liggghts {
 
 RockMotion::RockMotion(LAMMPS_NS::LAMMPS* lammps, int narg, char** arg, ContactContext& context, std::vector<SteelWall>& walls,
-                       const Vec3& gravity)
-    : Fix(lammps, narg, arg), context_(context), walls_(walls), gravity_(gravity) {
+                       RigidBodies& bodies, const Vec3& gravity)
+    : Fix(lammps, narg, arg), context_(context), walls_(walls), bodies_(bodies), gravity_(gravity) {
     time_integrate = 1;
     create_attribute = 1;
     grow_arrays(atom->nmax);
@@ -35,8 +36,10 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     contact_impulse_.assign(rocks.size(), Vec3::Zero());
     angular_impulse_ = 0.0;
     wall_impulse_.assign(context_.tally.force_on_body.size(), Vec3::Zero());
+    bodies_.begin(rocks, law, *atom, world);
     for (int i = 0; i < atom->nlocal; ++i) {
-        const auto of_this_rock = std::lower_bound(rocks.id.begin(), rocks.id.end(), atom->tag[i]);
+        if (bodies_.hold(atom->tag[i])) continue;
+        const auto of_this_rock = std::lower_bound(rocks.id.begin(), rocks.id.end(), context_.rock_of(atom->tag[i]));
         states_[i].index = static_cast<std::size_t>(of_this_rock - rocks.id.begin());
         states_[i].hydrodynamic = law(states_[i].index, Vec3(atom->v[i]));
     }
@@ -54,7 +57,7 @@ Vec3 RockMotion::weight(int rock) const {
 /// From contact (LIGGGHTS' force), hydrodynamic force and submerged weight.
 Vec3 RockMotion::acceleration(int rock) const {
     return (Vec3(atom->f[rock]) + states_[rock].hydrodynamic + weight(rock)) /
-           context_.mass_with_added_mass(atom->rmass[rock], atom->radius[rock]);
+           context_.mass_with_added_mass(atom->rmass[rock], atom->radius[rock], atom->density[rock]);
 }
 
 /// Half a step's.
@@ -76,6 +79,16 @@ Vec3 RockMotion::spin_acceleration(int rock) const {
     return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
 }
 
+/// Half a step's, on the first rank: all ranks know the bodies' forces.
+void RockMotion::add_impulses_of_bodies() {
+    if (comm->me != 0) return;
+    for (const RigidBody& body : bodies_.all()) {
+        impulse_[body.index] += 0.5 * update->dt * body.hydrodynamic;
+        const Vec3 other = body.frozen ? Vec3(-body.hydrodynamic - bodies_.weight(body, gravity_)) : body.force;
+        contact_impulse_[body.index] += 0.5 * update->dt * other;
+    }
+}
+
 /// Runs after the planes' post_force, because the planes were declared before.
 void RockMotion::post_force(int) {
     for (SteelWall& wall : walls_) wall.find_touches(*atom, context_.time, *context_.wall_contacts);
@@ -84,7 +97,10 @@ void RockMotion::post_force(int) {
 
 void RockMotion::initial_integrate(int) {
     const double step = update->dt;
+    add_impulses_of_bodies();
+    bodies_.start_step(step, gravity_, *atom);
     for (int i = 0; i < atom->nlocal; ++i) {
+        if (bodies_.hold(atom->tag[i])) continue;
         add_impulses(i);
         if (is_frozen(i)) continue;
         State& state = states_[i];
@@ -101,7 +117,10 @@ void RockMotion::initial_integrate(int) {
 
 void RockMotion::final_integrate() {
     const double step = update->dt;
+    bodies_.end_step(step, gravity_, *force_, *atom, world);
+    add_impulses_of_bodies();
     for (int i = 0; i < atom->nlocal; ++i) {
+        if (bodies_.hold(atom->tag[i])) continue;
         State& state = states_[i];
         Eigen::Map<Vec3> velocity(atom->v[i]), spin(atom->omega[i]);
         state.hydrodynamic = (*force_)(state.index, velocity);

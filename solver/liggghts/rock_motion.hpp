@@ -5,12 +5,13 @@
 #include "fix.h"
 
 #include "solver/liggghts/contacts/contact_context.hpp"
+#include "solver/liggghts/rigid_bodies.hpp"
 #include "solver/liggghts/steel_wall.hpp"
 #include "solver/ports/dem_engine.hpp"
 
 namespace cutterflow::liggghts {
 
-/// Velocity Verlet for spheres with added mass:
+/// Velocity Verlet for spheres with added mass (clumps: RigidBodies):
 ///
 ///   (m + C_AM rho_c V) dv/dt = F_contact + F_hydro(v) + (m - rho_c V) g,   2/5 m R^2 d(omega)/dt = T_contact
 ///
@@ -21,8 +22,10 @@ namespace cutterflow::liggghts {
 /// Frozen rock is not integrated: what holds it takes up all forces on it.
 class RockMotion final : public LAMMPS_NS::Fix {
 public:
-    /// \param walls  of triangles; they turn and travel with the context's time
-    RockMotion(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg, ContactContext& context, std::vector<SteelWall>& walls, const Vec3& gravity);
+    /// \param walls   of triangles; they turn and travel with the context's time
+    /// \param bodies  the clumps, whose spheres they move
+    RockMotion(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg, ContactContext& context, std::vector<SteelWall>& walls, RigidBodies& bodies,
+               const Vec3& gravity);
     ~RockMotion() override;
 
     /// Starts a call of advance: the rocks present (sorted by id) and their force law.
@@ -66,9 +69,11 @@ private:
     void add_impulses(int rock);
     void add_impulses_of_walls();
     Vec3 spin_acceleration(int rock) const;
+    void add_impulses_of_bodies();
 
     ContactContext& context_;
     std::vector<SteelWall>& walls_;
+    RigidBodies& bodies_;
     Vec3 gravity_;
     const coupling::Rocks* rocks_ = nullptr;
     const coupling::HydrodynamicForce* force_ = nullptr;

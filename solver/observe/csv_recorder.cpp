@@ -69,6 +69,7 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     if (std::any_of(settings.operations.begin(), settings.operations.end(),
                     [](const OperationSettings& operation) { return operation.kind == OperationKind::extract; }))
         extractions_ = open(k_rock, "extract.csv", "time_s,event,due_kg,extracted_kg,in_region,starved");
+    if (!settings.shapes.empty()) write_shapes(settings.shapes);
 
     // Pictures of an earlier part of the run stay in the series.
     const std::filesystem::path pictures = root_ / k_rock / "vtk";
@@ -83,6 +84,20 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
 void CsvRecorder::describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions) {
     models_ = std::move(models);
     versions_ = std::move(versions);
+}
+
+/// What the numbers of `shape` in the pictures stand for.
+void CsvRecorder::write_shapes(const std::vector<ClumpShape>& shapes) const {
+    nlohmann::json list = nlohmann::json::array();
+    for (const ClumpShape& shape : shapes) {
+        nlohmann::json spheres = nlohmann::json::array();
+        for (const geometry::Ball& ball : shape.clump.balls)
+            spheres.push_back({{"centre", {ball.centre.x(), ball.centre.y(), ball.centre.z()}}, {"radius", ball.radius}});
+        list.push_back({{"name", shape.name}, {"spheres_over_diameter", spheres}});
+    }
+    std::ofstream stream(root_ / k_rock / "shapes.json");
+    stream << list.dump(2) << '\n';
+    if (!stream) fail_to_write(root_ / k_rock / "shapes.json");
 }
 
 std::filesystem::path CsvRecorder::folder(const std::string& what) const {
@@ -212,6 +227,13 @@ void CsvRecorder::picture(const RockPicture& picture) {
     });
     if (!picture.fate.empty())
         array("Int32", "fate", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", static_cast<int>(picture.fate[p])); });
+    if (!picture.shape.empty()) {
+        array("Int32", "shape", 1, [&](std::size_t p) { fmt::print(stream, "{}\n", picture.shape[p]); });
+        array("Float64", "orientation", 4, [&](std::size_t p) {
+            const Eigen::Quaterniond& q = picture.orientation[p];
+            fmt::print(stream, "{:.9g} {:.9g} {:.9g} {:.9g}\n", q.w(), q.x(), q.y(), q.z());
+        });
+    }
     stream << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
     if (!stream) fail_to_write(root_ / k_rock / file);
     pictures_[picture.time] = file;

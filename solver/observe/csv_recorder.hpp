@@ -42,6 +42,7 @@ public:
     void flush() override;
 
 private:
+    void write_shapes(const std::vector<ClumpShape>& shapes) const;
     std::filesystem::path folder(const std::string& what) const;
     std::ofstream open(const std::string& what, const std::string& file, const std::string& header) const;
     void write_series() const;

@@ -160,10 +160,12 @@ struct RockPicture {
     gsl::span<const int> id;
     gsl::span<const Vec3> position, velocity;
     gsl::span<const double> diameter, density;
-    gsl::span<const Vec3> hydrodynamic_force;  ///< drag and the Du/Dt parts, mean over the step [N]
-    gsl::span<const Vec3> contact_force;       ///< of rock and steel, mean over the step [N]
-    gsl::span<const Fate> fate;                ///< empty when fates are not followed
-    gsl::span<const int> frozen;               ///< ids, sorted
+    gsl::span<const Vec3> hydrodynamic_force;         ///< drag and the Du/Dt parts, mean over the step [N]
+    gsl::span<const Vec3> contact_force;              ///< of rock and steel, mean over the step [N]
+    gsl::span<const Fate> fate;                       ///< empty when fates are not followed
+    gsl::span<const int> frozen;                      ///< ids, sorted
+    gsl::span<const int> shape;                       ///< as Rock::shape; empty when all rock is spheres
+    gsl::span<const Eigen::Quaterniond> orientation;  ///< as Rock::orientation; empty with `shape`
 };
 
 /// An active sub-model, and why it is active.

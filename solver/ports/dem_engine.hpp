@@ -6,30 +6,66 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gsl/span>
 
 #include "geometry/base/vec3.hpp"
 
 namespace cutterflow::coupling {
 
-/// All rocks of the run, the same on every rank, sorted by id. Arrays of equal length.
+inline constexpr int k_sphere_shape = -1;
+
+/// One rock.
+struct Rock {
+    int id = 0;
+    Vec3 position = Vec3::Zero();                                     ///< of its centre of mass [m], absolute frame
+    Vec3 velocity = Vec3::Zero();                                     ///< [m/s]
+    Vec3 angular_velocity = Vec3::Zero();                             ///< [rad/s], absolute frame
+    double diameter = 0.0;                                            ///< of the sphere of equal volume [m]
+    double density = 0.0;                                             ///< [kg/m3]
+    int shape = k_sphere_shape;                                       ///< its number among the clumps of the settings, or k_sphere_shape
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< turns the shape from its file's axes; of a sphere the identity
+};
+
+/// All rocks of the run, the same on every rank, sorted by id. Arrays of equal length; see Rock.
 struct Rocks {
     std::vector<int> id;
-    std::vector<Vec3> position;          ///< [m], absolute frame
-    std::vector<Vec3> velocity;          ///< [m/s]
-    std::vector<Vec3> angular_velocity;  ///< [rad/s]
-    std::vector<double> diameter;        ///< [m]
-    std::vector<double> density;         ///< [kg/m3]
+    std::vector<Vec3> position;
+    std::vector<Vec3> velocity;
+    std::vector<Vec3> angular_velocity;
+    std::vector<double> diameter;
+    std::vector<double> density;
+    std::vector<int> shape;
+    std::vector<Eigen::Quaterniond> orientation;
+
     std::size_t size() const { return id.size(); }
-    /// Appends rock `p` of `from`.
-    void append(const Rocks& from, std::size_t p) {
-        id.push_back(from.id[p]);
-        position.push_back(from.position[p]);
-        velocity.push_back(from.velocity[p]);
-        angular_velocity.push_back(from.angular_velocity[p]);
-        diameter.push_back(from.diameter[p]);
-        density.push_back(from.density[p]);
+    Rock at(std::size_t p) const {
+        return {id[p], position[p], velocity[p], angular_velocity[p], diameter[p], density[p], shape[p], orientation[p]};
     }
+    void append(const Rock& rock) {
+        id.push_back(rock.id);
+        position.push_back(rock.position);
+        velocity.push_back(rock.velocity);
+        angular_velocity.push_back(rock.angular_velocity);
+        diameter.push_back(rock.diameter);
+        density.push_back(rock.density);
+        shape.push_back(rock.shape);
+        orientation.push_back(rock.orientation);
+    }
+    /// Calls visit(array, the same array of `other`) for each array.
+    template <class Visit>
+    void each_array_with(const Rocks& other, const Visit& visit) {
+        visit(id, other.id);
+        visit(position, other.position);
+        visit(velocity, other.velocity);
+        visit(angular_velocity, other.angular_velocity);
+        visit(diameter, other.diameter);
+        visit(density, other.density);
+        visit(shape, other.shape);
+        visit(orientation, other.orientation);
+    }
+    /// Appends rock `p` of `from`.
+    void append(const Rocks& from, std::size_t p) { append(from.at(p)); }
 };
 
 /// Force [N] that the fluid exerts on rock `index` (of rocks() as they were when advance was called) when it moves with `velocity` [m/s]:

@@ -79,6 +79,8 @@ void check_shape(Mistakes& mistakes, const DemSettings& settings) {
     mistakes.not_negative("contact.gap_m", settings.contact_gap);
     if (settings.shape != RockShape::cylinder) return;
     mistakes.positive("cylinder length", settings.cylinder_length);
+    mistakes.require(settings.shapes.empty(), fmt::format("{} shapes beside cylinders", settings.shapes.size()),
+                     "Rock is cylinders, or spheres and clumps", "Remove the shapes");
     mistakes.require(settings.fluid.density == 0.0, "fluid density", settings.fluid.density,
                      "It must be 0 for cylinders: added mass and buoyancy are a sphere's", k_correct);
 }

@@ -151,6 +151,7 @@ inline DomainSettings cylinder_domain(double radius, double z_min, double z_max)
 struct DemSettings {
     ContactSettings contact;
     std::vector<WallSettings> walls;
+    std::vector<ClumpShape> shapes;  ///< of rock that is no sphere
     DomainSettings domain;
     FluidProperties fluid;
     double added_mass = 0.5;  ///< C_AM [-]

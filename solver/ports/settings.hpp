@@ -9,6 +9,7 @@
 #include "geometry/base/vec3.hpp"
 #include "geometry/head/contour.hpp"
 #include "solver/ports/bed_operations.hpp"
+#include "solver/ports/clump_shape.hpp"
 #include "solver/ports/setting_table.hpp"
 
 namespace cutterflow::coupling {
@@ -35,7 +36,7 @@ struct ClosureSettings {
     std::string hindrance = "di_felice";
     double added_mass = 0.5;     ///< C_AM [-]
     double drag_modifier = 1.0;  ///< factor on the drag of every rock [-]
-    double sphericity = 1.0;     ///< of every rock [-], for drag laws that use it
+    double sphericity = 1.0;     ///< of rock whose shape has none of its own [-], for drag laws that use it
     std::string lift = "none";
     bool viscous_force = true;  ///< false: rho V Du/Dt less its viscous part, so that the pressure gradient's part is left
 };
@@ -162,6 +163,7 @@ struct CouplingSettings {
     std::vector<GateSettings> gates;
     std::optional<AtRestSettings> at_rest;
     std::optional<IdleSettings> idle;
+    std::vector<ClumpShape> shapes;      ///< that rock of the feed may have, as the DEM's
     std::optional<QueueSettings> queue;  ///< none: the feed's rock comes in batches
     KernelSettings kernel;
     ClosureSettings closures;

@@ -113,7 +113,9 @@ std::optional<FeedRock> FeedQueue::turned(const Waiting& waiting, std::size_t pl
     if (!queue_) return rock;
     const double angle = rotor_.speed * (time - *waiting.due) + std::copysign(ahead, rotor_.speed);
     rock.position = rotate_about(rotor_.axis, angle, rock.position);
-    if (rock.velocity) rock.velocity = Eigen::AngleAxisd(angle, rotor_.axis.direction) * *rock.velocity;
+    const Eigen::AngleAxisd turn(angle, rotor_.axis.direction);
+    if (rock.velocity) rock.velocity = turn * *rock.velocity;
+    if (rock.shape != k_sphere_shape) rock.orientation = turn * rock.orientation;
     return rock;
 }
 

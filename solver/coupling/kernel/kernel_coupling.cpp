@@ -229,7 +229,7 @@ const DemStep& KernelCoupling::move() {
     std::vector<physics::RockInFluid> rock(before_.size());
     std::vector<Vec3> steady(before_.size());
     for (std::size_t p = 0; p < before_.size(); ++p) {
-        rock[p] = rock_in_fluid(before_.diameter[p], flow_[p]);
+        rock[p] = rock_in_fluid(before_, p, flow_[p]);
         steady[p] = steady_force(rock[p], flow_[p]);
     }
     const HydrodynamicForce force = [&](std::size_t p, const Vec3& velocity) -> Vec3 {
@@ -308,7 +308,7 @@ void KernelCoupling::map() {
     std::vector<double> drag(rocks.size());
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         const FlowAtRock& flow = flow_[index_before_[p]];
-        drag[p] = drag_per_slip(rock_in_fluid(rocks.diameter[p], flow), (flow.velocity - rocks.velocity[p]).norm()) / properties_.density;
+        drag[p] = drag_per_slip(rock_in_fluid(rocks, p, flow), (flow.velocity - rocks.velocity[p]).norm()) / properties_.density;
     }
     drag_rate_.assign(carry_.size(), 0.0);
     deposit(present_, drag, drag_rate_);
@@ -366,8 +366,13 @@ std::vector<double> KernelCoupling::void_fraction_before(std::vector<double> vol
     return void_fraction_of(solid_fraction);
 }
 
-physics::RockInFluid KernelCoupling::rock_in_fluid(double diameter, const FlowAtRock& flow) const {
-    return {diameter, properties_.density, properties_.kinematic_viscosity, flow.void_fraction, settings_.closures.sphericity};
+physics::RockInFluid KernelCoupling::rock_in_fluid(const Rocks& rocks, std::size_t p, const FlowAtRock& flow) const {
+    return {rocks.diameter[p], properties_.density, properties_.kinematic_viscosity, flow.void_fraction, sphericity_of(rocks.shape[p])};
+}
+
+double KernelCoupling::sphericity_of(int shape) const {
+    const double given = settings_.closures.sphericity;
+    return shape == k_sphere_shape ? given : settings_.shapes[static_cast<std::size_t>(shape)].clump.sphericity.value_or(given);
 }
 
 double KernelCoupling::drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const {
@@ -388,7 +393,7 @@ void KernelCoupling::check_ranges() {
         numbers.particle_reynolds = flow.void_fraction * numbers.reynolds;
         numbers.shear_reynolds = flow.vorticity.norm() * rocks.diameter[p] * d_over_nu;
         numbers.void_fraction = flow.void_fraction;
-        numbers.sphericity = settings_.closures.sphericity;
+        numbers.sphericity = sphericity_of(rocks.shape[p]);
         for (const physics::Closure* closure : in_use) check_range(*closure, numbers, rocks.id[p]);
     }
     if (mapping_.hidden_rocks() > 0)

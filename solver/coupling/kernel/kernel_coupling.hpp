@@ -94,7 +94,8 @@ private:
                       gsl::span<const double> volume);
     void even_out_within_kernels(const std::vector<double>& drag);
     std::vector<double> void_fraction_before(std::vector<double> volume) const;
-    physics::RockInFluid rock_in_fluid(double diameter, const FlowAtRock& flow) const;
+    physics::RockInFluid rock_in_fluid(const Rocks& rocks, std::size_t p, const FlowAtRock& flow) const;
+    double sphericity_of(int shape) const;
     double drag_per_slip(const physics::RockInFluid& rock, double slip_speed) const;
     Vec3 steady_force(const physics::RockInFluid& rock, const FlowAtRock& flow) const;
     void check_ranges();

@@ -1,4 +1,6 @@
 // The rock feed: what a good file gives, and that a bad one names all its mistakes.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
@@ -50,6 +52,53 @@ TEST(RockFeed, reads_the_places_of_a_rock) {
     } catch (const UserError& error) {
         EXPECT_EQ(error.mistakes().size(), 4u) << error.what();  // another time, another diameter, a gap, no first place
     }
+}
+
+std::vector<ClumpShape> two_shapes() {
+    return {{"flat", geometry::unit_clump({{{Vec3(0, 0, 0), 1.0}, {Vec3(1, 0, 0), 1.0}}})},
+            {"long", geometry::unit_clump({{{Vec3(0, 0, 0), 1.0}, {Vec3(1.5, 0, 0), 1.0}}})}};
+}
+
+TEST(RockFeed, takes_shapes_by_name_and_orientations) {
+    const testing::TemporaryFolder folder;
+    const std::string columns = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,shape";
+    const auto rocks = read_rock_feed(
+        folder.write("feed.csv", columns + ",qw,qx,qy,qz\n1,0,0,0,0,0.02,2650,long,0.6,0,0.8,0\n2,0,1,0,0,0.02,2650,,1,0,0,0\n"), {},
+        two_shapes());
+    EXPECT_EQ(rocks.at(0).shape, 1);
+    EXPECT_NEAR(rocks[0].orientation.angularDistance(Eigen::Quaterniond(0.6, 0.0, 0.8, 0.0)), 0.0, 1e-12);
+    EXPECT_EQ(rocks.at(1).shape, k_sphere_shape);
+    EXPECT_EQ(rocks_of(rocks).shape, (std::vector<int>{1, k_sphere_shape}));
+
+    const auto drawn =
+        read_rock_feed(folder.write("drawn.csv", columns + "\n7,0,0,0,0,0.02,2650,flat\n8,0,1,0,0,0.02,2650,flat\n"), {}, two_shapes());
+    EXPECT_EQ(drawn.at(0).orientation.coeffs(), orientation_of_id(7).coeffs());
+    EXPECT_GT(drawn[0].orientation.angularDistance(drawn.at(1).orientation), 0.1);
+    EXPECT_NEAR(drawn[1].orientation.norm(), 1.0, 1e-15);
+
+    try {
+        read_rock_feed(folder.write("wrong.csv", columns + ",qw,qx,qy,qz\n1,0,0,0,0,0.02,2650,round,1,0,0,0\n"
+                                                           "2,0,0,0,0,0.02,2650,flat,1,0.1,0,0\n"),
+                       {}, two_shapes());
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 2u) << error.what();  // an unknown shape, a quaternion that is too long
+    }
+    EXPECT_THROW(read_rock_feed(folder.write("three.csv", columns + ",qw,qx,qy\n1,0,0,0,0,0.02,2650,flat,1,0,0\n"), {}, two_shapes()),
+                 UserError);
+}
+
+// Any direction of a body points with equal right anywhere: means of x and of x^2 of 4,000 of them are 0 and 1/3.
+TEST(RockFeed, draws_orientations_from_all_alike) {
+    Vec3 mean = Vec3::Zero(), square = Vec3::Zero();
+    constexpr int count = 4000;
+    for (int id = 1; id <= count; ++id) {
+        const Vec3 way = orientation_of_id(id) * Vec3(0.36, 0.48, 0.8);
+        mean += way / count;
+        square += way.cwiseProduct(way) / count;
+    }
+    EXPECT_LT(mean.cwiseAbs().maxCoeff(), 4.0 * std::sqrt(1.0 / 3.0 / count));
+    EXPECT_LT((square.array() - 1.0 / 3.0).abs().maxCoeff(), 4.0 * std::sqrt(4.0 / 45.0 / count));
 }
 
 TEST(RockFeed, names_every_mistake_with_its_line) {

@@ -9,6 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/run_files.hpp"
+#include "geometry/clump/clump_file.hpp"
+#include "geometry/clump/unit_clump.hpp"
 #include "solver/foam/dictionary/dictionary_section.hpp"
 #include "solver/foam/session/case_errors.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
@@ -105,6 +107,24 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
     return wall;
 }
 
+/// A section for each shape, by name: { file "..."; }.
+std::vector<coupling::ClumpShape> read_shapes(DictionarySection& section, const Foam::dictionary& dict,
+                                              const std::filesystem::path& folder) {
+    std::vector<coupling::ClumpShape> shapes;
+    for (const Foam::word& name : dict.toc())
+        read_section(section, name, k_required, [&](DictionarySection& one) {
+            std::filesystem::path file;
+            one.read("file", file, folder, k_required);
+            if (file.empty()) return;
+            try {
+                shapes.push_back({name, geometry::unit_clump(geometry::read_clump(file))});
+            } catch (const UserError& error) {
+                for (const Mistake& mistake : error.mistakes()) one.add(mistake);
+            }
+        });
+    return shapes;
+}
+
 void read_box(DictionarySection& section, coupling::DomainSettings& domain) {
     section.read("lower", domain.lower, k_required);
     section.read("upper", domain.upper, k_required);
@@ -145,6 +165,11 @@ void read_rock(DictionarySection& section, const std::filesystem::path& folder, 
     section.read("feed", result.coupling.rock_feed, folder, result.coupling.rock_start.empty() ? k_required : k_optional);
     read_optional(section, "queue", result.coupling.queue, read_settings<coupling::QueueSettings>);
     read_list(section, "walls", dem.walls, [&](DictionarySection& wall) { return read_wall(wall, folder); });
+    if (const Foam::dictionary* shapes = section.section("shapes", k_optional)) {
+        DictionarySection below = section.below(*shapes, "shapes");
+        dem.shapes = result.coupling.shapes = read_shapes(below, *shapes, folder);
+        below.finish();
+    }
     read_section(section, "domain", k_required, [&](DictionarySection& domain) { read_domain(domain, dem.domain); });
     std::set<std::string> materials{dem.domain.material};
     for (const coupling::WallSettings& wall : dem.walls) materials.insert(wall.material);

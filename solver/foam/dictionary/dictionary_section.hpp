@@ -72,6 +72,9 @@ public:
     /// Adds a mistake about the value of a key.
     void report(const std::string& key, const std::string& what, const std::string& rule, const std::string& remedy = "Correct the value");
 
+    /// Adds a mistake of a file that the section names.
+    void add(const Mistake& mistake) { findings_.add(mistake); }
+
     /// Adds a mistake when the section has this key, which it had in an earlier version.
     void refuse(const std::string& key, const std::string& rule, const std::string& remedy);
 

@@ -1,5 +1,6 @@
 #include "solver/foam/dictionary/coupling_dictionary.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -431,6 +432,48 @@ rock
     domain { type box; lower (0 0 0); upper (1 1 1); walls (zMin); }
 }
 )";
+
+const char* const k_rock_with_shapes = R"(
+rock
+{
+    feed "feed.csv";
+    contact { youngsModulus 1e7; poissonRock 0.3; poissonSteel 0.3; wetRestitution true; maxSpeed 1; }
+    walls ();
+    shapes { flat { file "flat.clump"; } lump { file "lump.clump"; } }
+    domain { type box; lower (0 0 0); upper (1 1 1); walls (zMin); }
+}
+)";
+
+TEST(CouplingDictionary, ReadsShapesOfRock) {
+    testing::TinyCase tiny = case_with("shapes", k_rock_with_shapes);
+    tiny.files["constant/transportProperties"] = "transportModel Newtonian; nu 1e-6; rho 1000;";
+    const std::filesystem::path folder = testing::build_case(tiny);
+    if (Foam::UPstream::master()) {
+        const std::string sphere = "[[sphere]]\nx_m = {}\ny_m = 0.0\nz_m = 0.0\nradius_m = 2.0\n";
+        std::ofstream(folder / "flat.clump") << "sphericity = 0.8\n" << fmt::format(sphere, 0.0) << fmt::format(sphere, 1.0);
+        std::ofstream(folder / "lump.clump") << fmt::format(sphere, 0.0) << fmt::format(sphere, 1.0) << fmt::format(sphere, 2.0);
+    }
+    bool there = true;
+    Foam::Pstream::scatter(there);
+    FoamSession session(folder);
+    const CouplingDictionary found = read_coupling_dictionary(session);
+    ASSERT_EQ(found.dem->shapes.size(), 2u);
+    EXPECT_EQ(found.dem->shapes[0].name, "flat");
+    EXPECT_EQ(found.dem->shapes[0].clump.sphericity, 0.8);
+    EXPECT_EQ(found.dem->shapes[1].clump.balls.size(), 3u);
+    EXPECT_FALSE(found.dem->shapes[1].clump.sphericity);
+    EXPECT_EQ(found.coupling.shapes.size(), 2u);
+}
+
+TEST(CouplingDictionary, NamesMistakesOfShapesBesideOthers) {
+    testing::TinyCase tiny = case_with("wrong_shapes", k_rock_with_shapes);
+    tiny.files["constant/transportProperties"] = "transportModel Newtonian; nu 1e-6; rho -1;";
+    const std::filesystem::path folder = testing::build_case(tiny);
+    FoamSession session(folder);
+    const auto mistakes = mistakes_of([&] { read_coupling_dictionary(session); });
+    EXPECT_EQ(std::count_if(mistakes.begin(), mistakes.end(), [](const std::string& text) { return text.find(".clump") != text.npos; }), 2);
+    EXPECT_GE(mistakes.size(), 3u);
+}
 
 TEST(CouplingDictionary, ReadsNoFluidWithoutAMedium) {
     testing::TinyCase tiny = case_with("dictionary_dry", k_dry);

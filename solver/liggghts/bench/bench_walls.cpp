@@ -51,12 +51,8 @@ coupling::Rocks batch() {
     for (int k = 0; rocks.size() < 368; ++k) {
         const int column = k % 23, layer = k / 23;
         const double azimuth = 2.0 * k_pi * (column % 12 + 0.5) / 12.0, r = column < 12 ? 0.25 : 0.16;
-        rocks.id.push_back(k + 1);
-        rocks.position.emplace_back(r * std::cos(azimuth), r * std::sin(azimuth), -0.19 + 0.022 * layer);
-        rocks.velocity.emplace_back(Vec3(0, 0, k_speed).cross(rocks.position.back()));
-        rocks.angular_velocity.emplace_back(Vec3::Zero());
-        rocks.diameter.push_back(0.02);
-        rocks.density.push_back(2650.0);
+        const Vec3 place(r * std::cos(azimuth), r * std::sin(azimuth), -0.19 + 0.022 * layer);
+        rocks.append({k + 1, place, Vec3(0, 0, k_speed).cross(place), Vec3::Zero(), 0.02, 2650.0});
     }
     return rocks;
 }

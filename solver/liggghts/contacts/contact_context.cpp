@@ -1,6 +1,7 @@
 #include "solver/liggghts/contacts/contact_context.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/base/sphere.hpp"
 #include "solver/physics/contact.hpp"
@@ -49,8 +50,15 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const coup
       rolling_law(settings.contact.rolling_law == "constant" ? RollingLaw::constant : RollingLaw::spring),
       shape(settings.shape),
       cylinder_length(settings.cylinder_length),
+      has_clumps(!settings.shapes.empty()),
+      youngs_modulus(settings.contact.youngs_modulus),
+      poisson_rock(settings.contact.poisson_rock),
+      max_speed(settings.contact.max_speed),
+      steel(elastic_pair(settings.contact.youngs_modulus, settings.contact.poisson_rock, settings.contact.poisson_steel)),
       half_gap(0.5 * settings.contact_gap) {
     tally.force_on_body.assign(rock_on_body.size(), Vec3::Zero());
+    for (const coupling::ClumpShape& shape : settings.shapes)
+        spheres_per_rock = std::max(spheres_per_rock, static_cast<int>(shape.clump.balls.size()));
     if (settings.law != coupling::ContactLaw::linear) return;
     const coupling::LinearContactSettings& law = settings.linear;
     linear = LinearLaw{law.gravity / (law.theta * law.reference_length), law.damping, 0.5 / (1.0 + law.poisson), law.accumulated_shear,
@@ -65,12 +73,20 @@ double ContactContext::inertia_of(double mass, double radius) const {
     return shape == coupling::RockShape::cylinder ? 0.5 * mass * radius * radius : sphere_inertia(2.0 * radius, mass);
 }
 
-double ContactContext::mass_with_added_mass(double mass, double radius) const {
-    return mass + added_mass * fluid.density * sphere_volume(2.0 * radius);
+double ContactContext::mass_with_added_mass(double mass, double radius, double density) const {
+    return mass + added_mass * fluid.density * volume_of(mass, radius, density);
 }
 
-double ContactContext::rolling_inertia(double mass, double radius) const {
-    return inertia_of(mass, radius) + mass_with_added_mass(mass, radius) * radius * radius;
+double ContactContext::rolling_inertia(double mass, double radius, double density) const {
+    const double equivalent = has_clumps ? std::cbrt(0.75 / k_pi * volume_of(mass, radius, density)) : radius;
+    return inertia_of(mass, equivalent) + mass_with_added_mass(mass, radius, density) * radius * radius;
+}
+
+double ContactContext::shortest_contact_time(double radius, double mass, double density) const {
+    const physics::Impact on_rock{0.5 * mass, 0.5 * radius, rock_rock.elastic.youngs, max_speed};
+    const physics::Impact on_steel{mass, radius, steel.youngs, max_speed};
+    return std::min({physics::hertz_time(on_rock), physics::hertz_time(on_steel),
+                     physics::rayleigh_time(radius, density, youngs_modulus, poisson_rock)});
 }
 
 double ContactContext::damping_factor(const PairLaw& pair, double impact_speed, double diameter, double density) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/liggghts/contacts/contact_law.hpp"
 #include "solver/ports/dem_settings.hpp"
 #include "solver/ports/fluid_engine.hpp"
@@ -67,6 +68,10 @@ struct ContactContext {
     std::optional<LinearLaw> linear;  ///< in place of Hertz'
     coupling::RockShape shape = coupling::RockShape::sphere;
     double cylinder_length = 0.0;
+    bool has_clumps = false;
+    int spheres_per_rock = 1;  ///< tags that LIGGGHTS' particles have for each rock: the most spheres of a shape
+    double youngs_modulus = 0.0, poisson_rock = 0.0, max_speed = 0.0;
+    ElasticPair steel;                               ///< of rock on steel
     double half_gap = 0.0;                           ///< by which LIGGGHTS' radii are larger than the rocks' [m]
     std::map<std::string, int, std::less<>> planes;  ///< number of each plane among the bodies of steel, by the id of its fix
     WallContacts* wall_contacts = nullptr;
@@ -97,11 +102,30 @@ struct ContactContext {
         return linear ? 0.5 * (a + b) : a * b / (a + b);
     }
 
-    /// Mass [kg] with added mass of a rock of the given mass [kg] and radius [m].
-    double mass_with_added_mass(double mass, double radius) const;
+    /// Rock to which the LIGGGHTS particle of a tag belongs, and which of its spheres the particle is. A sphere is its own only one.
+    int rock_of(int tag) const { return (tag - 1) / spheres_per_rock + 1; }
+    int sphere_of(int tag) const { return (tag - 1) % spheres_per_rock; }
+    int tag_of(int rock, int sphere) const { return (rock - 1) * spheres_per_rock + sphere + 1; }
+    /// Whether two particles are of one rock, which does not touch itself.
+    bool same_rock(int tag, int other) const { return has_clumps && rock_of(tag) == rock_of(other); }
 
-    /// Inertia [kg m2] of a rock about a point of its surface, with the added mass.
-    double rolling_inertia(double mass, double radius) const;
+    /// Volume [m3] of the rock to which a particle belongs. The particles of a clump have the mass of the whole.
+    double volume_of(double mass, double radius, double density) const { return has_clumps ? mass / density : sphere_volume(2.0 * radius); }
+
+    /// Mass [kg] with added mass of a rock, by mass [kg], radius [m] and density [kg/m3] of its particle.
+    double mass_with_added_mass(double mass, double radius, double density) const;
+
+    /// Inertia [kg m2] of a rock about a point of its surface, with the added mass; a clump's as of the sphere of its volume.
+    double rolling_inertia(double mass, double radius, double density) const;
+
+    /// Diameter [m] in the Stokes number of an impact, which is M v / (6 pi mu R^2): of a sphere its own, of a clump's sphere of diameter
+    /// d_s d^3/d_s^2 with the equivalent diameter d of the whole.
+    double impact_diameter(double mass, double radius, double density) const {
+        return has_clumps ? volume_of(mass, radius, density) / (k_pi / 6.0 * 4.0 * radius * radius) : 2.0 * radius;
+    }
+
+    /// Smallest of Rayleigh and Hertz times [s] of a sphere of this radius [m], mass [kg] and density [kg/m3].
+    double shortest_contact_time(double radius, double mass, double density) const;
 
     /// Damping factor of a contact that began with the normal speed `impact_speed` [m/s]: rock of diameter `diameter` [m] and density
     /// `density` [kg/m3].

@@ -109,7 +109,8 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
         taken[k]->body = touch.body;
         taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
         taken[k]->damping_factor =
-            context_.damping_factor(context_.law_on(touch.body), taken[k]->impact_speed, 2.0 * atom.radius[rock], atom.density[rock]);
+            context_.damping_factor(context_.law_on(touch.body), taken[k]->impact_speed,
+                                    context_.impact_diameter(atom.rmass[rock], atom.radius[rock], atom.density[rock]), atom.density[rock]);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k], roll_of(taken[k]));
 }
@@ -118,7 +119,7 @@ Rolling WallContacts::rolling_of(const WallTouch& touch) const {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     const Vec3 of_rock(atom.omega[touch.rock]), of_wall = touch.rotating ? context_.rotor_spin : Vec3(Vec3::Zero());
     return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall),
-            context_.rolling_inertia(atom.rmass[touch.rock], atom.radius[touch.rock])};
+            context_.rolling_inertia(atom.rmass[touch.rock], atom.radius[touch.rock], atom.density[touch.rock])};
 }
 
 /// \param roll  null when nothing resists rolling
@@ -140,7 +141,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     contact.impact_speed = record.impact_speed;
     contact.slip_velocity = surface_velocity - touch.normal * touch.normal.dot(surface_velocity);
     contact.radius = radius;
-    contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius);
+    contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius, atom.density[rock]);
     contact.elastic = law.elastic;
     contact.damping_factor = record.damping_factor;
     contact.friction = law.settings.friction;

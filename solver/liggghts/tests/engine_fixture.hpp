@@ -105,12 +105,7 @@ inline coupling::DemSettings still_water() {
 
 inline void add_rock(coupling::Rocks& rocks, int id, const Vec3& position, const Vec3& velocity = Vec3::Zero(), double diameter = 0.02,
                      double density = k_rock_density) {
-    rocks.id.push_back(id);
-    rocks.position.push_back(position);
-    rocks.velocity.push_back(velocity);
-    rocks.angular_velocity.emplace_back(Vec3::Zero());
-    rocks.diameter.push_back(diameter);
-    rocks.density.push_back(density);
+    rocks.append({id, position, velocity, Vec3::Zero(), diameter, density});
 }
 
 inline coupling::Rocks one_rock(const Vec3& position, const Vec3& velocity = Vec3::Zero(), double diameter = 0.02) {

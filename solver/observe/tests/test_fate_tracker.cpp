@@ -29,11 +29,7 @@ geometry::Contour cone() {
 struct Script {
     explicit Script(const Vec3& start) : tracker(settings(), cone()) {
         events.push_back(tracker.place(1, k_diameter, 2650.0, start, Vec3::Zero(), {0.0, 0.0}));
-        rocks.id = {1};
-        rocks.position = {start};
-        rocks.velocity = {Vec3::Zero()};
-        rocks.diameter = {k_diameter};
-        rocks.density = {2650.0};
+        rocks.append({1, start, Vec3::Zero(), Vec3::Zero(), k_diameter, 2650.0});
     }
     void go(const Vec3& to) {
         rocks.position = {to};
@@ -191,10 +187,7 @@ TEST(Fates, add_up_to_the_placed_rock_in_count_and_mass) {
 struct CutRock {
     CutRock() : tracker(with_cutting(), cone()) {
         tracker.place(1, k_diameter, 2650.0, start, Vec3::Zero(), {});
-        rocks.id = {1};
-        rocks.velocity = {Vec3::Zero()};
-        rocks.diameter = {k_diameter};
-        rocks.density = {2650.0};
+        rocks.append({1, start, Vec3::Zero(), Vec3::Zero(), k_diameter, 2650.0});
     }
     static FateSettings with_cutting() {
         FateSettings s = settings();

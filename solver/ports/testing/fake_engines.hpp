@@ -144,12 +144,7 @@ public:
         for (std::size_t p = 0; p < rocks.size(); ++p) {
             if (!room[p]) continue;
             const auto at = std::lower_bound(rocks_.id.begin(), rocks_.id.end(), rocks.id[p]) - rocks_.id.begin();
-            rocks_.id.insert(rocks_.id.begin() + at, rocks.id[p]);
-            rocks_.position.insert(rocks_.position.begin() + at, rocks.position[p]);
-            rocks_.velocity.insert(rocks_.velocity.begin() + at, rocks.velocity[p]);
-            rocks_.angular_velocity.insert(rocks_.angular_velocity.begin() + at, rocks.angular_velocity[p]);
-            rocks_.diameter.insert(rocks_.diameter.begin() + at, rocks.diameter[p]);
-            rocks_.density.insert(rocks_.density.begin() + at, rocks.density[p]);
+            rocks_.each_array_with(rocks, [&](auto& mine, const auto& given) { mine.insert(mine.begin() + at, given[p]); });
             inserted.push_back(rocks.id[p]);
         }
         return inserted;
@@ -233,12 +228,8 @@ public:
         std::size_t n = 0;
         file.read(reinterpret_cast<char*>(&n), sizeof n);
         file.read(reinterpret_cast<char*>(&time_), sizeof time_);
-        rocks_.id.resize(n);
-        rocks_.position.resize(n);
-        rocks_.velocity.resize(n);
-        rocks_.angular_velocity.resize(n);
-        rocks_.diameter.resize(n);
-        rocks_.density.resize(n);
+        rocks_ = Rocks();
+        for (std::size_t p = 0; p < n; ++p) rocks_.append(Rock());
         each_array([&](void* data, std::size_t size) { file.read(static_cast<char*>(data), static_cast<std::streamsize>(size)); });
         frozen_.clear();
         for (int id = 0; file.read(reinterpret_cast<char*>(&id), sizeof id);) frozen_.push_back(id);
@@ -256,22 +247,11 @@ private:
     void erase(std::size_t p) {
         const auto at = static_cast<std::ptrdiff_t>(p);
         frozen_.erase(std::remove(frozen_.begin(), frozen_.end(), rocks_.id[p]), frozen_.end());
-        rocks_.id.erase(rocks_.id.begin() + at);
-        rocks_.position.erase(rocks_.position.begin() + at);
-        rocks_.velocity.erase(rocks_.velocity.begin() + at);
-        rocks_.angular_velocity.erase(rocks_.angular_velocity.begin() + at);
-        rocks_.diameter.erase(rocks_.diameter.begin() + at);
-        rocks_.density.erase(rocks_.density.begin() + at);
+        rocks_.each_array_with(rocks_, [&](auto& mine, const auto&) { mine.erase(mine.begin() + at); });
     }
     template <class Visit>
     void each_array(const Visit& visit) {
-        const std::size_t n = rocks_.size();
-        visit(rocks_.id.data(), n * sizeof(int));
-        visit(rocks_.position.data(), n * sizeof(Vec3));
-        visit(rocks_.velocity.data(), n * sizeof(Vec3));
-        visit(rocks_.angular_velocity.data(), n * sizeof(Vec3));
-        visit(rocks_.diameter.data(), n * sizeof(double));
-        visit(rocks_.density.data(), n * sizeof(double));
+        rocks_.each_array_with(rocks_, [&](auto& mine, const auto&) { visit(mine.data(), mine.size() * sizeof(mine[0])); });
     }
 
     ZoneMotion motion_;

@@ -82,12 +82,7 @@ coupling::DemSettings room_with(const fs::path& wall) {
 }
 
 void add(coupling::Rocks& rocks, const Vec3& position, const Vec3& velocity, double diameter) {
-    rocks.id.push_back(static_cast<int>(rocks.size()) + 1);
-    rocks.position.push_back(position);
-    rocks.velocity.push_back(velocity);
-    rocks.angular_velocity.emplace_back(Vec3::Zero());
-    rocks.diameter.push_back(diameter);
-    rocks.density.push_back(k_rock_density);
+    rocks.append({static_cast<int>(rocks.size()) + 1, position, velocity, Vec3::Zero(), diameter, k_rock_density});
 }
 
 void advance(coupling::DemEngine& dem, double duration) {

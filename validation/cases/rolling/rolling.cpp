@@ -69,14 +69,9 @@ double drift_on_turning_plate(const std::filesystem::path& stl) {
     const auto engine = dem_engine(settings, {turning});
 
     const Vec3 load = k_gravity * sphere_mass(diameter, density) * Vec3(std::sin(slope), 0.0, -std::cos(slope));
+    const Vec3 start(0.0, 0.0, 0.5 * diameter * (1.0 + 1e-7)), spin = turn_rate * Vec3::UnitX();
     coupling::Rocks sphere;
-    sphere.id = {1};
-    sphere.position = {Vec3(0.0, 0.0, 0.5 * diameter * (1.0 + 1e-7))};
-    const Vec3 spin = turn_rate * Vec3::UnitX();
-    sphere.velocity = {spin.cross(sphere.position[0])};
-    sphere.angular_velocity = {spin};
-    sphere.diameter = {diameter};
-    sphere.density = {density};
+    sphere.append({1, start, spin.cross(start), spin, diameter, density});
     engine->insert(sphere);
     double time = 0.0;
     const auto turn_until = [&](double end) {
@@ -106,13 +101,9 @@ void run_heap(const std::filesystem::path& file) {
     settings.domain.upper = rock.diameter * Vec3(10.0, 5.0, 5.0);
     coupling::Rocks rocks;
     for (int k = 0; k < 48; ++k) {
-        rocks.id.push_back(k + 1);
-        rocks.position.emplace_back(rock.diameter *
-                                    Vec3(1.03 * (k % 4) + 0.2 * (k / 16) - 1.6, 1.02 * (k / 4 % 4) - 1.5, 0.51 + 1.01 * (k / 16)));
-        rocks.velocity.emplace_back(0.05 * std::sin(k), 0.05 * std::cos(k), -0.1);
-        rocks.angular_velocity.emplace_back(Vec3::Zero());
-        rocks.diameter.push_back(rock.diameter);
-        rocks.density.push_back(rock.density);
+        const Vec3 place(1.03 * (k % 4) + 0.2 * (k / 16) - 1.6, 1.02 * (k / 4 % 4) - 1.5, 0.51 + 1.01 * (k / 16));
+        const Vec3 velocity(0.05 * std::sin(k), 0.05 * std::cos(k), -0.1);
+        rocks.append({k + 1, rock.diameter * place, velocity, Vec3::Zero(), rock.diameter, rock.density});
     }
     const auto engine = engine_of(settings);
     engine->insert(rocks);

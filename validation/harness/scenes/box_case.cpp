@@ -68,16 +68,17 @@ void write_constant(const fs::path& folder, const BoxCase& box) {
     const std::string walls = std::string(box.rock_leaves_at_bottom ? "" : "zMin ") + (box.rock_leaves_at_top ? "" : "zMax");
     write_foam_dictionary(
         folder, "constant/couplingProperties", "dictionary",
-        fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ({});\n"
+        fmt::format("rock\n{{\n    feed \"constant/rockFeed.csv\";\n    contact {{ {} }}\n    walls ({});\n    shapes {{ {} }}\n"
                     "    domain {{ type box; lower {}; upper {}; walls ({}); }}\n}}\n"
                     "kernel {{ {} }}\nclosures {{ {} }}\n{}",
-                    box.contact, box.walls, vector_text(box.lower), vector_text(box.upper), walls, box.kernel, box.closures, box.extra));
+                    box.contact, box.walls, box.shapes, vector_text(box.lower), vector_text(box.upper), walls, box.kernel, box.closures,
+                    box.extra));
     std::ofstream feed(folder / "constant/rockFeed.csv");
-    feed << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
+    feed << "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s,shape\n";
     for (const BoxRock& rock : box.rocks)
-        feed << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", rock.id, rock.time,
+        feed << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", rock.id, rock.time,
                             rock.position.x(), rock.position.y(), rock.position.z(), rock.diameter, rock.density, rock.velocity.x(),
-                            rock.velocity.y(), rock.velocity.z());
+                            rock.velocity.y(), rock.velocity.z(), rock.shape);
     if (!feed) throw std::runtime_error("cannot write the rock feed");
 }
 

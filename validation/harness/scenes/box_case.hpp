@@ -18,6 +18,7 @@ struct BoxRock {
     double diameter = 0.0;  ///< [m]
     double density = 2650;  ///< [kg/m3]
     Vec3 velocity = Vec3::Zero();
+    std::string shape{};  ///< of rock.shapes; empty: a sphere
 };
 
 /// Pairs of rock.contact: friction 0.15, rock rolls freely. [NieuwboerVanRheeKeetels2023]
@@ -56,6 +57,7 @@ struct BoxCase {
         std::string("youngsModulus 1e8; poissonRock 0.24; poissonSteel 0.27; wetRestitution true; timeStepFraction 0.1; maxSpeed 1.5; ") +
         k_paper_contact_pairs;
     std::string walls;                   ///< entries of rock.walls; their surfaces must be put into the folder afterwards
+    std::string shapes;                  ///< entries of rock.shapes; their files must be put into the folder afterwards
     bool rock_leaves_at_top = false;     ///< the upper side is no wall to rock: it leaves there
     bool rock_leaves_at_bottom = false;  ///< the lower side neither
     std::string extra;                   ///< further sections of couplingProperties

@@ -22,14 +22,8 @@ Vec3 no_force(std::size_t, const Vec3&) {
 
 coupling::Rocks rocks_of(const std::vector<Ball>& balls) {
     coupling::Rocks rocks;
-    for (const Ball& ball : balls) {
-        rocks.id.push_back(static_cast<int>(rocks.size()) + 1);
-        rocks.position.push_back(ball.position);
-        rocks.velocity.push_back(ball.velocity);
-        rocks.angular_velocity.push_back(ball.spin);
-        rocks.diameter.push_back(2.0 * ball.radius);
-        rocks.density.push_back(ball.density);
-    }
+    for (const Ball& ball : balls)
+        rocks.append({static_cast<int>(rocks.size()) + 1, ball.position, ball.velocity, ball.spin, 2.0 * ball.radius, ball.density});
     return rocks;
 }
 

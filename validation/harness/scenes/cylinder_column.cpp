@@ -16,12 +16,9 @@ coupling::Rocks column_rocks(const CylinderColumn& column) {
         const bool wide = layer % 2 == 0;
         for (int n = 0; n < (wide ? 6 : 5); ++n) {
             const double x = first + (n + (wide ? 0.0 : 0.5)) * spacing, z = first + layer * std::sqrt(0.75) * spacing;
-            rocks.id.push_back(static_cast<int>(rocks.size()) + 1);
-            rocks.position.emplace_back(x + shift(random), 0.5 * k_cylinder_length, z + shift(random));
-            rocks.velocity.emplace_back(Vec3::Zero());
-            rocks.angular_velocity.emplace_back(Vec3::Zero());
-            rocks.diameter.push_back(k_cylinder_diameter);
-            rocks.density.push_back(k_cylinder_density);
+            const Vec3 place{x + shift(random), 0.5 * k_cylinder_length, z + shift(random)};
+            const int id = static_cast<int>(rocks.size()) + 1;
+            rocks.append({id, place, Vec3::Zero(), Vec3::Zero(), k_cylinder_diameter, k_cylinder_density});
         }
     }
     return rocks;

@@ -24,12 +24,7 @@ Vec3 no_force(std::size_t, const Vec3&) {
 
 coupling::Rocks sphere_at(const Vec3& position, double diameter, double density) {
     coupling::Rocks rocks;
-    rocks.id = {1};
-    rocks.position = {position};
-    rocks.velocity = {Vec3::Zero()};
-    rocks.angular_velocity = {Vec3::Zero()};
-    rocks.diameter = {diameter};
-    rocks.density = {density};
+    rocks.append({1, position, Vec3::Zero(), Vec3::Zero(), diameter, density});
     return rocks;
 }
 

@@ -57,9 +57,10 @@ public:
 
     void surfacesIntersect(SurfacesIntersectData& pair, ForceData& on_i, ForceData& on_j) override {
         using cutterflow::Vec3;
+        if (context_.same_rock(atom->tag[pair.i], atom->tag[pair.j])) return;
         if (pair.contact_flags) *pair.contact_flags |= CONTACT_NORMAL_MODEL;
-        const double mass_i = is_frozen(pair.i) ? k_infinite : context_.mass_with_added_mass(pair.mi, pair.radi);
-        const double mass_j = is_frozen(pair.j) ? k_infinite : context_.mass_with_added_mass(pair.mj, pair.radj);
+        const double mass_i = is_frozen(pair.i) ? k_infinite : context_.mass_with_added_mass(pair.mi, pair.radi, atom->density[pair.i]);
+        const double mass_j = is_frozen(pair.j) ? k_infinite : context_.mass_with_added_mass(pair.mj, pair.radj, atom->density[pair.j]);
         const bool keep = pair.computeflag && pair.shearupdate;
         auto& record = *reinterpret_cast<RockPairRecord*>(pair.contact_history + offset_);
         update_record(record, pair, keep);
@@ -118,7 +119,8 @@ private:
 
     cutterflow::liggghts::Rolling rolling_of(const SurfacesIntersectData& pair, const cutterflow::Vec3& normal) const {
         const cutterflow::Vec3 spin_i(atom->omega[pair.i]), spin_j(atom->omega[pair.j]);
-        const double inertia_i = context_.rolling_inertia(pair.mi, pair.radi), inertia_j = context_.rolling_inertia(pair.mj, pair.radj);
+        const double inertia_i = context_.rolling_inertia(pair.mi, pair.radi, atom->density[pair.i]);
+        const double inertia_j = context_.rolling_inertia(pair.mj, pair.radj, atom->density[pair.j]);
         const double of_both = inertia_i * inertia_j / (inertia_i + inertia_j);
         const double inertia = is_frozen(pair.i) ? inertia_j : is_frozen(pair.j) ? inertia_i : of_both;
         return {spin_i - spin_j, 0.5 * normal.dot(spin_i + spin_j), inertia};
@@ -126,8 +128,11 @@ private:
 
     /// Harmonic mean of the diameters, mean of the densities: for equal rocks the rock's own, as on a wall.
     double damping_factor(const SurfacesIntersectData& pair, double impact_speed) const {
-        const double diameter = 4.0 * pair.radi * pair.radj / (pair.radi + pair.radj);
-        return context_.damping_factor(context_.rock_rock, impact_speed, diameter, 0.5 * (atom->density[pair.i] + atom->density[pair.j]));
+        const double density_i = atom->density[pair.i], density_j = atom->density[pair.j];
+        const double diameter_i = context_.impact_diameter(pair.mi, pair.radi, density_i);
+        const double diameter_j = context_.impact_diameter(pair.mj, pair.radj, density_j);
+        const double diameter = 2.0 * diameter_i * diameter_j / (diameter_i + diameter_j);
+        return context_.damping_factor(context_.rock_rock, impact_speed, diameter, 0.5 * (density_i + density_j));
     }
 
     cutterflow::liggghts::ContactContext& context_;
