@@ -23,6 +23,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t k_most_points = 500;  ///< of a series over time
+constexpr double k_most_cells = 250000.0;   ///< of a map
 constexpr int k_error_batches = 10;         ///< of a window, for the error of a mean
 
 double rounded(double value) {
@@ -225,8 +226,19 @@ std::size_t lines_to_show(const Spectrum& spectrum) {
     return std::min<std::size_t>(static_cast<std::size_t>(after - spectrum.frequency.begin()), 4 * k_most_points);
 }
 
+/// \throws UserError  when a map would have more than k_most_cells
+void require_map_size(double width, double height, double cell) {
+    const double cells = (width / cell + 1.0) * (height / cell + 1.0);
+    if (cells > k_most_cells)
+        throw UserError(fmt::format("cell_m = {:g} gives a map of {:.3g} cells", cell, cells),
+                        fmt::format("It has at most {:.0f}", k_most_cells), "Take larger cells or a smaller region");
+}
+
 PlaneGrid plane_grid(const MeasureValues& values) {
-    return {std::get<BoxRegion>(region_of(values.raw("region"))), values.text("across")[0] - 'x', values.number("cell_m")};
+    const PlaneGrid grid{std::get<BoxRegion>(region_of(values.raw("region"))), values.text("across")[0] - 'x', values.number("cell_m")};
+    const Vec3 size = grid.box.upper - grid.box.lower;
+    require_map_size(size[grid.first()], size[grid.second()], grid.cell);
+    return grid;
 }
 
 json grid_json(const PlaneGrid& grid) {
@@ -379,6 +391,7 @@ MeasureOutcome measure_cavity(const MeasureSource& source, const MeasureValues& 
     const auto [lower, upper] = map_extent(grains, region);
     if (!(lower.array() < upper.array()).all()) return without_value(unit, "no grains, or too few for a map");
     const double cell = values.number("cell_m");
+    require_map_size(upper.x() - lower.x(), upper.y() - lower.y(), cell);
     const double undisturbed = values.has("undisturbed_m") ? values.number("undisturbed_m")
                                                            : surface_level(grains_of_map(source.grains(0), region), lower, upper, cell);
     const auto cavity = cavity_of(grains, lower, upper, undisturbed, cell);

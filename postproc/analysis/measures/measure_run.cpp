@@ -19,15 +19,24 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr int k_deepest = 20;  ///< of nested values
+
 json read_list(const fs::path& file) {
     if (!fs::is_regular_file(file))
         throw UserError({{file.string(), "there is no such file", "It says what is measured",
                           "Name the directory of a run whose study has [[measure]], or write the file"}});
-    try {
-        return json::parse(read_file(file));
-    } catch (const json::exception& error) {
-        throw UserError({{file.string(), error.what(), "It must be JSON", "Correct it"}});
-    }
+    bool too_deep = false;
+    json list = json::parse(
+        read_file(file),
+        [&](int depth, json::parse_event_t, const json&) {
+            too_deep = too_deep || depth > k_deepest;
+            return !too_deep;
+        },
+        false);
+    if (too_deep || list.is_discarded())
+        throw UserError(
+            {{file.string(), "this is no JSON", fmt::format("A list of tables, nested at most {} deep", k_deepest), "Correct it"}});
+    return list;
 }
 
 /// The measures to make. \throws UserError  with all mistakes

@@ -223,14 +223,33 @@ TEST_F(MeasuredRun, tells_all_that_it_cannot_measure_at_once) {
     }
 }
 
+TEST_F(MeasuredRun, refuses_maps_of_more_cells_than_anyone_draws) {
+    Grains two;
+    two.add({0.0, 0.0, 0.0}, Vec3::Zero(), 0.1, k_density);
+    two.add({1.0, 1.0, 0.0}, Vec3::Zero(), 0.1, k_density);
+    picture(1.0, two);
+    const char* box = R"("region": {"box": {"lower_m": [0, 0, 0], "upper_m": [1, 1, 1]}}, "cell_m": 1e-12)";
+    write(k_measures, fmt::format(R"([{{"name": "a", "what": "cavity", {0}}}, {{"name": "b", "what": "bed_velocity", {0}}},
+                                     {{"name": "c", "what": "void_area", "seed_m": [0, 0, 0], {0}}}])",
+                                  box));
+    try {
+        measure_run(run_);
+        FAIL() << "a map of 1e24 cells";
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 3U) << error.what();
+    }
+}
+
 TEST_F(MeasuredRun, refuses_pictures_without_densities_and_broken_files) {
     write("postProcessing/rock/vtk/rocks_1.vtp",
           "<DataArray Name=\"Points\">0 0 0</DataArray><DataArray Name=\"velocity\">0 0 0</DataArray>"
           "<DataArray Name=\"diameter\">1</DataArray>");
     write(k_measures, R"([{"name": "c", "what": "cavity"}])");
     EXPECT_THROW(measure_run(run_), UserError);
-    write(k_measures, "[{]");
-    EXPECT_THROW(measure_run(run_), UserError);
+    for (const std::string& broken : {std::string("[{]"), std::string(), std::string(100000, '['), std::string("[] []")}) {
+        write(k_measures, broken);
+        EXPECT_THROW(measure_run(run_), UserError) << broken.substr(0, 10);
+    }
     write(k_measure_results, R"({"c": {"value": "much"}})");
     EXPECT_THROW(read_measures(run_), UserError);
 }
