@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <random>
 
 #include <fmt/format.h>
 
 #include "cases/runner/run_progress.hpp"
 #include "cases/scenes/room/room_case.hpp"
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_words.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
@@ -90,8 +93,10 @@ void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
     for (const CaseText& file : files) write_file(folder / file.path, file.text);
 }
 
-/// Runs cutterFoam in a folder and shows how far it is.
+/// Runs cutterFoam in a folder, from its newest checkpoint if there is one, and shows how far it is.
 double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end) {
+    // What a run wrote that was stopped before its first checkpoint.
+    if (newest_checkpoint(folder).empty()) fs::remove_all(folder / "postProcessing");
     const ChildCommand command = meshing::foam_command(folder, solver.string(), {}, 1);
     keep_older_log(command.log);
     TimeProgress progress(what, end);
@@ -183,7 +188,7 @@ private:
     /// A piece whose run went on to its end has grains that still move.
     void require_rest(std::size_t piece) const {
         const double end = pieces_[piece].end(), reached = std::stod(newest_checkpoint(piece_folder(piece)).filename().string());
-        if (reached < end - 0.5 * scene_.run.longest_step) return;
+        if (reached < end - 0.5 * scene_.bed_step) return;
         throw CheckFailure(
             {"", fmt::format("the grains of {} are not at rest after {:g} s", piece_folder(piece).string(), end),
              "A preparation ends with its mean kinetic energy below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
@@ -213,7 +218,7 @@ private:
         for (const BedPiece& piece : pieces_)
             for (const PlacedGrain& grain : piece.grains) {
                 ++poured;
-                mass += grain.density * 3.14159265358979323846 / 6.0 * grain.diameter * grain.diameter * grain.diameter;
+                mass += grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
             }
         nlohmann::json solids = nlohmann::json::array();
         for (const RoomSolid& solid : scene_.solids) {
@@ -257,7 +262,11 @@ RoomRequest read_room_request(const fs::path& study) {
     RoomRequest request;
     request.values = read_placed_room(study);
     request.scene = room_scene(request.values, study.parent_path());
-    request.pieces = bed_pieces(request.scene);
+    Mistakes mistakes;
+    mistakes.gather([&] { request.pieces = bed_pieces(request.scene); });
+    std::mt19937_64 random(request.scene.run.seed);
+    mistakes.gather([&] { place_feeds(request.scene, 1, random); });  // a feed without a place is refused before anything is run
+    mistakes.refuse();
     return request;
 }
 

@@ -22,6 +22,7 @@ namespace cutterflow::cases {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -94,7 +95,7 @@ TEST_F(RoomStudy, every_example_reads) {
 
 /// Grains of a pour lie in its region as a whole, clear of each other and of the solids; batches come when earlier ones have fallen.
 TEST_F(RoomStudy, poured_grains_have_room) {
-    const RoomRequest request = read_room_request(write(room_template("heap")));
+    const RoomRequest request = read_room_request(write(changed("depth_m = 0.06", "depth_m = 0.07")));
     const std::vector<PlacedGrain>& grains = request.pieces.at(0).grains;
     std::set<int> ids;
     std::set<double> times;
@@ -114,7 +115,7 @@ TEST_F(RoomStudy, poured_grains_have_room) {
             }
     }
     EXPECT_EQ(ids.size(), grains.size());
-    // 1,350 grains: 0.3 of the tube holds 0.12 m * 0.3, they need 0.06 m * 0.6 and less room each time: two batches and more.
+    // 0.3 of a tube of 0.12 m is less than 0.6 of 0.07 m of it: two batches and more.
     EXPECT_GE(times.size(), 2u);
     const double fall = (std::sqrt(1.0 + 2.0 * 9.81 * 0.12) - 1.0) / 9.81;
     EXPECT_GE(*std::next(times.begin()), 2.0 * fall - 1e-12);
@@ -160,7 +161,7 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
 
     const std::vector<CaseText> files = bed_case(request.scene, request.pieces[1], "../1/checkpoints/0.5", "../../");
     EXPECT_EQ(files.front().path, "constant/couplingProperties");
-    EXPECT_THAT(files.front().text, HasSubstr("start           \"../1/checkpoints/0.5\";"));
+    EXPECT_THAT(files.front().text, ContainsRegex("start +\"../1/checkpoints/0.5\";"));
     EXPECT_THAT(files.front().text, HasSubstr("halfSpace"));
     EXPECT_THAT(files.front().text, HasSubstr("atRest"));
     EXPECT_THAT(files.front().text, Not(HasSubstr("travel")));
@@ -173,7 +174,7 @@ TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {
     EXPECT_THAT(bed, HasSubstr("\"../../geometry/plug.stl\""));
     const std::string run = grain_files(request.scene, "bed/checkpoints/x", 1).front().text;
     EXPECT_THAT(run, Not(HasSubstr("plug")));
-    EXPECT_THAT(run, HasSubstr("medium          none;"));
+    EXPECT_THAT(run, ContainsRegex("medium +none;"));
     EXPECT_THAT(run, HasSubstr("rock_polypropylene"));
     EXPECT_THAT(run, Not(HasSubstr("feed ")));
     EXPECT_THAT(run, HasSubstr("gates"));
@@ -302,6 +303,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end, "[[prepare]]\ndo = \"freeze\"\nabove_m = 0.2\n\n[run]\n", "a region outside the room"},
         Bad{k_end, "[[prepare]]\ndo = \"trim\"\nabove_m = 0.1\nbelow_m = 0.2\n\n[run]\n", "A step has one region"},
         Bad{k_end, "[[event]]\ndo = \"remove\"\nat_s = 9\nregion = { above_m = 0.05 }\n\n[run]\n", "The run ends at 4 s"},
+        Bad{"material = \"glass\"\ndensity", "material = \"glass beads\"\ndensity", "letters, digits"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angel\"\n\n[run]\n", "angel"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = \"door\"\n\n[run]\n", "measure.gate = \"door\""},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"profile_error\"\nagainst = \"gone.csv\"\n\n[run]\n", "there is no file gone.csv"},

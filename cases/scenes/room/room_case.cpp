@@ -74,7 +74,9 @@ FoamDictionary contact_section(const RoomScene& scene, bool moves) {
         if (pair.other == scene.grain_material) pairs.add("rock_rock", section_of(pair.settings));
         if (materials.count(pair.other) > 0) pairs.add(coupling::k_pair_with_rock + pair.other, section_of(pair.settings));
     }
-    return section_of(scene.contact).add("pairs", pairs);
+    coupling::ContactSettings contact = scene.contact;
+    contact.wet_restitution = contact.wet_restitution && moves;  // the preparation is dry
+    return section_of(contact).add("pairs", pairs);
 }
 
 FoamValue wall_list(const RoomScene& scene, const std::string& to_run, bool moves) {
@@ -113,8 +115,10 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
     if (!start.empty()) rock.add("start", FoamValue::quoted(start));
     if (fed)
         rock.add("feed", FoamValue::quoted(names::rock_feed))
-            .add("queue",
-                 FoamDictionary().add("interval", std::min(scene.run.longest_step, 1.0)).add("retryInterval", k_retry).add("reach", 0.0));
+            .add("queue", FoamDictionary()
+                              .add("interval", std::min(moves ? scene.run.longest_step : scene.bed_step, 1.0))
+                              .add("retryInterval", k_retry)
+                              .add("reach", 0.0));
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, moves))
         .add("domain", domain_section(scene));
@@ -206,7 +210,7 @@ std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, co
     }
     coupling.add("stop", at_rest()).add("checkpoint", checkpoint_section(k_bed_checkpoints));
     std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling), gravity_file(scene.upright_gravity()),
-                                dry_control(piece.end(), scene.run.longest_step, k_bed_pictures)};
+                                dry_control(piece.end(), std::min(scene.bed_step, k_bed_pictures), k_bed_pictures)};
     if (!piece.grains.empty()) files.push_back({names::rock_feed, grain_feed_csv(piece.grains)});
     return files;
 }

@@ -73,6 +73,13 @@ private:
         mistakes_.add({where, what, rule, remedy});
     }
 
+    /// Names of solids, materials and gates are words of dictionaries and of tables.
+    void require_name(const std::string& name, const std::string& key, const std::string& where) {
+        const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; };
+        if (name.empty() || !std::all_of(name.begin(), name.end(), is_letter))
+            refuse(where, fmt::format("{} = \"{}\"", key, name), "It has letters, digits, - and _ alone", "Change it");
+    }
+
     /// Keys that go with another setting only.
     void refuse_keys(const ParameterValues& table, std::initializer_list<const char*> keys, const std::string& rule) {
         for (const char* key : keys)
@@ -98,6 +105,7 @@ private:
         scene_.gravity = values_.number("room.gravity_m_s2") * Vec3(std::sin(tilt), 0.0, -std::cos(tilt));
         scene_.medium.name = values_.text("room.medium");
         scene_.side_material = values_.text("room.material");
+        require_name(scene_.side_material, "room.material", place_of(values_, "room.material", "room.size_m"));
         scene_.sides.fill(SideForGrains::wall);
         scene_.sides[static_cast<std::size_t>(coupling::DomainSide::z_max)] = SideForGrains::open;
         if (!scene_.medium.present()) {
@@ -333,6 +341,7 @@ private:
                    "Change one");
         grains.density = values.number("grains.density_kg_m3");
         const std::string material = values.text("grains.material");
+        require_name(material, "grains.material", values.where("grains.material"));
         if (scene_.grain_material.empty()) {
             scene_.grain_material = material;
             read_elasticity(values.where("grains.material"));
@@ -398,12 +407,11 @@ private:
         RoomSolid solid;
         solid.name = values.text("solid.name");
         const std::string where = values.where("solid.name");
-        const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; };
-        if (solid.name.empty() || !std::all_of(solid.name.begin(), solid.name.end(), is_letter))
-            refuse(where, fmt::format("solid.name = \"{}\"", solid.name), "It names a file: letters, digits, - and _", "Change it");
+        require_name(solid.name, "solid.name", where);
         if (!solid_names_.insert(solid.name).second)
             refuse(where, fmt::format("solid.name = \"{}\" is given twice", solid.name), "Every solid has a name of its own", "Change one");
         solid.material = values.text("solid.material");
+        require_name(solid.material, "solid.material", place_of(values, "solid.material", "solid.name"));
         solid.felt_by_fluid = values.boolean("solid.fluid");
         if (values.has("solid.removed_at_s")) solid.removed_at = values.number("solid.removed_at_s");
         read_travel(values, solid);
@@ -831,6 +839,7 @@ private:
             if (measure.has("measure.against") && !fs::is_regular_file(folder_ / measure.text("measure.against")))
                 refuse(measure.where("measure.against"), fmt::format("there is no file {}", measure.text("measure.against")),
                        "It is a CSV file of a profile", "Check the path");
+            if (find_gate(measure.text("measure.name")) != nullptr) require_name(measure.text("measure.name"), "measure.name", where);
             if (measure.has("measure.gate") && find_gate(measure.text("measure.gate")) == nullptr)
                 refuse(measure.where("measure.gate"), fmt::format("measure.gate = \"{}\"", measure.text("measure.gate")),
                        "It names a measure that places a gate, or places one itself",
@@ -862,9 +871,10 @@ private:
             if (values_.has(key) && values_.number(key) > run.end)
                 refuse(values_.where(key), fmt::format("{} = {:g}", key, values_.number(key)),
                        fmt::format("The run ends at {:g} s", run.end), "Correct one of them");
-        const double fall = scene_.grains.empty() || scene_.gravity.norm() == 0.0 ? run.write_interval
-                                                                                  : std::sqrt(smallest_diameter() / scene_.gravity.norm());
-        run.longest_step = number_or(values_, "dem.longest_step_s", std::min(k_look_per_fall * fall, run.write_interval));
+        const double fall =
+            scene_.grains.empty() || scene_.gravity.norm() == 0.0 ? 1.0 : std::sqrt(smallest_diameter() / scene_.gravity.norm());
+        scene_.bed_step = number_or(values_, "dem.longest_step_s", k_look_per_fall * fall);
+        run.longest_step = std::min(scene_.bed_step, run.write_interval);
         run.seed = static_cast<std::uint64_t>(values_.integer("run.seed"));
         read_stop();
     }

@@ -238,6 +238,8 @@ struct RoomScene {
     std::vector<RoomGate> gates;                        ///< of measures that count what passes, by the measure's name
     RoomRun run;
 
+    double bed_step = 0.0;  ///< between looks at grains that come in and at rest, of the preparation [s]
+
     // Settings of the coupling; they count with a medium.
     coupling::KernelSettings kernel;
     coupling::ClosureSettings closures;
