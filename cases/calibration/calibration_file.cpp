@@ -12,7 +12,6 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
-#include "geometry/base/toml.hpp"
 
 namespace cutterflow::cases {
 
@@ -42,6 +41,7 @@ ParameterTable make_table() {
     using Row = ParameterRow;
     return {
         Row("name", Kind::text, "-", "Title of the page.").by_default(std::string("calibration")),
+        Row("study", Kind::texts, "-", "Study files, relative to this file; all have the keys that are varied."),
         Row("method", Kind::choice, "-",
             "surface: a grid, then places where its quadratic fit is best; grid: the grid alone; bobyqa: an optimiser that chooses every "
             "place.")
@@ -66,6 +66,8 @@ ParameterTable make_table() {
         Row("parameter.key", Kind::text, "-",
             "Key of the studies, as of sweep --set; a table of an array by its name: contact.gravel-steel.friction.")
             .repeated(),
+        Row("parameter.range", Kind::numbers, "-", "Lowest and highest value.").of_length(2).repeated(),
+        Row("parameter.values", Kind::numbers, "-", "Values of the grid.").derived("five even ones of the range").repeated(),
         Row("parameter.tolerance", Kind::number, "-", "Half of a 95 % interval that is narrow enough; surface stops there.")
             .above(0)
             .derived("a tenth of the range")
@@ -116,75 +118,11 @@ CalibrationPlan plan_of(const CalibrationFile& file, const StudyAccess& access) 
     return plan;
 }
 
-/// The lists of a calibration file, which tables of parameters do not have.
-struct Lists {
-    std::vector<std::string> studies;
-    struct OfParameter {
-        std::vector<double> range, values;
-        std::string where;
-    };
-    std::vector<OfParameter> parameters;
-};
-
-constexpr const char* k_list_keys[] = {"study", "parameter.range", "parameter.values"};
-
-bool is_about_a_list(const Mistake& mistake) {
-    return std::any_of(std::begin(k_list_keys), std::end(k_list_keys),
-                       [&](const char* key) { return mistake.what == fmt::format("key {} is unknown", key); });
-}
-
-/// A list of numbers, or none when it is something else.
-std::optional<std::vector<double>> numbers_in(const toml::node& node) {
-    const toml::array* array = node.as_array();
-    if (!array || array->empty()) return std::nullopt;
-    std::vector<double> numbers;
-    for (const toml::node& item : *array) {
-        const std::optional<double> number = item.value<double>();
-        if (!number || !std::isfinite(*number)) return std::nullopt;
-        numbers.push_back(*number);
-    }
-    return numbers;
-}
-
-Lists::OfParameter lists_of_parameter(const toml::table& table, const std::string& file, Mistakes& mistakes) {
-    Lists::OfParameter lists;
-    lists.where = fmt::format("{}:{}", file, table.source().begin.line);
-    if (const toml::node* range = table.get("range"); range && numbers_in(*range)) lists.range = *numbers_in(*range);
-    if (lists.range.size() != 2)
-        mistakes.add(
-            {lists.where, "parameter.range is no pair of numbers", "It has the lowest and the highest value", "Write range = [0.1, 0.5]"});
-    if (const toml::node* values = table.get("values")) {
-        if (const auto numbers = numbers_in(*values))
-            lists.values = *numbers;
-        else
-            mistakes.add({lists.where, "parameter.values is no list of numbers", "They are the values of the grid",
-                          "Write values = [0.1, 0.3, 0.5]"});
-    }
-    return lists;
-}
-
-/// \param toml  a text that was parsed before
-Lists lists_of(const std::string& toml, const std::string& file, Mistakes& mistakes) {
-    Lists lists;
-    const toml::table root = toml::parse(toml);
-    if (const toml::array* studies = root["study"].as_array())
-        for (const toml::node& study : *studies) lists.studies.push_back(study.value<std::string>().value_or(""));
-    if (lists.studies.empty() || std::count(lists.studies.begin(), lists.studies.end(), "") > 0)
-        mistakes.add("study is no list of file names", "A calibration runs one study or several", "Write study = [\"study.toml\"]");
-    if (const toml::array* parameters = root["parameter"].as_array())
-        for (const toml::node& parameter : *parameters)
-            if (const toml::table* table = parameter.as_table()) lists.parameters.push_back(lists_of_parameter(*table, file, mistakes));
-    return lists;
-}
-
 /// What two files have in common that may share a folder: all but the budget.
-std::string identity(ParameterValues values, const Lists& lists) {
+std::string identity(ParameterValues values) {
     values.set("budget.runs", std::int64_t{1});
     values.set("budget.core_h", 1.0);
-    std::string text = commented_toml(calibration_table(), &values) + fmt::format("{}\n", fmt::join(lists.studies, " "));
-    for (const Lists::OfParameter& of : lists.parameters)
-        text += fmt::format("{:.17g}\n{:.17g}\n", fmt::join(of.range, " "), fmt::join(of.values, " "));
-    return text;
+    return plain_toml(calibration_table(), values);
 }
 
 /// A table of an array as messages name it.
@@ -198,16 +136,12 @@ public:
     Reader(const fs::path& file, const StudyAccess& access) : path_(file), access_(access), mistakes_(file.string()) {}
 
     CalibrationFile read() {
-        const std::string text = read_file(path_);
-        const ReadParameters read = parse_with_mistakes(calibration_table(), text, path_.string());
-        for (const Mistake& mistake : read.mistakes)
-            if (!is_about_a_list(mistake)) mistakes_.add(mistake);
-        const Lists lists = lists_of(text, path_.string(), mistakes_);
+        const ReadParameters read = parse_with_mistakes(calibration_table(), read_file(path_), path_.string());
+        mistakes_.add(read.mistakes);
         if (!read.complete) mistakes_.refuse();
         const ParameterValues& values = read.values;
-        read_head(values, lists.studies);
-        const auto& parameters = values.tables("parameter");
-        for (std::size_t k = 0; k < parameters.size(); ++k) read_parameter(parameters[k], lists.parameters[k]);
+        read_head(values);
+        for (const ParameterValues& table : values.tables("parameter")) read_parameter(table);
         for (const ParameterValues& table : values.tables("target")) read_target(table);
         found_.measured = fitted_measured_;
         found_.measured.insert(found_.measured.end(), held_out_measured_.begin(), held_out_measured_.end());
@@ -217,12 +151,12 @@ public:
             mistakes_.gather([&] { check_plan(); });
         }
         mistakes_.refuse();
-        found_.identity = identity(values, lists) + profiles_;
+        found_.identity = identity(values) + profiles_;
         return found_;
     }
 
 private:
-    void read_head(const ParameterValues& values, const std::vector<std::string>& studies) {
+    void read_head(const ParameterValues& values) {
         found_.name = values.text("name");
         found_.method = values.text("method");
         found_.objective = calibration::find_objective(values.text("objective"));
@@ -232,7 +166,7 @@ private:
         found_.budget_runs = static_cast<double>(values.integer("budget.runs"));
         found_.budget_core_h = values.number("budget.core_h");
         std::set<std::string> stems;
-        for (const std::string& text : studies) {
+        for (const std::string& text : values.texts("study")) {
             const fs::path study = path_.parent_path() / text;
             mistakes_.require(fs::exists(study), fmt::format("study {} does not exist", study.string()),
                               "Studies are files beside the calibration, or have paths from it", "Check the path");
@@ -246,19 +180,18 @@ private:
         return std::all_of(found_.studies.begin(), found_.studies.end(), [](const fs::path& study) { return fs::exists(study); });
     }
 
-    void read_parameter(const ParameterValues& table, const Lists::OfParameter& lists) {
-        if (lists.range.size() != 2) return;
+    void read_parameter(const ParameterValues& table) {
         CalibratedParameter parameter;
         parameter.key = table.text("parameter.key");
         const std::string name = table.has("parameter.name") ? table.text("parameter.name") : parameter.key;
-        const double low = lists.range[0], high = lists.range[1];
+        const double low = table.numbers("parameter.range")[0], high = table.numbers("parameter.range")[1];
         parameter.range = {name, low, high, table.has("parameter.tolerance") ? table.number("parameter.tolerance") : 0.1 * (high - low)};
-        const std::string& where = lists.where;
+        const std::string where = place_of(table, "parameter.range", path_);
         if (!(low < high))
             mistakes_.add({where, fmt::format("the range of {} is {} to {}: it is empty", name, low, high),
                            "The first value is below the second", "Correct the range"});
-        if (!lists.values.empty()) {
-            parameter.values = lists.values;
+        if (table.has("parameter.values")) {
+            parameter.values = table.numbers("parameter.values");
             std::sort(parameter.values.begin(), parameter.values.end());
             if (std::adjacent_find(parameter.values.begin(), parameter.values.end()) != parameter.values.end())
                 mistakes_.add({where, fmt::format("{} has a value twice", name), "The values of a grid differ", "Leave one out"});

@@ -62,7 +62,7 @@ struct CalibrationFile {
     std::vector<calibration::Range> ranges() const;
 };
 
-/// Every key of a calibration file but its lists: study, parameter.range, parameter.values.
+/// Every key of a calibration file.
 const ParameterTable& calibration_table();
 
 /// A value of a parameter as studies of its runs have it.
