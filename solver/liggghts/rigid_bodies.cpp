@@ -7,7 +7,6 @@
 #include "atom.h"
 
 #include "geometry/base/sphere.hpp"
-#include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts {
 

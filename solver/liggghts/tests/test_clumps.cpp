@@ -109,7 +109,7 @@ struct Heap {
     Heap() {
         settings.domain.lower.z() = -0.1;
         settings.domain.make_wall(coupling::DomainSide::z_min);
-        coupling::use_preset(settings.contact, coupling::k_gravel_pairs);
+        settings.contact.set_every_pair({0.5, 0.3, 0.1});
         for (int k = 0; k < 24; ++k) {
             Rock rock =
                 clump_at(3 * k + 1, Vec3(-0.05 + 0.031 * (k % 4), -0.02 + 0.031 * (k / 4 % 3), -0.08 + 0.031 * (k / 12)), k % 3 - 1);
@@ -154,7 +154,9 @@ TEST(FreeTurning, keeps_the_energy_over_a_hundred_turns) {
 
 TEST(Clumps, tumble_freely_with_constant_momentum_and_energy_and_flip_about_the_middle_axis) {
     const coupling::ClumpShape shape = lump();
-    LiggghtsEngine engine(in_space({shape}), no_zones(), MPI_COMM_WORLD);
+    coupling::DemSettings settings = in_space({shape});
+    settings.contact.youngs_modulus = 1e7;  // its step, 9e-5 s, is 1/700 of a turn
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     Rock rock = clump_at(1, Vec3(0.1, 0, 0));
     const Vec3 middle = rock.orientation * Vec3(shape.clump.axes.col(1));
     rock.angular_velocity = 100.0 * (middle + Vec3(1e-4, 2e-4, -1e-4));
@@ -186,7 +188,7 @@ TEST(Clumps, of_one_ball_move_as_spheres) {
     coupling::DemSettings settings = with({ball()});
     settings.domain.lower.z() = -0.05;
     settings.domain.make_wall(coupling::DomainSide::z_min);
-    coupling::use_preset(settings.contact, coupling::k_gravel_pairs);
+    settings.contact.set_every_pair({0.5, 0.3, 0.1});
     const auto end = [&](int shape) {
         LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         Rocks rocks;
@@ -259,7 +261,7 @@ TEST(Clumps, that_collide_keep_momentum_and_angular_momentum) {
     };
     const auto before = sums(rocks);
     int contacts = 0;
-    for (int call = 0; call < 40; ++call) contacts += engine.advance(5e-4, no_force).contacts;
+    for (int call = 0; call < 300; ++call) contacts += engine.advance(1e-4, no_force).contacts;
     const auto after = sums(engine.rocks());
     EXPECT_GT(contacts, 0);
     EXPECT_GT((engine.rocks().velocity[0] - rocks.velocity[0]).norm(), 0.1);
@@ -340,7 +342,7 @@ TEST(Clumps, move_alike_on_any_number_of_ranks) {
     ASSERT_EQ(all.insert(heap.rocks).size(), 24u);
     alone.insert(heap.rocks);
     coupling::DemStep last;
-    for (int call = 0; call < 60; ++call) {
+    for (int call = 0; call < 120; ++call) {
         last = all.advance(1e-3, drag);
         const coupling::DemStep other = alone.advance(1e-3, drag);
         for (std::size_t k = 0; k < 24; ++k) {
@@ -348,7 +350,7 @@ TEST(Clumps, move_alike_on_any_number_of_ranks) {
             ASSERT_LT((last.contact_impulse[k] - other.contact_impulse[k]).norm(), 1e-8);
         }
     }
-    EXPECT_GT(last.contacts, 20);
+    EXPECT_GT(last.contacts, 10);
     EXPECT_LT(farthest(all.rocks(), alone.rocks()), 1e-8);
 }
 
@@ -358,7 +360,7 @@ TEST(Clumps, go_on_from_a_checkpoint_as_if_never_stopped) {
     LiggghtsEngine through(heap.settings, no_zones(), MPI_COMM_WORLD), first(heap.settings, no_zones(), MPI_COMM_WORLD);
     through.insert(heap.rocks);
     first.insert(heap.rocks);
-    for (int call = 0; call < 40; ++call) {
+    for (int call = 0; call < 120; ++call) {
         through.advance(1e-3, drag);
         first.advance(1e-3, drag);
     }
@@ -393,7 +395,7 @@ TEST(Clumps, of_other_shapes_do_not_go_on_from_a_checkpoint) {
 
 TEST(Clumps, that_are_frozen_stay_where_they_are_and_hold_others) {
     coupling::DemSettings settings = with({dumbbell()});
-    coupling::use_preset(settings.contact, coupling::k_gravel_pairs);
+    settings.contact.set_every_pair({0.5, 0.3, 0.1});
     LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     Rock below = clump_at(1, Vec3(0, 0, 0)), above = clump_at(2, Vec3(0, 0, 0.021));
     below.orientation.setIdentity();
