@@ -347,7 +347,7 @@ struct Body {
 };
 
 coupling::DemSettings room_of(const Body& body, bool floor, double restitution, double friction) {
-    coupling::DemSettings settings = dry_room(0.5, floor, {1e8, 0.24, k_density}, restitution, friction, 2.0);
+    coupling::DemSettings settings = dry_room(0.5, floor, {1e7, 0.24, k_density}, restitution, friction, 2.0);
     settings.shapes = {body.shape};
     return settings;
 }
@@ -530,7 +530,7 @@ double area_of(const geometry::TriangleSurface& surface) {
 void run(Verification& verification) {
     check_dumbbell(verification);
     check_rock(verification, "ellipsoid", ellipsoid());
-    check_rock(verification, "rounded box", rounded_box());
+    check_rock(verification, "rounded_box", rounded_box());
     const geometry::TriangleSurface rock = lump();
     const fs::path clump = check_rock(verification, "lump", rock);
     check_ranks(verification, clump);
