@@ -41,7 +41,8 @@ std::vector<std::string> measures(const fs::path& study) {
     const ParameterTable& table = kind_of_study(study).table();
     std::vector<std::string> names;
     if (!cases::find_key(table, "measure.name")) return names;
-    for (const ParameterValues& measure : read_parameters(table, study).tables("measure")) names.push_back(measure.text("measure.name"));
+    const ParameterValues values = read_parameters(table, study);
+    for (const ParameterValues& measure : values.tables("measure")) names.push_back(measure.text("measure.name"));
     return names;
 }
 

@@ -80,6 +80,13 @@ private:
             refuse(where, fmt::format("{} = \"{}\"", key, name), "It has letters, digits, - and _ alone", "Change it");
     }
 
+    /// Of solids and sides.
+    void require_material(const std::string& name, const std::string& key, const std::string& where) {
+        require_name(name, key, where);
+        if (name == "rock")
+            refuse(where, fmt::format("{} = \"rock\"", key), "The solver calls grains so", "Give the material another name");
+    }
+
     /// Keys that go with another setting only.
     void refuse_keys(const ParameterValues& table, std::initializer_list<const char*> keys, const std::string& rule) {
         for (const char* key : keys)
@@ -105,7 +112,7 @@ private:
         scene_.gravity = values_.number("room.gravity_m_s2") * Vec3(std::sin(tilt), 0.0, -std::cos(tilt));
         scene_.medium.name = values_.text("room.medium");
         scene_.side_material = values_.text("room.material");
-        require_name(scene_.side_material, "room.material", place_of(values_, "room.material", "room.size_m"));
+        require_material(scene_.side_material, "room.material", place_of(values_, "room.material", "room.size_m"));
         scene_.sides.fill(SideForGrains::wall);
         scene_.sides[static_cast<std::size_t>(coupling::DomainSide::z_max)] = SideForGrains::open;
         if (!scene_.medium.present()) {
@@ -411,7 +418,7 @@ private:
         if (!solid_names_.insert(solid.name).second)
             refuse(where, fmt::format("solid.name = \"{}\" is given twice", solid.name), "Every solid has a name of its own", "Change one");
         solid.material = values.text("solid.material");
-        require_name(solid.material, "solid.material", place_of(values, "solid.material", "solid.name"));
+        require_material(solid.material, "solid.material", place_of(values, "solid.material", "solid.name"));
         solid.felt_by_fluid = values.boolean("solid.fluid");
         if (values.has("solid.removed_at_s")) solid.removed_at = values.number("solid.removed_at_s");
         read_travel(values, solid);
