@@ -1,4 +1,5 @@
 /// Calibrations over a stand-in for cutterflow whose runs are known functions of the study, with scatter by the seed.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -9,6 +10,8 @@
 #include "cases/calibration/calibrate.hpp"
 #include "cases/calibration/run_values.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
+#include "cases/scenes/room/room_study.hpp"
+#include "cases/sweep/room_sweep.hpp"
 #include "cases/sweep/surface_sweep.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -356,6 +359,28 @@ TEST_F(Calibrate, goes_on_with_its_own_file_alone) {
     how.folder = folder_ / "other";
     EXPECT_THROW(begin_calibration(how), UserError);
     EXPECT_EQ(read_file(folder_ / "other/notes.txt"), "mine");
+}
+
+TEST_F(Calibrate, every_example_reads) {
+    const StudyAccess rooms{[](const fs::path& study, const std::vector<KeyAxis>& axes, int repeats, const fs::path&) {
+                                std::vector<std::string> words;
+                                for (const KeyAxis& axis : axes)
+                                    words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
+                                return room_sweep_points(study, key_axes(room_table(), words, "cutterflow params --kind room"), repeats);
+                            },
+                            [](const fs::path&) { return std::optional<double>(); },
+                            [](const fs::path& study) {
+                                std::vector<std::string> names;
+                                for (const ParameterValues& measure : read_parameters(room_table(), study).tables("measure"))
+                                    names.push_back(measure.text("measure.name"));
+                                return names;
+                            }};
+    const fs::path examples = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/calibrate_repose";
+    const CalibrationFile glass = read_calibration(examples / "glass.toml", rooms);
+    EXPECT_EQ(glass.plan.runs, (9u + 3u) * 3u * 3u);
+    EXPECT_EQ(glass.targets.fitted.size(), 2u);
+    EXPECT_EQ(glass.targets.held_out.size(), 1u);
+    EXPECT_EQ(read_calibration(examples / "rounded.toml", rooms).targets.held_out.size(), 2u);
 }
 
 }  // namespace cutterflow::cases
