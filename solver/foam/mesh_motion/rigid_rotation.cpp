@@ -123,7 +123,7 @@ void update_multigrid(fvMesh& mesh) {
 
 }  // namespace
 
-RigidRotation::RigidRotation(dynamicFvMesh& mesh, const MovingZones& zones) : mesh_(mesh) {
+RigidRotation::RigidRotation(dynamicFvMesh& mesh, const MovingZones& zones) : mesh_(mesh), zones_(zones) {
     if (zones.motion.empty()) return;
     bitSet turns(mesh.nCells());
     forAll(mesh.cells(), cell) {
@@ -138,7 +138,13 @@ RigidRotation::RigidRotation(dynamicFvMesh& mesh, const MovingZones& zones) : me
     cells_ = turns.sortedToc();
     faces_ = faces.sortedToc();
     points_ = points.sortedToc();
-    if (turns_rigidly(zones.motion.front().axis)) motion_ = &zones.motion.front();
+    if (!turns_rigidly(zones.motion.front().axis)) return;
+    motion_ = &zones.motion.front();
+    // What is computed before the first step, on a mesh read at an angle, must see the overlap that the steps see.
+    const double angle = motion_->angle(mesh_.time().value());
+    overlap_.emplace(mesh_, zones_, angle);
+    overlap_->set(angle);
+    mesh_.surfaceInterpolation::movePoints();
 }
 
 bool RigidRotation::turns_rigidly(const RotationAxis& axis) const {
@@ -171,7 +177,7 @@ void RigidRotation::move() {
         make_multigrid(mesh_);
     }
     edit(mesh_.oldPoints()) = before;
-    turn(quaternion(to_foam(motion_->axis.direction), motion_->angle(mesh_.time().value())).R());
+    turn(motion_->angle(mesh_.time().value()));
 }
 
 void RigidRotation::remember() {
@@ -208,10 +214,12 @@ void RigidRotation::remember() {
         const label face = faces_[i];
         flux_[i] = axis & moment_of_area(mesh_.faces()[face], mesh_.points(), mesh_.faceCentres()[face], centre);
     }
+    overlap_.emplace(mesh_, zones_, 0.0);
     remembered_ = true;
 }
 
-void RigidRotation::turn(const tensor& rotation) {
+void RigidRotation::turn(double angle) {
+    const tensor rotation = quaternion(to_foam(motion_->axis.direction), angle).R();
     const vector centre = to_foam(motion_->axis.origin);
     auto& points = edit(static_cast<const pointIOField&>(mesh_.points()));
     turn_positions(base_.points, rotation, centre, points);
@@ -224,7 +232,10 @@ void RigidRotation::turn(const tensor& rotation) {
     turn_positions(base_.cell_centres, rotation, centre, edit(mesh_.cellCentres()));
     turn_vectors(base_.corrections, rotation, edit(mesh_.nonOrthCorrectionVectors()).primitiveFieldRef());
     edit(mesh_.bounds()) = boundBox(points);
+    overlap_->take();
     edit(mesh_.boundaryMesh()).movePoints(points);
+    overlap_->put_back();
+    overlap_->set(angle);
     turn_patches(rotation);
     set_mesh_flux();
     couple_interfaces();
