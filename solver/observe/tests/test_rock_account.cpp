@@ -14,10 +14,7 @@ using ::testing::HasSubstr;
 /// Rocks of ids 3, 5, 8.
 Rocks three() {
     Rocks rocks;
-    for (const int id : {3, 5, 8}) {
-        Rocks one{{id}, {Vec3::Zero()}, {Vec3::Zero()}, {Vec3::Zero()}, {0.01 * id}, {2650.0}};
-        rocks.append(one, 0);
-    }
+    for (const int id : {3, 5, 8}) rocks.append({id, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.01 * id, 2650.0});
     return rocks;
 }
 
@@ -75,7 +72,7 @@ TEST(RockAccount, names_rock_that_is_missing_returned_doubled_or_changed) {
     EXPECT_THROW(account.take_out(4, Whereabouts::removed), CheckFailure);
     EXPECT_THROW(account.place(rocks, 0), CheckFailure);
     Rocks more = rocks;
-    more.append(Rocks{{9}, {Vec3::Zero()}, {Vec3::Zero()}, {Vec3::Zero()}, {0.01}, {2650.0}}, 0);
+    more.append({9, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.01, 2650.0});
     EXPECT_THAT(complaint(account_of(rocks), more), HasSubstr("rock 9 is in the run"));
 }
 
