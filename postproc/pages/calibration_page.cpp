@@ -83,6 +83,16 @@ Axis parameter_axis(const Range& range) {
     return axis;
 }
 
+Field objective_field(const Map& map, double darkest) {
+    Field field{{}, {}, map.objective, std::max(darkest, 1e-300), "objective", {".3g", ""}};
+    for (const double y : map.y)
+        for (const double x : map.x) {
+            field.x.push_back(x);
+            field.y.push_back(y);
+        }
+    return field;
+}
+
 Figure map_figure(const Outcome& outcome, const Map& map) {
     const std::vector<Range>& ranges = outcome.calibration.ranges;
     Plot plot;
@@ -93,8 +103,7 @@ Figure map_figure(const Outcome& outcome, const Map& map) {
     plot.y = parameter_axis(ranges[map.second]);
     plot.tips = Tips::at_point;
     const double darkest = median(map.objective);
-    Field field{map.x, map.y, map.objective, std::max(darkest, 1e-300), "objective", {".3g", ""}};
-    plot.field = std::move(field);
+    plot.field = objective_field(map, darkest);
     for (const double share : {0.1, 0.25, 0.5, 1.0, 2.0}) {
         Series level = line("", palette::faint, 0.8);
         const Contour found = contour(map.x, map.y, map.objective, share * darkest);
@@ -275,7 +284,7 @@ std::string determined_section(const Outcome& outcome) {
     std::vector<std::vector<std::string>> rows;
     for (const Direction& direction : outcome.estimate->directions)
         rows.push_back({direction_text(direction, outcome.calibration.ranges), fmt::format("{:.2g}", direction.ratio),
-                        std::isfinite(direction.half_width) ? fmt::format("{:.2f}", direction.half_width) : "without end",
+                        direction.half_width < 100.0 ? fmt::format("{:.2f}", direction.half_width) : "over 100",
                         direction.determined() ? "determined" : "not determined"});
     std::string text = html::scrolling(html::table(
         {"direction (in half ranges)", "ratio of eigenvalues", "half of the 95 % interval, in half ranges", "by the targets"}, rows, true));
