@@ -168,6 +168,31 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
     for (const CaseText& file : files) EXPECT_NE(file.path, "constant/rockFeed.csv");
 }
 
+TEST_F(RoomStudy, grains_may_be_clumps_and_begin_with_room_for_any_orientation) {
+    const std::string two =
+        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
+        "[[sphere]]\nx_m = 1.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n";
+    write(two, "flat.clump");
+    const RoomRequest request = read_room_request(write(changed("[[grains]]\n", "[[grains]]\nshape = \"flat.clump\"\n")));
+    const RoomGrains& grains = request.scene.grains.front();
+    EXPECT_GT(grains.girth, 1.1);
+    const std::vector<CaseText> files = bed_case(request.scene, request.pieces.front(), "", "../../");
+    EXPECT_THAT(files.front().text, ContainsRegex("shapes"));
+    int found = 0;
+    for (const CaseText& file : files) {
+        if (file.path == "constant/shapes/" + grains.name + ".clump") found += file.text == two ? 1 : 0;
+        if (file.path == "constant/rockFeed.csv") {
+            EXPECT_THAT(file.text, HasSubstr(",shape\n1,"));
+            EXPECT_THAT(file.text, HasSubstr("," + grains.name + "\n2,"));
+        }
+    }
+    EXPECT_EQ(found, 1);
+    const std::vector<PlacedGrain>& placed = request.pieces.front().grains;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        for (std::size_t j = i + 1; j < placed.size() && placed[j].time == placed[i].time; ++j)
+            EXPECT_GT((placed[i].position - placed[j].position).norm(), grains.girth * 0.5 * (placed[i].diameter + placed[j].diameter));
+}
+
 TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {
     const RoomRequest request = read_room_request(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/hopper/study.toml");
     const std::string bed = bed_case(request.scene, request.pieces.at(0), "", "../../").front().text;

@@ -121,6 +121,10 @@ double time_to_fall(double height, double gravity) {
     return (std::sqrt(k_falling_speed * k_falling_speed + 2.0 * gravity * height) - k_falling_speed) / gravity;
 }
 
+std::string shape_of(const RoomGrains& grains) {
+    return grains.clump.empty() ? std::string() : grains.name;
+}
+
 double draw_diameter(const RoomGrains& grains, std::mt19937_64& random) {
     if (const auto* uniform = std::get_if<UniformByNumber>(&grains.sizes))
         return std::uniform_real_distribution<double>(uniform->smallest, uniform->largest)(random);
@@ -163,17 +167,17 @@ private:
     /// \return volume of the placed grains [m3]
     double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<double>& diameters, std::size_t& next,
                        double level, double top, double area) {
-        Neighbours neighbours(grains.largest());
+        Neighbours neighbours(grains.girth * grains.largest());
         const double allowed = k_falling_share * area * (top - level);
         double placed = 0.0;
         for (; next < diameters.size(); ++next) {
             const double diameter = diameters[next];
             if (placed > 0.0 && placed + volume_of(diameter) > allowed) break;
-            const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, diameter);
+            const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, grains.girth * diameter);
             if (!place) break;
-            neighbours.add(*place, diameter);
+            neighbours.add(*place, grains.girth * diameter);
             placed += volume_of(diameter);
-            grains_.push_back({++last_id_, time_, *place, diameter, grains.density, Vec3(0.0, 0.0, -k_falling_speed)});
+            grains_.push_back({++last_id_, time_, *place, diameter, grains.density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
         }
         return placed;
     }
@@ -255,15 +259,15 @@ std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::
         for (const double diameter : draw_diameters(kind, feed->rate * (feed->to - feed->from), random)) {
             std::optional<Vec3> place;
             for (int i = 0; i < k_tries; ++i) {
-                place = places.draw(feed->region, bottom, top, diameter);
-                if (!place || places.clear_of_solids(*place, diameter)) break;
+                place = places.draw(feed->region, bottom, top, kind.girth * diameter);
+                if (!place || places.clear_of_solids(*place, kind.girth * diameter)) break;
                 place.reset();
             }
             if (!place)
                 throw UserError(fmt::format("grains of {} find no place in the region of their feed", feed->grains),
                                 "They begin in the region as a whole, clear of the solids", "Give a larger region");
-            grains.push_back(
-                {first_id + static_cast<int>(grains.size()), feed->from + due / feed->rate, *place, diameter, kind.density, Vec3::Zero()});
+            grains.push_back({first_id + static_cast<int>(grains.size()), feed->from + due / feed->rate, *place, diameter, kind.density,
+                              Vec3::Zero(), shape_of(kind)});
             due += kind.density * volume_of(diameter);
         }
     }
@@ -272,10 +276,14 @@ std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::
 }
 
 std::string grain_feed_csv(const std::vector<PlacedGrain>& grains) {
-    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s\n";
-    for (const PlacedGrain& g : grains)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", g.id, g.time, g.position.x(), g.position.y(), g.position.z(), g.diameter,
+    const bool shaped = std::any_of(grains.begin(), grains.end(), [](const PlacedGrain& g) { return !g.shape.empty(); });
+    std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s";
+    text += shaped ? ",shape\n" : "\n";
+    for (const PlacedGrain& g : grains) {
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", g.id, g.time, g.position.x(), g.position.y(), g.position.z(), g.diameter,
                             g.density, g.velocity.x(), g.velocity.y(), g.velocity.z());
+        text += shaped ? "," + g.shape + "\n" : "\n";
+    }
     return text;
 }
 

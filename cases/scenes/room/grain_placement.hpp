@@ -17,6 +17,7 @@ struct PlacedGrain {
     double diameter = 0.0;
     double density = 0.0;
     Vec3 velocity = Vec3::Zero();
+    std::string shape{};  ///< name of a kind of grains that are clumps; empty: a sphere
 };
 
 /// Diameters of grains, drawn until their mass is reached: the last one may exceed it by less than half of its own.

@@ -109,6 +109,23 @@ FoamDictionary domain_section(const RoomScene& scene) {
     return domain;
 }
 
+std::string clump_file(const RoomGrains& grains) {
+    return "constant/shapes/" + grains.name + ".clump";
+}
+
+/// Empty when all grains are spheres.
+FoamDictionary shapes_section(const RoomScene& scene) {
+    FoamDictionary shapes;
+    for (const RoomGrains& grains : scene.grains)
+        if (!grains.clump.empty()) shapes.add(grains.name, FoamDictionary().add("file", FoamValue::quoted(clump_file(grains))));
+    return shapes;
+}
+
+void add_clump_files(const RoomScene& scene, std::vector<CaseText>& files) {
+    for (const RoomGrains& grains : scene.grains)
+        if (!grains.clump.empty()) files.push_back({clump_file(grains), grains.clump_text});
+}
+
 /// \param fed  whether grains come in that are not there at the start
 FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bool fed, const std::string& to_run, bool moves) {
     FoamDictionary rock;
@@ -119,6 +136,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
                               .add("interval", std::min(moves ? scene.run.longest_step : scene.bed_step, 1.0))
                               .add("retryInterval", k_retry)
                               .add("reach", 0.0));
+    if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, moves))
         .add("domain", domain_section(scene));
@@ -212,6 +230,7 @@ std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, co
     std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling), gravity_file(scene.upright_gravity()),
                                 dry_control(piece.end(), std::min(scene.bed_step, k_bed_pictures), k_bed_pictures)};
     if (!piece.grains.empty()) files.push_back({names::rock_feed, grain_feed_csv(piece.grains)});
+    add_clump_files(scene, files);
     return files;
 }
 
@@ -232,6 +251,7 @@ std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& sta
     coupling.add("checkpoint", checkpoint_section(scene.run.checkpoint_interval));
     std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling), gravity_file(scene.gravity)};
     if (!fed.empty()) files.push_back({names::rock_feed, grain_feed_csv(fed)});
+    add_clump_files(scene, files);
     return files;
 }
 

@@ -13,7 +13,10 @@
 #include "cases/scenes/room/room_study.hpp"
 #include "cases/scenes/room/solid_generators.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
+#include "geometry/clump/clump_file.hpp"
+#include "geometry/clump/unit_clump.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/soundness.hpp"
 
@@ -361,6 +364,11 @@ private:
             if (!fs::exists(grains.clump))
                 refuse(values.where("grains.shape"), fmt::format("{} does not exist", grains.clump.string()),
                        "grains.shape names the file of a clump", "Check the path");
+            else
+                mistakes_.gather([&] {
+                    grains.girth = 2.0 * geometry::unit_clump(geometry::read_clump(grains.clump)).reach();
+                    grains.clump_text = read_file(grains.clump);
+                });
         }
         if (read_sizes(values, grains)) scene_.grains.push_back(std::move(grains));
     }

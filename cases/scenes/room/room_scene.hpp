@@ -143,6 +143,8 @@ struct RoomGrains {
     double density = 0.0;  ///< [kg/m3]
     GrainSizes sizes;
     std::filesystem::path clump;  ///< file of a clump; empty: spheres
+    std::string clump_text;       ///< of that file
+    double girth = 1.0;           ///< diameter of the sphere around a grain over that of the sphere of its volume
 
     double smallest() const;     ///< [m]
     double largest() const;      ///< [m]
