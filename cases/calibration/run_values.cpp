@@ -84,8 +84,9 @@ std::vector<double> run_values(const fs::path& run, const Measured& measured) {
 double run_core_s(const fs::path& run) {
     if (!fs::exists(run / names::manifest)) return 0.0;
     const json document = read_json_document(run / names::manifest, {{"stages/*/core_s", JsonKind::number}}, "Use another folder");
+    const json stages = document.value("stages", json::object());
     double sum = 0.0;
-    for (const auto& [name, stage] : document.value("stages", json::object()).items()) sum += stage.value("core_s", 0.0);
+    for (const auto& [name, stage] : stages.items()) sum += stage.value("core_s", 0.0);
     return sum;
 }
 
