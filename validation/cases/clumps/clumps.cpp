@@ -520,7 +520,7 @@ void check_settling(Verification& verification, const fs::path& clump, const Num
                           sphere_volume(diameter), 1e-7, {"exact", "against that of the sphere of its diameter", {}});
 }
 
-double area_of(const geometry::TriangleSurface& surface) {
+double surface_area_of(const geometry::TriangleSurface& surface) {
     double area = 0.0;
     for (const geometry::Triangle& t : surface.triangles)
         area += 0.5 * (surface.points[t[1]] - surface.points[t[0]]).cross(surface.points[t[2]] - surface.points[t[0]]).norm();
@@ -534,7 +534,7 @@ void run(Verification& verification) {
     const geometry::TriangleSurface rock = lump();
     const fs::path clump = check_rock(verification, "lump", rock);
     check_ranks(verification, clump);
-    check_settling(verification, clump, numbers_of(rock), area_of(rock));
+    check_settling(verification, clump, numbers_of(rock), surface_area_of(rock));
     const SingleProcess mpi;
     const Body body = body_of(clump);
     check_tumbling(verification, body);
