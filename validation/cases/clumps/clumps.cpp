@@ -520,7 +520,7 @@ void check_settling(Verification& verification, const fs::path& clump, const Num
                           sphere_volume(diameter), 1e-7, {"exact", "against that of the sphere of its diameter", {}});
 }
 
-double surface_outer_area(const geometry::TriangleSurface& surface) {
+double surface_area_of(const geometry::TriangleSurface& surface) {
     double area = 0.0;
     for (const geometry::Triangle& t : surface.triangles)
         area += 0.5 * (surface.points[t[1]] - surface.points[t[0]]).cross(surface.points[t[2]] - surface.points[t[0]]).norm();
