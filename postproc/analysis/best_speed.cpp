@@ -9,7 +9,7 @@
 namespace cutterflow::postproc {
 namespace {
 
-constexpr const char *k_production = "production", *k_speed = "speed_rpm";
+constexpr const char *k_production = "production", *k_spillage = "ratio", *k_speed = "speed_rpm";
 
 double speed_of(const Comparison& comparison, std::size_t setting) {
     return find_quantity(comparison, k_speed)->settings[setting].value.value_or(0.0);
@@ -19,8 +19,10 @@ const Estimate& production_of(const Comparison& comparison, std::size_t setting)
     return find_quantity(comparison, k_production)->settings[setting];
 }
 
-bool is_known(const Estimate& estimate) {
-    return estimate.value && estimate.half_width;
+/// Spillage has a value only where the hold-up is steady.
+bool is_known(const Comparison& comparison, std::size_t setting) {
+    const Estimate& production = production_of(comparison, setting);
+    return production.value && production.half_width && find_quantity(comparison, k_spillage)->settings[setting].value;
 }
 
 /// Whether the interval of a lies above that of b.
@@ -37,8 +39,7 @@ std::size_t highest(const Comparison& comparison, const SpeedSeries& series) {
 }
 
 bool all_known(const Comparison& comparison, const SpeedSeries& series) {
-    return std::all_of(series.settings.begin(), series.settings.end(),
-                       [&](std::size_t setting) { return is_known(production_of(comparison, setting)); });
+    return std::all_of(series.settings.begin(), series.settings.end(), [&](std::size_t setting) { return is_known(comparison, setting); });
 }
 
 std::string sentence(const Comparison& comparison, const SpeedSeries& series) {
@@ -48,7 +49,7 @@ std::string sentence(const Comparison& comparison, const SpeedSeries& series) {
         return fmt::format("Of these speeds {:g} rpm delivers most of what is fed{}: its interval is apart from its neighbours'.",
                            speed_of(comparison, *best), of);
     const std::string none = fmt::format("No optimum found within the error{}: ", of);
-    if (!all_known(comparison, series)) return none + "not every speed has an interval of its production.";
+    if (!all_known(comparison, series)) return none + "production is not steady, or has no interval, at every speed.";
     const std::size_t top = highest(comparison, series);
     if (top == 0 || top + 1 == series.settings.size())
         return none + fmt::format("production is highest at the end of the range, {}.", rpm(top));

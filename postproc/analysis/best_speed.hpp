@@ -16,8 +16,8 @@ struct SpeedSeries {
 /// Series of two speeds and more.
 std::vector<SpeedSeries> speed_series(const Comparison& comparison);
 
-/// The setting whose production (delivered / fed) is highest, when it lies between two others of the series and its 95 % interval is apart
-/// from both neighbours'; none otherwise.
+/// The setting whose production (delivered / fed) is highest, when all are steady, it lies between two others of the series and its 95 %
+/// interval is apart from both neighbours'; none otherwise.
 std::optional<std::size_t> best_speed(const Comparison& comparison, const SpeedSeries& series);
 
 /// A sentence for every series of three speeds and more: the best speed, or that no optimum was found within the error, and why. Empty for

@@ -116,7 +116,7 @@ TEST(Dredging, follows_delivered_rock_from_cut_to_mouth) {
     EXPECT_EQ(*work.largest_delivered, 0.04);
 }
 
-/// Three speeds; production is 0.6 times what does not stay in the head. \param hold_ups  shares that stay at each speed
+/// Three speeds; production is 0.6 times what does not stay in the head. \param stuck  shares that stay at each speed
 std::string sentence_for(const std::string& name, const std::vector<double>& stuck) {
     std::vector<fs::path> runs;
     const double speeds[] = {30.0, 60.0, 90.0};
@@ -127,13 +127,18 @@ std::string sentence_for(const std::string& name, const std::vector<double>& stu
 }
 
 TEST(BestSpeed, is_named_only_where_its_interval_is_apart_from_its_neighbours) {
-    EXPECT_EQ(sentence_for("best_middle", {0.3, 0.0, 0.3}),
+    EXPECT_EQ(sentence_for("best_middle", {0.045, 0.0, 0.045}),
               "Of these speeds 60 rpm delivers most of what is fed: its interval is apart from "
               "its neighbours'.");
-    EXPECT_EQ(sentence_for("best_end", {0.0, 0.3, 0.5}),
+    EXPECT_EQ(sentence_for("best_end", {0.0, 0.02, 0.045}),
               "No optimum found within the error: production is highest at the end of the range, 30 rpm.");
     EXPECT_EQ(sentence_for("best_within", {0.01, 0.0, 0.01}),
               "No optimum found within the error: production is highest at 60 rpm, but its interval is not apart from its neighbours'.");
+}
+
+TEST(BestSpeed, is_not_named_while_a_head_fills) {
+    EXPECT_EQ(sentence_for("best_filling", {0.2, 0.0, 0.045}),
+              "No optimum found within the error: production is not steady, or has no interval, at every speed.");
 }
 
 TEST(BestSpeed, is_not_asked_of_two_speeds) {

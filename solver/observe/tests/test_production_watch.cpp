@@ -70,8 +70,10 @@ TEST(ProductionWatch, takes_longer_for_a_narrower_interval) {
     ProductionWatch wide(k_revolution, 0.06), narrow(k_revolution, 0.01);
     const std::optional<double> early = end_of(wide, Head(), 400.0, series), late = end_of(narrow, Head(), 400.0, series);
     ASSERT_TRUE(early && late);
-    // The half width goes with the root of the time.
-    EXPECT_GT(*late, 4.0 * *early);
+    // Rocks of 20 g leave one by one, 6 kg/s of them to the mouth: in T seconds the share scatters by sqrt(6 * 0.02 / T) / 10, and 1.98
+    // of that are 0.06 after 1.3 s, less than eight batches take, and 0.01 after 47 s. The interval itself scatters.
+    EXPECT_LE(*early, 3.0 + 8.0 + 4.0);
+    EXPECT_NEAR(*late, 3.0 + 47.0, 0.4 * 47.0);
 }
 
 TEST(ProductionWatch, ends_no_run_whose_head_fills_up) {
