@@ -307,7 +307,7 @@ TEST(Clumps, are_placed_where_all_their_spheres_have_room) {
     Rock first = clump_at(1, Vec3::Zero());
     first.orientation.setIdentity();
     ASSERT_EQ(engine.insert(only(first)).size(), 1u);
-    const auto fits = [&](const Vec3& position, bool upright) {
+    const auto fits = [&](const Vec3& position, bool upright) -> bool {
         Rock rock = clump_at(2, position);
         rock.orientation = upright ? Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * k_pi, Vec3::UnitY())) : Eigen::Quaterniond::Identity();
         return engine.room_for(only(rock)).front();
