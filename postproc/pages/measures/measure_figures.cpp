@@ -59,11 +59,27 @@ Plot plot_of(const std::string& measure, Axis x, Axis y) {
     return plot;
 }
 
-/// As high as its content asks for, at equal scales.
+/// 1, 2 or 5 times a power of ten, from `least` on.
+double round_step(double least) {
+    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double factor : {1.0, 2.0, 5.0})
+        if (factor * power >= least) return factor * power;
+    return 10.0 * power;
+}
+
+/// As high as its content asks for, at equal scales and with equal ticks. \param width, height  of the content [mm], > 0
 void to_scale(Plot& plot, double width, double height) {
     plot.equal_scales = true;
     plot.tips = Tips::at_point;
-    plot.height = std::clamp(static_cast<int>(70.0 + 440.0 * height / std::max(width, 1e-9)), 150, 620);
+    plot.height = std::clamp(static_cast<int>(100.0 + 440.0 * height / width), 180, 620);
+    plot.x.step = plot.y.step = round_step(width / 8.0);
+}
+
+/// Of a map whose cells' middles are given.
+void to_scale(Plot& plot) {
+    const auto [left, right] = std::minmax_element(plot.field->x.begin(), plot.field->x.end());
+    const auto [low, high] = std::minmax_element(plot.field->y.begin(), plot.field->y.end());
+    to_scale(plot, std::max(*right - *left, 1.0), std::max(*high - *low, 1.0));
 }
 
 Plot passed_plot(const std::string& name, const json& result) {
@@ -154,7 +170,7 @@ std::optional<Plot> cavity_plot(const std::string& name, const json& result) {
     plot.series.push_back(
         marks("outline", palette::spilled, list(map["outline_x_m"], k_mm), list(map["outline_y_m"], k_mm), Mark::square, 2.5));
     plot.series.push_back(line("chords", palette::ink, x, y, 0.9));
-    to_scale(plot, columns, rows);
+    to_scale(plot);
     return plot;
 }
 
@@ -179,7 +195,7 @@ std::optional<Plot> void_area_plot(const std::string& name, const json& result) 
     if (!series["outline_row_m"].empty())
         plot.series.push_back(marks("outline", palette::spilled, list(series["outline_column_m"], k_mm),
                                     list(series["outline_row_m"], k_mm), Mark::square, 2.0));
-    to_scale(plot, static_cast<double>(series["columns_m"].size()), static_cast<double>(series["rows_m"].size()));
+    to_scale(plot);
     return plot;
 }
 
@@ -201,7 +217,7 @@ std::optional<Plot> velocity_plot(const std::string& name, const json& result) {
     }
     plot.field = field;
     if (!x.empty()) plot.series.push_back(line("direction", palette::ink, x, y, 0.9));
-    to_scale(plot, static_cast<double>(series["columns_m"].size()), static_cast<double>(series["rows_m"].size()));
+    to_scale(plot);
     return plot;
 }
 
