@@ -179,18 +179,20 @@ TEST(CalibrationFit, tells_an_interval_that_ends_at_the_range) {
 }
 
 TEST(CalibrationFit, runs_next_in_the_region_where_the_responses_get_better_known) {
-    double before = 0.0, after = 0.0;  // squared errors of the first response at the chosen parameters
+    // Squared errors of the first response at the chosen parameters. By least squares nine more places of three runs bring the mean from
+    // 0.021 to 0.0077; the ratio of the sums over 60 boxes scatters by about a quarter of itself.
+    double before = 0.0, after = 0.0;
     const auto squared_error = [](const Outcome& outcome) {
         const double mu = outcome.parameters[1];
         return std::pow(outcome.agreements[0].model[0] - (34.0 + 18.0 * mu - 9.0 * mu * mu), 2);
     };
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         Box box;
         box.random.seed(seed);
         Calibration calibration = grid(box, 0.337);
-        before += squared_error(outcome_of(calibration, true));
         for (int round = 0; round < 3; ++round) {
             const Outcome outcome = outcome_of(calibration, true);
+            if (round == 0) before += squared_error(outcome);
             const std::vector<Eigen::VectorXd> places = next_places(*outcome.estimate, calibration.ranges, calibration.evaluations);
             ASSERT_GE(places.size(), 1u);
             ASSERT_LE(places.size(), 3u);
@@ -204,6 +206,8 @@ TEST(CalibrationFit, runs_next_in_the_region_where_the_responses_get_better_know
         }
         after += squared_error(outcome_of(calibration, true));
     }
+    RecordProperty("mean_squared_error_before", std::to_string(before / 60.0));
+    RecordProperty("mean_squared_error_after", std::to_string(after / 60.0));
     EXPECT_LT(after, 0.8 * before);
 }
 
