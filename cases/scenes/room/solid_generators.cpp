@@ -52,8 +52,7 @@ GeneratedSolid pipe(const ParameterValues& solid) {
     const geometry::TriangleSurface upright = geometry::generate_pipe(parameters);
     const Eigen::Affine3d to_place =
         Eigen::Translation3d(from) * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), (to - from).normalized());
-    return {geometry::transformed(upright, to_place), parameters.wall, Bore{from, to, parameters.inner_radius},
-            2.0 * parameters.inner_radius};
+    return {geometry::transformed(upright, to_place), parameters.wall, Bore{from, to, parameters.inner_radius}, {}};
 }
 
 GeneratedSolid disc_with_rim(const ParameterValues& solid) {

@@ -13,7 +13,7 @@ struct GeneratedSolid {
     geometry::TriangleSurface surface;  ///< closed, outward [m], in the room
     double thinnest = 0.0;              ///< its thinnest wall [m]
     std::optional<Bore> bore;           ///< of a straight round hole
-    std::optional<double> opening;      ///< narrowest way for grains through it: a diameter or a width [m]
+    std::optional<double> opening;      ///< of a floor or a spout through which grains fall: a diameter or a width [m]
 };
 
 /// One word of `solid.generate`.
