@@ -640,7 +640,7 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                                                      {"walls/*/name", JsonKind::text, false},
                                                      {"walls/*/force_n/*", JsonKind::number, false},
                                                      {k_clumps, JsonKind::object, false},
-                                                     {"clumps/shapes/*/name", JsonKind::text, true}},
+                                                     {"clumps/shapes/*/name", JsonKind::text, false}},
                                                     k_remedy);
     const bool written_with = state.value(k_rolling_history, false), rolling = context_.rock_rock.resists_rolling();
     if (written_with != rolling)
