@@ -83,7 +83,7 @@ TEST(Frozen, rocks_have_no_contact_with_each_other) {
     settings.contact.rock_rock.restitution = settings.contact.rock_steel.restitution = 0.3;
     LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
-    for (const int k : {0, 1, 2}) add_rock(rocks, k + 1, Vec3(0.01, 0, 0.01 + 0.02 * k));
+    for (const int k : {0, 1, 2}) add_rock(rocks, k + 1, Vec3(0.01, 0, 0.01 + 1e-6 + 0.020001 * k));
     ASSERT_EQ(engine.insert(rocks).size(), 3u);
     EXPECT_EQ(engine.advance(0.1, no_force).contacts, 3);  // one of them with the floor
     engine.freeze(std::vector<int>{1, 2});
@@ -107,8 +107,8 @@ TEST(WallForces, are_the_weight_that_rests_on_them) {
         {"shelf", write_stl(scratch_folder() / "shelf.stl", sheet(Vec3(0.05, -0.1, 0.1), Vec3(0.1, 0, 0), Vec3(0, 0.2, 0), 3, 3))}};
     LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
     coupling::Rocks rocks;
-    add_rock(rocks, 1, Vec3(-0.1, 0, 0.01));
-    add_rock(rocks, 2, Vec3(0.1, 0.001, 0.11), Vec3::Zero(), 0.02, 5000.0);
+    add_rock(rocks, 1, Vec3(-0.1, 0, 0.010001));
+    add_rock(rocks, 2, Vec3(0.1, 0.001, 0.110001), Vec3::Zero(), 0.02, 5000.0);
     ASSERT_EQ(engine.insert(rocks).size(), 2u);
     engine.advance(0.3, no_force);
     const coupling::DemStep rest = engine.advance(0.01, no_force);
