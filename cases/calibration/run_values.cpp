@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/runner/manifest.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -82,12 +83,7 @@ std::vector<double> run_values(const fs::path& run, const Measured& measured) {
 }
 
 double run_core_s(const fs::path& run) {
-    if (!fs::exists(run / names::manifest)) return 0.0;
-    const json document = read_json_document(run / names::manifest, {{"stages/*/core_s", JsonKind::number}}, "Use another folder");
-    const json stages = document.value("stages", json::object());
-    double sum = 0.0;
-    for (const auto& [name, stage] : stages.items()) sum += stage.value("core_s", 0.0);
-    return sum;
+    return Manifest(run / names::manifest).core_s();
 }
 
 }  // namespace cutterflow::cases

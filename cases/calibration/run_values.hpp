@@ -13,7 +13,7 @@ namespace cutterflow::cases {
 /// \throws UserError  when the run has no such measure
 std::vector<double> run_values(const std::filesystem::path& run, const Measured& measured);
 
-/// Core seconds of all stages that the run noted; 0 without a manifest.
+/// Core seconds of all stages that the run noted, shared ones too; 0 without a manifest.
 double run_core_s(const std::filesystem::path& run);
 
 }  // namespace cutterflow::cases

@@ -54,6 +54,12 @@ Manifest::Manifest(std::filesystem::path file) : file_(std::move(file)) {
     }
 }
 
+double Manifest::core_s() const {
+    double sum = 0.0;
+    for (const auto& [stage, record] : records_) sum += record.core_s;
+    return sum;
+}
+
 const StageRecord* Manifest::find(const std::string& stage) const {
     const auto found = records_.find(stage);
     return found == records_.end() ? nullptr : &found->second;

@@ -28,6 +28,8 @@ public:
 
     bool empty() const { return records_.empty(); }
     const StageRecord* find(const std::string& stage) const;
+    /// Core seconds of all stages.
+    double core_s() const;
 
     /// Notes that a stage begins. `dropped`: later stages, whose records are no longer true.
     void start(const std::string& stage, std::map<std::string, std::string> inputs, const std::vector<std::string>& dropped);

@@ -31,7 +31,7 @@ constexpr const char* k_run = R"sh(#!/bin/sh
 PLACE
 echo "${4##*/}" >> FOLDER/made
 mkdir -p "$4/report"
-awk -v big="$(case $4 in *big*) echo 1;; *) echo 0;; esac" '
+awk -v big="$(case ${4##*/} in (big*) echo 1;; (*) echo 0;; esac)" '
 /^\[/ { section = $0 }
 section == "[contact]" && $1 == "friction" { mu = $3 }
 section == "[[bodies]]" && $1 == "density_kg_m3" { density = $3 }
@@ -43,7 +43,9 @@ END {
   printf "\"series\": {\"place_m\": [0, 1, 2], \"height_m\": [0, %.10g, 0]}}, ", mu
   printf "\"rate\": {\"value\": %.10g}, \"none\": {\"value\": null}}\n", 40 - 25*mu + 0.5*chance(4)
 }' "$2" > "$4/report/measures.json"
-echo '{"schema": "x", "stages": {"run": {"core_s": 36.0}}, "versions": {}}' > "$4/manifest.json"
+stage() { echo "{\"state\": \"done\", \"inputs\": {}, \"outputs\": {}, \"wall_s\": 1.0, \"core_s\": $1, \"finished\": \"\"}"; }
+stages="{\"case\": $(stage 6.0), \"run\": $(stage 30.0)}"
+echo "{\"schema\": \"cutterflow.manifest/1\", \"stages\": $stages, \"versions\": {}}" > "$4/manifest.json"
 )sh";
 
 double angle(double mu) {
@@ -288,7 +290,7 @@ profile = "absent.csv"
 tolerance = 1
 [[target]]
 measure = "angle"
-study = "haep"
+study = "heaps"
 tolerance = 1
 held_out = true
 weight = 2
@@ -311,7 +313,7 @@ TEST_F(Calibrate, refuses_held_out_targets_in_the_objective_unknown_names_and_pl
     EXPECT_THAT(refusal(calibration_text(head, angle_target() + angle_target("held_out = true\n"))),
                 AllOf(HasSubstr("the held-out target angle is in the objective as well"), HasSubstr("never enters the objective")));
     EXPECT_THAT(refusal(calibration_text(head, k_rate)), HasSubstr("no [[target]] is fitted"));
-    EXPECT_THAT(refusal(calibration_text(head, "[[target]]\nmeasure = \"angel\"\nvalue = 20\ntolerance = 1\n")),
+    EXPECT_THAT(refusal(calibration_text(head, "[[target]]\nmeasure = \"angles\"\nvalue = 20\ntolerance = 1\n")),
                 HasSubstr("Did you mean angle?"));
     EXPECT_THAT(
         refusal(calibration_text(head + "\nobjective = \"relative_error\"", "[[target]]\nmeasure = \"angle\"\nvalue = 0\ntolerance = 1\n")),
@@ -371,7 +373,8 @@ TEST_F(Calibrate, every_example_reads) {
                             [](const fs::path&) { return std::optional<double>(); },
                             [](const fs::path& study) {
                                 std::vector<std::string> names;
-                                for (const ParameterValues& measure : read_parameters(room_table(), study).tables("measure"))
+                                const ParameterValues values = read_parameters(room_table(), study);
+                                for (const ParameterValues& measure : values.tables("measure"))
                                     names.push_back(measure.text("measure.name"));
                                 return names;
                             }};
