@@ -22,7 +22,8 @@ std::set<std::string> matches(const std::string& text, const std::regex& pattern
 
 TEST(CasePage, lists_the_keys_and_sections_that_the_reader_knows) {
     const std::string reader = content("solver/foam/dictionary/coupling_dictionary.cpp");
-    const std::regex read_key("\\b(?:read|read_choice|sections|read_section|read_optional)\\((?:file, |section, )?\"(\\w+)\"");
+    const std::regex read_key(
+        "\\b(?:read|read_choice|section|sections|read_section|read_optional|read_list|read_sides)\\((?:file, |section, )?\"(\\w+)\"");
     std::set<std::string> known = matches(reader, read_key);
     const std::regex row("\\b(?:number|closure|yes_or_no|ParameterRow)\\(\\s*\"(\\w+)\"");
     for (const std::string& key : matches(content("solver/ports/setting_table.cpp"), row)) known.insert(key);

@@ -335,7 +335,8 @@ TEST(BedOperations, in_water_replace_fluid_without_a_source_and_frozen_rock_drag
     EXPECT_GT(rig.dem.rocks().velocity[1].x(), 0.0);
     // Both rocks see nearly the first slip all the time.
     const physics::RockInFluid alone{0.02, testing::k_water.density, testing::k_water.kinematic_viscosity, 1.0, 1.0};
-    const double drag = 0.2 * physics::drag_coefficient_per_slip(alone, 0.2, physics::find_drag_law("brown_lawler"), physics::no_hindrance);
+    const double drag = 0.2 * physics::drag_coefficient_per_slip(alone, 0.2, physics::find_drag_law("brown_lawler"),
+                                                                 physics::find_hindrance_law(physics::k_no_closure));
     double lost = 0.0;
     for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
         lost += testing::k_water.density * rig.fluid.mesh.volumes[c] *
