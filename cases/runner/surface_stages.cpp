@@ -10,7 +10,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
-#include "postproc/pages/surface_page.hpp"
+#include "postproc/pages/free_surface/surface_page.hpp"
 
 namespace cutterflow::cases {
 

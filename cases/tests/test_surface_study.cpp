@@ -15,7 +15,7 @@
 #include "geometry/base/file_content.hpp"
 #include "postproc/analysis/surface_comparison.hpp"
 #include "postproc/analysis/surface_results.hpp"
-#include "postproc/pages/surface_page.hpp"
+#include "postproc/pages/free_surface/surface_page.hpp"
 
 namespace cutterflow::cases {
 namespace {

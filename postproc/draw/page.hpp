@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "postproc/draw/head_view.hpp"
+#include "postproc/draw/head/head_view.hpp"
 #include "postproc/draw/image.hpp"
 #include "postproc/draw/plot.hpp"
 

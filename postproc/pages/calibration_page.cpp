@@ -8,8 +8,8 @@
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/statistics/sample.hpp"
-#include "postproc/draw/contour.hpp"
 #include "postproc/draw/gnuplot.hpp"
+#include "postproc/draw/head/contour.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
 

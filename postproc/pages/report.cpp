@@ -3,7 +3,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "postproc/draw/gnuplot.hpp"
-#include "postproc/draw/head_series.hpp"
+#include "postproc/draw/head/head_series.hpp"
 #include "postproc/draw/page.hpp"
 #include "postproc/pages/own_document.hpp"
 #include "postproc/pages/report_page.hpp"

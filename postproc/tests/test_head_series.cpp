@@ -1,4 +1,4 @@
-#include "postproc/draw/head_series.hpp"
+#include "postproc/draw/head/head_series.hpp"
 
 #include <cmath>
 

@@ -13,7 +13,7 @@
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
-#include "postproc/draw/head_series.hpp"
+#include "postproc/draw/head/head_series.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/killed_run.hpp"
 #include "validation/harness/scenes/rotor_case.hpp"

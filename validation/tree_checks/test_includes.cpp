@@ -78,10 +78,12 @@ const std::vector<Layer> k_layers = {
 
     {"postproc/run/", {k_base, k_head_shape, k_axial_bins, k_head_names, "postproc/run/"}},
     {"postproc/draw/", {k_base, k_head_names, "postproc/run/", "postproc/draw/"}},
+    {"postproc/draw/head/", {k_base, k_head_names, "postproc/run/", "postproc/draw/"}},
     {"postproc/analysis/", {k_base, k_axial_bins, k_head_names, "postproc/run/", "postproc/draw/", "postproc/analysis/"}},
     {"postproc/analysis/calibration/", {k_base, "postproc/analysis/calibration/"}},
     {"postproc/analysis/measures/", {k_base, "postproc/run/", "postproc/analysis/time_average.hpp", "postproc/analysis/measures/"}},
     {"postproc/pages/", {k_base, k_head_names, "postproc/"}},
+    {"postproc/pages/free_surface/", {k_base, "postproc/run/", "postproc/draw/", "postproc/analysis/", "postproc/pages/"}},
     {"postproc/pages/measures/", {k_base, "postproc/analysis/measures/", "postproc/draw/", "postproc/pages/measures/"}},
     {"postproc/tests/", {k_base, k_axial_bins, k_head_names, "postproc/"}},
 

@@ -17,7 +17,7 @@
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/versions.hpp"
 #include "postproc/analysis/surface_comparison.hpp"
-#include "postproc/pages/surface_page.hpp"
+#include "postproc/pages/free_surface/surface_page.hpp"
 
 namespace cutterflow::cli {
 namespace {

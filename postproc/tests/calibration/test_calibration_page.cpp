@@ -7,7 +7,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "postproc/draw/contour.hpp"
+#include "postproc/draw/head/contour.hpp"
 #include "postproc/pages/calibration_page.hpp"
 
 using namespace cutterflow;

@@ -1,4 +1,4 @@
-#include "postproc/draw/contour.hpp"
+#include "postproc/draw/head/contour.hpp"
 
 #include <array>
 #include <limits>

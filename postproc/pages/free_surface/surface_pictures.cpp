@@ -1,4 +1,4 @@
-#include "postproc/pages/surface_pictures.hpp"
+#include "postproc/pages/free_surface/surface_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "postproc/pages/surface_page.hpp"
+#include "postproc/pages/free_surface/surface_page.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
-#include "postproc/pages/surface_pictures.hpp"
+#include "postproc/pages/free_surface/surface_pictures.hpp"
 
 namespace cutterflow::postproc {
 

@@ -1,4 +1,4 @@
-#include "postproc/draw/head_view.hpp"
+#include "postproc/draw/head/head_view.hpp"
 
 #include <algorithm>
 #include <cmath>
