@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/base/sphere.hpp"
-
 namespace cutterflow::coupling {
 namespace {
 
@@ -17,9 +15,8 @@ Restlessness restlessness(const Rocks& rocks, const std::vector<int>& frozen, do
     int moving = 0;
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         if (std::binary_search(frozen.begin(), frozen.end(), rocks.id[p])) continue;
-        const double d = rocks.diameter[p], inertia_per_mass = sphere_inertia(d, 1.0);
-        const double energy_per_mass = 0.5 * (rocks.velocity[p].squaredNorm() + inertia_per_mass * rocks.angular_velocity[p].squaredNorm());
-        sum.energy += energy_per_mass / (gravity * d);
+        const double d = rocks.diameter[p];
+        sum.energy += 0.5 * rocks.velocity[p].squaredNorm() / (gravity * d);
         sum.speed = std::max(sum.speed, rocks.velocity[p].norm() / std::sqrt(gravity * d));
         ++moving;
     }

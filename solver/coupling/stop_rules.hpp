@@ -15,11 +15,11 @@ struct StopState {
 
 /// How much a bed moves. Both are 0 without rock that could.
 struct Restlessness {
-    double energy = 0.0;  ///< mean of E_kin/(m g d) [-]
+    double energy = 0.0;  ///< mean of v^2/(2 g d) [-]
     double speed = 0.0;   ///< largest v/sqrt(g d) [-]
 };
 
-/// Of the rocks that are not frozen, as spheres. \param gravity  > 0 [m/s2]
+/// Of the rocks that are not frozen, without their spin. \param gravity  > 0 [m/s2]
 Restlessness restlessness(const Rocks& rocks, const std::vector<int>& frozen, double gravity);
 
 class StopRules {

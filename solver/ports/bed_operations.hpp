@@ -58,8 +58,8 @@ struct GateSettings {
     Vec3 normal = Vec3::UnitZ();         ///< a crossing along it counts as +1
 };
 
-/// Rock is at rest when the mean of E_kin/(m g d) over all rocks that are not held is at most `energy`, and the largest v/sqrt(g d) at most
-/// `speed`, for a time. E_kin counts rotation too.
+/// Rock is at rest when the mean of v^2/(2 g d) over all rocks that are not held is at most `energy`, and the largest v/sqrt(g d) at most
+/// `speed`, for a time. Spin does not count: a rock that spins about the normal of its contact stays where it is, and no torque stops it.
 struct AtRestSettings {
     double energy = 1e-6;  ///< [-]
     double speed = 0.01;   ///< [-]
