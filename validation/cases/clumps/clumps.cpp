@@ -460,7 +460,8 @@ nlohmann::json heap_on(const fs::path& folder, const fs::path& clump, int ranks)
 void check_ranks(Verification& verification, const fs::path& clump) {
     const nlohmann::json one = heap_on(verification.folder("one_rank"), clump, 1),
                          two = heap_on(verification.folder("two_ranks"), clump, 2);
-    verification.at_least("contacts in the heap", "-", one.at("contacts"), 16.0, {"exact", "16 clumps of 12 spheres, 0.3 s after they were thrown", {}});
+    verification.at_least("contacts in the heap", "-", one.at("contacts"), 16.0,
+                          {"exact", "16 clumps of 12 spheres, 0.3 s after they were thrown", {}});
     double apart = one.at("values").size() == two.at("values").size() && one.at("rocks") == 16 ? 0.0 : 1.0;
     for (std::size_t k = 0; k < std::min(one.at("values").size(), two.at("values").size()); ++k)
         apart = std::max(apart, std::abs(one["values"][k].get<double>() - two["values"][k].get<double>()));
