@@ -11,6 +11,7 @@
 #include "cases/scenes/room/room_case.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
+#include "geometry/base/csv_table.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -140,6 +141,7 @@ public:
                 outcome.core_s +=
                     run_cutter_foam(folder, solver_, fmt::format("  bed, part {} of {}", i + 1, pieces_.size()), pieces_[i].end());
                 require_rest(i);
+                require_none_lost(i);
                 write_file(folder / k_done, "");
             }
             start = fmt::format("../{}/checkpoints/{}", i + 1, newest_checkpoint(folder).filename().string());
@@ -191,8 +193,22 @@ private:
         if (reached < end - 0.5 * scene_.bed_step) return;
         throw CheckFailure(
             {"", fmt::format("the grains of {} are not at rest after {:g} s", piece_folder(piece).string(), end),
-             "A preparation ends with its mean kinetic energy below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
+             "A preparation ends with its mean kinetic energy, without spin, below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
              "Look at its pictures; give the step settle a larger longest_s, or the contacts friction and rolling friction"});
+    }
+
+    /// A bed has all grains that were poured. Those without room are waited for: the piece would not be at rest.
+    void require_none_lost(std::size_t piece) const {
+        std::vector<Mistake> mistakes;
+        const CsvTable account(piece_folder(piece) / "postProcessing/rock/0/account.csv", {"left_domain_count"},
+                               {"time_s", "placed_count", "placed_kg", "in_run_count", "in_run_kg", "removed_count", "removed_kg",
+                                "extracted_count", "extracted_kg", "left_domain_kg", "decided_count", "decided_kg"},
+                               mistakes);
+        if (!mistakes.empty()) throw ToolError(mistakes);
+        const double left = account.at(account.rows() - 1, "left_domain_count");
+        if (left > 0.0)
+            throw CheckFailure({"", fmt::format("{} of the grains of {} left the room", left, piece_folder(piece).string()),
+                                "A bed has all grains that are poured", "Close the sides of the room beside the pour"});
     }
 
     /// The last checkpoint of the preparation under its name.

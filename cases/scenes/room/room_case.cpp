@@ -95,10 +95,12 @@ FoamValue wall_list(const RoomScene& scene, const std::string& to_run, bool move
     return FoamValue::list(walls);
 }
 
-FoamDictionary domain_section(const RoomScene& scene) {
+/// \param lid  whether the top is closed: grains that are thrown in for a bed bounce
+FoamDictionary domain_section(const RoomScene& scene, bool lid) {
     std::vector<FoamValue> walls, frictionless;
     for (std::size_t side = 0; side < scene.sides.size(); ++side) {
-        if (scene.sides[side] == SideForGrains::open) continue;
+        const bool closed = lid && has_walls(scene) && side + 1 == scene.sides.size();
+        if (scene.sides[side] == SideForGrains::open && !closed) continue;
         walls.emplace_back(coupling::k_domain_sides[side]);
         if (scene.sides[side] == SideForGrains::frictionless) frictionless.emplace_back(coupling::k_domain_sides[side]);
     }
@@ -139,7 +141,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
     if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, moves))
-        .add("domain", domain_section(scene));
+        .add("domain", domain_section(scene, !moves));
 }
 
 FoamDictionary at_rest() {
