@@ -144,7 +144,8 @@ public:
     /// \throws UserError  when grains find no place
     void pour(const PourStep& step) {
         const RoomGrains& grains = *scene_.find_grains(step.grains);
-        const std::vector<double> diameters = draw_diameters(grains, step.mass, random_);
+        const std::vector<double> diameters =
+            step.count ? draw_diameters(grains, *step.count, random_) : draw_diameters(grains, step.mass, random_);
         const double bottom = bottom_of(step.region), top = bottom + height_of(step.region), area = area_of(step.region);
         double level = std::min(bottom + lying_in(step.region) / area, top);
         std::size_t next = 0;
@@ -245,6 +246,12 @@ std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::m
         diameters.push_back(diameter);
         drawn += weight;
     }
+}
+
+std::vector<double> draw_diameters(const RoomGrains& grains, std::size_t count, std::mt19937_64& random) {
+    std::vector<double> diameters(count);
+    std::generate(diameters.begin(), diameters.end(), [&] { return draw_diameter(grains, random); });
+    return diameters;
 }
 
 std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::mt19937_64& random) {

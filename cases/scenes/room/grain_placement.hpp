@@ -22,6 +22,7 @@ struct PlacedGrain {
 
 /// Diameters of grains, drawn until their mass is reached: the last one may exceed it by less than half of its own.
 std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::mt19937_64& random);
+std::vector<double> draw_diameters(const RoomGrains& grains, std::size_t count, std::mt19937_64& random);
 
 /// Pours one after the other. A pour's grains begin at random places, in batches: each fills at most a share of 0.3 of the free part of the
 /// region, above what has come down, and moves down at 1 m/s. The next batch comes when the one before it has had time to fall twice.

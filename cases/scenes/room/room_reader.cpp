@@ -773,7 +773,10 @@ private:
         PourStep pour{grains->name, *region, 0.0, where};
         if (depth) pour.mass = grains->density * k_packed_share * area_of(*region) * values.number("prepare.depth_m");
         if (mass) pour.mass = values.number("prepare.mass_kg");
-        if (count) pour.mass = values.number("prepare.count") * grains->density * grains->mean_volume();
+        if (count) {
+            pour.count = static_cast<std::size_t>(values.number("prepare.count"));
+            pour.mass = values.number("prepare.count") * grains->density * grains->mean_volume();
+        }
         const double bulk = pour.mass / (grains->density * k_packed_share), place = area_of(*region) * height_of(*region);
         if (bulk > place)
             return refuse(where, fmt::format("poured grains fill {:.3g} m3", bulk), fmt::format("Their region holds {:.3g} m3", place),

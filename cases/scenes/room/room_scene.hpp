@@ -154,9 +154,10 @@ struct RoomGrains {
 /// Steps of the preparation, in still medium before t = 0.
 struct PourStep {
     std::string grains;
-    Region region;      ///< a box or an upright cylinder, whose lower end the grains come to lie on
-    double mass = 0.0;  ///< [kg]
-    std::string where;  ///< in the study, for messages
+    Region region;                       ///< a box or an upright cylinder, whose lower end the grains come to lie on
+    double mass = 0.0;                   ///< [kg]; of a count the expected one
+    std::string where;                   ///< in the study, for messages
+    std::optional<std::size_t> count{};  ///< of grains
 };
 /// Until the grains are at rest.
 struct SettleStep {
