@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "cases/scenes/cutter/cut_face_feed.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
@@ -276,27 +278,53 @@ TEST(CutFace, of_a_swing_ten_times_as_fast_fills_the_head_and_loses_nothing) {
     fmt::print("ten times the swing: {:.0f} % of {:.3f} kg waits\n", 100.0 * owed / fed, fed);
 }
 
-/// The head travels towards the bank at +y: water, bank and bed come from there.
-TEST(CutFace, of_a_head_that_travels_keeps_volume_and_momentum) {
+/// Solves for pressure to `tolerance`, relative to the through-flow.
+void solve_pressure_to(const fs::path& folder, double tolerance) {
+    const fs::path file = folder / "system/fvSolution";
+    const std::string shipped = read_file(file);
+    const std::string text = std::regex_replace(shipped, std::regex("tolerance +2e-08;"), fmt::format("tolerance {:g};", tolerance));
+    ASSERT_NE(text, shipped);
+    write_file(file, text);
+}
+
+/// Largest value of a column from the first rock on.
+double largest_with_rock(const Table& balance, const char* column) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < balance.at("time_s").size(); ++i)
+        if (balance.at("time_s")[i] >= k_begin) most = std::max(most, std::abs(balance.at(column)[i]));
+    return most;
+}
+
+CutFaceRun head_that_travels() {
     CutFaceRun run{k_begin + 0.3 * k_period};
     run.hauling = Vec3(0.0, -0.1, 0.0);
+    return run;
+}
+
+/// The head travels towards the bank at +y: water, bank and bed come from there.
+TEST(CutFace, of_a_head_that_travels_keeps_volume) {
     const fs::path folder = scratch_folder("cut_face_hauled");
-    write_run(folder, run);
+    write_run(folder, head_that_travels());
     run_cutter_foam(folder, 1);
-    const Table balance = table_of(folder, "balance/balance.csv"), ledger = table_of(folder, "rock/ledger.csv");
-    double flow_balance = 0.0, momentum = 0.0, off = 0.0;
-    for (std::size_t i = 0; i < balance.at("time_s").size(); ++i) {
-        if (balance.at("time_s")[i] < k_begin) continue;
-        flow_balance = std::max(flow_balance, balance.at("flow_balance_error")[i]);
-        momentum = std::max(momentum, balance.at("momentum_error")[i]);
-        off = std::max(off, std::abs(balance.at("outlet_flow_m3_s")[i] / k_discharge - 1.0));
-    }
-    EXPECT_LE(flow_balance, 1e-6);
-    EXPECT_LE(momentum, 1e-5);
-    EXPECT_LE(off, 1e-3);
+    Table balance = table_of(folder, "balance/balance.csv");
+    const Table ledger = table_of(folder, "rock/ledger.csv");
+    for (double& flow : balance["outlet_flow_m3_s"]) flow = flow / k_discharge - 1.0;
+    EXPECT_LE(largest_with_rock(balance, "flow_balance_error"), 1e-6);
+    EXPECT_LE(largest_with_rock(balance, "outlet_flow_m3_s"), 1e-3);
     EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
     EXPECT_LE(largest(ledger.at("error")), 1e-9);
-    fmt::print("head that travels: flow balance {:.1e}, momentum error {:.1e}\n", flow_balance, momentum);
+}
+
+/// The balance is relative to the submerged weight of 16 rocks, which are nearly as light as water. What the pressure solver leaves of
+/// continuity carries momentum of the whole flow, so that the pressure is solved to rounding (docs/design/012, "Measured").
+TEST(CutFace, of_a_head_that_travels_keeps_momentum) {
+    const fs::path folder = scratch_folder("cut_face_hauled_to_rounding");
+    write_run(folder, head_that_travels());
+    solve_pressure_to(folder, 1e-12);
+    run_cutter_foam(folder, 1);
+    const double momentum = largest_with_rock(table_of(folder, "balance/balance.csv"), "momentum_error");
+    EXPECT_LE(momentum, 1e-5);
+    fmt::print("head that travels: momentum error {:.1e}\n", momentum);
 }
 
 class KilledFeed : public ::testing::TestWithParam<int> {};
