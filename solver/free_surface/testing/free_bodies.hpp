@@ -65,7 +65,9 @@ public:
 
 /// One resting rock of id 1.
 inline coupling::Rocks one_rock(const Vec3& position, double diameter, double density) {
-    return {{1}, {position}, {Vec3::Zero()}, {Vec3::Zero()}, {diameter}, {density}};
+    coupling::Rocks rocks;
+    rocks.append({1, position, Vec3::Zero(), Vec3::Zero(), diameter, density});
+    return rocks;
 }
 
 }  // namespace cutterflow::free_surface
