@@ -118,26 +118,36 @@ void check_rate(Verification& verification, double rate, double diameter) {
                          {"exact", "12 digits are written", {}});
 }
 
-// The poured bed, in diameters: its box, and the block that is cut out of it.
-constexpr double k_diameter = 0.002, k_half_box = 7.0, k_half_block = 5.0, k_block_low = 4.0, k_block_high = 15.0;
-constexpr double k_box_height = 60.0;
-constexpr double k_pour_end = 3.0;  // [s], by which it must rest
+constexpr double k_diameter = 0.002;
+constexpr double k_box_height = 60.0;  // [diameters]
+constexpr double k_pour_end = 3.0;     // [s], by which it must rest
 
-std::string bed_domain() {
+/// A poured bed and the block that is cut out of it, in diameters.
+struct Bed {
+    double half_box, half_block, block_low, block_high;
+    int grains_across, layers;  ///< of the loose lattice it begins as
+};
+constexpr Bed k_small_bed{7.0, 5.0, 4.0, 15.0, 11, 35};
+// Rock is laid on cells and finds its void fraction through the same kernel, of sigma = 1.5 diameters. Both together reach 3 sqrt(2) sigma.
+constexpr double k_felt = 6.4;
+constexpr Bed k_wide_bed{10.0, 9.0, 4.0, 20.0, 16, 40};
+
+std::string bed_domain(const Bed& bed) {
     const double d = k_diameter;
-    return fmt::format("type box; lower {}; upper {}; walls (xMin xMax yMin yMax zMin);", text(d * Vec3(-k_half_box, -k_half_box, 0.0)),
-                       text(d * Vec3(k_half_box, k_half_box, k_box_height)));
+    return fmt::format("type box; lower {}; upper {}; walls (xMin xMax yMin yMax zMin);", text(d * Vec3(-bed.half_box, -bed.half_box, 0.0)),
+                       text(d * Vec3(bed.half_box, bed.half_box, k_box_height)));
 }
 
 /// Solid share 0.3: a lattice of 1.2 diameters whose places are shifted at random.
-std::vector<Grain> loose_grains() {
+std::vector<Grain> loose_grains(const Bed& bed) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> shift(-0.099, 0.099), speed(-0.1, 0.1);
     std::vector<Grain> grains;
-    for (int k = 0; k < 35; ++k)
-        for (int j = 0; j < 11; ++j)
-            for (int i = 0; i < 11; ++i) {
-                const Vec3 place(1.2 * (i - 5), 1.2 * (j - 5), 0.7 + 1.2 * k);
+    const double middle = 0.5 * (bed.grains_across - 1);
+    for (int k = 0; k < bed.layers; ++k)
+        for (int j = 0; j < bed.grains_across; ++j)
+            for (int i = 0; i < bed.grains_across; ++i) {
+                const Vec3 place(1.2 * (i - middle), 1.2 * (j - middle), 0.7 + 1.2 * k);
                 grains.push_back({0.0, k_diameter * (place + Vec3(shift(random), shift(random), shift(random))),
                                   Vec3(speed(random), speed(random), -0.3)});
             }
@@ -163,9 +173,9 @@ double solid_share(const std::vector<Vec3>& centres, const Vec3& low, const Vec3
 }
 
 /// Pours, and cuts a frozen block out of what rests. \return the checkpoint
-fs::path pour(Verification& verification, double friction) {
+fs::path pour(Verification& verification, const Bed& bed, double friction) {
     const fs::path poured = verification.folder(fmt::format("pour_{:g}", friction));
-    write_dry_case(poured, loose_grains(), k_diameter, friction, k_pour_end, bed_domain(),
+    write_dry_case(poured, loose_grains(bed), k_diameter, friction, k_pour_end, bed_domain(bed),
                    "stop { atRest { energy 1e-6; speed 0.01; hold 0.02; } }");
     const auto account = read_columns(poured / "postProcessing/rock/0/account.csv");
     const double rest = account.at("time_s").back();
@@ -180,9 +190,9 @@ fs::path pour(Verification& verification, double friction) {
         events += fmt::format(" {{ do remove; at 0.002; region {{ type halfSpace; point {}; normal {}; }} }}", text(point), text(normal));
     };
     for (const int axis : {0, 1})
-        for (const double sign : {-1.0, 1.0}) remove(sign * d * k_half_block * Vec3::Unit(axis), sign * Vec3::Unit(axis));
-    remove(Vec3(0, 0, d * k_block_low), -Vec3::UnitZ());
-    remove(Vec3(0, 0, d * k_block_high), Vec3::UnitZ());
+        for (const double sign : {-1.0, 1.0}) remove(sign * d * bed.half_block * Vec3::Unit(axis), sign * Vec3::Unit(axis));
+    remove(Vec3(0, 0, d * bed.block_low), -Vec3::UnitZ());
+    remove(Vec3(0, 0, d * bed.block_high), Vec3::UnitZ());
     const std::string contact = fmt::format(
         "contact {{ youngsModulus 5e6; maxSpeed 1; wetRestitution false; pairs {{ rock_rock {{ friction {0}; restitution 0.5; "
         "rollingFriction 0; }} rock_glass {{ friction {0}; restitution 0.5; rollingFriction 0; }} }} }}",
@@ -191,13 +201,13 @@ fs::path pour(Verification& verification, double friction) {
     write_foam_dictionary(cut, "constant/couplingProperties", "dictionary",
                           fmt::format("medium none;\nrock {{ start \"{}\"; {} domain {{ {} material glass; }} }}\n{} );\n"
                                       "checkpoint {{ interval 100; keep 1; }}",
-                                      fs::absolute(newest_checkpoint(poured)).string(), contact, bed_domain(), events));
+                                      fs::absolute(newest_checkpoint(poured)).string(), contact, bed_domain(bed), events));
     write_foam_dictionary(cut, "system/controlDict", "dictionary",
                           "application cutterFoam; startFrom startTime; startTime 0; stopAt endTime; endTime 0.006; deltaT 2e-3; "
                           "writeControl adjustable; writeInterval 0.002; runTimeModifiable no;");
     run_cutter_foam(cut);
     const std::vector<RockSnapshot> pictures = all_rocks(cut);
-    const Vec3 low(3.0 - k_half_box, 3.0 - k_half_box, 4.0), high(k_half_box - 3.0, k_half_box - 3.0, 14.0);
+    const Vec3 low(3.0 - bed.half_box, 3.0 - bed.half_box, 4.0), high(bed.half_box - 3.0, bed.half_box - 3.0, 14.0);
     const double share = solid_share(pictures.front().position, low, high);
     verification.absolute(fmt::format("solid share of the poured bed, friction {:g}", friction), "-", share, 0.62, 0.02,
                           {"exact", "random packings of spheres, loose to dense: 0.60 to 0.64; core, 3 diameters from the walls", {}});
@@ -209,19 +219,20 @@ struct Core {
     double void_fraction = 0.0, superficial = 0.0, gradient = 0.0;
 };
 
-Core core_of(const BoxCase& box, const fs::path& fields, double bed_low, double bed_high) {
+/// \param low, high  of the core [m]
+Core core_of(const BoxCase& box, const fs::path& fields, const Vec3& low, const Vec3& high) {
     const auto alpha = read_scalar_field(fields / "voidFraction", box.cell_count()), p = read_scalar_field(fields / "p", box.cell_count());
     const auto u = read_vector_field(fields / "U", box.cell_count());
-    const double dz = (box.upper.z() - box.lower.z()) / box.cells[2];
+    const double dx = (box.upper.z() - box.lower.z()) / box.cells[2];
     Core core;
     double n = 0.0, sz = 0.0, sp = 0.0, szz = 0.0, szp = 0.0;
     std::size_t cell = 0;
     for (int k = 0; k < box.cells[2]; ++k)
         for (int j = 0; j < box.cells[1]; ++j)
             for (int i = 0; i < box.cells[0]; ++i, ++cell) {
-                const double z = box.lower.z() + (k + 0.5) * dz;
-                const bool inside = i >= 3 && i < 7 && j >= 3 && j < 7 && z > bed_low && z < bed_high;  // two kernels from all ends
-                if (!inside) continue;
+                const Vec3 centre = box.lower + dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
+                if ((centre.array() < low.array()).any() || (centre.array() > high.array()).any()) continue;
+                const double z = centre.z();
                 core.void_fraction += alpha[cell];
                 core.superficial += alpha[cell] * u[cell].z();
                 n += 1.0, sz += z, sp += p[cell], szz += z * z, szp += z * p[cell];
@@ -232,12 +243,12 @@ Core core_of(const BoxCase& box, const fs::path& fields, double bed_low, double 
     return core;
 }
 
-void flow_through(Verification& verification, const fs::path& block, double inflow) {
+void flow_through(Verification& verification, const Bed& bed, const fs::path& block, double inflow) {
     const double d = k_diameter;
     BoxCase box;
-    box.lower = d * Vec3(-k_half_block, -k_half_block, k_block_low - 6.0);
-    box.upper = d * Vec3(k_half_block, k_half_block, k_block_high + 6.0);
-    box.cells = {10, 10, static_cast<int>(std::lround((box.upper.z() - box.lower.z()) / d))};
+    box.lower = d * Vec3(-bed.half_block, -bed.half_block, bed.block_low - 6.0);
+    box.upper = d * Vec3(bed.half_block, bed.half_block, bed.block_high + 6.0);
+    for (int axis = 0; axis < 3; ++axis) box.cells[axis] = static_cast<int>(std::lround((box.upper - box.lower)[axis] / d));
     box.sides = BoxSides::duct;
     box.inflow = inflow;
     box.time_step = 2e-3;
@@ -251,9 +262,11 @@ void flow_through(Verification& verification, const fs::path& block, double infl
                     "rollingFriction 0; }} rock_glass {{ friction 0.6; restitution 0.5; rollingFriction 0; }} }} }}\n"
                     "domain {{ {} material glass; }} }}\nclosures {{ drag gidaspow; hindrance none; addedMass 0.5; }}\n"
                     "kernel {{ gamma 1; minWidthInCells 1.5; maxSolidFraction 0.9; }}\n",
-                    fs::absolute(block).string(), bed_domain()));
+                    fs::absolute(block).string(), bed_domain(bed)));
     run_cutter_foam(folder);
-    const Core core = core_of(box, folder / fmt::format("{:g}", box.end_time), d * (k_block_low + 3.5), d * (k_block_high - 3.5));
+    const double half = bed.half_block - k_felt;
+    const Core core = core_of(box, folder / fmt::format("{:g}", box.end_time), d * Vec3(-half, -half, bed.block_low + k_felt),
+                              d * Vec3(half, half, bed.block_high - k_felt));
     const double a = core.void_fraction, s = 1.0 - a, u = core.superficial;
     const double ergun = box.density * (150.0 * box.viscosity * s * s / (a * a * a * d * d) * u + 1.75 * s / (a * a * a * d) * u * u);
     const std::string seen = fmt::format("core: void fraction {:.4f}, superficial velocity {:.5f} m/s", a, u);
@@ -272,10 +285,10 @@ void run(Verification& verification) {
     check_rate(verification, 0.01, 0.003);
     check_rate(verification, 0.1, 0.006);
     check_rate(verification, 1.0, 0.012);
-    pour(verification, 0.1);
-    const fs::path block = pour(verification, 0.6);
-    flow_through(verification, block, 0.01);
-    flow_through(verification, block, 0.1);
+    pour(verification, k_small_bed, 0.1);
+    const fs::path block = pour(verification, k_wide_bed, 0.6);
+    flow_through(verification, k_wide_bed, block, 0.01);
+    flow_through(verification, k_wide_bed, block, 0.1);
 }
 
 }  // namespace
