@@ -219,10 +219,6 @@ void check_quarter_cell(Verification& verification, const Outcome& free, const O
 void run(Verification& verification) {
     const SingleProcess mpi;
     const Trial with_damping{6, 0.5}, without{6, 1.0};
-    if (!verification.wants(Effort::standard)) {
-        check(verification, with_damping);
-        return;
-    }
     const Pairs low = check_pairs(verification, 6), high = check_pairs(verification, 12);
     check_order_of_layers(verification, "beta 1", low.free, high.free);
     check_order_of_layers(verification, "beta 0.5", low.damped, high.damped);
