@@ -59,7 +59,7 @@ Dumping dump(Verification& verification, const std::string& pipe, int seed) {
                          0.02, {"exact", "mouth and holes", {}});
     verification.at_most("particles through the pipe's wall" + name, "-", dumping.results.through_walls, 0.0,
                          {"exact", "any that pass its middle elsewhere than in holes, all steps", {}});
-    verification.report("core seconds" + name, "s", dumping.results.core_s, {}, {"exact", "", {}});
+    verification.at_most("core seconds" + name, "s", dumping.results.core_s, 600.0, {"exact", "until empty, on one core", {}});
     return dumping;
 }
 
@@ -68,7 +68,7 @@ void check_pair(Verification& verification, const Dumping& continuous, const Dum
     verification.at_least("drop of the level in the continuous pipe" + name, "m", continuous.results.greatest_drop_m, 0.03,
                           {"Chen2019", "", {}});
     verification.at_least("time of upward flow in the mouth, continuous" + name, "s", continuous.upward_s, 0.1, {"Chen2019", "", {}});
-    verification.at_least("time in which bodies rise meanwhile, continuous" + name, "s", continuous.rising_s, 1e-3, {"Chen2019", "", {}});
+    verification.at_least("time in which bodies rise meanwhile, continuous" + name, "s", continuous.rising_s, 0.1, {"Chen2019", "", {}});
     verification.at_most("drop in the perforated pipe over that in the continuous one" + name, "-",
                          perforated.results.greatest_drop_m / continuous.results.greatest_drop_m, 1.0, {"Chen2019", "", {}});
 }
