@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/free_surface/scene_file.hpp"
 #include "solver/physics/contact.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/cylinder_column.hpp"
@@ -70,8 +71,23 @@ void check_closed_forms(Verification& verification) {
     verification.absolute("closed form, wall with pull", "-", form(false, true), 0.2538, 1e-4, about);
     verification.absolute("closed form, pair without pull", "-", form(true, false), 0.2645, 5e-4, about);
     verification.absolute("closed form, wall without pull", "-", form(false, false), 0.3635, 5e-4, about);
-    verification.relative("time step of the engine", "s", column_engine({})->largest_time_step(), 2.9905e-5, 1e-4,
-                          {"Chen2019", "sqrt(theta l/g) 2 pi/150 with l = 0.5 mm", {}});
+}
+
+/// The same water and cylinder on two meshes: a stiffness that hangs on the cells would give the finer one a step of its own.
+void check_step(Verification& verification) {
+    const About about{"Chen2019", "sqrt(theta l/g) 2 pi/150 with l = 0.5 mm", {}};
+    for (const double cell : {1e-3, 0.5e-3}) {
+        const free_surface::Scene scene = free_surface::parse_scene(fmt::format("kind = \"free_surface\"\n"
+                                                                                "[domain]\nwidth_m = 0.06\nheight_m = 0.04\ncell_m = {:g}\n"
+                                                                                "[[bodies]]\ndiameter_m = 0.01\ncentre_x_m = 0.03\n"
+                                                                                "lowest_m = 0.01\n[run]\nend_s = 0.1\n",
+                                                                                cell),
+                                                                    "a study");
+        const std::string mesh = fmt::format(", cells of {:g} mm", 1e3 * cell);
+        verification.relative("contact step that `check` tells" + mesh, "s", predict(scene).dem_step, 2.9905e-5, 1e-4, about);
+        const liggghts::LiggghtsEngine engine(scene.dem, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
+        verification.relative("time step of the study's engine" + mesh, "s", engine.largest_time_step(), 2.9905e-5, 1e-4, about);
+    }
 }
 
 /// Mean acceleration down a slope, measured between 0.1 and 0.3 s; gravity is turned instead of the floor.
@@ -105,6 +121,7 @@ void check_rolling(Verification& verification) {
 void run(Verification& verification) {
     const SingleProcess mpi;
     check_closed_forms(verification);
+    check_step(verification);
     check_restitution(verification);
     check_rolling(verification);
 }
