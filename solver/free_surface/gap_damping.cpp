@@ -15,7 +15,16 @@ struct GapContact {
     Vec3 point, normal, velocity;
 };
 
-std::vector<GapContact> contacts_of(const StaggeredGrid& grid, gsl::span<const Body> bodies, double gap) {
+/// Of a body and something else that moves as a whole.
+void add_contact(const Body& body, const Vec3& point, const Vec3& velocity, double gap, std::vector<GapContact>& contacts) {
+    const Vec3 way = point - body.position;
+    const double distance = way.norm();
+    if (distance == 0.0 || distance - body.radius >= gap) return;
+    contacts.push_back({point, way / distance, 0.5 * (velocity_at(body, point) + velocity)});
+}
+
+std::vector<GapContact> contacts_of(const StaggeredGrid& grid, const GapSolids& solids, double gap) {
+    const auto& bodies = solids.bodies;
     std::vector<GapContact> contacts;
     for (std::size_t a = 0; a < bodies.size(); ++a) {
         for (std::size_t b = a + 1; b < bodies.size(); ++b) {
@@ -28,13 +37,15 @@ std::vector<GapContact> contacts_of(const StaggeredGrid& grid, gsl::span<const B
         }
         for (const int d : grid.directions()) {
             for (const double wall : {0.0, grid.extent(d)}) {
-                const double between = std::abs(bodies[a].position[d] - wall) - bodies[a].radius;
-                if (between >= gap) continue;
                 Vec3 point = bodies[a].position;
                 point[d] = wall;
-                contacts.push_back({point, Vec3::Unit(d), 0.5 * velocity_at(bodies[a], point)});
+                add_contact(bodies[a], point, Vec3::Zero(), gap, contacts);
             }
         }
+        for (const StillSolid& solid : solids.still)
+            add_contact(bodies[a], nearest_on(solid, bodies[a].position), Vec3::Zero(), gap, contacts);
+        for (std::size_t n = 0; n < solids.gates.size(); ++n)
+            add_contact(bodies[a], nearest_on(solids.gates[n], bodies[a].position), Vec3(0, 0, solids.lift[n]), gap, contacts);
     }
     return contacts;
 }
@@ -61,11 +72,11 @@ CellLists contacts_by_cell(const StaggeredGrid& grid, const std::vector<GapConta
 
 }  // namespace
 
-double damp_gaps(const GapDampingSettings& settings, const StaggeredGrid& grid, gsl::span<const Body> bodies, double step, double density,
+double damp_gaps(const GapDampingSettings& settings, const StaggeredGrid& grid, const GapSolids& solids, double step, double density,
                  WaterParticles& particles) {
     const double band = k_band_cells * grid.spacing(), half_gap = 0.5 * (settings.gap + grid.spacing());
     const double mass = density * particles.volume, exponent = step / settings.time;
-    const std::vector<GapContact> contacts = contacts_of(grid, bodies, settings.gap);
+    const std::vector<GapContact> contacts = contacts_of(grid, solids, settings.gap);
     const CellLists nearby = contacts_by_cell(grid, contacts, std::hypot(band, half_gap));
     double taken = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {

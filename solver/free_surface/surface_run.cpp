@@ -205,7 +205,8 @@ const StepReport& SurfaceRun::step(double longest) {
     move_particles(grid_, cutter_.slip_walls(), {velocity_, increment_, step, kept}, particles_);
     move_bodies(step);
     if (settings_.damping.remaining < 1.0)
-        report_.gap_impulse = damp_gaps(settings_.damping, grid_, bodies_, step, settings_.water.density, particles_);
+        report_.gap_impulse =
+            damp_gaps(settings_.damping, grid_, {bodies_, settings_.solids, gates_, lift_}, step, settings_.water.density, particles_);
     if (gates_move) place_gates(time_ + step);
     if (gates_move || !bodies_.empty()) cutter_.cut(bodies_, cells_);
     push_out();

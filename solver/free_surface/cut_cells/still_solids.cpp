@@ -1,5 +1,6 @@
 #include "solver/free_surface/cut_cells/still_solids.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -110,6 +111,34 @@ std::optional<Vec3> out(const SolidSurface& solid, const Vec3& place) {
     return solid.surface->nearest(place);
 }
 
+Vec3 nearest(const SolidBox& box, const Vec3& place) {
+    return place.cwiseMax(box.from).cwiseMin(box.to);
+}
+
+Vec3 nearest(const SolidPrism& prism, const Vec3& place) {
+    const Eigen::Vector2d point(place.x(), place.z());
+    Eigen::Vector2d best = prism.corners[0];
+    for (std::size_t n = 0; n < prism.corners.size(); ++n) {
+        const Eigen::Vector2d& from = prism.corners[n];
+        const Eigen::Vector2d way = prism.corners[(n + 1) % prism.corners.size()] - from;
+        const Eigen::Vector2d foot = from + std::clamp((point - from).dot(way) / way.squaredNorm(), 0.0, 1.0) * way;
+        if ((foot - point).norm() < (best - point).norm()) best = foot;
+    }
+    return {best.x(), place.y(), best.y()};
+}
+
+Vec3 nearest(const SolidCavity& cavity, const Vec3& place) {
+    Vec3 from_centre = place - cavity.centre;
+    if (!cavity.sphere) from_centre.y() = 0.0;
+    const double distance = from_centre.norm();
+    const Vec3 outward = distance > 0.0 ? Vec3(from_centre / distance) : Vec3(Vec3::UnitX());
+    return place + (cavity.radius - distance) * outward;
+}
+
+Vec3 nearest(const SolidSurface& solid, const Vec3& place) {
+    return solid.surface->nearest(place);
+}
+
 }  // namespace
 
 std::vector<Interval> covered_parts(const StillSolid& solid, const Line& line) {
@@ -118,6 +147,10 @@ std::vector<Interval> covered_parts(const StillSolid& solid, const Line& line) {
 
 std::optional<Vec3> way_out(const StillSolid& solid, const Vec3& place) {
     return std::visit([&](const auto& shape) { return out(shape, place); }, solid);
+}
+
+Vec3 nearest_on(const StillSolid& solid, const Vec3& place) {
+    return std::visit([&](const auto& shape) { return nearest(shape, place); }, solid);
 }
 
 SolidPrism plate(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness) {

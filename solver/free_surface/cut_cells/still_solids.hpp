@@ -45,6 +45,9 @@ std::vector<Interval> covered_parts(const StillSolid& solid, const Line& line);
 /// The place on the solid's surface nearest to a place inside it; none when the place is outside.
 std::optional<Vec3> way_out(const StillSolid& solid, const Vec3& place);
 
+/// The place on the solid's surface nearest to a place outside it; of a place inside anything.
+Vec3 nearest_on(const StillSolid& solid, const Vec3& place);
+
 inline bool is_inside(const StillSolid& solid, const Vec3& place) {
     return way_out(solid, place).has_value();
 }
