@@ -725,11 +725,11 @@ const ParameterTable& scene_table() {
         keys.push_back(number("gauge.x_m", "m", {}, 0.0, "Its place along x: the level of the water there."));
         keys.push_back(derived(number("gauge.y_m", "m", {}, 0.0, "Its place across, in space."), "the tank's middle"));
         keys.push_back(derived(number("gauge.z_m", "m", {}, 0.0, "Its height: the pressure there."), "the level alone"));
-        keys.push_back(positive("contact.theta", "-", 0.01, "Overlap under the own weight over the reference length."));
+        keys.push_back(bounded(positive("contact.theta", "-", 0.01, "Overlap under the own weight over the reference length."), 1.0));
         keys.push_back(positive("contact.reference_length_m", "m", 5e-4, "Length of the contact law; not tied to the cells."));
         keys.push_back(number("contact.damping", "-", 0.4, 0.0, "Damping of the contact law, below 0.707."));
         keys.push_back(bounded(number("contact.poisson", "-", 0.3, 0.0, "Poisson's ratio in the tangential stiffness."), 0.5));
-        keys.push_back(number("contact.friction", "-", 0.3, 0.0, "Coulomb friction."));
+        keys.push_back(bounded(number("contact.friction", "-", 0.3, 0.0, "Coulomb friction."), 10.0));
         keys.push_back(choice("contact.shear", "accumulated", {"accumulated", "one_step"}, "What stretches the tangential spring."));
         keys.push_back(derived(number("contact.gap_m", "m", {}, 0.0, "Distance at which surfaces touch; half of it at walls."),
                                "a quarter of a cell"));

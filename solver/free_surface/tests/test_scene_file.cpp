@@ -191,6 +191,64 @@ TEST(SceneFile, refuses_water_beyond_the_domain_and_holes_without_wall_between) 
                 ::testing::HasSubstr("at least a cell of wall"));
 }
 
+/// The tank and its water, with one value changed or lines added.
+std::string with(const std::string& key, const std::string& value) {
+    const std::size_t at = k_tank.find(key);
+    return std::string(k_tank).replace(at, k_tank.find('\n', at) - at, key + " = " + value) + k_fill;
+}
+
+std::string body(const std::string& more) {
+    return k_tank + k_fill + "[[bodies]]\ncentre_x_m = 0.1\nlowest_m = 0.12\n" + more + "\n";
+}
+
+std::string contact(const std::string& key, const std::string& value) {
+    return k_tank + k_fill + "[contact]\n" + key + " = " + value + "\n";
+}
+
+/// What is wrong in the study beside what is said of it: the value and the rule.
+TEST(SceneFile, refuses_what_no_run_could_be_made_of) {
+    struct Row {
+        std::string toml, value, rule;
+    };
+    const std::vector<Row> rows{
+        {body("diameter_m = 0.004"), "is 4 cells", "at least 5 cells"},
+        {body("diameter_m = 0.01\ndensity_kg_m3 = 0.0"), "bodies.density_kg_m3 = 0", "above 0"},
+        {body("diameter_m = 0.01\ndensity_kg_m3 = -5.0"), "bodies.density_kg_m3 = -5", "above 0"},
+        {body("diameter_m = 0.01\ndensity_kg_m3 = 0.5"), "bodies.density_kg_m3 = 0.5", "a thousandth of the water's density"},
+        {contact("gap_damping", "1.5"), "contact.gap_damping = 1.5", "0 to 1"},
+        {contact("gap_damping", "-0.1"), "contact.gap_damping = -0.1", "0 to 1"},
+        {contact("theta", "0.0"), "contact.theta = 0", "above 0, at most 1"},
+        {contact("theta", "1.5"), "contact.theta = 1.5", "above 0, at most 1"},
+        {contact("poisson", "-0.1"), "contact.poisson = -0.1", "0 to 0.5"},
+        {contact("poisson", "0.6"), "contact.poisson = 0.6", "0 to 0.5"},
+        {contact("friction", "-0.1"), "contact.friction = -0.1", "0 to 10"},
+        {contact("friction", "11.0"), "contact.friction = 11", "0 to 10"},
+        {contact("damping", "-0.1"), "contact.damping = -0.1", "at least 0"},
+        {contact("damping", "0.708"), "contact.damping = 0.708", "sqrt(1/2)"},
+        {k_tank + k_fill + k_fill, "Water from (0, 0) to (0.2, 0.1) m overlaps another box", "filled in once"},
+        {with("end_s", "0.0"), "run.end_s = 0", "above 0"},
+        {with("end_s", "0.01"), "run.write_interval_s = 0.02 s", "must not exceed run.end_s"},
+        {with("end_s", "1.0\nmax_courant = 1.5"), "run.max_courant = 1.5", "above 0, at most 1"},
+    };
+    for (const Row& row : rows) {
+        EXPECT_THAT(mistakes_of(row.toml), ::testing::AllOf(::testing::HasSubstr(row.value), ::testing::HasSubstr(row.rule))) << row.toml;
+    }
+}
+
+TEST(SceneFile, tells_rounded_sizes_and_coarse_bodies) {
+    struct Row {
+        std::string toml, note;
+    };
+    const std::vector<Row> rows{
+        {with("width_m", "0.2004"), "domain.width_m = 0.2004 m is no whole number of cells: 0.2 m is used"},
+        {with("height_m", "0.1996"), "domain.height_m = 0.1996 m is no whole number of cells: 0.2 m is used"},
+        {body("diameter_m = 0.007"), "bodies have 7 cells across: below 8"},
+    };
+    for (const Row& row : rows) EXPECT_THAT(parse_scene(row.toml, "scene.toml").notes, ::testing::Contains(::testing::HasSubstr(row.note)));
+    EXPECT_THAT(parse_scene(body("diameter_m = 0.008"), "scene.toml").notes,
+                ::testing::Not(::testing::Contains(::testing::HasSubstr("across"))));
+}
+
 TEST(SceneFile, gauges_stand_across_in_space_alone) {
     const std::string gauge = "[[gauge]]\nname = 'a'\nx_m = 0.1\ny_m = 0.03\n";
     EXPECT_THAT(mistakes_of(k_tank + k_fill + gauge), ::testing::HasSubstr("gauge.y_m in a plane scene"));
