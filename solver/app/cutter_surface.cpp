@@ -131,7 +131,7 @@ void run_scene(const Arguments& arguments) {
     SurfaceRun run(scene.settings, engine.get());
     if (state) run.restore(std::move(*state));
 
-    SurfaceRecorder recorder(arguments.folder, run.time(), scene.gauges);
+    SurfaceRecorder recorder(arguments.folder, run.time(), scene.gauges, scene.write_particles);
     if (run.time() == 0.0) recorder.output(run, engine.get());
     Progress progress("run");
     int most_enclosed = 0;

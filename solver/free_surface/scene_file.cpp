@@ -617,6 +617,7 @@ private:
             refuse(values_.where("run.stop_when"), fmt::format("run.stop_when = \"{}\" without bodies", stop), "The rule watches bodies",
                    "Add [[bodies]], or take none");
         scene_.write_interval = values_.number("run.write_interval_s");
+        scene_.write_particles = static_cast<int>(values_.integer("run.write_particles"));
         scene_.checkpoint_interval = values_.number("run.checkpoint_interval_s");
         scene_.settings.run.max_courant = values_.number("run.max_courant");
         if (scene_.write_interval > scene_.end)
@@ -744,6 +745,8 @@ const ParameterTable& scene_table() {
         keys.push_back(number("run.settle_s", "s", 0.1, 0.0, "The run goes on for so long after that."));
         keys.push_back(bounded(positive("run.max_courant", "-", 0.5, "Courant number of the fastest water."), 1.0));
         keys.push_back(positive("run.write_interval_s", "s", 0.02, "Between pictures and rows of the bodies."));
+        keys.push_back(
+            bounded(whole("run.write_particles", 1, 0, "Of how many water particles one is written with the pictures; 0: none."), 1e6));
         keys.push_back(positive("run.checkpoint_interval_s", "s", 0.2, "Between checkpoints."));
         for (Parameter& key : keys)
             if (key.key.rfind("contact.", 0) == 0) key.reference = k_reference;

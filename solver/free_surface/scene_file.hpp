@@ -23,6 +23,7 @@ struct Scene {
     StopRule stop = StopRule::none;
     double settle = 0.0;                          ///< the run goes on for so long after its stop rule holds [s]
     double write_interval = 0.0;                  ///< [s]
+    int write_particles = 0;                      ///< of how many water particles one is written at an output; 0: none
     double checkpoint_interval = 0.0;             ///< [s]
     std::optional<PipeGauge> pipe;                ///< the first one
     std::vector<std::filesystem::path> surfaces;  ///< files of the solids of kind surface

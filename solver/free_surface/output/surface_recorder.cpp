@@ -36,10 +36,38 @@ std::array<double, 3> three(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
+/// Data arrays as raw bytes behind the XML part of a VTK file, a third of their size as text.
+class RawArrays {
+public:
+    /// \return the array's line in the XML part
+    template <typename T>
+    std::string add(const char* type, const std::string& name, int components, const std::vector<T>& values) {
+        const std::string line =
+            fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type, name,
+                        components, bytes_.size());
+        const std::uint64_t size = values.size() * sizeof(T);
+        bytes_.append(reinterpret_cast<const char*>(&size), sizeof size);
+        bytes_.append(reinterpret_cast<const char*>(values.data()), size);
+        return line;
+    }
+    std::string text() const { return "<AppendedData encoding=\"raw\">\n_" + bytes_ + "\n</AppendedData>\n"; }
+
+private:
+    std::string bytes_;
+};
+
+/// One of `every` values of x, y and z in turn.
+std::vector<float> interleaved(const std::array<std::vector<double>, 3>& values, std::size_t every) {
+    std::vector<float> result;
+    for (std::size_t n = 0; n < values[0].size(); n += every)
+        for (const auto& component : values) result.push_back(static_cast<float>(component[n]));
+    return result;
+}
+
 }  // namespace
 
-SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double start_time, std::vector<Gauge> gauges)
-    : folder_(folder / "postProcessing"), gauges_(std::move(gauges)) {
+SurfaceRecorder::SurfaceRecorder(const std::filesystem::path& folder, double start_time, std::vector<Gauge> gauges, int every)
+    : folder_(folder / "postProcessing"), gauges_(std::move(gauges)), every_(every) {
     const std::string start = fmt::format("{:g}", start_time);
     balance_ =
         open_rows(folder_ / "balance" / start / "balance.csv",
@@ -75,6 +103,10 @@ void SurfaceRecorder::output(const SurfaceRun& run, const coupling::DemEngine* b
     const std::string name = fmt::format("{:.6f}", run.time());
     write_water(run, name);
     write_series("water", "vti");
+    if (every_ > 0) {
+        write_particles(run, name);
+        write_series("particles", "vtp");
+    }
     if (bodies) {
         const StepReport& report = run.last();
         for (std::size_t b = 0; b < run.bodies().size(); ++b) {
@@ -118,6 +150,30 @@ void SurfaceRecorder::write_water(const SurfaceRun& run, const std::string& name
             data_array("open_volume", 1, cells.size(), cell_value(run.cells().open_volume)) +
             data_array("pressure_pa", 1, cells.size(), cell_value(run.pressure())) + data_array("velocity_m_s", 3, cells.size(), velocity) +
             "</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n");
+}
+
+void SurfaceRecorder::write_particles(const SurfaceRun& run, const std::string& name) const {
+    const WaterParticles& water = run.particles();
+    const auto every = static_cast<std::size_t>(every_);
+    std::vector<std::uint8_t> boxes;
+    std::vector<std::int32_t> numbers;
+    for (std::size_t p = 0; p < water.size(); p += every) {
+        boxes.push_back(water.dye[p]);
+        numbers.push_back(static_cast<std::int32_t>(numbers.size()));
+    }
+    const std::vector<std::int32_t> end{static_cast<std::int32_t>(numbers.size())};  // of the only cell, which has all points
+    RawArrays arrays;
+    std::string text = fmt::format(
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"1\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n",
+        numbers.size());
+    text += arrays.add("Float32", "velocity_m_s", 3, interleaved(water.velocity, every));
+    text += arrays.add("UInt8", "filled_box", 1, boxes);
+    text += "</PointData>\n<Points>\n" + arrays.add("Float32", "Points", 3, interleaved(water.position, every)) + "</Points>\n<Verts>\n";
+    text += arrays.add("Int32", "connectivity", 1, numbers);
+    text += arrays.add("Int32", "offsets", 1, end);
+    text += "</Verts>\n</Piece>\n</PolyData>\n" + arrays.text() + "</VTKFile>\n";
+    write_file(folder_ / "particles" / "vtk" / ("particles_" + name + ".vtp"), text);
 }
 
 void SurfaceRecorder::write_bodies(const SurfaceRun& run, const std::string& name) const {

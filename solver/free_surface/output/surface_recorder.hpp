@@ -8,22 +8,25 @@
 namespace cutterflow::free_surface {
 
 /// Writes below <folder>/postProcessing: balance/<t0>/balance.csv, levels/<t0>/levels.csv and, with gauges, gauges/<t0>/gauges.csv (every
-/// step), bodies/<t0>/bodies.csv, water/vtk/*.vti and bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run opens rows of its own
-/// start time t0.
+/// step), bodies/<t0>/bodies.csv, water/vtk/*.vti, particles/vtk/*.vtp and bodies/vtk/*.vtp with a .pvd each (at outputs). A resumed run
+/// opens rows of its own start time t0.
 class SurfaceRecorder {
 public:
-    SurfaceRecorder(const std::filesystem::path& folder, double start_time, std::vector<Gauge> gauges);
+    /// \param every  of how many water particles one is written; 0: none
+    SurfaceRecorder(const std::filesystem::path& folder, double start_time, std::vector<Gauge> gauges, int every);
 
     void step(const SurfaceRun& run, const SceneReading& reading, double core_seconds);
     void output(const SurfaceRun& run, const coupling::DemEngine* bodies);
 
 private:
     void write_water(const SurfaceRun& run, const std::string& name) const;
+    void write_particles(const SurfaceRun& run, const std::string& name) const;
     void write_bodies(const SurfaceRun& run, const std::string& name) const;
     void write_series(const std::string& what, const std::string& extension) const;
 
     std::filesystem::path folder_;
     std::vector<Gauge> gauges_;
+    int every_;
     std::ofstream balance_, levels_, rows_, gauge_rows_;
 };
 
