@@ -21,6 +21,7 @@ namespace cutterflow::cases {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class SurfaceStudy : public ::testing::Test {
@@ -66,7 +67,7 @@ TEST_F(SurfaceStudy, template_is_valid_and_predicts_its_cost) {
     EXPECT_NEAR(check.prediction.at("water_cells").get<double>(), 66.0 * 120.0, 1.0);
     EXPECT_NEAR(check.prediction.at("particles").get<double>(), 4 * 66.0 * 120.0, 4.0);
     EXPECT_NEAR(check.prediction.at("contact_step_s").get<double>(), 2.9905e-5, 1e-9);
-    EXPECT_THAT(to_text(check), HasSubstr("33 bodies"));
+    EXPECT_THAT(to_text(check), AllOf(HasSubstr("33 bodies"), HasSubstr("closer than two cells: ")));
 }
 
 TEST_F(SurfaceStudy, every_example_reads) {

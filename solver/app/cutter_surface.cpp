@@ -63,6 +63,7 @@ void tell(const Scene& scene) {
                              found.particles, scene.bodies.size())
               << fmt::format("about {:.0f} steps of {:.2g} s, {:.1f} core minutes\n", found.steps, found.step, found.core_seconds / 60.0);
     if (found.dem_step > 0.0) std::cout << fmt::format("contact step {:.4g} s\n", found.dem_step);
+    for (const std::string& line : scene.close) std::cout << line << '\n';
     for (const std::string& note : scene.notes) std::cout << "note: " << note << '\n';
     for (const std::string& note : water_notes(scene)) std::cout << "note: " << note << '\n';
     std::cout << std::flush;

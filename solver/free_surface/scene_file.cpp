@@ -13,6 +13,7 @@
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/soundness.hpp"
 #include "solver/free_surface/body_list.hpp"
+#include "solver/free_surface/cut_cells/close_places.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::free_surface {
@@ -95,6 +96,14 @@ Parameter bounded(Parameter parameter, double maximum) {
     return parameter;
 }
 
+/// The bodies of a scene as they stand at its start.
+std::vector<Body> bodies_of(const Scene& scene) {
+    std::vector<Body> bodies;
+    for (std::size_t n = 0; n < scene.bodies.size(); ++n)
+        bodies.push_back(body_of(scene.bodies, n, scene.settings.spheres, scene.settings.tank.depth));
+    return bodies;
+}
+
 /// Reads one scene; collects what is wrong.
 class Reader {
 public:
@@ -114,6 +123,7 @@ public:
         if (scene_.settings.water.filled.empty() && scene_.bodies.size() == 0)
             refuse("fill", "The scene has neither water nor bodies", "One of them must be there", "Add [[fill]] or [[bodies]]");
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
+        find_close_places();
         return std::move(scene_);
     }
 
@@ -156,6 +166,19 @@ private:
         if (std::abs(cells * cell() - length) > 1e-6 * length)
             scene_.notes.push_back(fmt::format("{} = {:g} m is no whole number of cells: {:g} m is used", key, length, cells * cell()));
         return cells;
+    }
+
+    void find_close_places() {
+        for (const ParameterValues& solid : values_.tables("solid")) {
+            const double hole = solid.number("solid.hole_m");
+            if (solid.text("solid.kind") == "pipe" && hole > 0.0 && hole < (k_close_cells - 1e-6) * cell())
+                scene_.close.push_back(
+                    fmt::format("closer than two cells: the edges of holes, {:g} m = {:.3g} cells", hole, hole / cell()));
+        }
+        std::vector<StillSolid> solids = scene_.settings.solids;
+        for (const Gate& gate : scene_.settings.gates) solids.emplace_back(gate.closed);
+        for (std::string& line : close_places(scene_.settings.tank.grid(), bodies_of(scene_), scene_.bodies.id, solids))
+            scene_.close.push_back(std::move(line));
     }
 
     void read_domain() {
@@ -764,10 +787,7 @@ Scene read_scene(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> water_notes(const Scene& scene) {
-    std::vector<Body> bodies;
-    for (std::size_t n = 0; n < scene.bodies.size(); ++n)
-        bodies.push_back(body_of(scene.bodies, n, scene.settings.spheres, scene.settings.tank.depth));
-    const int waters = enclosed_waters(scene.settings, bodies);
+    const int waters = enclosed_waters(scene.settings, bodies_of(scene));
     if (waters == 0) return {};
     return {enclosed_note(waters, 0.0)};
 }

@@ -28,6 +28,7 @@ struct Scene {
     std::optional<PipeGauge> pipe;                ///< the first one
     std::vector<std::filesystem::path> surfaces;  ///< files of the solids of kind surface
     std::vector<Gauge> gauges;
+    std::vector<std::string> close;  ///< what is closer than two cells, a line each
     std::vector<std::string> notes;  ///< what the user should know: rounded sizes, coarse bodies
 };
 

@@ -33,7 +33,11 @@ std::string new_study(const NewOptions& options) {
 void check(const CheckOptions& options) {
     const cases::SurfaceCheck check = cases::check_surface_study(options.study);
     if (options.json) {
-        std::cout << nlohmann::json{{"scene", check.scene}, {"prediction", check.prediction}, {"warnings", check.notes}}.dump(2)
+        std::cout << nlohmann::json{{"scene", check.scene},
+                                    {"prediction", check.prediction},
+                                    {"close", check.close},
+                                    {"warnings", check.notes}}
+                         .dump(2)
                   << std::endl;
         return;
     }

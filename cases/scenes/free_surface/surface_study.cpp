@@ -95,6 +95,7 @@ SurfaceCheck check_surface_study(const std::filesystem::path& file) {
              {"core_s", found.core_seconds},
              {"memory_bytes", found.memory},
              {"contact_step_s", found.dem_step}},
+            scene.close,
             notes};
 }
 
@@ -137,6 +138,7 @@ std::string to_text(const SurfaceCheck& check) {
     text += fmt::format("about {:.0f} steps of {:.2g} s, {} on one core, {:.0f} MB\n", number("steps"), number("step_s"),
                         duration_text(number("core_s")), number("memory_bytes") / 1e6);
     if (number("contact_step_s") > 0.0) text += fmt::format("contact step {:.4g} s\n", number("contact_step_s"));
+    for (const std::string& line : check.close) text += line + "\n";
     for (const std::string& note : check.notes) text += "note: " + note + "\n";
     return text;
 }

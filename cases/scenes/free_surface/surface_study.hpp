@@ -22,6 +22,7 @@ struct SurfaceCheck {
     nlohmann::json scene;  ///< name, width_m, height_m, cell_m, columns, layers, rows, bodies, spheres, diameter_m, pipe {bottom_m, ...} or
                            ///< null, gauges
     nlohmann::json prediction;       ///< cells, water_cells, particles, step_s, steps, core_s, memory_bytes, contact_step_s
+    std::vector<std::string> close;  ///< what is closer than two cells
     std::vector<std::string> notes;  ///< rounded sizes, coarse bodies
 };
 

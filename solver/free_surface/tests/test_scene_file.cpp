@@ -249,6 +249,24 @@ TEST(SceneFile, tells_rounded_sizes_and_coarse_bodies) {
                 ::testing::Not(::testing::Contains(::testing::HasSubstr("across"))));
 }
 
+TEST(SceneFile, tells_what_is_closer_than_two_cells) {
+    const auto close_in = [](const std::string& toml) { return parse_scene(toml, "scene.toml").close; };
+    const std::string pipe =
+        "[[solid]]\nkind=\"pipe\"\naxis_x_m=0.1\ninner_width_m=0.06\nwall_m=0.002\nbottom_m=0.04\ntop_m=0.15\n"
+        "hole_spacing_m=0.02\nhole_m=";
+    EXPECT_THAT(close_in(k_tank + k_fill + pipe + "0.0015\n"),
+                ::testing::ElementsAre("closer than two cells: the edges of holes, 0.0015 m = 1.5 cells"));
+    EXPECT_THAT(close_in(k_tank + k_fill + pipe + "0.002\n"), ::testing::IsEmpty());
+    // Two of three bodies 1.2 mm apart, the last of them 0.5 mm before a box; in another scene the same with room enough.
+    const std::string stack = "[[bodies]]\ndiameter_m = 0.01\nwidest = 3\nclearance_m = 0.0012\ncentre_x_m = 0.1\nlowest_m = 0.12\n";
+    EXPECT_THAT(close_in(k_tank + k_fill + stack + box("0.1167", "0.0", "0.13", "0.18")),
+                ::testing::ElementsAre("closer than two cells: 2 pairs of bodies, closest 1 and 2, 0.0012 m = 1.2 cells apart",
+                                       "closer than two cells: 1 bodies and a wall or solid, closest body 3, 0.0005 m = 0.5 cells apart"));
+    EXPECT_THAT(close_in(body("diameter_m = 0.01\nwidest = 3\nclearance_m = 0.0021")), ::testing::IsEmpty());
+    EXPECT_THAT(close_in(k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\ncentre_x_m = 0.1\nlowest_m = 0.001\n"),
+                ::testing::ElementsAre("closer than two cells: 1 bodies and a wall or solid, closest body 1, 0.001 m = 1 cells apart"));
+}
+
 TEST(SceneFile, gauges_stand_across_in_space_alone) {
     const std::string gauge = "[[gauge]]\nname = 'a'\nx_m = 0.1\ny_m = 0.03\n";
     EXPECT_THAT(mistakes_of(k_tank + k_fill + gauge), ::testing::HasSubstr("gauge.y_m in a plane scene"));
