@@ -1,12 +1,16 @@
 // Whatever the study's check accepts, the solver accepts: over the bounds and the choices of every key.
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/scenes/room/room_study.hpp"
 #include "cases/study/study.hpp"
 #include "cases/study/study_section.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -161,6 +165,127 @@ TEST(Settings, that_count_the_void_fraction_twice_are_named_with_the_word_that_w
 TEST(StudySpelling, of_the_solvers_keys_has_words_apart_and_the_unit_behind) {
     EXPECT_EQ(snake_case("minWidthInCells"), "min_width_in_cells");
     EXPECT_EQ(k_contact_section.key_of(coupling::setting_table<coupling::ContactSettings>().front()), "rock.youngs_modulus_pa");
+}
+
+// ---- rooms ----
+
+ParameterValues plain_room() {
+    return parse_parameters(room_table(), R"(
+[room]
+size_m = [0.1, 0.1, 0.16]
+[[material]]
+name = "glass"
+youngs_modulus_pa = 5e6
+[[contact]]
+pair = ["glass", "glass"]
+friction = 0.3
+restitution = 0.9
+[[contact]]
+pair = ["glass", "steel"]
+friction = 0.3
+restitution = 0.9
+[[grains]]
+name = "beads"
+material = "glass"
+density_kg_m3 = 2500
+diameter_m = 0.004
+[[event]]
+do = "feed"
+grains = "beads"
+from_s = 0
+to_s = 1
+rate_kg_s = 0.01
+region = { box = { lower_m = [-0.04, -0.04, 0.1], upper_m = [0.04, 0.04, 0.15] } }
+[run]
+end_s = 4
+)",
+                            "room.toml");
+}
+
+ParameterValues room_with(const Parameter& parameter, const ParameterValue& value) {
+    ParameterValues study = plain_room();
+    const std::string array = parameter_words::enclosing_array(room_table(), parameter.key);
+    (array.empty() ? study : study.tables_for_writing(array).front()).set(parameter.key, value);
+    return study;
+}
+
+/// The scene of a study that the check accepts.
+std::optional<RoomScene> accepted_room(const Parameter& parameter, const ParameterValue& value) {
+    if (value_mistake(parameter, value)) return std::nullopt;
+    try {
+        return room_scene(room_with(parameter, value), "/tmp");
+    } catch (const UserError&) {
+        return std::nullopt;
+    }
+}
+
+/// What the solver says of the scene's settings.
+std::vector<Mistake> solver_mistakes(const RoomScene& scene) {
+    coupling::DemSettings dem;
+    dem.contact = scene.contact;
+    for (const RoomPair& pair : scene.pairs)
+        (pair.other == scene.grain_material ? dem.contact.rock_rock : dem.contact.rock_steel) = pair.settings;
+    dem.domain.lower = scene.lower();
+    dem.domain.upper = scene.upper();
+    dem.fluid = {scene.medium.density, scene.medium.kinematic_viscosity};
+    coupling::CouplingSettings settings;
+    settings.has_rock = true;
+    settings.has_medium = scene.medium.present();
+    settings.rock_feed = "rockFeed.csv";
+    settings.kernel = scene.kernel;
+    settings.closures = scene.closures;
+    settings.checkpoint = coupling::CheckpointSettings{scene.run.checkpoint_interval};
+    std::vector<Mistake> mistakes = coupling::check_settings(settings, dem.fluid, "");
+    for (Mistake& mistake : coupling::check_settings(dem, "")) mistakes.push_back(std::move(mistake));
+    return mistakes;
+}
+
+class EveryRoomKey : public ::testing::TestWithParam<Parameter> {};
+
+TEST_P(EveryRoomKey, is_accepted_by_the_solver_when_the_study_is) {
+    int accepted = 0;
+    for (const ParameterValue& value : values_of(GetParam())) {
+        const std::optional<RoomScene> scene = accepted_room(GetParam(), value);
+        if (!scene) continue;
+        ++accepted;
+        EXPECT_EQ(texts_of(solver_mistakes(*scene)), "") << GetParam().key << " = " << toml_text(value);
+    }
+    EXPECT_GT(accepted, 0);
+}
+
+/// Those of solids, boundaries and steps stand for geometry and times, of which the solver has no bounds of its own.
+std::vector<Parameter> room_keys() {
+    std::vector<Parameter> keys;
+    for (const Parameter& parameter : room_table())
+        for (const char* section : {"room", "material", "contact", "dem", "grains", "run", "kernel", "closures"})
+            if (parameter_words::section_of(parameter.key) == section && !values_of(parameter).empty()) keys.push_back(parameter);
+    return keys;
+}
+
+INSTANTIATE_TEST_SUITE_P(Room, EveryRoomKey, ::testing::ValuesIn(room_keys()), test_name);
+
+TEST(Settings, of_contacts_have_the_solvers_bounds_in_rooms) {
+    using Contact = StudySection<coupling::ContactSettings>;
+    using Pair = StudySection<coupling::PairSettings>;
+    const std::map<std::string, Parameter> solver{{"material.youngs_modulus_pa", Contact::row("youngsModulus")},
+                                                  {"material.poisson", Contact::row("poissonRock")},
+                                                  {"contact.friction", Pair::row("friction")},
+                                                  {"contact.rolling", Pair::row("rollingFriction")},
+                                                  {"contact.restitution", Pair::row("restitution")},
+                                                  {"dem.rolling_law", Contact::row("rollingLaw")},
+                                                  {"dem.time_step_fraction", Contact::row("timeStepFraction")},
+                                                  {"dem.max_speed_m_s", Contact::row("maxSpeed")}};
+    std::size_t compared = 0;
+    for (const Parameter& row : room_table()) {
+        const auto found = solver.find(row.key);
+        if (found == solver.end()) continue;
+        ++compared;
+        EXPECT_EQ(row.minimum, found->second.minimum) << row.key;
+        EXPECT_EQ(row.minimum_excluded, found->second.minimum_excluded) << row.key;
+        EXPECT_EQ(row.maximum, found->second.maximum) << row.key;
+        EXPECT_EQ(row.choices, found->second.choices) << row.key;
+    }
+    EXPECT_EQ(compared, solver.size());
 }
 
 }  // namespace

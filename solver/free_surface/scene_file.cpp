@@ -104,6 +104,13 @@ std::vector<Body> bodies_of(const Scene& scene) {
     return bodies;
 }
 
+/// A coefficient of two materials in contact, with its bounds.
+Parameter pair_setting(const std::string& key, const std::string& key_in_dictionary, double value, const std::string& help) {
+    const auto& table = coupling::setting_table<coupling::PairSettings>();
+    const auto setting = std::find_if(table.begin(), table.end(), [&](const auto& one) { return one.parameter.key == key_in_dictionary; });
+    return bounded(number(key, "-", value, setting->parameter.minimum.value(), help), setting->parameter.maximum.value());
+}
+
 /// Reads one scene; collects what is wrong.
 class Reader {
 public:
@@ -753,7 +760,7 @@ const ParameterTable& scene_table() {
         keys.push_back(positive("contact.reference_length_m", "m", 5e-4, "Length of the contact law; not tied to the cells."));
         keys.push_back(number("contact.damping", "-", 0.4, 0.0, "Damping of the contact law, below 0.707."));
         keys.push_back(bounded(number("contact.poisson", "-", 0.3, 0.0, "Poisson's ratio in the tangential stiffness."), 0.5));
-        keys.push_back(bounded(number("contact.friction", "-", 0.3, 0.0, "Coulomb friction."), 10.0));
+        keys.push_back(pair_setting("contact.friction", "friction", 0.3, "Coulomb friction."));
         keys.push_back(choice("contact.shear", "accumulated", {"accumulated", "one_step"}, "What stretches the tangential spring."));
         keys.push_back(derived(number("contact.gap_m", "m", {}, 0.0, "Distance at which surfaces touch; half of it at walls."),
                                "a quarter of a cell"));

@@ -52,7 +52,7 @@ void check_walls(Mistakes& mistakes, const DemSettings& settings) {
                          "Add it to rock.domain.walls");
 }
 
-void check_linear(Mistakes& mistakes, const DemSettings& settings) {
+void check_linear(Mistakes& mistakes, const DemSettings& settings, const std::string& where) {
     const LinearContactSettings& law = settings.linear;
     mistakes.positive("contact.theta", law.theta);
     mistakes.positive("contact.reference_length_m", law.reference_length);
@@ -63,7 +63,7 @@ void check_linear(Mistakes& mistakes, const DemSettings& settings) {
     mistakes.require(std::isfinite(law.steps_per_period) && law.steps_per_period >= 20.0, "contact steps per period", law.steps_per_period,
                      "It must be at least 20", k_correct);
     for (const auto& [name, given] : every_pair(settings.contact)) {
-        mistakes.not_negative("contact.friction", given.friction);
+        mistakes.add(setting_mistakes(given, "contact.pairs." + name, where));
         mistakes.require(given.rolling_friction == 0.0, "rolling friction", given.rolling_friction, "It must be 0: the linear law has none",
                          k_correct);
     }
@@ -147,7 +147,7 @@ bool contains(const DomainSettings& domain, const Vec3& centre) {
 std::vector<Mistake> check_settings(const DemSettings& settings, const std::string& where) {
     Mistakes mistakes(where);
     if (settings.law == ContactLaw::linear)
-        check_linear(mistakes, settings);
+        check_linear(mistakes, settings, where);
     else
         check_hertz(mistakes, settings.contact, where);
     check_walls(mistakes, settings);

@@ -7,6 +7,7 @@
 #include "cases/scenes/room/room_measures.hpp"
 #include "cases/scenes/room/room_study.hpp"
 #include "cases/scenes/room/solid_generators.hpp"
+#include "cases/study/study_section.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
 
 namespace cutterflow::cases {
@@ -42,8 +43,14 @@ Row text(const std::string& key, const char* help) {
 Row choice(const std::string& key, std::vector<std::string> choices, const char* help) {
     return Row(key, ParameterKind::choice, "-", help).one_of(std::move(choices));
 }
-Row share(const std::string& key, const char* help) {
-    return number(key, "-", help).at_least(0.0).at_most(1.0);
+/// A setting of the solver, with its bounds and choices.
+template <class Settings>
+Row setting(const std::string& key, const char* key_in_dictionary, const char* help) {
+    Parameter parameter = StudySection<Settings>::row(key_in_dictionary);
+    parameter.key = key;
+    parameter.help = help;
+    parameter.default_value.reset();
+    return Row(std::move(parameter));
 }
 
 /// A part of space: `key = { box = { lower_m = [..], upper_m = [..] } }`. Its rows stand in a table within an array's.
@@ -155,31 +162,27 @@ ParameterTable boundary_rows() {
 }
 
 ParameterTable material_rows() {
+    using Contact = coupling::ContactSettings;
+    using Pair = coupling::PairSettings;
     return {
         text("material.name", "Name of the material.").repeated(),
-        number("material.youngs_modulus_pa", "Pa", "Young's modulus of the grains' material; solids get the same.")
-            .at_least(1e4)
-            .at_most(1e12)
+        setting<Contact>("material.youngs_modulus_pa", "youngsModulus", "Young's modulus of the grains' material; solids get the same.")
             .optional()
             .repeated(),
-        number("material.poisson", "-", "Poisson's ratio.").at_least(0.0).at_most(0.49).by_default(0.25).repeated(),
+        setting<Contact>("material.poisson", "poissonRock", "Poisson's ratio.").by_default(0.25).repeated(),
         Row("contact.pair", ParameterKind::texts, "-", "The two materials; one is that of the grains.").of_length(2).repeated(),
-        number("contact.friction", "-", "Coulomb friction.").at_least(0.0).at_most(10.0).repeated(),
-        number("contact.rolling", "-", "Rolling friction: largest rolling couple over normal force and rolling radius.")
-            .at_least(0.0)
-            .at_most(10.0)
+        setting<Pair>("contact.friction", "friction", "Coulomb friction.").repeated(),
+        setting<Pair>("contact.rolling", "rollingFriction",
+                      "Rolling friction: largest rolling couple over normal force and rolling radius.")
             .by_default(0.0)
             .repeated(),
-        number("contact.restitution", "-", "Dry coefficient of restitution.").at_least(0.14).at_most(1.0).repeated(),
-        choice("dem.rolling_law", {"spring", "constant"}, "How rolling friction acts: with a state of rest, or as a constant couple.")
+        setting<Pair>("contact.restitution", "restitution", "Dry coefficient of restitution.").repeated(),
+        setting<Contact>("dem.rolling_law", "rollingLaw", "How rolling friction acts: with a state of rest, or as a constant couple.")
             .by_default(std::string("spring")),
-        share("dem.time_step_fraction", "Step of the contacts over the smaller of Rayleigh and Hertz time.")
-            .above(0.0)
-            .at_most(0.3)
+        setting<Contact>("dem.time_step_fraction", "timeStepFraction",
+                         "Step of the contacts over the smaller of Rayleigh and Hertz time.")
             .by_default(0.15),
-        number("dem.max_speed_m_s", "m/s", "Fastest impact that the step allows for.")
-            .above(0.0)
-            .at_most(1e3)
+        setting<Contact>("dem.max_speed_m_s", "maxSpeed", "Fastest impact that the step allows for.")
             .derived("fall over the room's height"),
         duration("dem.longest_step_s", "Longest time between looks at events, gates and stop rules.")
             .derived("0.1 sqrt(d/g), at most a write interval"),

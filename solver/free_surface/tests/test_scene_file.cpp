@@ -56,6 +56,17 @@ hole_spacing_m = 0.02
 }
 
 /// A dam of 0.1 m x 0.1 m in a tank of 0.2 m x 0.2 m, a body in it: counts by hand, a step's cost that grows with each of them.
+TEST(SceneFile, has_the_solvers_bounds_of_friction) {
+    const auto mistakes_with = [](const std::string& friction) {
+        return mistakes_of(k_tank + k_fill + "[contact]\nfriction = " + friction);
+    };
+    EXPECT_EQ(mistakes_with("10"), "");
+    EXPECT_THAT(mistakes_with("10.1"), ::testing::HasSubstr("contact.friction = 10.1"));
+    coupling::DemSettings dem = parse_scene(k_tank + k_fill, "scene.toml").dem;
+    dem.contact.rock_rock.friction = 10.1;
+    EXPECT_EQ(coupling::check_settings(dem, "").size(), 1u);
+}
+
 TEST(SceneFile, predicts_steps_and_cost_from_what_the_scene_holds) {
     const auto predicted = [](const std::string& more) { return predict(parse_scene(k_tank + k_fill + more, "scene.toml")); };
     const ScenePrediction water = predicted("");
