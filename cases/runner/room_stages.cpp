@@ -1,7 +1,6 @@
 #include "cases/runner/room_stages.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <random>
 
@@ -27,36 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Say = std::function<void(const std::string&)>;
-
-constexpr const char* k_geometry = "geometry";
-constexpr const char* k_bed = "bed";
-constexpr const char* k_case = "case";
-constexpr const char* k_report = "report";
-
-/// Which stage uses a key first, by the longest beginning that fits.
-constexpr std::array<std::pair<const char*, const char*>, 25> k_stage_of_keys{{
-    {"name", k_report},        {"scene.", k_report},       {"measure.", k_case},
-    {"room.", k_bed},          {"room.medium", k_case},    {"room.tilt", k_case},
-    {"room.density", k_case},  {"room.kinematic", k_case}, {"room.turbulence", k_case},
-    {"room.cell", k_case},     {"room.refine", k_case},    {"solid.", k_geometry},
-    {"solid.material", k_bed}, {"solid.fluid", k_case},    {"solid.velocity", k_case},
-    {"solid.from_s", k_case},  {"solid.to_s", k_case},     {"solid.removed", k_case},
-    {"boundary.", k_case},     {"boundary.grains", k_bed}, {"run.", k_case},
-    {"run.seed", k_bed},       {"event.", k_case},         {"closures.", k_case},
-    {"kernel.", k_case},
-}};
-
-std::string stage_of(const std::string& key) {
-    std::string stage = k_bed;  // grains, contacts, materials, steps of the preparation
-    std::size_t longest = 0;
-    for (const auto& [beginning, name] : k_stage_of_keys) {
-        const std::size_t length = std::string(beginning).size();
-        if (key.compare(0, length, beginning) != 0 || length <= longest) continue;
-        longest = length;
-        stage = name;
-    }
-    return stage;
-}
+using namespace room_stage;
 
 /// What a table of an array is called in messages: its name, its pair, or its number.
 std::string member_name(const ParameterValues& member, const std::string& array, std::size_t number) {
@@ -70,8 +40,7 @@ void add_inputs(const ParameterValues& values, const std::string& array, const s
                 std::map<std::string, std::string>& inputs) {
     const ParameterTable& table = room_table();
     for (const Parameter& parameter : table) {
-        if (parameter_words::enclosing_array(table, parameter.key) != array || !values.has(parameter.key) ||
-            stage_of(parameter.key) != stage)
+        if (parameter_words::enclosing_array(table, parameter.key) != array || !values.has(parameter.key) || parameter.stage != stage)
             continue;
         const std::string name = prefix + parameter.key.substr(array.size());
         inputs[name] =

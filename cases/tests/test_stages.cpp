@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/runner/pipeline.hpp"
+#include "cases/scenes/room/room_study.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -120,6 +121,33 @@ TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row
     write_file(folder / surface, "another solid");
     EXPECT_NE(case_inputs().at("bank.file"), before.at("bank.file"));
     fs::remove(folder / surface);
+}
+
+TEST(StageInputs, of_a_room_belong_to_the_stage_that_every_row_names) {
+    std::map<std::string, std::string> stage_of;
+    for (const Parameter& parameter : room_table()) stage_of[parameter.key] = parameter.stage;
+    for (const auto& [key, stage] : stage_of)
+        EXPECT_TRUE(stage == room_stage::k_geometry || stage == room_stage::k_bed || stage == room_stage::k_case ||
+                    stage == room_stage::k_report)
+            << key << ": " << stage;
+    const std::map<std::string, std::string> expected{{"name", "report"},
+                                                      {"room.size_m", "bed"},
+                                                      {"room.tilt_deg", "case"},
+                                                      {"room.refine.box.lower_m", "case"},
+                                                      {"solid.inner_radius_m", "geometry"},
+                                                      {"solid.material", "bed"},
+                                                      {"solid.velocity_m_s", "case"},
+                                                      {"boundary.flow", "case"},
+                                                      {"boundary.grains", "bed"},
+                                                      {"contact.friction", "bed"},
+                                                      {"dem.time_step_fraction", "bed"},
+                                                      {"grains.class.mass_share", "bed"},
+                                                      {"prepare.region.sphere.radius_m", "bed"},
+                                                      {"event.rate_kg_s", "case"},
+                                                      {"measure.what", "case"},
+                                                      {"run.end_s", "case"},
+                                                      {"run.seed", "bed"}};
+    for (const auto& [key, stage] : expected) EXPECT_EQ(stage_of.at(key), stage) << key;
 }
 
 TEST_F(Stages, changed_inputs_redo_what_follows_while_there_are_no_results) {

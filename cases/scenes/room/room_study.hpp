@@ -9,6 +9,14 @@
 
 namespace cutterflow::cases {
 
+/// Stages of a room's run that depend on keys.
+namespace room_stage {
+inline constexpr const char* k_geometry = "geometry";
+inline constexpr const char* k_bed = "bed";
+inline constexpr const char* k_case = "case";
+inline constexpr const char* k_report = "report";
+}  // namespace room_stage
+
 /// Every key of such a study.
 const ParameterTable& room_table();
 

@@ -1,7 +1,4 @@
 /// \file The one declaration of every key of a room's study.
-#include <algorithm>
-#include <iterator>
-
 #include <fmt/format.h>
 
 #include "cases/scenes/room/room_measures.hpp"
@@ -15,6 +12,7 @@ namespace cutterflow::cases {
 namespace {
 
 using Row = ParameterRow;
+using namespace room_stage;
 
 constexpr double k_largest_length = 1e3;  // [m]
 constexpr double k_longest_time = 1e6;    // [s]
@@ -80,23 +78,32 @@ ParameterTable room_rows() {
             .above(0.0)
             .at_most(k_largest_length),
         choice("room.medium", {"none", "water", "air"}, "What fills the room; none moves grains by weight and contacts alone.")
-            .by_default(std::string("none")),
-        number("room.density_kg_m3", "kg/m3", "Density of the medium.").at_least(1e-3).at_most(3e3).derived("water 1000, air 1.2"),
+            .by_default(std::string("none"))
+            .stage(k_case),
+        number("room.density_kg_m3", "kg/m3", "Density of the medium.")
+            .at_least(1e-3)
+            .at_most(3e3)
+            .derived("water 1000, air 1.2")
+            .stage(k_case),
         number("room.kinematic_viscosity_m2_s", "m2/s", "Kinematic viscosity of the medium.")
             .at_least(1e-8)
             .at_most(1.0)
-            .derived("water 1e-6, air 1.5e-5"),
-        choice("room.turbulence", {"realizableKE", "kEpsilon", "laminar"}, "Model of turbulence of the medium.").derived("realizableKE"),
-        length("room.cell_m", "Size of the mesh's cells; with a medium only.").derived("needed with a medium"),
+            .derived("water 1e-6, air 1.5e-5")
+            .stage(k_case),
+        choice("room.turbulence", {"realizableKE", "kEpsilon", "laminar"}, "Model of turbulence of the medium.")
+            .derived("realizableKE")
+            .stage(k_case),
+        length("room.cell_m", "Size of the mesh's cells; with a medium only.").derived("needed with a medium").stage(k_case),
         number("room.gravity_m_s2", "m/s2", "Gravity.").at_least(0.0).at_most(100.0).by_default(9.81),
         number("room.tilt_deg", "deg", "By how much gravity leans from the vertical, towards +x, in the run; the preparation is upright.")
             .at_least(-90.0)
             .at_most(90.0)
-            .by_default(0.0),
+            .by_default(0.0)
+            .stage(k_case),
         text("room.material", "Material of the sides that are walls to grains.").by_default(std::string("steel")),
-        length("room.refine.cell_m", "Size of the cells in the part that this table gives.").repeated(),
+        length("room.refine.cell_m", "Size of the cells in the part that this table gives.").repeated().stage(k_case),
     };
-    for (const Parameter& row : region_rows("room.refine")) rows.push_back(row);
+    for (const Parameter& row : region_rows("room.refine")) rows.push_back(Row(row).stage(k_case));
     return rows;
 }
 
@@ -110,20 +117,22 @@ ParameterTable solid_rows() {
             "Closed surface (STL, OBJ or PLY) in the room's frame, in metres; give this or generate.")
             .optional()
             .repeated(),
-        text("solid.material", "Material, for its contacts with grains.").by_default(std::string("steel")).repeated(),
+        text("solid.material", "Material, for its contacts with grains.").by_default(std::string("steel")).repeated().stage(k_bed),
         Row("solid.fluid", ParameterKind::boolean, "-", "Whether the medium feels the solid; grains always do.")
             .by_default(true)
-            .repeated(),
+            .repeated()
+            .stage(k_case),
         Row("solid.velocity_m_s", ParameterKind::numbers, "m/s",
             "Constant velocity from from_s to to_s; before and after the solid stands.")
             .of_length(3)
             .at_least(-100.0)
             .at_most(100.0)
             .optional()
-            .repeated(),
-        time("solid.from_s", "When it begins to move.").optional().repeated(),
-        time("solid.to_s", "When it stops.").optional().repeated(),
-        time("solid.removed_at_s", "When it is taken away; 0: it is there for the preparation alone.").optional().repeated(),
+            .repeated()
+            .stage(k_case),
+        time("solid.from_s", "When it begins to move.").optional().repeated().stage(k_case),
+        time("solid.to_s", "When it stops.").optional().repeated().stage(k_case),
+        time("solid.removed_at_s", "When it is taken away; 0: it is there for the preparation alone.").optional().repeated().stage(k_case),
     };
     for (const Parameter& row : solid_size_rows()) rows.push_back(row);
     return rows;
@@ -157,7 +166,8 @@ ParameterTable boundary_rows() {
             .optional(),
         choice("boundary.grains", {"wall", "open", "frictionless"}, "What the whole of these sides is to grains.")
             .derived("walls; the top is open")
-            .repeated(),
+            .repeated()
+            .stage(k_bed),
     };
 }
 
@@ -179,8 +189,7 @@ ParameterTable material_rows() {
         setting<Pair>("contact.restitution", "restitution", "Dry coefficient of restitution.").repeated(),
         setting<Contact>("dem.rolling_law", "rollingLaw", "How rolling friction acts: with a state of rest, or as a constant couple.")
             .by_default(std::string("spring")),
-        setting<Contact>("dem.time_step_fraction", "timeStepFraction",
-                         "Step of the contacts over the smaller of Rayleigh and Hertz time.")
+        setting<Contact>("dem.time_step_fraction", "timeStepFraction", "Step of the contacts over the smaller of Rayleigh and Hertz time.")
             .by_default(0.15),
         setting<Contact>("dem.max_speed_m_s", "maxSpeed", "Fastest impact that the step allows for.")
             .derived("fall over the room's height"),
@@ -258,8 +267,14 @@ ParameterTable run_rows() {
         Row("run.seed", ParameterKind::integer, "-", "Seed of all random numbers; repeats differ by it.")
             .at_least(0.0)
             .at_most(1e9)
-            .by_default(std::int64_t{1}),
+            .by_default(std::int64_t{1})
+            .stage(k_bed),
     };
+}
+
+/// \param stage  of the rows that name none
+void add(ParameterTable& table, const char* stage, const ParameterTable& rows) {
+    for (const Parameter& row : rows) table.push_back(row.stage.empty() ? Row(row).stage(stage) : row);
 }
 
 }  // namespace
@@ -267,9 +282,16 @@ ParameterTable run_rows() {
 const ParameterTable& room_table() {
     static const ParameterTable table = [] {
         ParameterTable all;
-        for (const ParameterTable& rows : {head_rows(), room_rows(), run_rows(), solid_rows(), boundary_rows(), material_rows(),
-                                           grain_rows(), prepare_rows(), event_rows(), measure_rows()})
-            std::copy(rows.begin(), rows.end(), std::back_inserter(all));
+        add(all, k_report, head_rows());
+        add(all, k_bed, room_rows());
+        add(all, k_case, run_rows());
+        add(all, k_geometry, solid_rows());
+        add(all, k_case, boundary_rows());
+        add(all, k_bed, material_rows());
+        add(all, k_bed, grain_rows());
+        add(all, k_bed, prepare_rows());
+        add(all, k_case, event_rows());
+        add(all, k_case, measure_rows());
         return all;
     }();
     return table;
