@@ -11,24 +11,6 @@ namespace {
 
 constexpr const char* k_correct = "Correct the value";
 
-bool holds(const EverywhereRegion&, const Vec3&) {
-    return true;
-}
-bool holds(const BoxRegion& box, const Vec3& point) {
-    return (point.array() >= box.lower.array()).all() && (point.array() <= box.upper.array()).all();
-}
-bool holds(const SphereRegion& sphere, const Vec3& point) {
-    return (point - sphere.centre).norm() <= sphere.radius;
-}
-bool holds(const CylinderRegion& cylinder, const Vec3& point) {
-    const Vec3 axis = cylinder.to - cylinder.from, from = point - cylinder.from;
-    const double along = axis.dot(from) / axis.squaredNorm();
-    return along >= 0.0 && along <= 1.0 && (from - along * axis).norm() <= cylinder.radius;
-}
-bool holds(const HalfSpaceRegion& half, const Vec3& point) {
-    return half.normal.dot(point - half.point) >= 0.0;
-}
-
 void check(Mistakes&, const std::string&, const EverywhereRegion&) {}
 void check(Mistakes& mistakes, const std::string& key, const BoxRegion& box) {
     mistakes.require((box.lower.array() < box.upper.array()).all(), key + ".region: a box without room",
@@ -70,10 +52,6 @@ void check_gate(Mistakes& mistakes, const GateSettings& gate) {
 }
 
 }  // namespace
-
-bool is_within(const Region& region, const Vec3& point) {
-    return std::visit([&](const auto& kind) { return holds(kind, point); }, region);
-}
 
 const char* name_of(OperationKind kind) {
     return k_operation_names[static_cast<std::size_t>(kind)];

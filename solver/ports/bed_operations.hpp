@@ -3,36 +3,13 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/region.hpp"
 #include "geometry/base/vec3.hpp"
 
 namespace cutterflow::coupling {
-
-/// Along the axes.
-struct BoxRegion {
-    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< opposite corners [m]
-};
-struct SphereRegion {
-    Vec3 centre = Vec3::Zero();  ///< [m]
-    double radius = 0.0;         ///< [m]
-};
-struct CylinderRegion {
-    Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< centres of its ends [m]
-    double radius = 0.0;                          ///< [m]
-};
-/// The side of a plane to which its normal points.
-struct HalfSpaceRegion {
-    Vec3 point = Vec3::Zero();  ///< [m]
-    Vec3 normal = Vec3::UnitZ();
-};
-struct EverywhereRegion {};
-
-/// A part of space; its boundary belongs to it.
-using Region = std::variant<EverywhereRegion, BoxRegion, SphereRegion, CylinderRegion, HalfSpaceRegion>;
-bool is_within(const Region& region, const Vec3& point);
 
 enum class OperationKind { remove, freeze, thaw, extract };
 inline constexpr std::array<const char*, 4> k_operation_names{"remove", "freeze", "thaw", "extract"};  ///< in the order of OperationKind

@@ -49,7 +49,7 @@ SolidMap solid_map(const Grains& grains, const PlaneGrid& grid, double fast) {
         if ((reach < -radius).any() || (reach > (grid.box.upper - grid.box.lower).array() + radius).any()) continue;
         for (const Vec3& point : points) {
             const Vec3 place = grains.position[n] + radius * point;
-            if (!contains(grid.box, place)) continue;
+            if (!is_within(grid.box, place)) continue;
             const int i = std::min(columns - 1, static_cast<int>((place[a] - grid.box.lower[a]) / width));
             const int j = std::min(rows - 1, static_cast<int>((place[b] - grid.box.lower[b]) / height));
             const std::size_t cell = static_cast<std::size_t>(j) * columns + i;

@@ -40,22 +40,7 @@ Region region_of(const nlohmann::json& value) {
     if (kind == "sphere") return SphereRegion{vector_of(numbers["centre_m"]), numbers["radius_m"].get<double>()};
     if (kind == "cylinder")
         return CylinderRegion{vector_of(numbers["from_m"]), vector_of(numbers["to_m"]), numbers["radius_m"].get<double>()};
-    return HalfSpace{vector_of(numbers["point_m"]), vector_of(numbers["normal"])};
-}
-
-bool contains(const Region& region, const Vec3& place) {
-    return std::visit(Overloaded{[](const Everywhere&) { return true; },
-                                 [&](const BoxRegion& box) {
-                                     return (place.array() >= box.lower.array()).all() && (place.array() <= box.upper.array()).all();
-                                 },
-                                 [&](const SphereRegion& sphere) { return (place - sphere.centre).norm() <= sphere.radius; },
-                                 [&](const CylinderRegion& cylinder) {
-                                     const Vec3 axis = cylinder.to - cylinder.from, arm = place - cylinder.from;
-                                     const double share = arm.dot(axis) / axis.squaredNorm();
-                                     return share >= 0.0 && share <= 1.0 && (arm - share * axis).norm() <= cylinder.radius;
-                                 },
-                                 [&](const HalfSpace& half) { return (place - half.point).dot(half.normal) > 0.0; }},
-                      region);
+    return HalfSpaceRegion{vector_of(numbers["point_m"]), vector_of(numbers["normal"])};
 }
 
 double volume_of(const Region& region) {
@@ -71,7 +56,8 @@ double volume_of(const Region& region) {
 Grains grains_in(const Grains& grains, const Region& region) {
     Grains inside;
     for (std::size_t i = 0; i < grains.size(); ++i)
-        if (contains(region, grains.position[i])) inside.add(grains.position[i], grains.velocity[i], grains.diameter[i], grains.density[i]);
+        if (is_within(region, grains.position[i]))
+            inside.add(grains.position[i], grains.velocity[i], grains.diameter[i], grains.density[i]);
     return inside;
 }
 
@@ -116,7 +102,7 @@ double solid_share(const Grains& grains, const Region& region) {
     double solid = 0.0;
     for (std::size_t i = 0; i < grains.size(); ++i) {
         const auto inside = std::count_if(points.begin(), points.end(), [&](const Vec3& point) {
-            return contains(region, grains.position[i] + 0.5 * grains.diameter[i] * point);
+            return is_within(region, grains.position[i] + 0.5 * grains.diameter[i] * point);
         });
         solid += sphere_volume(grains.diameter[i]) * static_cast<double>(inside) / static_cast<double>(points.size());
     }

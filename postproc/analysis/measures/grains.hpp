@@ -1,12 +1,11 @@
 #pragma once
-/// \file Grains at one time, and regions of space.
+/// \file Grains at one time, in regions of space.
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/base/vec3.hpp"
+#include "geometry/base/region.hpp"
 
 namespace cutterflow::postproc {
 
@@ -18,28 +17,8 @@ struct Grains {
     void add(const Vec3& place, const Vec3& speed, double size, double mass_density);
 };
 
-struct BoxRegion {
-    Vec3 lower, upper;
-};
-struct SphereRegion {
-    Vec3 centre;
-    double radius;
-};
-struct CylinderRegion {
-    Vec3 from, to;  ///< ends of its axis
-    double radius;
-};
-/// Where (place - point) . normal > 0.
-struct HalfSpace {
-    Vec3 point, normal;
-};
-struct Everywhere {};
-using Region = std::variant<Everywhere, BoxRegion, SphereRegion, CylinderRegion, HalfSpace>;
-
 /// \pre the value passes check_measures
 Region region_of(const nlohmann::json& value);
-
-bool contains(const Region& region, const Vec3& place);
 
 /// [m3]; infinite for a half space and everywhere.
 double volume_of(const Region& region);

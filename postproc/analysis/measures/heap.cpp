@@ -19,7 +19,7 @@ double degrees(double slope) {
 }
 
 Grains above(const Grains& grains, double base) {
-    return grains_in(grains, HalfSpace{Vec3(0.0, 0.0, base), Vec3::UnitZ()});
+    return grains_in(grains, HalfSpaceRegion{Vec3(0.0, 0.0, base), Vec3::UnitZ()});
 }
 
 double height_at(const Profile& given, double place) {

@@ -53,7 +53,7 @@ json series_of(const char* x_name, const std::vector<double>& x, const char* y_n
 }
 
 Region region_or_everywhere(const MeasureValues& values) {
-    return values.has("region") ? region_of(values.raw("region")) : Region(Everywhere{});
+    return values.has("region") ? region_of(values.raw("region")) : Region(EverywhereRegion{});
 }
 
 /// The grains that a measure looks at, and the time of their picture.

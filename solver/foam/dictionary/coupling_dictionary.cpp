@@ -178,26 +178,26 @@ void read_rock(DictionarySection& section, const std::filesystem::path& folder, 
     result.dem = dem;
 }
 
-void read_region(DictionarySection& section, coupling::Region& region) {
+void read_region(DictionarySection& section, Region& region) {
     const std::string type = section.read_choice("type", {"everything", "box", "sphere", "cylinder", "halfSpace"}, k_required);
     if (type == "box") {
-        coupling::BoxRegion box;
+        BoxRegion box;
         section.read("lower", box.lower, k_required);
         section.read("upper", box.upper, k_required);
         region = box;
     } else if (type == "sphere") {
-        coupling::SphereRegion sphere;
+        SphereRegion sphere;
         section.read("centre", sphere.centre, k_required);
         section.read("radius", sphere.radius, k_required);
         region = sphere;
     } else if (type == "cylinder") {
-        coupling::CylinderRegion cylinder;
+        CylinderRegion cylinder;
         section.read("from", cylinder.from, k_required);
         section.read("to", cylinder.to, k_required);
         section.read("radius", cylinder.radius, k_required);
         region = cylinder;
     } else if (type == "halfSpace") {
-        coupling::HalfSpaceRegion half;
+        HalfSpaceRegion half;
         section.read("point", half.point, k_required);
         section.read("normal", half.normal, k_required);
         region = half;
