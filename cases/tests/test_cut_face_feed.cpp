@@ -245,7 +245,7 @@ TEST(CutFaceFeed, of_a_study_follows_from_its_bank_and_soil) {
     for (const PlacedRock& rock : feeds[0].rocks) {
         const FeedClass& its = feeds[0].request.classes.at(rock.rock_class);
         EXPECT_EQ(its.density, 2700.0);
-        for (const RockPlace& place : rock.places)
+        for (const coupling::FeedPlace& place : rock.places)
             EXPECT_NEAR((*place.velocity - 0.5 * 2.0 * k_pi * Vec3::UnitZ().cross(place.position)).norm(), 0.0, 1e-12);
         mass += sphere_mass(its.diameter, its.density);
     }

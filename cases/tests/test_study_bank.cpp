@@ -264,7 +264,7 @@ TEST(StudyBank, has_no_fed_rock_in_its_soil) {
         ASSERT_EQ(feeds.size(), 1u);
         ASSERT_GT(feeds.front().rocks.size(), 20u);
         for (const PlacedRock& rock : feeds.front().rocks)
-            for (const RockPlace& place : rock.places) {
+            for (const coupling::FeedPlace& place : rock.places) {
                 EXPECT_FALSE(soil.contains(place.position));
                 EXPECT_GT(soil.nearest(place.position).distance, 0.01);
             }

@@ -10,20 +10,15 @@
 #include "geometry/head/contour.hpp"
 #include "geometry/soil/cut_face.hpp"
 #include "geometry/surface/surface.hpp"
+#include "solver/ports/feed_place.hpp"
 
 namespace cutterflow::cases {
 
-/// Where a rock may go in.
-struct RockPlace {
-    Vec3 position = Vec3::Zero();
-    std::optional<Vec3> velocity;  ///< [m/s]; none: that of the water there
-};
-
 /// One rock of constant/rockFeed.csv.
 struct PlacedRock {
-    double time = 0.0;              ///< [s]
-    std::vector<RockPlace> places;  ///< one or more, the best first
-    std::size_t rock_class = 0;     ///< index in the feed's classes
+    double time = 0.0;                        ///< [s]
+    std::vector<coupling::FeedPlace> places;  ///< one or more, the best first
+    std::size_t rock_class = 0;               ///< index in the feed's classes
 };
 
 /// Rock of a cut face that starts with the velocity of a body which turns about z. \param angular_velocity  [rad/s]

@@ -8,14 +8,9 @@
 #include "geometry/base/vec3.hpp"
 #include "solver/ports/clump_shape.hpp"
 #include "solver/ports/dem_engine.hpp"
+#include "solver/ports/feed_place.hpp"
 
 namespace cutterflow::coupling {
-
-/// Where a rock may go in.
-struct FeedPlace {
-    Vec3 position = Vec3::Zero();  ///< [m]
-    std::optional<Vec3> velocity;  ///< [m/s]; absent: the local fluid velocity
-};
 
 /// One rock to be placed.
 struct FeedRock {
