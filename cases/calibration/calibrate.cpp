@@ -124,7 +124,7 @@ private:
     const CalibrateSettings& settings_;
     const std::function<void(const std::string&)>& say_;
     std::vector<calibration::Evaluation> evaluations_;
-    calibration::Cost cost_;
+    calibration::CalibrationCost cost_;
 };
 
 std::string run_grid(const CalibrationFile& file, Places& places) {

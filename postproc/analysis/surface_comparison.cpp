@@ -32,15 +32,15 @@ std::vector<RunQuantity> quantities_of(const std::filesystem::path& run) {
 
 }  // namespace
 
-std::vector<Setting> compare_surface_runs(const std::vector<std::filesystem::path>& runs) {
+std::vector<SettingResults> compare_surface_runs(const std::vector<std::filesystem::path>& runs) {
     return compare_settings(runs, quantities_of);
 }
 
-nlohmann::json surface_comparison_json(const std::vector<Setting>& settings) {
+nlohmann::json surface_comparison_json(const std::vector<SettingResults>& settings) {
     return setting_comparison_json(settings, k_schema);
 }
 
-std::filesystem::path write_surface_comparison(const std::vector<Setting>& settings, const std::filesystem::path& folder) {
+std::filesystem::path write_surface_comparison(const std::vector<SettingResults>& settings, const std::filesystem::path& folder) {
     return write_setting_comparison(settings, k_schema, folder);
 }
 

@@ -10,11 +10,11 @@
 namespace cutterflow::postproc {
 
 /// \throws UserError  when a folder is no run of a free-surface study
-std::vector<Setting> compare_surface_runs(const std::vector<std::filesystem::path>& runs);
+std::vector<SettingResults> compare_surface_runs(const std::vector<std::filesystem::path>& runs);
 
-nlohmann::json surface_comparison_json(const std::vector<Setting>& settings);
+nlohmann::json surface_comparison_json(const std::vector<SettingResults>& settings);
 
 /// Writes comparison.json and index.html. \return the page
-std::filesystem::path write_surface_comparison(const std::vector<Setting>& settings, const std::filesystem::path& folder);
+std::filesystem::path write_surface_comparison(const std::vector<SettingResults>& settings, const std::filesystem::path& folder);
 
 }  // namespace cutterflow::postproc

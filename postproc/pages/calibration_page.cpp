@@ -9,7 +9,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "postproc/draw/gnuplot.hpp"
-#include "postproc/draw/head/contour.hpp"
+#include "postproc/draw/head/isoline.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
 
@@ -106,13 +106,13 @@ Figure map_figure(const Outcome& outcome, const Map& map) {
     plot.field = objective_field(map, darkest);
     for (const double share : {0.1, 0.25, 0.5, 1.0, 2.0}) {
         Series level = line("", palette::faint, 0.8);
-        const Contour found = contour(map.x, map.y, map.objective, share * darkest);
+        const Isoline found = isoline(map.x, map.y, map.objective, share * darkest);
         level.x = found.x;
         level.y = found.y;
         if (!level.x.empty()) plot.series.push_back(std::move(level));
     }
     Series edge = line("edge of the 95 % region", palette::spilled, 2.0);
-    const Contour region = contour(map.x, map.y, map.chi_squared, 1.0);
+    const Isoline region = isoline(map.x, map.y, map.chi_squared, 1.0);
     edge.x = region.x;
     edge.y = region.y;
     if (!edge.x.empty()) plot.series.push_back(std::move(edge));
@@ -148,7 +148,7 @@ Figure profile_figure(const Outcome& outcome, std::size_t k) {
     plot.y.from = 0.0;
     plot.tips = Tips::at_point;
     if (outcome.estimate) {
-        const Interval& interval = outcome.estimate->intervals[k];
+        const ParameterInterval& interval = outcome.estimate->intervals[k];
         plot.bands.push_back({interval.low, interval.high, "#fbe6da", "95 %"});
         Series fit = line("fit, others at their best", palette::sucked_up, 1.6);
         fit.x = outcome.estimate->profiles[k].x;
@@ -234,7 +234,7 @@ Figure heights_figure(const Agreement& agreement, std::size_t t) {
     return {std::move(plot), fmt::format("{}: heights of the target and at the chosen parameters.", html::escape(agreement.name)), ""};
 }
 
-std::string interval_text(const Interval& interval) {
+std::string interval_text(const ParameterInterval& interval) {
     if (!interval.determined()) return "not determined by the targets";
     std::string text = fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
     if (interval.reaches_low) text += ", open at the low end";
@@ -296,7 +296,7 @@ std::string determined_section(const Outcome& outcome) {
 }
 
 std::string cost_section(const Outcome& outcome) {
-    const Cost& cost = outcome.calibration.cost;
+    const CalibrationCost& cost = outcome.calibration.cost;
     const auto of = [](const std::optional<double>& budget) { return budget ? fmt::format(" of {:.4g}", *budget) : std::string(); };
     return html::table(
         {"quantity", "value"},

@@ -11,7 +11,7 @@ std::vector<std::string> basics() {
             "boundary f f f", "newton off",          "communicate single vel yes"};
 }
 
-std::vector<std::string> create_box(const Box& box) {
+std::vector<std::string> create_box(const SimulationBox& box) {
     return {fmt::format("region domain block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} units box", box.low.x(), box.high.x(),
                         box.low.y(), box.high.y(), box.low.z(), box.high.z()),
             "create_box 2 domain"};

@@ -8,15 +8,15 @@
 
 namespace cutterflow::liggghts::commands {
 
-/// Box of the simulation [m].
-struct Box {
+/// [m]
+struct SimulationBox {
     Vec3 low, high;
 };
 
 /// Units, particle kind and communication; before the box exists.
 std::vector<std::string> basics();
 /// Types: rock that moves, rock that is frozen.
-std::vector<std::string> create_box(const Box& box);
+std::vector<std::string> create_box(const SimulationBox& box);
 std::string read_restart(const std::filesystem::path& file);
 std::string write_restart(const std::filesystem::path& file);
 /// Of rock pairs. LIGGGHTS does not check for lost rock; the engine does and reports it.

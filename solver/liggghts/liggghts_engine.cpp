@@ -62,8 +62,8 @@ constexpr const char* k_wall_rolling = "wall_rolling";
 constexpr const char* k_contact_forces = "contact_forces";
 
 /// Smallest upright box around a domain.
-commands::Box bounds(const coupling::DomainSettings& domain) {
-    commands::Box box{domain.lower, domain.upper};
+commands::SimulationBox bounds(const coupling::DomainSettings& domain) {
+    commands::SimulationBox box{domain.lower, domain.upper};
     if (domain.shape == coupling::DomainShape::box) return box;
     box.low.head<2>() = domain.axis_point.head<2>().array() - domain.radius;
     box.high.head<2>() = domain.axis_point.head<2>().array() + domain.radius;
@@ -72,7 +72,7 @@ commands::Box bounds(const coupling::DomainSettings& domain) {
 
 /// A length of a domain's size: half its larger horizontal width [m].
 double half_width(const coupling::DomainSettings& domain) {
-    const commands::Box box = bounds(domain);
+    const commands::SimulationBox box = bounds(domain);
     return 0.5 * (box.high - box.low).head<2>().maxCoeff();
 }
 
@@ -132,7 +132,7 @@ private:
     void commands(const std::vector<std::string>& texts) {
         for (const std::string& text : texts) command(text);
     }
-    commands::Box box() const;
+    commands::SimulationBox box() const;
     void set_neighbours();
     void set_up();
     void gather();
@@ -207,9 +207,9 @@ LiggghtsEngine::Implementation::~Implementation() {
 }
 
 /// Encloses the domain with room for rock that is leaving.
-commands::Box LiggghtsEngine::Implementation::box() const {
+commands::SimulationBox LiggghtsEngine::Implementation::box() const {
     const double margin = (context_.has_clumps ? k_clump_margin : k_margin_in_radii) * half_width(settings_.domain);
-    commands::Box box = bounds(settings_.domain);
+    commands::SimulationBox box = bounds(settings_.domain);
     box.low.array() -= margin;
     box.high.array() += margin;
     return box;
@@ -285,7 +285,7 @@ void LiggghtsEngine::Implementation::declare_motion() {
 
 void LiggghtsEngine::Implementation::set_neighbours() {
     const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock * half_width(settings_.domain);
-    const commands::Box extent = box();
+    const commands::SimulationBox extent = box();
     const double coarsest = std::cbrt((extent.high - extent.low).prod() / k_most_bins);
     commands(commands::neighbours(skin, std::max(largest_radius_ + 0.5 * skin, coarsest)));
 }
@@ -710,7 +710,7 @@ void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path
 
 void LiggghtsEngine::Implementation::start_from(const std::filesystem::path& folder) {
     read_rocks(folder, read_state_file(folder));
-    const commands::Box needed = box();
+    const commands::SimulationBox needed = box();
     const LAMMPS_NS::Domain& domain = *lammps_->domain;
     const Vec3 low(domain.boxlo), high(domain.boxhi);
     const double rounding = 1e-9 * (needed.high - needed.low).norm();

@@ -19,7 +19,7 @@ Vec3 between(const std::vector<float>& values, std::size_t before, std::size_t a
 
 }  // namespace
 
-FrozenFluid::FrozenFluid(FlowRecording recording, const RunTimes& times)
+FrozenFluid::FrozenFluid(FlowRecording recording, const ClockTimes& times)
     : recording_(std::move(recording)),
       clock_(times, 2.0 * k_pi / (recording_.blades * recording_.phases * std::abs(recording_.moving.front().speed))),
       velocity_(recording_.cells.size()),

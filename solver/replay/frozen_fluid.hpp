@@ -10,7 +10,7 @@ namespace cutterflow::coupling {
 /// void fraction is kept, so that hindrance counts. On one rank.
 class FrozenFluid final : public FluidEngine {
 public:
-    FrozenFluid(FlowRecording recording, const RunTimes& times);
+    FrozenFluid(FlowRecording recording, const ClockTimes& times);
 
     bool feels_rock() const override { return false; }
     Cells cells() const override { return recording_.cells.view(); }

@@ -6,7 +6,7 @@
 namespace cutterflow::coupling {
 
 /// When a run without a fluid solver runs.
-struct RunTimes {
+struct ClockTimes {
     double start = 0.0, end = 0.0;         ///< [s]
     std::optional<double> write_interval;  ///< of pictures [s]
 };
@@ -15,7 +15,7 @@ struct RunTimes {
 class RunClock {
 public:
     /// \param longest_step  [s], > 0
-    RunClock(const RunTimes& times, double longest_step) : times_(times), longest_step_(longest_step), time_(times.start) {}
+    RunClock(const ClockTimes& times, double longest_step) : times_(times), longest_step_(longest_step), time_(times.start) {}
 
     double time() const { return time_; }  ///< [s]
     double step() const { return step_; }  ///< the last one [s]
@@ -29,7 +29,7 @@ public:
 private:
     double next_write_time() const;
 
-    RunTimes times_;
+    ClockTimes times_;
     double longest_step_;
     double time_;
     double step_ = 0.0;

@@ -64,8 +64,8 @@ public:
         }
     }
 
-    Estimate result() const {
-        Estimate found;
+    ParameterEstimate result() const {
+        ParameterEstimate found;
         const Eigen::VectorXd best = best_place(net_.objective, [this](const Eigen::VectorXd& at) { return objective(at); });
         found.parameters = unscaled(ranges_, best);
         found.objective = objective(best);
@@ -113,10 +113,10 @@ private:
         return std::min(net_.chi_squared[node], function(minimum_near(function, free)));
     }
 
-    Profile profile(Eigen::Index parameter, const Eigen::VectorXd& likeliest, double least, double limit) const {
+    ObjectiveProfile profile(Eigen::Index parameter, const Eigen::VectorXd& likeliest, double least, double limit) const {
         const auto side = static_cast<std::size_t>(net_.side);
         std::vector<std::size_t> best(side, net_.size());
-        Profile found;
+        ObjectiveProfile found;
         found.objective.assign(side, std::numeric_limits<double>::infinity());
         for (std::size_t node = 0; node < net_.size(); ++node) {
             const auto i = static_cast<std::size_t>(net_.index(node, parameter));
@@ -134,9 +134,9 @@ private:
     }
 
     /// From the first to the last value where the profile is below 1.
-    Interval interval(Eigen::Index parameter, const Profile& profile, const Eigen::VectorXd& likeliest) const {
+    ParameterInterval interval(Eigen::Index parameter, const ObjectiveProfile& profile, const Eigen::VectorXd& likeliest) const {
         const double middle = unscaled(ranges_, likeliest)[parameter];
-        Interval found{middle, middle, false, false};
+        ParameterInterval found{middle, middle, false, false};
         const auto inside = [&](std::size_t i) { return profile.chi_squared[i] <= 1.0; };
         const auto crossing = [&](std::size_t out, double x_in, double value_in) {
             const double share = (1.0 - value_in) / (profile.chi_squared[out] - value_in);
@@ -295,17 +295,17 @@ double Surface::degrees_of_freedom() const {
     return least;
 }
 
-Estimate estimate(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function) {
+ParameterEstimate estimate(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function) {
     return Search(surface, ranges, function).result();
 }
 
-bool narrow_enough(const Estimate& estimate, const std::vector<Range>& ranges) {
+bool narrow_enough(const ParameterEstimate& estimate, const std::vector<Range>& ranges) {
     for (std::size_t k = 0; k < ranges.size(); ++k)
         if (0.5 * (estimate.intervals[k].high - estimate.intervals[k].low) > ranges[k].tolerance) return false;
     return true;
 }
 
-std::vector<Eigen::VectorXd> next_places(const Estimate& estimate, const std::vector<Range>& ranges,
+std::vector<Eigen::VectorXd> next_places(const ParameterEstimate& estimate, const std::vector<Range>& ranges,
                                          const std::vector<Evaluation>& evaluations) {
     const Eigen::VectorXd best = scaled(ranges, estimate.parameters);
     const Direction& worst = estimate.directions.back();

@@ -60,7 +60,7 @@ private:
 };
 
 /// The 95 % interval of a parameter, in its own unit.
-struct Interval {
+struct ParameterInterval {
     double low = 0.0, high = 0.0;
     bool reaches_low = false, reaches_high = false;  ///< the end of the range: the targets do not bound it there
     bool determined() const { return !(reaches_low && reaches_high); }
@@ -84,31 +84,31 @@ struct Map {
 };
 
 /// Values along one parameter; what is least over the others.
-struct Profile {
+struct ObjectiveProfile {
     std::vector<double> x, objective, chi_squared;  ///< as in Map
 };
 
-struct Estimate {
+struct ParameterEstimate {
     Eigen::VectorXd parameters;  ///< where the objective is least
     double objective = 0.0;
     std::vector<std::vector<double>> model;  ///< of the fitted targets there
-    std::vector<Interval> intervals;
+    std::vector<ParameterInterval> intervals;
     std::vector<Direction> directions;  ///< best determined first
     double least_chi_squared = 0.0;
-    double contradiction = 1.0;     ///< factor of the intervals' squares for targets that contradict each other
-    std::vector<Profile> profiles;  ///< of each parameter
-    std::vector<Map> maps;          ///< of each pair of parameters
+    double contradiction = 1.0;              ///< factor of the intervals' squares for targets that contradict each other
+    std::vector<ObjectiveProfile> profiles;  ///< of each parameter
+    std::vector<Map> maps;                   ///< of each pair of parameters
 };
 
 /// \pre one to four parameters
-Estimate estimate(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function);
+ParameterEstimate estimate(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function);
 
 /// Whether every interval is as narrow as its tolerance asks.
-bool narrow_enough(const Estimate& estimate, const std::vector<Range>& ranges);
+bool narrow_enough(const ParameterEstimate& estimate, const std::vector<Range>& ranges);
 
 /// Up to three places in the region to run next: the estimate, and two on either side of it along the direction that is determined worst.
 /// Places that were run are left out.
-std::vector<Eigen::VectorXd> next_places(const Estimate& estimate, const std::vector<Range>& ranges,
+std::vector<Eigen::VectorXd> next_places(const ParameterEstimate& estimate, const std::vector<Range>& ranges,
                                          const std::vector<Evaluation>& evaluations);
 
 }  // namespace cutterflow::postproc::calibration

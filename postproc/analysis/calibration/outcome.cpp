@@ -70,7 +70,7 @@ nlohmann::json parameters_json(const Outcome& outcome) {
                            {"interval_95", nullptr},
                            {"determined", nullptr}};
         if (outcome.estimate) {
-            const Interval& interval = outcome.estimate->intervals[k];
+            const ParameterInterval& interval = outcome.estimate->intervals[k];
             row["interval_95"] = {interval.low, interval.high};
             row["interval_reaches_range"] = {interval.reaches_low, interval.reaches_high};
             row["determined"] = interval.determined();
@@ -80,7 +80,7 @@ nlohmann::json parameters_json(const Outcome& outcome) {
     return rows;
 }
 
-nlohmann::json estimate_json(const Estimate& estimate) {
+nlohmann::json estimate_json(const ParameterEstimate& estimate) {
     nlohmann::json directions = nlohmann::json::array();
     for (const Direction& direction : estimate.directions)
         directions.push_back(
@@ -102,7 +102,7 @@ double number_at(const nlohmann::json& value) {
 
 }  // namespace
 
-std::optional<Estimate> estimate_of(const Calibration& calibration) {
+std::optional<ParameterEstimate> estimate_of(const Calibration& calibration) {
     if (!determine_quadratic(scaled_places(calibration))) return std::nullopt;
     return estimate(Surface(calibration.ranges, calibration.targets.fitted, calibration.evaluations), calibration.ranges,
                     *calibration.objective);
@@ -191,7 +191,7 @@ std::string outcome_text(const Outcome& outcome) {
     for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k) {
         text += fmt::format("{} = {:.4g}", outcome.calibration.ranges[k].name, outcome.parameters[static_cast<Eigen::Index>(k)]);
         if (outcome.estimate) {
-            const Interval& interval = outcome.estimate->intervals[k];
+            const ParameterInterval& interval = outcome.estimate->intervals[k];
             text += interval.determined() ? fmt::format("  ({:.4g} to {:.4g})", interval.low, interval.high)
                                           : fmt::format("  (not determined: all of {:.4g} to {:.4g})", interval.low, interval.high);
         }

@@ -12,7 +12,7 @@ namespace cutterflow::postproc::calibration {
 
 inline constexpr const char* k_calibration_schema = "cutterflow.calibration/1";
 
-struct Cost {
+struct CalibrationCost {
     std::size_t runs = 0, failed_runs = 0;
     double core_h = 0.0;  ///< of all runs, as they noted it
     std::optional<double> budget_runs, budget_core_h;
@@ -35,21 +35,21 @@ struct Calibration {
     std::vector<Range> ranges;
     Targets targets;
     std::vector<Evaluation> evaluations;
-    Cost cost;
+    CalibrationCost cost;
     std::string ended;  ///< why no further runs were made
 };
 
 struct Outcome {
     Calibration calibration;
-    Eigen::VectorXd parameters;             ///< chosen ones
-    std::vector<double> objectives;         ///< of each evaluation, at the means of its repeats
-    std::optional<Estimate> estimate;       ///< none when the evaluations do not determine the quadratic
-    std::vector<Agreement> agreements;      ///< fitted targets, then the held-out ones
-    std::vector<std::string> undetermined;  ///< names of parameters that the targets do not determine
+    Eigen::VectorXd parameters;                 ///< chosen ones
+    std::vector<double> objectives;             ///< of each evaluation, at the means of its repeats
+    std::optional<ParameterEstimate> estimate;  ///< none when the evaluations do not determine the quadratic
+    std::vector<Agreement> agreements;          ///< fitted targets, then the held-out ones
+    std::vector<std::string> undetermined;      ///< names of parameters that the targets do not determine
 };
 
 /// The fit through all evaluations; none when they do not determine it. It sees no held-out target.
-std::optional<Estimate> estimate_of(const Calibration& calibration);
+std::optional<ParameterEstimate> estimate_of(const Calibration& calibration);
 
 /// \param fitted_minimum  whether the least value of the fit is chosen; else the best evaluation
 /// \pre one evaluation or more

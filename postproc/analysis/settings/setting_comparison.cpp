@@ -31,7 +31,7 @@ std::pair<std::string, int> setting_of(const fs::path& run) {
     return {name.substr(0, at), std::stoi(number)};
 }
 
-std::vector<double> paired_differences(const Setting& setting, const Setting& first, std::size_t quantity) {
+std::vector<double> paired_differences(const SettingResults& setting, const SettingResults& first, std::size_t quantity) {
     std::vector<double> differences;
     for (std::size_t n = 0; n < setting.repeats.size(); ++n) {
         for (std::size_t m = 0; m < first.repeats.size(); ++m) {
@@ -50,8 +50,8 @@ std::string mean_text(const RepeatMean& value, const std::string& unit, bool sig
     return mean + half + (unit == "-" ? "" : " " + unit);
 }
 
-bool is_known(const std::vector<Setting>& settings, std::size_t quantity) {
-    return std::any_of(settings.begin(), settings.end(), [&](const Setting& setting) {
+bool is_known(const std::vector<SettingResults>& settings, std::size_t quantity) {
+    return std::any_of(settings.begin(), settings.end(), [&](const SettingResults& setting) {
         const SettingQuantity& found = setting.quantities[quantity];
         return std::isfinite(found.mean.mean) && (found.mean.mean != 0.0 || !found.zero_is_nothing);
     });
@@ -62,7 +62,7 @@ nlohmann::json json_of(const RepeatMean& value) {
     return {{"mean", number(value.mean)}, {"half_width", number(value.half)}};
 }
 
-void require_same_quantities(const Setting& first, const std::vector<RunQuantity>& quantities, const fs::path& run) {
+void require_same_quantities(const SettingResults& first, const std::vector<RunQuantity>& quantities, const fs::path& run) {
     const bool same = std::equal(first.quantities.begin(), first.quantities.end(), quantities.begin(), quantities.end(),
                                  [](const SettingQuantity& a, const RunQuantity& b) { return a.key == b.key; });
     if (!same)
@@ -80,9 +80,9 @@ RepeatMean repeat_mean(const std::vector<double>& values) {
     return {sample.mean, sample.count < 2 ? k_unknown : half_interval(sample)};
 }
 
-std::vector<Setting> compare_settings(const std::vector<fs::path>& runs,
-                                      const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
-    std::vector<Setting> settings;
+std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
+                                             const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
+    std::vector<SettingResults> settings;
     for (const fs::path& run : runs) {
         const std::vector<RunQuantity> quantities = quantities_of(run);
         const auto [name, repeat] = setting_of(run);
@@ -97,7 +97,7 @@ std::vector<Setting> compare_settings(const std::vector<fs::path>& runs,
         setting->repeats.push_back(repeat);
         for (std::size_t q = 0; q < quantities.size(); ++q) setting->quantities[q].each.push_back(quantities[q].value);
     }
-    for (Setting& setting : settings) {
+    for (SettingResults& setting : settings) {
         for (std::size_t q = 0; q < setting.quantities.size(); ++q) {
             setting.quantities[q].mean = repeat_mean(setting.quantities[q].each);
             setting.quantities[q].difference = repeat_mean(paired_differences(setting, settings.front(), q));
@@ -106,12 +106,12 @@ std::vector<Setting> compare_settings(const std::vector<fs::path>& runs,
     return settings;
 }
 
-std::string setting_comparison_text(const std::vector<Setting>& settings) {
+std::string setting_comparison_text(const std::vector<SettingResults>& settings) {
     std::string text;
     for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
         if (!is_known(settings, q)) continue;
         text += fmt::format("{}\n", settings.front().quantities[q].name);
-        for (const Setting& setting : settings) {
+        for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];
             text += fmt::format("  {:<40} {:<24}", setting.name, mean_text(found.mean, found.unit));
             if (&setting != &settings.front()) text += " difference " + mean_text(found.difference, found.unit, true);
@@ -121,9 +121,9 @@ std::string setting_comparison_text(const std::vector<Setting>& settings) {
     return text + "value +- half the 95 % interval (Student's t over repeats); differences from the first setting, in pairs of repeats\n";
 }
 
-nlohmann::json setting_comparison_json(const std::vector<Setting>& settings, const std::string& schema) {
+nlohmann::json setting_comparison_json(const std::vector<SettingResults>& settings, const std::string& schema) {
     nlohmann::json rows = nlohmann::json::array();
-    for (const Setting& setting : settings) {
+    for (const SettingResults& setting : settings) {
         nlohmann::json row{{"name", setting.name}, {"repeats", setting.repeats.size()}};
         for (const SettingQuantity& quantity : setting.quantities)
             row[quantity.key] = {{"value", json_of(quantity.mean)}, {"difference", json_of(quantity.difference)}};
@@ -132,7 +132,7 @@ nlohmann::json setting_comparison_json(const std::vector<Setting>& settings, con
     return {{"schema", schema}, {"settings", rows}};
 }
 
-fs::path write_setting_comparison(const std::vector<Setting>& settings, const std::string& schema, const fs::path& folder) {
+fs::path write_setting_comparison(const std::vector<SettingResults>& settings, const std::string& schema, const fs::path& folder) {
     require_own_folder(folder, "comparison.json");
     fs::create_directories(folder);
     write_file(folder / "comparison.json", setting_comparison_json(settings, schema).dump(2) + "\n");
@@ -140,7 +140,7 @@ fs::path write_setting_comparison(const std::vector<Setting>& settings, const st
     for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
         if (!is_known(settings, q)) continue;
         std::vector<std::vector<std::string>> rows;
-        for (const Setting& setting : settings) {
+        for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];
             rows.push_back({html::escape(setting.name), fmt::format("{}", setting.repeats.size()), mean_text(found.mean, found.unit),
                             &setting == &settings.front() ? "" : mean_text(found.difference, found.unit, true)});

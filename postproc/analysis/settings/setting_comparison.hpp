@@ -25,7 +25,7 @@ struct SettingQuantity {
     RepeatMean difference;  ///< from the first setting, of repeats with the same number
 };
 
-struct Setting {
+struct SettingResults {
     std::string name;  ///< the runs' folder without _repeat<n>
     std::vector<int> repeats;
     std::vector<SettingQuantity> quantities;
@@ -40,15 +40,15 @@ struct RunQuantity {
 
 /// \param quantities_of  a run: the same ones of every run
 /// \throws UserError  when runs have other quantities than the first
-std::vector<Setting> compare_settings(const std::vector<std::filesystem::path>& runs,
-                                      const std::function<std::vector<RunQuantity>(const std::filesystem::path&)>& quantities_of);
+std::vector<SettingResults> compare_settings(const std::vector<std::filesystem::path>& runs,
+                                             const std::function<std::vector<RunQuantity>(const std::filesystem::path&)>& quantities_of);
 
-std::string setting_comparison_text(const std::vector<Setting>& settings);
+std::string setting_comparison_text(const std::vector<SettingResults>& settings);
 /// \param schema  its name, as "cutterflow.surface_comparison/1"
-nlohmann::json setting_comparison_json(const std::vector<Setting>& settings, const std::string& schema);
+nlohmann::json setting_comparison_json(const std::vector<SettingResults>& settings, const std::string& schema);
 
 /// Writes comparison.json and index.html. \return the page
-std::filesystem::path write_setting_comparison(const std::vector<Setting>& settings, const std::string& schema,
+std::filesystem::path write_setting_comparison(const std::vector<SettingResults>& settings, const std::string& schema,
                                                const std::filesystem::path& folder);
 
 }  // namespace cutterflow::postproc

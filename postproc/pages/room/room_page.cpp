@@ -155,15 +155,15 @@ fs::path write_room_report(const fs::path& run) {
     return file;
 }
 
-std::vector<Setting> compare_room_runs(const std::vector<fs::path>& runs) {
+std::vector<SettingResults> compare_room_runs(const std::vector<fs::path>& runs) {
     return compare_settings(runs, quantities_of);
 }
 
-nlohmann::json room_comparison_json(const std::vector<Setting>& settings) {
+nlohmann::json room_comparison_json(const std::vector<SettingResults>& settings) {
     return setting_comparison_json(settings, k_schema);
 }
 
-fs::path write_room_comparison(const std::vector<Setting>& settings, const fs::path& folder) {
+fs::path write_room_comparison(const std::vector<SettingResults>& settings, const fs::path& folder) {
     return write_setting_comparison(settings, k_schema, folder);
 }
 

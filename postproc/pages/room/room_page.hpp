@@ -22,9 +22,9 @@ std::filesystem::path write_room_report(const std::filesystem::path& run_directo
 
 /// Settings by their measures. A measure without a value is unknown for its setting.
 /// \throws UserError  when a folder is no run of a room, or has other measures than the first
-std::vector<Setting> compare_room_runs(const std::vector<std::filesystem::path>& runs);
-nlohmann::json room_comparison_json(const std::vector<Setting>& settings);
+std::vector<SettingResults> compare_room_runs(const std::vector<std::filesystem::path>& runs);
+nlohmann::json room_comparison_json(const std::vector<SettingResults>& settings);
 /// Writes comparison.json and index.html. \return the page
-std::filesystem::path write_room_comparison(const std::vector<Setting>& settings, const std::filesystem::path& folder);
+std::filesystem::path write_room_comparison(const std::vector<SettingResults>& settings, const std::filesystem::path& folder);
 
 }  // namespace cutterflow::postproc

@@ -58,7 +58,7 @@ Calibration grid(Box& box, double hidden_mu) {
     return calibration;
 }
 
-bool holds(const Interval& interval, double value) {
+bool holds(const ParameterInterval& interval, double value) {
     return interval.low <= value && value <= interval.high;
 }
 
@@ -118,7 +118,7 @@ TEST(CalibrationFit, has_intervals_that_hold_the_truth_as_often_as_they_say) {
         box.random.seed(static_cast<std::uint64_t>(100 + trial));
         const double mu = hidden(random);
         const Outcome outcome = outcome_of(grid(box, mu), true);
-        const Interval& interval = outcome.estimate->intervals[1];
+        const ParameterInterval& interval = outcome.estimate->intervals[1];
         if (holds(interval, mu)) ++held;
         if (!outcome.undetermined.empty() && outcome.undetermined[0] == "e") ++undetermined;
         widest = std::max(widest, interval.high - interval.low);

@@ -7,7 +7,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "postproc/draw/head/contour.hpp"
+#include "postproc/draw/head/isoline.hpp"
 #include "postproc/pages/calibration_page.hpp"
 
 using namespace cutterflow;
@@ -37,12 +37,12 @@ Outcome outcome() {
 
 }  // namespace
 
-TEST(Contour, of_a_bowl_is_a_circle) {
+TEST(Isoline, of_a_bowl_is_a_circle) {
     std::vector<double> x, value;
     for (int i = 0; i <= 40; ++i) x.push_back(-1.0 + 0.05 * i);
     for (const double b : x)
         for (const double a : x) value.push_back(a * a + b * b);
-    const Contour line = contour(x, x, value, 0.49);
+    const Isoline line = isoline(x, x, value, 0.49);
     ASSERT_GT(line.x.size(), 100u);
     double length = 0.0;
     for (std::size_t i = 0; i + 2 < line.x.size(); i += 3) {
@@ -51,7 +51,7 @@ TEST(Contour, of_a_bowl_is_a_circle) {
         length += std::hypot(line.x[i + 1] - line.x[i], line.y[i + 1] - line.y[i]);
     }
     EXPECT_NEAR(length, 2.0 * 3.14159265 * 0.7, 0.01);
-    EXPECT_TRUE(contour(x, x, value, 3.0).x.empty());
+    EXPECT_TRUE(isoline(x, x, value, 3.0).x.empty());
 }
 
 TEST(CalibrationPage, shows_objective_runs_and_targets) {

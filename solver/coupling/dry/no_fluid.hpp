@@ -9,7 +9,7 @@ namespace cutterflow::coupling {
 class NoFluid final : public FluidEngine {
 public:
     /// \param longest_step  between looks at feed, pictures and checkpoints [s]
-    NoFluid(const RunTimes& times, double longest_step) : clock_(times, longest_step) {}
+    NoFluid(const ClockTimes& times, double longest_step) : clock_(times, longest_step) {}
 
     bool has_medium() const override { return false; }
     bool feels_rock() const override { return false; }

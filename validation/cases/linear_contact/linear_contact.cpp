@@ -36,7 +36,7 @@ coupling::DemSettings room(const Trial& trial) {
 double restitution_of(const Trial& trial) {
     const double radius = 0.5 * k_cylinder_diameter, apart = radius * (1.0 + 1e-4);
     const Vec3 middle(0.1, 0.5 * k_cylinder_length, 0.1);
-    std::vector<Ball> balls;
+    std::vector<BenchBall> balls;
     if (trial.pair) {
         balls = {{radius, k_cylinder_density, middle - Vec3(apart, 0, 0), Vec3(0.5 * trial.speed, 0, 0)},
                  {radius, k_cylinder_density, middle + Vec3(apart, 0, 0), Vec3(-0.5 * trial.speed, 0, 0)}};

@@ -101,7 +101,7 @@ void check_drum(Verification& verification) {
             if (surface_speed > speed && speed < 1.0) continue;  // a facet's edge gives a blow of its own, see README.md
             coupling::DemSettings settings = in_fluid(dry_room(0.4, false, k_rock, 0.97, 0.0, 1.0), k_water, k_viscosity);
             settings.walls = {{"drum", file, true}};
-            Ball ball{k_radius, k_rock.density, Vec3(drum + k_radius * 1.0001, 0.0, 0.0), Vec3(-speed, 0.0, 0.0)};
+            BenchBall ball{k_radius, k_rock.density, Vec3(drum + k_radius * 1.0001, 0.0, 0.0), Vec3(-speed, 0.0, 0.0)};
             const ImpactOutcome impact = collide(settings, {ball}, sample_of(k_rock, speed), surface_speed / drum);
             verification.relative(
                 fmt::format("restitution in water at {} m/s on a drum of 1 mm facets that pass at {:g} m/s", speed, surface_speed), "-",

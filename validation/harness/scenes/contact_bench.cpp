@@ -20,9 +20,9 @@ Vec3 no_force(std::size_t, const Vec3&) {
     return Vec3::Zero();
 }
 
-coupling::Rocks rocks_of(const std::vector<Ball>& balls) {
+coupling::Rocks rocks_of(const std::vector<BenchBall>& balls) {
     coupling::Rocks rocks;
-    for (const Ball& ball : balls)
+    for (const BenchBall& ball : balls)
         rocks.append({static_cast<int>(rocks.size()) + 1, ball.position, ball.velocity, ball.spin, 2.0 * ball.radius, ball.density});
     return rocks;
 }
@@ -30,7 +30,7 @@ coupling::Rocks rocks_of(const std::vector<Ball>& balls) {
 /// The DEM with these balls in it.
 class Room {
 public:
-    Room(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double rotor_speed)
+    Room(const coupling::DemSettings& settings, const std::vector<BenchBall>& balls, double rotor_speed)
         : engine(settings, turning(rotor_speed), MPI_COMM_WORLD) {
         if (engine.insert(rocks_of(balls)).size() != balls.size()) throw std::runtime_error("the DEM did not take all balls");
     }
@@ -83,13 +83,13 @@ Elastic against_rigid(Elastic material) {
     return material;
 }
 
-ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed) {
+ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<BenchBall>& balls, double sample, double rotor_speed) {
     Room room(settings, balls, rotor_speed);
     liggghts::LiggghtsEngine& engine = room.engine;
-    const Ball& first = balls.front();
+    const BenchBall& first = balls.front();
     const double mass = 4.0 / 3.0 * k_pi * std::pow(first.radius, 3) * (first.density + settings.added_mass * settings.fluid.density);
     double smallest = first.radius;
-    for (const Ball& ball : balls) smallest = std::min(smallest, ball.radius);
+    for (const BenchBall& ball : balls) smallest = std::min(smallest, ball.radius);
     ImpactOutcome impact;
     bool touched = false;
     Vec3 before = first.velocity;
@@ -110,7 +110,7 @@ ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<B
     throw std::runtime_error("the balls do not part");
 }
 
-Slide slide(const coupling::DemSettings& settings, const Ball& ball, double sample) {
+Slide slide(const coupling::DemSettings& settings, const BenchBall& ball, double sample) {
     Room room(settings, {ball}, 0.0);
     Slide result;
     for (int call = 0; call < k_most_samples; ++call) {
@@ -123,7 +123,7 @@ Slide slide(const coupling::DemSettings& settings, const Ball& ball, double samp
     throw std::runtime_error("the ball does not arrive");
 }
 
-Ball above_floor(double radius, double density, const Vec3& velocity, const Vec3& spin) {
+BenchBall above_floor(double radius, double density, const Vec3& velocity, const Vec3& spin) {
     return {radius, density, Vec3(0.0, 0.0, radius * (1.0 + k_gap)), velocity, spin};
 }
 

@@ -25,7 +25,7 @@ bool is_first_process();
 /// The DEM engine on all processes.
 std::unique_ptr<coupling::DemEngine> dem_engine(const coupling::DemSettings& settings, std::vector<coupling::ZoneMotion> moving = {});
 
-struct Ball {
+struct BenchBall {
     double radius = 0.0, density = 0.0;  ///< [m], [kg/m3]
     Vec3 position = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
@@ -51,7 +51,7 @@ struct ImpactOutcome {
 
 /// Lets balls fly until a contact has begun and ended. The DEM is sampled every `sample` seconds.
 /// \throws std::runtime_error  when no contact ends within 100,000 samples
-ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<Ball>& balls, double sample, double rotor_speed = 0.0);
+ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<BenchBall>& balls, double sample, double rotor_speed = 0.0);
 
 struct Slide {
     double speed = 0.0;   ///< where the ball passes x = 0 [m/s]
@@ -59,9 +59,9 @@ struct Slide {
 };
 
 /// Lets a ball that starts at x < 0 slide until it passes x = 0. \throws std::runtime_error  when it does not within 100,000 samples
-Slide slide(const coupling::DemSettings& settings, const Ball& ball, double sample);
+Slide slide(const coupling::DemSettings& settings, const BenchBall& ball, double sample);
 
 /// A ball above the floor of a room, about to hit it with `velocity`.
-Ball above_floor(double radius, double density, const Vec3& velocity, const Vec3& spin = Vec3::Zero());
+BenchBall above_floor(double radius, double density, const Vec3& velocity, const Vec3& spin = Vec3::Zero());
 
 }  // namespace cutterflow::validation

@@ -1,4 +1,4 @@
-#include "postproc/draw/head/contour.hpp"
+#include "postproc/draw/head/isoline.hpp"
 
 #include <array>
 #include <limits>
@@ -12,7 +12,7 @@ struct Corner {
 };
 
 /// Where the level crosses the edges of a triangle: two places or none.
-void add_crossing(const std::array<Corner, 3>& corners, double level, Contour& line) {
+void add_crossing(const std::array<Corner, 3>& corners, double level, Isoline& line) {
     std::vector<double> x, y;
     for (std::size_t i = 0; i < 3; ++i) {
         const Corner &a = corners[i], &b = corners[(i + 1) % 3];
@@ -29,8 +29,8 @@ void add_crossing(const std::array<Corner, 3>& corners, double level, Contour& l
 
 }  // namespace
 
-Contour contour(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& value, double level) {
-    Contour line;
+Isoline isoline(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& value, double level) {
+    Isoline line;
     for (std::size_t j = 0; j + 1 < y.size(); ++j)
         for (std::size_t i = 0; i + 1 < x.size(); ++i) {
             const auto corner = [&](std::size_t a, std::size_t b) { return Corner{x[a], y[b], value[a + b * x.size()]}; };
