@@ -49,10 +49,6 @@ double linear_contact_step(double theta, double reference_length, double gravity
     return 2.0 * k_pi / steps_per_period * std::sqrt(theta * reference_length / gravity);
 }
 
-double linear_damping_ratio(double damping, bool pair) {
-    return pair ? damping * std::sqrt(2.0) : damping;
-}
-
 double linear_restitution(double damping_ratio, bool may_pull) {
     const double decay = damping_ratio / std::sqrt(1.0 - damping_ratio * damping_ratio);
     return std::exp(-decay * (may_pull ? k_pi : 2.0 * std::acos(damping_ratio)));

@@ -50,9 +50,6 @@ double youngs_modulus_for_overlap(double inertia_density, double speed, double o
 /// mass at a wall. [Chen2019] Time step [s]:  (2 pi/gamma) sqrt(m/k_n) = (2 pi/gamma) sqrt(theta l/g)
 double linear_contact_step(double theta, double reference_length, double gravity, double steps_per_period);
 
-/// Damping ratio zeta [-] of the linear contact: a at a wall; of two equal bodies a sqrt(2), because half a mass swings on the spring.
-double linear_damping_ratio(double damping, bool pair);
-
 /// Restitution [-] of a linear spring and dashpot of damping ratio zeta < 1: exp(-pi zeta/sqrt(1 - zeta^2)) when the contact lasts half a
 /// period and pulls at its end; exp(-2 zeta acos(zeta)/sqrt(1 - zeta^2)) when it ends as its force does. [SchwagerPoeschel2007]
 double linear_restitution(double damping_ratio, bool may_pull);

@@ -600,42 +600,6 @@ std::vector<Mistake> check_measures(const json& measures, const std::string& whe
     return mistakes;
 }
 
-std::string measures_markdown() {
-    std::string text;
-    for (const MeasureKind& kind : measure_table()) {
-        text += fmt::format("### {}\n\n{} Unit of the value: {}.\n\n| key | value | when absent | meaning |\n|---|---|---|---|\n",
-                            kind.what, kind.help, kind.unit);
-        for (const MeasureKey& key : kind.keys) {
-            const Parameter& p = key.parameter;
-            std::string value;
-            switch (key.shape) {
-                case MeasureShape::single:
-                    value = p.choices.empty() ? parameter_words::kind_with_unit(p) : fmt::format("{}", fmt::join(p.choices, ", "));
-                    break;
-                case MeasureShape::pair:
-                    value = "2 numbers" + (parameter_words::has_unit(p) ? " in " + p.unit : std::string());
-                    break;
-                case MeasureShape::point:
-                    value = "3 numbers in m";
-                    break;
-                case MeasureShape::region:
-                    value = "a region";
-                    break;
-                case MeasureShape::gate:
-                    value = "a gate";
-            }
-            const std::string bounds = parameter_words::bounds_text(p);
-            std::string absent = is_required(p) ? "required" : p.derived_from;
-            if (p.default_value)
-                absent = p.kind == ParameterKind::choice ? std::get<std::string>(*p.default_value) : toml_text(*p.default_value);
-            text += fmt::format("| `{}` | {}{} | {} | {}{} |\n", p.key, value, bounds.empty() ? "" : ", " + bounds, absent, p.help,
-                                p.reference.empty() ? "" : " [" + p.reference + "]");
-        }
-        if (&kind != &measure_table().back()) text += '\n';
-    }
-    return text;
-}
-
 MeasureValues::MeasureValues(const json& measure) : measure_(measure), kind_(find_measure_kind(measure.at("what").get<std::string>())) {}
 
 const Parameter& MeasureValues::parameter(const std::string& key) const {

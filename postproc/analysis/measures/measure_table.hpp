@@ -52,9 +52,6 @@ const MeasureKind* find_measure_kind(const std::string& what);
 /// \return empty: run and postproc take all of them
 std::vector<Mistake> check_measures(const nlohmann::json& measures, const std::string& where = "");
 
-/// The tables of the manual page, as Markdown.
-std::string measures_markdown();
-
 /// Values of a measure that was checked; a key that is absent has its default.
 class MeasureValues {
 public:

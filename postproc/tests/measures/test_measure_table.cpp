@@ -1,11 +1,13 @@
 /// Measures are checked as a whole, before a run and after it.
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 #include "postproc/analysis/measures/measure_table.hpp"
 
 namespace cutterflow::postproc {
@@ -113,6 +115,43 @@ TEST(MeasureTable, has_unique_kinds_and_keys_that_can_be_read) {
             EXPECT_EQ(text, parameter.kind == ParameterKind::choice) << parameter.key;
         }
     }
+}
+
+/// The tables of the manual page, as Markdown.
+std::string measures_markdown() {
+    std::string text;
+    for (const MeasureKind& kind : measure_table()) {
+        text += fmt::format("### {}\n\n{} Unit of the value: {}.\n\n| key | value | when absent | meaning |\n|---|---|---|---|\n",
+                            kind.what, kind.help, kind.unit);
+        for (const MeasureKey& key : kind.keys) {
+            const Parameter& p = key.parameter;
+            std::string value;
+            switch (key.shape) {
+                case MeasureShape::single:
+                    value = p.choices.empty() ? parameter_words::kind_with_unit(p) : fmt::format("{}", fmt::join(p.choices, ", "));
+                    break;
+                case MeasureShape::pair:
+                    value = "2 numbers" + (parameter_words::has_unit(p) ? " in " + p.unit : std::string());
+                    break;
+                case MeasureShape::point:
+                    value = "3 numbers in m";
+                    break;
+                case MeasureShape::region:
+                    value = "a region";
+                    break;
+                case MeasureShape::gate:
+                    value = "a gate";
+            }
+            const std::string bounds = parameter_words::bounds_text(p);
+            std::string absent = !p.optional && !p.default_value ? "required" : p.derived_from;
+            if (p.default_value)
+                absent = p.kind == ParameterKind::choice ? std::get<std::string>(*p.default_value) : toml_text(*p.default_value);
+            text += fmt::format("| `{}` | {}{} | {} | {}{} |\n", p.key, value, bounds.empty() ? "" : ", " + bounds, absent, p.help,
+                                p.reference.empty() ? "" : " [" + p.reference + "]");
+        }
+        if (&kind != &measure_table().back()) text += '\n';
+    }
+    return text;
 }
 
 TEST(MeasureTable, is_the_table_of_the_manual_page) {

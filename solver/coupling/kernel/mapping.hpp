@@ -107,7 +107,4 @@ void deposit(const Stencils& stencils, gsl::span<const Vec3> amount, gsl::span<V
 std::vector<std::vector<double>> redistribute(gsl::span<Stencils* const> stencils, gsl::span<const double> rock_volume,
                                               gsl::span<const double> cell_volume, double limit, Communicator& communicator);
 
-/// Largest |sum of w * V - 1| over the rocks and both weights. Collective.
-double normalisation_error(const Stencils& stencils, gsl::span<const double> cell_volume, Communicator& communicator);
-
 }  // namespace cutterflow::coupling

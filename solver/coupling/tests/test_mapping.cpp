@@ -6,6 +6,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/coupling/kernel/testing/normalisation_error.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
@@ -13,6 +14,7 @@
 namespace cutterflow::coupling {
 namespace {
 
+using testing::normalisation_error;
 using testing::SyntheticMesh;
 
 /// Rocks with their own arrays.

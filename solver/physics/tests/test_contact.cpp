@@ -100,7 +100,6 @@ TEST(LinearContact, has_the_restitution_of_an_integrated_spring) {
             EXPECT_NEAR(-speed, linear_restitution(ratio, may_pull), 2e-4) << ratio << may_pull;
         }
     }
-    EXPECT_NEAR(linear_damping_ratio(0.4, true), 0.4 * std::sqrt(2.0), 1e-15);
 }
 
 TEST(LinearContact, step_depends_on_the_reference_length_alone) {

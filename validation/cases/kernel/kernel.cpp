@@ -6,6 +6,7 @@
 
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/coupling/kernel/testing/normalisation_error.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
@@ -53,7 +54,7 @@ public:
         mapping_.set_time(angle);
         mapping_.build({id_, position_, diameter_}, stencils_);
     }
-    double volume_error() { return coupling::normalisation_error(stencils_, mesh_.volumes, serial_); }
+    double volume_error() { return coupling::testing::normalisation_error(stencils_, mesh_.volumes, serial_); }
     /// Distance of the centroid from the rock, over its diameter.
     double centroid_error() const {
         Vec3 sum = Vec3::Zero();
@@ -145,7 +146,7 @@ void ranks(Verification& verification) {
         coupling::Mapping mapping(mine.cells(), mine.steel(), coupling::testing::unit_turn(), coupling::KernelSettings{}, communicator);
         coupling::Stencils stencils;
         mapping.build({id, position, diameter}, stencils);
-        const double found = coupling::normalisation_error(stencils, mine.volumes, communicator);
+        const double found = coupling::testing::normalisation_error(stencils, mine.volumes, communicator);
         if (communicator.rank() == 0) error = found;
     });
     verification.at_most("volume, where four ranks meet", "-", error, 1e-12, {"exact", "a rock beside the line common to four ranks"});
