@@ -1,5 +1,5 @@
-/// The layers' one direction (docs/design/001-contracts.md, README "Folders"): every #include of every source file is held against one
-/// table.
+/// The layers' one direction (docs/developer/structure.md): every #include of every source file is held
+/// against one table.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
