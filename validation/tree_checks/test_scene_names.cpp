@@ -1,4 +1,4 @@
-/// A scene of grains is a study put together from parts: no C++ knows one by its name.
+/// A scene of grains is a study put together from parts: no C++ knows one by its name. What every scene goes through knows no cutter.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +22,14 @@ const std::vector<std::string> k_room_code = {"cases/scenes/room/", "meshing/roo
 /// The table of generators has words for solids.
 const std::string k_generators = "cases/scenes/room/solid_generators.";
 
+const std::regex k_cutter_words("cutter(?!flow)|\\bheads?\\b(?!<)|blade|suction|\\bswing\\b|mouth|ladder|spill|\\bbank\\b",
+                                std::regex::icase);
+/// What every scene goes through.
+const std::vector<std::string> k_core = {"solver/ports/", "solver/space/", "solver/coupling/kernel/"};
+/// Settings of a head stand beside the others, and the DEM gives the torque on what turns.
+const std::vector<std::string> k_settings_of_heads = {"solver/ports/settings.", "solver/ports/setting_table.cpp",
+                                                      "solver/ports/dem_engine.hpp"};
+
 bool starts_with(const std::string& text, const std::string& beginning) {
     return text.rfind(beginning, 0) == 0;
 }
@@ -41,6 +49,18 @@ std::string scene_in(const std::string& file, const std::string& line) {
     return {};
 }
 
+/// The word of a cutter that a line of code of the solver's core has; empty for none.
+std::string cutter_word_in(const std::string& file, const std::string& line) {
+    const auto is_below = [&](const std::string& folder) { return starts_with(file, folder); };
+    if (std::none_of(k_core.begin(), k_core.end(), is_below) ||
+        std::any_of(k_settings_of_heads.begin(), k_settings_of_heads.end(), is_below))
+        return {};
+    if (file.find("/testing/") != std::string::npos || file.find("/bench/") != std::string::npos) return {};
+    const std::string code = without_comment(line);
+    std::smatch found;
+    return std::regex_search(code, found, k_cutter_words) ? found.str() : std::string();
+}
+
 TEST(SceneNames, stand_in_studies_and_verification_cases_alone) {
     std::size_t checked = 0;
     for (const char* folder : {"geometry", "meshing", "solver", "postproc", "cases", "validation"})
@@ -51,7 +71,10 @@ TEST(SceneNames, stand_in_studies_and_verification_cases_alone) {
             if (!source || file.find("/tests/") != std::string::npos || starts_with(file, "validation/")) continue;
             std::ifstream stream(entry.path());
             std::string line;
-            for (int number = 1; std::getline(stream, line); ++number) EXPECT_EQ(scene_in(file, line), "") << file << ":" << number;
+            for (int number = 1; std::getline(stream, line); ++number) {
+                EXPECT_EQ(scene_in(file, line), "") << file << ":" << number;
+                EXPECT_EQ(cutter_word_in(file, line), "") << file << ":" << number;
+            }
             ++checked;
         }
     EXPECT_GT(checked, 300u);
@@ -65,6 +88,11 @@ TEST(SceneNames, are_found_where_they_stand) {
     EXPECT_EQ(scene_in("cases/scenes/room/solid_generators.cpp", "{\"hopper\", hopper}"), "");
     EXPECT_EQ(scene_in("cases/scenes/cutter/case_builder.cpp", "{\"suction_pipe\", false}"), "");
     EXPECT_EQ(scene_in("cases/scenes/room/room_case.cpp", "x = 1;  // as for a hopper"), "");
+    EXPECT_EQ(cutter_word_in("solver/coupling/kernel/mapping.cpp", "const Blade blade = blades[0];"), "Blade");
+    EXPECT_EQ(cutter_word_in("solver/space/point_tree.hpp", "double head_radius = head.radius;"), "head");
+    EXPECT_EQ(cutter_word_in("solver/ports/fluid_engine.hpp", "namespace cutterflow::coupling {"), "");
+    EXPECT_EQ(cutter_word_in("solver/coupling/kernel/kernel_coupling.cpp", "sums.head<3>() += x;  // of the head"), "");
+    EXPECT_EQ(cutter_word_in("solver/observe/head/fate_tracker.hpp", "MouthSettings mouth;"), "");
 }
 
 }  // namespace
