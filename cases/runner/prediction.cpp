@@ -55,7 +55,10 @@ double smallest_rock(const Study& study) {
 
 /// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed.
 double step_of_rock(double tip_speed, double cell_size, const Study& study) {
-    const double width = std::max(study.kernel.gamma * smallest_rock(study), study.kernel.min_width_in_cells * k_cell_at_rock * cell_size);
+    const double cell = k_cell_at_rock * cell_size;
+    const coupling::KernelSettings& kernel = study.kernel;
+    const double width =
+        kernel.map == coupling::k_gaussian_map ? std::max(kernel.gamma * smallest_rock(study), kernel.min_width_in_cells * cell) : cell;
     return k_travel_share * width / tip_speed;
 }
 

@@ -609,6 +609,10 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
                   fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice",
                               resolved.text("closures.drag")),
                   "Set closures.hindrance = \"none\"");
+    rules.require(resolved.text("kernel.map") != coupling::k_cluster_map, "kernel.map",
+                  "Clusters of cells do not turn with the rotor, and reach through its blades", "Set kernel.map = \"gaussian\"");
+    rules.require(resolved.number("kernel.cluster_size_m") == 0.0, "kernel.cluster_size_m",
+                  "Only map cluster has cubes, and a cutter's mesh turns", "Remove it");
     return rules.take();
 }
 
@@ -642,6 +646,7 @@ void warn_of_hindrance(const ParameterValues& resolved, Rules& rules) {
 
 /// A kernel averages the flow over an opening that is not much wider, so that rock there feels a wrong speed.
 void warn_of_wide_kernels(const ParameterValues& resolved, Rules& rules) {
+    if (resolved.text("kernel.map") != coupling::k_gaussian_map) return;
     double largest = 0.0;
     for (const ParameterValues& feed : resolved.tables("feed")) {
         if (has_size_law(feed)) largest = std::max(largest, feed.number("feed.size_max_m"));

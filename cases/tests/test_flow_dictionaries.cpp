@@ -171,6 +171,8 @@ TEST(Coupling, has_the_keys_of_the_contract) {
                               "maxSpeed ",
                               "rotating        true;",
                               "type            cylinder;",
+                              "map             gaussian;",
+                              "clusterSize     0;",
                               "gamma           1;",
                               "minWidthInCells 1.5;",
                               "maxSolidFraction 0.7;",

@@ -162,6 +162,19 @@ TEST(Settings, that_count_the_void_fraction_twice_are_named_with_the_word_that_w
     EXPECT_EQ(mistakes[0].what, "closures.hindrance = \"di_felice\"");
 }
 
+TEST(Settings, of_maps_that_a_turning_mesh_cannot_have_are_refused_by_the_study) {
+    ParameterValues study = plain_study();
+    study.set("kernel.map", std::string("cluster"));
+    study.set("kernel.cluster_size_m", 0.06);
+    const std::vector<Mistake> mistakes = check_study(resolve_study(study, k_head), k_head);
+    ASSERT_EQ(mistakes.size(), 2u);
+    EXPECT_EQ(mistakes[0].what, "kernel.map = \"cluster\"");
+    EXPECT_EQ(mistakes[1].what, "kernel.cluster_size_m = 0.06");
+    study = plain_study();
+    study.set("kernel.map", std::string("centroid"));
+    EXPECT_TRUE(check_study(resolve_study(study, k_head), k_head).empty());
+}
+
 TEST(StudySpelling, of_the_solvers_keys_has_words_apart_and_the_unit_behind) {
     EXPECT_EQ(snake_case("minWidthInCells"), "min_width_in_cells");
     EXPECT_EQ(k_contact_section.key_of(coupling::setting_table<coupling::ContactSettings>().front()), "rock.youngs_modulus_pa");

@@ -5,11 +5,17 @@
 namespace cutterflow {
 namespace {
 
+coupling::ModelNote map_in_use(const coupling::KernelSettings& kernel) {
+    if (kernel.map == coupling::k_centroid_map) return {"mapping: a rock is in the cell of its centre", "kernel.map"};
+    if (kernel.map == coupling::k_cluster_map)
+        return {fmt::format("mapping: a rock is spread evenly over the cells of a cube of {:.4g} m", kernel.cluster_size), "kernel.map"};
+    return {fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma,
+                        kernel.min_width_in_cells),
+            "rock is larger than cells; steel hides what lies behind it"};
+}
+
 void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {
-    const coupling::KernelSettings& kernel = settings.kernel;
-    notes.push_back({fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma,
-                                 kernel.min_width_in_cells),
-                     "rock is larger than cells; steel hides what lies behind it"});
+    notes.push_back(map_in_use(settings.kernel));
     if (settings.replay.empty()) notes.push_back({"d(void fraction)/dt in the pressure equation", "rock displaces fluid"});
     const coupling::ClosureSettings& closures = settings.closures;
     notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)),

@@ -11,6 +11,7 @@
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/dry/free_rock.hpp"
+#include "solver/coupling/kernel/cell_groups.hpp"
 #include "solver/coupling/kernel/kernel_coupling.hpp"
 #include "solver/observe/gate_crossings.hpp"
 
@@ -96,6 +97,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         else
             production_.emplace(2.0 * k_pi / std::abs(rotor.speed), settings.stop->target_half_width);
     }
+    if (settings.has_rock && fluid.has_medium()) mistakes.add(map_mistakes(settings.kernel, fluid, communicator));
     if (settings.velocity && mistakes.empty()) mistakes.gather([&] { velocity_.emplace(*settings.velocity, fluid); });
     mistakes.refuse();
     if (settings.has_rock) {

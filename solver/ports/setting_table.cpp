@@ -56,6 +56,15 @@ ParameterRow closure(const char* key, ClosureKind kind, const char* help) {
 SettingTable<KernelSettings> kernel_rows() {
     using S = KernelSettings;
     return Rows<S>()
+        .add(&S::map, ParameterRow("map", ParameterKind::choice, "-",
+                                   "How rock is laid over cells: by kernels that know distance and steel; as a whole in the cell of its "
+                                   "centre; evenly over the cells of a cube. The last two are there for comparison with other programs: "
+                                   "they jump from cell to cell and reach through steel. cluster needs a mesh that stands still.")
+                          .one_of({k_gaussian_map, k_centroid_map, k_cluster_map})
+                          .source("WasserfallCoetzeeMeyer2024"))
+        .add(
+            &S::cluster_size,
+            number("clusterSize", "m", "Side of the cubes of map cluster, a cell or more; with that map only.").at_least(0.0).at_most(10.0))
         .add(&S::gamma, number("gamma", "-",
                                "Width of the Gaussian kernel over the rock's diameter. Narrower than half a rock, the fluid would see "
                                "more solid than there is room for.")

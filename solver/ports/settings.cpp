@@ -27,6 +27,14 @@ void check_hindrance(Mistakes& mistakes, const ClosureSettings& closures) {
                      "This drag law contains the void fraction: hindrance would count it twice", "Set: hindrance none;");
 }
 
+void check_map(Mistakes& mistakes, const KernelSettings& kernel) {
+    if (kernel.map == k_cluster_map && kernel.cluster_size == 0.0)
+        mistakes.add("kernel.clusterSize is missing", "Map cluster lays rock over cubes of this side", "Give it in m, a cell or more");
+    if (kernel.map != k_cluster_map && kernel.cluster_size > 0.0)
+        mistakes.add(fmt::format("kernel.clusterSize = {:g} with kernel.map = {}", kernel.cluster_size, kernel.map),
+                     "Only map cluster has cubes", "Remove it, or set: map cluster;");
+}
+
 void check_fates(Mistakes& mistakes, const FateSettings& fates) {
     if (fates.contour.empty())
         mistakes.add("fates.contour is missing", "The head's volume is its contour of revolution", "Name a CSV file z_m,r_m");
@@ -128,6 +136,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         if (settings.has_medium) {
             mistakes.add(setting_mistakes(settings.kernel, "kernel", where));
             mistakes.add(setting_mistakes(settings.closures, "closures", where));
+            check_map(mistakes, settings.kernel);
             check_hindrance(mistakes, settings.closures);
         }
         if (settings.queue) mistakes.add(setting_mistakes(*settings.queue, "rock.queue", where));

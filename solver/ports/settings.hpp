@@ -20,8 +20,16 @@ struct FluidProperties {
     double kinematic_viscosity = 0.0;  ///< [m2/s]
 };
 
-/// Width of the mapping's kernels, sigma = max(gamma d, min_width_in_cells dx), and the largest solid fraction of a cell.
+/// How rock is laid over cells and sees them.
+inline constexpr const char* k_gaussian_map = "gaussian";  ///< by kernels that know distance and steel
+inline constexpr const char* k_centroid_map = "centroid";  ///< as a whole in the cell of its centre
+inline constexpr const char* k_cluster_map = "cluster";    ///< evenly over the cells of a cube
+
+/// The map between rock and cells; the width of its kernels, sigma = max(gamma d, min_width_in_cells dx), and the largest solid fraction
+/// of a cell.
 struct KernelSettings {
+    std::string map = k_gaussian_map;
+    double cluster_size = 0.0;        ///< side of the cubes of map cluster [m]; 0: none given
     double gamma = 1.0;               ///< [-]
     double min_width_in_cells = 1.5;  ///< [-]
     double max_solid_fraction = 0.7;  ///< [-]

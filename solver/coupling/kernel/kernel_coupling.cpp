@@ -50,13 +50,23 @@ int count_above(double limit, const std::vector<double>& solid_fraction, Communi
     return static_cast<int>(count);
 }
 
+/// Solid fraction above which volume moves to other cells in reach. Rock that is laid evenly over groups of cells has none to go to.
+double redistribution_limit(const KernelSettings& kernel) {
+    return kernel.map == k_gaussian_map ? kernel.max_solid_fraction : std::numeric_limits<double>::infinity();
+}
+
 /// \throws CheckFailure  when redistribution found no room
-void require_room(double largest_solid_fraction, double limit) {
+void require_room(double largest_solid_fraction, const KernelSettings& kernel) {
     if (largest_solid_fraction <= k_solvable_solid_fraction) return;
-    throw CheckFailure(
-        {"", fmt::format("a cell holds a solid fraction of {:.3f}", largest_solid_fraction),
-         fmt::format("Rock is spread until no cell holds more than kernel.maxSolidFraction = {}; here all cells in reach are full", limit),
-         "Place less rock there, or widen kernel.gamma"});
+    const std::string what = fmt::format("a cell holds a solid fraction of {:.3f}", largest_solid_fraction);
+    if (kernel.map != k_gaussian_map)
+        throw CheckFailure({"", what, fmt::format("kernel.map = {} moves no rock to other cells", kernel.map),
+                            "Place less rock there, lay it over more cells, or set: map gaussian;"});
+    throw CheckFailure({"", what,
+                        fmt::format("Rock is spread until no cell holds more than kernel.maxSolidFraction = {}; here all cells in reach "
+                                    "are full",
+                                    kernel.max_solid_fraction),
+                        "Place less rock there, or widen kernel.gamma"});
 }
 
 }  // namespace
@@ -155,7 +165,7 @@ void KernelCoupling::remove(gsl::span<const int> ids) {
 
 void KernelCoupling::replace_void_fraction() {
     const std::vector<double> solid_fraction = spread_present_rock();
-    require_room(largest_of(solid_fraction, communicator_), settings_.kernel.max_solid_fraction);
+    require_room(largest_of(solid_fraction, communicator_), settings_.kernel);
     fluid_.reset_void_fraction(void_fraction_of(solid_fraction));
 }
 
@@ -163,7 +173,7 @@ void KernelCoupling::replace_void_fraction() {
 std::vector<double> KernelCoupling::spread_present_rock() {
     map_present_rock();
     Stencils* const stencils[] = {&present_};
-    return redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, settings_.kernel.max_solid_fraction,
+    return redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, redistribution_limit(settings_.kernel),
                         communicator_)[0];
 }
 
@@ -268,7 +278,7 @@ void KernelCoupling::map_one_way() {
 void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, double largest) {
     const double limit = settings_.kernel.max_solid_fraction;
     balance_.solid_fraction_max = largest;
-    require_room(largest, limit);
+    require_room(largest, settings_.kernel);
     balance_.overfull_cells = count_above(limit, solid_fraction, communicator_);
     if (balance_.overfull_cells > 0)
         warn_once("overfull",
@@ -294,7 +304,7 @@ void KernelCoupling::map() {
     mapping_.build(shapes(rocks.position), present_);
     const std::vector<double> volumes = volumes_of(rocks);
     Stencils* const both[] = {&old_, &present_};
-    const auto fractions = redistribute(both, volumes, cell_volume, settings_.kernel.max_solid_fraction, communicator_);
+    const auto fractions = redistribute(both, volumes, cell_volume, redistribution_limit(settings_.kernel), communicator_);
     void_fraction_old_ = void_fraction_before(volumes);
     void_fraction_new_ = void_fraction_of(fractions[1]);
 

@@ -23,6 +23,17 @@ constexpr std::uint64_t k_kept_builds = 4;
 // What is found of a rock's cells reaches this many kernel widths farther than the kernel, for the rock to travel.
 constexpr double k_skin = 0.3;
 
+// Rock that is farther than this many cell sizes from the nearest cell's centre is outside the mesh. Of maps that lay rock in cells.
+constexpr double k_farthest_cell = 3.0;
+
+CheckFailure no_cell_near(const RockShapes& rocks, std::size_t rock, double distance) {
+    const Vec3& x = rocks.position[rock];
+    return CheckFailure({"",
+                         fmt::format("rock {} at ({:.6g} {:.6g} {:.6g}) m has no cell of the mesh within {:.3g} m", rocks.id[rock], x[0],
+                                     x[1], x[2], distance),
+                         "Rock must stay inside the mesh", "Let rock.domain end inside the mesh"});
+}
+
 }  // namespace
 
 void Stencils::clear() {
@@ -49,7 +60,9 @@ Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMot
       visibility_(steel, trees_, frames_),
       kernel_(kernel),
       communicator_(communicator),
-      angles_(moving_.size(), 0.0) {}
+      angles_(moving_.size(), 0.0) {
+    if (kernel.map != k_gaussian_map) groups_.emplace(trees_, kernel, communicator);
+}
 
 void Mapping::set_time(double time) {
     std::vector<double> angles;
@@ -87,17 +100,10 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     ++builds_;
     forget_vicinities(rocks.size());
     std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
-    for (std::size_t p = 0; p < rocks.size(); ++p) {
-        KnownVicinity& vicinity = vicinities_[rocks.id[p]];
-        vicinity.last_build = builds_;
-        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p], vicinity.sizes);
-        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * mesh.size);
-        const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
-        stencils.width.push_back(width);
-        stencils.zone.push_back(mesh.nearest_zone);
-        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
-        add_entries(rocks, p, stencils, sums);
-    }
+    if (groups_)
+        lay_in_groups(rocks, stencils, sums);
+    else
+        lay_kernels(rocks, stencils, sums);
     communicator_.sum(sums);
 
     std::vector<std::size_t> hidden;
@@ -112,6 +118,49 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
             stencils.sample[i] *= sample_scale;
         }
     }
+}
+
+/// Kernels of all rocks, unnormalised, and this rank's part of their sums.
+void Mapping::lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        KnownVicinity& vicinity = vicinities_[rocks.id[p]];
+        vicinity.last_build = builds_;
+        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p], vicinity.sizes);
+        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * mesh.size);
+        const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
+        stencils.width.push_back(width);
+        stencils.zone.push_back(mesh.nearest_zone);
+        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
+        add_entries(rocks, p, stencils, sums);
+    }
+}
+
+/// The same with one group of cells per rock.
+void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
+    std::vector<CellGroups::Point> points;
+    std::vector<double> cell_size;
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        KnownVicinity& vicinity = vicinities_[rocks.id[p]];
+        vicinity.last_build = builds_;
+        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p], vicinity.sizes);
+        points.push_back({mesh.nearest_zone, frames_.from_absolute(mesh.nearest_zone, rocks.position[p])});
+        cell_size.push_back(mesh.size);
+        stencils.width.push_back(std::max(kernel_.cluster_size, mesh.size));
+        stencils.zone.push_back(mesh.nearest_zone);
+    }
+    const std::vector<CellGroups::Nearest> nearest = groups_->at(points);
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        const double farthest = k_farthest_cell * cell_size[p];
+        if (nearest[p].distance > farthest) throw no_cell_near(rocks, p, farthest);
+        for (const CellGroups::Member& member : groups_->members(nearest[p].group)) {
+            stencils.cell.push_back(member.cell);
+            sums[2 * p] += cells().volumes[static_cast<std::size_t>(member.cell)];
+        }
+        sums[2 * p + 1] = sums[2 * p];
+        stencils.first.push_back(stencils.cell.size());
+    }
+    stencils.deposit.assign(stencils.cell.size(), 1.0);
+    stencils.sample.assign(stencils.cell.size(), 1.0);
 }
 
 /// Drops what is known about rock that has left.
@@ -202,13 +251,7 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
     for (const std::size_t p : hidden) {
         sums[2 * p] = new_sums[2 * p];
         sums[2 * p + 1] = new_sums[2 * p + 1];
-        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) {
-            const Vec3& x = rocks.position[p];
-            throw CheckFailure({"",
-                                fmt::format("rock {} at ({:.6g} {:.6g} {:.6g}) m has no cell of the mesh within {:.3g} m", rocks.id[p],
-                                            x[0], x[1], x[2], physics::k_kernel_reach * stencils.width[p]),
-                                "Rock must stay inside the mesh", "Let rock.domain end inside the mesh"});
-        }
+        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) throw no_cell_near(rocks, p, physics::k_kernel_reach * stencils.width[p]);
     }
     stencils = std::move(replaced);
 }

@@ -1,9 +1,11 @@
 #pragma once
 /// \file Mapping between rocks and the cells of this rank: one stencil per rock serves every field in both directions.
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "solver/coupling/kernel/cell_groups.hpp"
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/settings.hpp"
 #include "solver/space/size_field.hpp"
@@ -22,7 +24,7 @@ struct RockShapes {
 /// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]).
 /// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights.
 struct Stencils {
-    std::vector<double> width;       ///< sigma of each rock [m]
+    std::vector<double> width;       ///< sigma of each rock, or the side of its group of cells [m]
     std::vector<Zone> zone;          ///< of the cell nearest to each rock
     std::vector<std::size_t> first;  ///< one more than rocks
     std::vector<std::int32_t> cell;  ///< of each entry
@@ -35,7 +37,8 @@ struct Stencils {
     void resize_entries(std::size_t count);
 };
 
-/// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock.
+/// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock; or, with another
+/// map than gaussian, one group of cells per rock.
 class Mapping {
 public:
     /// Keeps references to the engine's arrays. The mesh is at its position at time 0.
@@ -48,7 +51,7 @@ public:
     /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are stored and reused: the
     /// new positions of one step are the old ones of the next. Collective.
     /// \param stencils  overwritten; buffers are reused because allocating them would dominate the cost
-    /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
+    /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel, or near it
     void build(const RockShapes& rocks, Stencils& stencils);
 
     const SizeField& sizes() const { return sizes_; }
@@ -70,6 +73,8 @@ private:
 
     void build_anew(const RockShapes& rocks, Stencils& stencils);
     void forget_vicinities(std::size_t rocks);
+    void lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
+    void lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
     void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
 
@@ -80,8 +85,9 @@ private:
     Visibility visibility_;
     KernelSettings kernel_;
     Communicator& communicator_;
-    std::vector<double> angles_;  // of the moving zones [rad]
-    Kept last_;                   // unused once the mesh has turned
+    std::optional<CellGroups> groups_;  // none: map gaussian
+    std::vector<double> angles_;        // of the moving zones [rad]
+    Kept last_;                         // unused once the mesh has turned
     bool has_turned_ = false;
     std::size_t hidden_rocks_ = 0;
 

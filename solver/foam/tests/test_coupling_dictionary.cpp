@@ -93,7 +93,7 @@ rock
     );
     domain { type cylinder; axisPoint (0.1 0 0); radius 2.5; zMin -0.875; zMax 0.435; walls (zMin); }
 }
-kernel { gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
+kernel { map cluster; clusterSize 0.06; gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
 closures { drag brown_lawler; hindrance di_felice; addedMass 0.4; dragModifier 1.1; sphericity 0.8; lift mei; viscousForce no; }
 fates
 {
@@ -117,6 +117,8 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_TRUE(c.rock_feed.is_absolute());
     EXPECT_THAT(c.rock_feed.string(), HasSubstr("dictionary_complete"));
     EXPECT_EQ(c.rock_feed.string().find("processor"), std::string::npos);
+    EXPECT_EQ(c.kernel.map, "cluster");
+    EXPECT_DOUBLE_EQ(c.kernel.cluster_size, 0.06);
     EXPECT_DOUBLE_EQ(c.kernel.gamma, 1.25);
     EXPECT_DOUBLE_EQ(c.kernel.min_width_in_cells, 2.0);
     EXPECT_DOUBLE_EQ(c.kernel.max_solid_fraction, 0.6);
@@ -197,6 +199,7 @@ TEST(CouplingDictionary, GivesBackEverySettingThatWasWritten) {
         coupling::ContactSettings contact;
         coupling::PairSettings rock_rock, rock_steel = contact.rock_steel, rock_soil = contact.rock_soil;
         coupling::KernelSettings kernel;
+        if (choice > 0) kernel.map = coupling::k_cluster_map;  // the only one with a size above 0
         coupling::ClosureSettings closures;
         coupling::OutflowSettings outflow;
         coupling::StopSettings stop;

@@ -104,6 +104,25 @@ TEST(Settings, count_the_void_fraction_once) {
     EXPECT_EQ(check_settings(settings, k_water, "x").size(), 2u);
 }
 
+TEST(Settings, give_clusters_their_size_and_no_other_map) {
+    CouplingSettings settings = good_settings();
+    settings.kernel.map = k_centroid_map;
+    EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
+    settings.kernel.cluster_size = 0.06;
+    auto mistakes = check_settings(settings, k_water, "x");
+    ASSERT_EQ(mistakes.size(), 1u);
+    EXPECT_EQ(mistakes[0].what, "kernel.clusterSize = 0.06 with kernel.map = centroid");
+    settings.kernel.map = k_cluster_map;
+    EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
+    settings.kernel.cluster_size = 0.0;
+    mistakes = check_settings(settings, k_water, "x");
+    ASSERT_EQ(mistakes.size(), 1u);
+    EXPECT_EQ(mistakes[0].what, "kernel.clusterSize is missing");
+    settings.kernel = {};
+    settings.kernel.map = "divided";
+    EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
+}
+
 TEST(Settings, only_outflow_and_the_stop_rule_need_fates) {
     CouplingSettings settings = good_settings();
     settings.fates.reset();
