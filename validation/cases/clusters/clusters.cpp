@@ -21,7 +21,7 @@ constexpr double k_cell = 0.03;                                                 
 constexpr double k_start = 1.38, k_from = 1.08, k_to = 0.36;                        // heights [m]
 constexpr double k_gate_spacing = 1e-3;                                             // [m]
 constexpr double k_off_corner = 0.395 - 0.45;                                       // of the fall, from the middle of the box [m]
-constexpr double k_end = 2.2;                                                       // [s]
+constexpr double k_end = 2.1;                                                       // [s]
 constexpr const char* k_paper = "WasserfallCoetzeeMeyer2024";
 
 /// Speed [m/s] at which the drag of Haider and Levenspiel carries the rock's weight in water. [HaiderLevenspiel1989]
@@ -129,7 +129,7 @@ void show(Verification& verification, const std::vector<Trial>& trials) {
 
 void run(Verification& verification) {
     if (!verification.wants(Effort::standard)) return;
-    constexpr double step = 5e-3;
+    constexpr double step = 7.5e-3;
     const BoxCase water;
     const double terminal = terminal_speed(water);
     std::vector<Trial> trials;
