@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <gsl/assert>
@@ -68,6 +69,12 @@ void require_closed_volume(const BalanceRow& balance) {
         {"", fmt::format("at time {:.9g} s the closed domain has {:.3g} of its volume too much", balance.time, balance.domain_surplus),
          fmt::format("Rock and water fill a closed domain to {:g} of its volume per step", k_largest_surplus),
          "Check that velocities on the boundary let nothing in or out; else report this as a defect"});
+}
+
+std::vector<std::size_t> all_of(const Rocks& rocks) {
+    std::vector<std::size_t> numbers(rocks.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    return numbers;
 }
 
 }  // namespace
@@ -213,12 +220,14 @@ void CoupledRun::insert_due_rock() {
     if (packet.empty()) return;
     Ensures(rock_->insert(packet).empty());
     const Rocks& rocks = dem_->rocks();
+    std::vector<std::size_t> placed;
     for (const FeedRock& rock : packet) {
         const auto p = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), rock.id) - rocks.id.begin());
-        account_.place(rocks, p);
+        placed.push_back(p);
         recorder_.event(fates_ ? fates_->place(rock.id, rock.diameter, rock.density, rocks.position[p], rocks.velocity[p], now())
                                : rock_event(EventSurface::feed, EventDirection::in, rocks, p, now()));
     }
+    account_.place(rocks, placed);
 }
 
 void CoupledRun::sample_flow() {
@@ -530,10 +539,7 @@ void CoupledRun::write_state_files(const fs::path& folder) {
 /// A checkpoint without an account is of a run that had neither events nor gates.
 void CoupledRun::restore_account(const RunState& state) {
     const Rocks& rocks = dem_->rocks();
-    if (!state.account) {
-        for (std::size_t p = 0; p < rocks.size(); ++p) account_.place(rocks, p);
-        return;
-    }
+    if (!state.account) return account_.place(rocks, all_of(rocks));
     account_.restore(*state.account);
     account_.require(rocks, fluid_.time());
     operations_.restore(state.operations);
@@ -548,8 +554,8 @@ void CoupledRun::start_from(const fs::path& checkpoint) {
             throw UserError({{settings_.rock_feed.string(), fmt::format("rock {} is in {} too", id, checkpoint.string()),
                               "Ids are unique in a run", "Number the feed's rock from the largest id of the start on"}});
     rock_->adopt_present_rock();
+    account_.place(rocks, all_of(rocks));
     for (std::size_t p = 0; p < rocks.size(); ++p) {
-        account_.place(rocks, p);
         RockEvent event = rock_event(EventSurface::start, EventDirection::in, rocks, p, now());
         if (fates_) event = fates_->place(rocks.id[p], rocks.diameter[p], rocks.density[p], rocks.position[p], rocks.velocity[p], now());
         recorder_.event(event);

@@ -24,10 +24,16 @@ double mass_of(const Rocks& rocks, std::size_t p) {
 
 }  // namespace
 
-void RockAccount::place(const Rocks& rocks, std::size_t p) {
-    const auto at = std::lower_bound(entries_.begin(), entries_.end(), rocks.id[p], is_before);
-    if (at != entries_.end() && at->id == rocks.id[p]) fail(fmt::format("a second rock with the id {} came in", rocks.id[p]));
-    entries_.insert(at, {rocks.id[p], mass_of(rocks, p), static_cast<int>(entries_.size()), Whereabouts::in_run});
+void RockAccount::place(const Rocks& rocks, gsl::span<const std::size_t> which) {
+    const auto before = static_cast<std::ptrdiff_t>(entries_.size());
+    for (const std::size_t p : which)
+        entries_.push_back({rocks.id[p], mass_of(rocks, p), static_cast<int>(entries_.size()), Whereabouts::in_run});
+    const auto by_id = [](const AccountEntry& a, const AccountEntry& b) { return a.id < b.id; };
+    std::sort(entries_.begin() + before, entries_.end(), by_id);
+    std::inplace_merge(entries_.begin(), entries_.begin() + before, entries_.end(), by_id);
+    const auto twice =
+        std::adjacent_find(entries_.begin(), entries_.end(), [](const AccountEntry& a, const AccountEntry& b) { return a.id == b.id; });
+    if (twice != entries_.end()) fail(fmt::format("a second rock with the id {} came in", twice->id));
 }
 
 void RockAccount::take_out(int id, Whereabouts to) {

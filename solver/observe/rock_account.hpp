@@ -29,8 +29,8 @@ struct AccountTotals {
 /// placed = in the run + removed + extracted + left through the domain's boundary + taken out after its fate was decided, by id.
 class RockAccount {
 public:
-    /// Rock `p` of the DEM came in. \throws CheckFailure  when there was one of that id
-    void place(const Rocks& rocks, std::size_t p);
+    /// These rocks of the DEM came in, in this order. \throws CheckFailure  when there was one of that id
+    void place(const Rocks& rocks, gsl::span<const std::size_t> which);
     /// \throws CheckFailure  when it is not in the run
     void take_out(int id, Whereabouts to);
     /// Compares with the rocks of the DEM. \throws CheckFailure  that names the first rock that is missing, is there although it was never

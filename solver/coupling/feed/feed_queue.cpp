@@ -17,8 +17,8 @@ double mass_of(const FeedRock& rock) {
 
 }  // namespace
 
-FeedQueue::FeedQueue(std::vector<FeedRock> feed, const std::optional<QueueSettings>& queue, const ZoneMotion& rotor)
-    : upcoming_(std::move(feed)), queue_(queue), rotor_(rotor) {}
+FeedQueue::FeedQueue(const std::vector<FeedRock>& feed, const std::optional<QueueSettings>& queue, const ZoneMotion& rotor)
+    : upcoming_(feed.begin(), feed.end()), queue_(queue), rotor_(rotor) {}
 
 double FeedQueue::next_release() const {
     return queue_ || upcoming_.empty() ? std::numeric_limits<double>::infinity() : upcoming_.front().time;

@@ -1,5 +1,6 @@
 #pragma once
 /// \file The rock that is to come in: what is not yet due, what waits for a place, and what goes in now.
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -37,7 +38,7 @@ class FeedQueue {
 public:
     FeedQueue() = default;
     /// \param feed  sorted by time \param rotor  with which places turn; at rest without one
-    FeedQueue(std::vector<FeedRock> feed, const std::optional<QueueSettings>& queue, const ZoneMotion& rotor);
+    FeedQueue(const std::vector<FeedRock>& feed, const std::optional<QueueSettings>& queue, const ZoneMotion& rotor);
 
     /// Time [s] at which a step must end, because a batch goes in at its very time; infinity without one.
     double next_release() const;
@@ -69,7 +70,7 @@ private:
                     std::vector<FeedRock>& chosen) const;
     std::vector<FeedRock> choose_places(std::vector<Waiting>& due, double time, const RoomFor& room_for);
 
-    std::vector<FeedRock> upcoming_;  // sorted by time
+    std::deque<FeedRock> upcoming_;  // sorted by time; leaves at the front
     std::vector<Waiting> waiting_;
     std::vector<FeedRock> newly_waiting_;
     std::vector<int> placed_;

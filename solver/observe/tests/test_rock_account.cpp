@@ -1,4 +1,6 @@
 // The account of rock by id: every way in which an engine can lie is caught and named.
+#include <array>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +22,7 @@ Rocks three() {
 
 RockAccount account_of(const Rocks& rocks) {
     RockAccount account;
-    for (const std::size_t p : {2, 0, 1}) account.place(rocks, p);
+    account.place(rocks, std::array<std::size_t, 3>{2, 0, 1});
     return account;
 }
 
@@ -70,7 +72,7 @@ TEST(RockAccount, names_rock_that_is_missing_returned_doubled_or_changed) {
     EXPECT_THAT(complaint(account, rocks), HasSubstr("rock 3 is in the run"));
     EXPECT_THROW(account.take_out(3, Whereabouts::removed), CheckFailure);
     EXPECT_THROW(account.take_out(4, Whereabouts::removed), CheckFailure);
-    EXPECT_THROW(account.place(rocks, 0), CheckFailure);
+    EXPECT_THROW(account.place(rocks, std::array<std::size_t, 1>{0}), CheckFailure);
     Rocks more = rocks;
     more.append({9, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.01, 2650.0});
     EXPECT_THAT(complaint(account_of(rocks), more), HasSubstr("rock 9 is in the run"));
