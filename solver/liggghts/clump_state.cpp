@@ -53,6 +53,9 @@ void restore_bodies(const nlohmann::json& written, std::size_t shapes, RigidBodi
     const char* const remedy = "Remove this checkpoint folder; the run then resumes from the one before";
     if (!written.contains("bodies") || !written.at("bodies").is_array())
         throw UserError("the checkpoint has no list of clumps", "A run with shapes of rock keeps one", remedy);
+    std::vector<coupling::Rock> rocks;
+    std::vector<Vec3> angular_momenta;
+    std::vector<int> frozen;
     for (const nlohmann::json& entry : written.at("bodies")) {
         const bool is_whole = entry.is_array() && entry.size() == k_numbers_of_body &&
                               std::all_of(entry.begin(), entry.end(), [](const nlohmann::json& value) { return value.is_number(); });
@@ -69,10 +72,13 @@ void restore_bodies(const nlohmann::json& written, std::size_t shapes, RigidBodi
         rock.position = Vec3(at + 4);
         rock.velocity = Vec3(at + 7);
         rock.orientation = Eigen::Quaterniond(at[13], at[14], at[15], at[16]);
-        const Vec3 angular_momentum(at + 10);
-        bodies.add(rock, &angular_momentum);
-        bodies.set_frozen({rock.id}, at[17] != 0.0);
+        rocks.push_back(rock);
+        angular_momenta.emplace_back(at + 10);
+        if (at[17] != 0.0) frozen.push_back(rock.id);
     }
+    bodies.add(rocks, angular_momenta);
+    std::sort(frozen.begin(), frozen.end());
+    bodies.set_frozen(frozen, true);
 }
 
 }  // namespace cutterflow::liggghts

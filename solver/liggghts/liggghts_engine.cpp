@@ -49,7 +49,8 @@ constexpr double k_skin_in_radii = 0.4;       // of the largest rock: neighbour 
 constexpr double k_skin_without_rock = 4e-4;  // of the domain's half width
 constexpr double k_margin_in_radii = 0.25;    // of the domain's half width: room that a rock may use between leaving it and being removed
 constexpr double k_clump_margin = 0.5;        // the same with clumps, half of it for their spheres beyond the centre
-constexpr double k_most_bins = 1e5;           // LIGGGHTS clears all bins at each rebuild
+constexpr double k_most_bins = 1e5;           // of little rock: LIGGGHTS clears all bins at each rebuild
+constexpr double k_bins_per_rock = 10.0;      // of much rock, however little of the domain it fills
 constexpr const char* k_restart_file = "dem.restart";
 constexpr const char* k_state_file = "dem.json";
 constexpr const char* k_rolling_history = "rolling_history";
@@ -139,6 +140,7 @@ private:
     void require_all_rocks(const std::vector<int>& before) const;
     bool overlaps_wall(const Vec3& centre, double radius) const;
     bool fits_margin(const coupling::Rock& rock) const;
+    Eigen::AlignedBox3d bounds_of(const Rocks& rocks) const;
     void create_rock(const coupling::Rock& rock);
     void create_particle(const coupling::Rock& rock, int tag, const geometry::Ball& ball);
     void delete_rocks(const std::vector<int>& sorted_ids);
@@ -286,7 +288,8 @@ void LiggghtsEngine::Implementation::declare_motion() {
 void LiggghtsEngine::Implementation::set_neighbours() {
     const double skin = largest_radius_ > 0.0 ? k_skin_in_radii * largest_radius_ : k_skin_without_rock * half_width(settings_.domain);
     const commands::SimulationBox extent = box();
-    const double coarsest = std::cbrt((extent.high - extent.low).prod() / k_most_bins);
+    const double bins = std::max(k_most_bins, k_bins_per_rock * static_cast<double>(lammps_->atom->natoms));
+    const double coarsest = std::cbrt((extent.high - extent.low).prod() / bins);
     commands(commands::neighbours(skin, std::max(largest_radius_ + 0.5 * skin, coarsest)));
 }
 
@@ -416,6 +419,16 @@ bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double ra
     return is_inside(turns_of_rotor) || is_inside(turns_of_stator) || is_inside(turns_of_soil);
 }
 
+/// Box around rocks with all their spheres.
+Eigen::AlignedBox3d LiggghtsEngine::Implementation::bounds_of(const Rocks& rocks) const {
+    Eigen::AlignedBox3d box;
+    for (std::size_t k = 0; k < rocks.size(); ++k) {
+        const Vec3 reach = Vec3::Constant(bodies_.reach_of(rocks.at(k)));
+        box.extend(Vec3(rocks.position[k] - reach)).extend(Vec3(rocks.position[k] + reach));
+    }
+    return box;
+}
+
 std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidates) const {
     double largest = 0.0;
     for (const std::vector<double>* diameters : {&rocks_.diameter, &candidates.diameter})
@@ -424,7 +437,11 @@ std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidat
     const auto add = [&](const coupling::Rock& rock) {
         for (const geometry::Ball& ball : bodies_.balls_of(rock)) grid.add(ball.centre, 2.0 * ball.radius);
     };
-    for (std::size_t k = 0; k < rocks_.size(); ++k) add(rocks_.at(k));
+    const Eigen::AlignedBox3d around = bounds_of(candidates);
+    for (std::size_t k = 0; k < rocks_.size(); ++k) {
+        const double reach = 1.01 * bodies_.reach_of(rocks_.at(k));  // more by more than rounding
+        if (around.squaredExteriorDistance(rocks_.position[k]) <= reach * reach) add(rocks_.at(k));
+    }
     std::vector<bool> room(candidates.size(), false);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const coupling::Rock rock = candidates.at(k);
@@ -455,7 +472,12 @@ std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates)
         if (room[k]) accepted.append(candidates, k);
     if (accepted.size() == 0) return {};
     store_contact_forces();
-    for (std::size_t k = 0; k < accepted.size(); ++k) create_rock(accepted.at(k));
+    std::vector<coupling::Rock> clumps;
+    for (std::size_t k = 0; k < accepted.size(); ++k) {
+        create_rock(accepted.at(k));
+        if (accepted.shape[k] != coupling::k_sphere_shape) clumps.push_back(accepted.at(k));
+    }
+    bodies_.add(clumps);
     after_change_of_rocks();
     return accepted.id;
 }
@@ -465,7 +487,6 @@ void LiggghtsEngine::Implementation::create_rock(const coupling::Rock& rock) {
         throw std::invalid_argument(fmt::format("rock id {} times {} spheres of a clump is too large", rock.id, context_.spheres_per_rock));
     const std::vector<geometry::Ball> balls = bodies_.balls_of(rock);
     for (std::size_t k = 0; k < balls.size(); ++k) create_particle(rock, context_.tag_of(rock.id, static_cast<int>(k)), balls[k]);
-    if (rock.shape != coupling::k_sphere_shape) bodies_.add(rock);
 }
 
 /// On the rank whose part of the box holds the centre.

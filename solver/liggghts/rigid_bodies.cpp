@@ -35,22 +35,27 @@ Eigen::Quaterniond turned_freely(Eigen::Quaterniond principal, const Vec3& angul
     return principal.normalized();
 }
 
-void RigidBodies::add(const coupling::Rock& rock, const Vec3* angular_momentum) {
+/// With the angular momentum of its spin.
+RigidBody RigidBodies::new_body(const coupling::Rock& rock) const {
     RigidBody body;
     body.state = rock;
     body.mass = sphere_mass(rock.diameter, rock.density);
     const geometry::UnitClump& clump = shapes_[static_cast<std::size_t>(rock.shape)].clump;
     body.moments = rock.density * std::pow(rock.diameter, 5) * clump.moments;
     const Eigen::Quaterniond turn = principal(body);
-    if (angular_momentum)
-        body.angular_momentum = *angular_momentum;
-    else
-        body.angular_momentum = turn * Vec3(body.moments.cwiseProduct(turn.conjugate() * rock.angular_velocity));
-    update_spin(body);
+    body.angular_momentum = turn * Vec3(body.moments.cwiseProduct(turn.conjugate() * rock.angular_velocity));
     body.shortest = shortest_time(body);
-    const auto place =
-        std::lower_bound(bodies_.begin(), bodies_.end(), rock.id, [](const RigidBody& other, int id) { return other.state.id < id; });
-    bodies_.insert(place, body);
+    return body;
+}
+
+void RigidBodies::add(const std::vector<coupling::Rock>& rocks, const std::vector<Vec3>& angular_momenta) {
+    for (std::size_t k = 0; k < rocks.size(); ++k) {
+        RigidBody body = new_body(rocks[k]);
+        if (!angular_momenta.empty()) body.angular_momentum = angular_momenta[k];
+        update_spin(body);
+        bodies_.push_back(body);
+    }
+    std::sort(bodies_.begin(), bodies_.end(), [](const RigidBody& a, const RigidBody& b) { return a.state.id < b.state.id; });
     number_bodies();
 }
 

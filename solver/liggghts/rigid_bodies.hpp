@@ -50,8 +50,8 @@ public:
     /// Whether the LIGGGHTS particle of this tag is a sphere of a clump.
     bool hold(int tag) const { return !bodies_.empty() && body_of(tag) >= 0; }
 
-    /// \param angular_momentum  null: that of the rock's spin
-    void add(const coupling::Rock& rock, const Vec3* angular_momentum = nullptr);
+    /// \param angular_momenta  [kg m2/s]; empty: those of the rocks' spins
+    void add(const std::vector<coupling::Rock>& rocks, const std::vector<Vec3>& angular_momenta = {});
     void remove(const std::vector<int>& sorted_ids);
     /// A frozen body has a velocity of exactly 0 and stays exactly where it is.
     void set_frozen(const std::vector<int>& sorted_ids, bool frozen);
@@ -79,6 +79,7 @@ private:
         const auto id = static_cast<std::size_t>(context_.rock_of(tag));
         return id < by_id_.size() ? by_id_[id] : -1;
     }
+    RigidBody new_body(const coupling::Rock& rock) const;
     void number_bodies();
     Vec3 acceleration(const RigidBody& body, const Vec3& gravity) const;
     Eigen::Quaterniond principal(const RigidBody& body) const;
