@@ -168,6 +168,7 @@ private:
     LAMMPS_NS::FixPropertyAtom* contact_forces_ = nullptr;
     LAMMPS_NS::FixPropertyAtom* records_ = nullptr;  // of contacts with walls
     Rocks rocks_;
+    std::vector<Vec3> impulse_, contact_impulse_;  // of the last call of advance, rock by rock [N s]
     double time_ = 0.0;
     std::vector<int> frozen_;             // ids
     double contact_torque_ = 0.0;         // on rotating steel, of the contact forces that are stored; this rank's share [N m]
@@ -340,7 +341,7 @@ bool LiggghtsEngine::Implementation::is_first_rank() const {
 }
 
 void LiggghtsEngine::Implementation::gather() {
-    constexpr int columns = 13;
+    constexpr int columns = 19;
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     std::vector<double> mine;
     int spheres_of_bodies = 0;
@@ -356,6 +357,8 @@ void LiggghtsEngine::Implementation::gather() {
         mine.push_back(2.0 * context_.radius_of(atom.radius[i]));
         mine.push_back(atom.density[i]);
         mine.push_back(atom.type[i] == k_frozen ? 1.0 : 0.0);
+        mine.insert(mine.end(), motion_->impulse(i).data(), motion_->impulse(i).data() + 3);
+        mine.insert(mine.end(), motion_->contact_impulse(i).data(), motion_->contact_impulse(i).data() + 3);
     }
     int ranks = 1;
     MPI_Comm_size(communicator_, &ranks);
@@ -369,21 +372,32 @@ void LiggghtsEngine::Implementation::gather() {
     if (!bodies_.empty() && static_cast<std::size_t>(std::lround(sum(spheres_of_bodies))) != bodies_.spheres())
         throw std::logic_error(fmt::format("{:.0f} of {} spheres of clumps are in the DEM", sum(spheres_of_bodies), bodies_.spheres()));
 
-    std::vector<coupling::Rock> found;
+    struct Found {
+        coupling::Rock rock;
+        Vec3 impulse, contact_impulse;
+    };
+    std::vector<Found> found;
     frozen_.clear();
     for (std::size_t k = 0; k < all.size(); k += columns) {
         const double* row = all.data() + k;
-        found.push_back({static_cast<int>(row[0]), Vec3(row + 1), Vec3(row + 4), Vec3(row + 7), row[10], row[11]});
-        if (row[12] != 0.0) frozen_.push_back(found.back().id);
+        const coupling::Rock rock{static_cast<int>(row[0]), Vec3(row + 1), Vec3(row + 4), Vec3(row + 7), row[10], row[11]};
+        found.push_back({rock, Vec3(row + 13), Vec3(row + 16)});
+        if (row[12] != 0.0) frozen_.push_back(rock.id);
     }
     for (const RigidBody& body : bodies_.all()) {
-        found.push_back(body.state);
+        found.push_back({body.state, body.impulse, body.contact_impulse});
         if (body.frozen) frozen_.push_back(body.state.id);
     }
     std::sort(frozen_.begin(), frozen_.end());
-    std::sort(found.begin(), found.end(), [](const coupling::Rock& a, const coupling::Rock& b) { return a.id < b.id; });
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.rock.id < b.rock.id; });
     rocks_ = Rocks{};
-    for (const coupling::Rock& rock : found) rocks_.append(rock);
+    impulse_.clear();
+    contact_impulse_.clear();
+    for (const Found& one : found) {
+        rocks_.append(one.rock);
+        impulse_.push_back(one.impulse);
+        contact_impulse_.push_back(one.contact_impulse);
+    }
 }
 
 double LiggghtsEngine::Implementation::largest_time_step() const {
@@ -586,9 +600,6 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     const std::vector<int> before = rocks_.id;
     gather();
     require_all_rocks(before);
-    std::vector<Vec3> impulse = motion_->impulse(), contact_impulse = motion_->contact_impulse();
-    for (std::vector<Vec3>* values : {&impulse, &contact_impulse})
-        MPI_Allreduce(MPI_IN_PLACE, values->data(), static_cast<int>(3 * values->size()), MPI_DOUBLE, MPI_SUM, communicator_);
 
     coupling::DemStep done;
     done.substeps = steps;
@@ -602,12 +613,12 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     MPI_Allreduce(MPI_IN_PLACE, &done.max_overlap_ratio, 1, MPI_DOUBLE, MPI_MAX, communicator_);
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         if (contains(settings_.domain, rocks_.position[k])) {
-            done.impulse.push_back(impulse[k]);
-            done.contact_impulse.push_back(contact_impulse[k]);
+            done.impulse.push_back(impulse_[k]);
+            done.contact_impulse.push_back(contact_impulse_[k]);
         } else {
             done.left.append(rocks_, k);
-            done.left_impulse.push_back(impulse[k]);
-            done.left_contact_impulse.push_back(contact_impulse[k]);
+            done.left_impulse.push_back(impulse_[k]);
+            done.left_contact_impulse.push_back(contact_impulse_[k]);
         }
     }
     delete_rocks(done.left.id);

@@ -143,6 +143,14 @@ void RigidBodies::begin(const coupling::Rocks& rocks, const coupling::Hydrodynam
     for (RigidBody& body : bodies_) {
         body.index = static_cast<std::size_t>(std::lower_bound(rocks.id.begin(), rocks.id.end(), body.state.id) - rocks.id.begin());
         body.hydrodynamic = law(body.index, body.state.velocity);
+        body.impulse = body.contact_impulse = Vec3::Zero();
+    }
+}
+
+void RigidBodies::add_impulses(double duration, const Vec3& gravity) {
+    for (RigidBody& body : bodies_) {
+        body.impulse += duration * body.hydrodynamic;
+        body.contact_impulse += duration * (body.frozen ? Vec3(-body.hydrodynamic - weight(body, gravity)) : body.force);
     }
 }
 

@@ -36,6 +36,8 @@ struct RigidBody {
     Vec3 hydrodynamic = Vec3::Zero();                  ///< force [N]
     Vec3 acceleration = Vec3::Zero();                  ///< at a step's start [m/s2]
     Vec3 torque_before = Vec3::Zero();                 ///< at a step's start [N m]
+    Vec3 impulse = Vec3::Zero();                       ///< of the fluid since begin() [N s]
+    Vec3 contact_impulse = Vec3::Zero();               ///< of contacts, and of what holds a frozen one [N s]
 };
 
 /// All clumps of the run, the same on every rank: every rank integrates all of them, from forces that are summed over the ranks in every
@@ -69,6 +71,8 @@ public:
 
     /// Starts a call of advance, as RockMotion::begin.
     void begin(const coupling::Rocks& rocks, const coupling::HydrodynamicForce& law, const LAMMPS_NS::Atom& atom, MPI_Comm world);
+    /// Of the present forces, over a time [s].
+    void add_impulses(double duration, const Vec3& gravity);
     /// Moves the bodies and their spheres, with the velocities predicted for the step's end.
     void start_step(double step, const Vec3& gravity, LAMMPS_NS::Atom& atom);
     /// Corrects the velocities by the forces at the step's end.

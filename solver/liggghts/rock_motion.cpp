@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "atom.h"
-#include "comm.h"
 #include "update.h"
 
 #include "geometry/base/sphere.hpp"
@@ -32,8 +31,6 @@ int RockMotion::setmask() {
 void RockMotion::begin(const coupling::Rocks& rocks, const coupling::HydrodynamicForce& law) {
     rocks_ = &rocks;
     force_ = &law;
-    impulse_.assign(rocks.size(), Vec3::Zero());
-    contact_impulse_.assign(rocks.size(), Vec3::Zero());
     angular_impulse_ = 0.0;
     wall_impulse_.assign(context_.tally.force_on_body.size(), Vec3::Zero());
     bodies_.begin(rocks, law, *atom, world);
@@ -42,6 +39,7 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
         const auto of_this_rock = std::lower_bound(rocks.id.begin(), rocks.id.end(), context_.rock_of(atom->tag[i]));
         states_[i].index = static_cast<std::size_t>(of_this_rock - rocks.id.begin());
         states_[i].hydrodynamic = law(states_[i].index, Vec3(atom->v[i]));
+        states_[i].impulse = states_[i].contact_impulse = Vec3::Zero();
     }
 }
 
@@ -62,10 +60,10 @@ Vec3 RockMotion::acceleration(int rock) const {
 
 /// Half a step's.
 void RockMotion::add_impulses(int rock) {
-    const State& state = states_[rock];
+    State& state = states_[rock];
     const Vec3 other = is_frozen(rock) ? Vec3(-state.hydrodynamic - weight(rock)) : Vec3(atom->f[rock]);
-    impulse_[state.index] += 0.5 * update->dt * state.hydrodynamic;
-    contact_impulse_[state.index] += 0.5 * update->dt * other;
+    state.impulse += 0.5 * update->dt * state.hydrodynamic;
+    state.contact_impulse += 0.5 * update->dt * other;
 }
 
 /// Half a step's.
@@ -79,16 +77,6 @@ Vec3 RockMotion::spin_acceleration(int rock) const {
     return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
 }
 
-/// Half a step's, on the first rank: all ranks know the bodies' forces.
-void RockMotion::add_impulses_of_bodies() {
-    if (comm->me != 0) return;
-    for (const RigidBody& body : bodies_.all()) {
-        impulse_[body.index] += 0.5 * update->dt * body.hydrodynamic;
-        const Vec3 other = body.frozen ? Vec3(-body.hydrodynamic - bodies_.weight(body, gravity_)) : body.force;
-        contact_impulse_[body.index] += 0.5 * update->dt * other;
-    }
-}
-
 /// Runs after the planes' post_force, because the planes were declared before.
 void RockMotion::post_force(int) {
     for (SteelWall& wall : walls_) wall.find_touches(*atom, context_.time, *context_.wall_contacts);
@@ -97,7 +85,7 @@ void RockMotion::post_force(int) {
 
 void RockMotion::initial_integrate(int) {
     const double step = update->dt;
-    add_impulses_of_bodies();
+    bodies_.add_impulses(0.5 * step, gravity_);
     bodies_.start_step(step, gravity_, *atom);
     for (int i = 0; i < atom->nlocal; ++i) {
         if (bodies_.hold(atom->tag[i])) continue;
@@ -118,7 +106,7 @@ void RockMotion::initial_integrate(int) {
 void RockMotion::final_integrate() {
     const double step = update->dt;
     bodies_.end_step(step, gravity_, *force_, *atom, world);
-    add_impulses_of_bodies();
+    bodies_.add_impulses(0.5 * step, gravity_);
     for (int i = 0; i < atom->nlocal; ++i) {
         if (bodies_.hold(atom->tag[i])) continue;
         State& state = states_[i];
@@ -146,16 +134,20 @@ int RockMotion::pack_exchange(int rock, double* buffer) {
     std::copy_n(states_[rock].hydrodynamic.data(), 3, buffer);
     std::copy_n(states_[rock].acceleration.data(), 3, buffer + 3);
     std::copy_n(states_[rock].spin_acceleration.data(), 3, buffer + 6);
-    buffer[9] = static_cast<double>(states_[rock].index);
-    return 10;
+    std::copy_n(states_[rock].impulse.data(), 3, buffer + 9);
+    std::copy_n(states_[rock].contact_impulse.data(), 3, buffer + 12);
+    buffer[15] = static_cast<double>(states_[rock].index);
+    return 16;
 }
 
 int RockMotion::unpack_exchange(int rock, double* buffer) {
     std::copy_n(buffer, 3, states_[rock].hydrodynamic.data());
     std::copy_n(buffer + 3, 3, states_[rock].acceleration.data());
     std::copy_n(buffer + 6, 3, states_[rock].spin_acceleration.data());
-    states_[rock].index = static_cast<std::size_t>(buffer[9]);
-    return 10;
+    std::copy_n(buffer + 9, 3, states_[rock].impulse.data());
+    std::copy_n(buffer + 12, 3, states_[rock].contact_impulse.data());
+    states_[rock].index = static_cast<std::size_t>(buffer[15]);
+    return 16;
 }
 
 }  // namespace cutterflow::liggghts

@@ -31,10 +31,9 @@ public:
     /// Starts a call of advance: the rocks present (sorted by id) and their force law.
     void begin(const coupling::Rocks& rocks, const coupling::HydrodynamicForce& law);
 
-    /// This rank's share of the impulse [N s] on each rock since begin().
-    const std::vector<Vec3>& impulse() const { return impulse_; }
-    /// The same of contacts.
-    const std::vector<Vec3>& contact_impulse() const { return contact_impulse_; }
+    /// Impulses [N s] of the fluid and of contacts since begin(). \param rock  of this rank, in LIGGGHTS' order; no sphere of a clump
+    const Vec3& impulse(int rock) const { return states_[static_cast<std::size_t>(rock)].impulse; }
+    const Vec3& contact_impulse(int rock) const { return states_[static_cast<std::size_t>(rock)].contact_impulse; }
     /// This rank's share of the time integral [N m s] of the torque on rotating steel since begin().
     double angular_impulse() const { return angular_impulse_; }
     /// The same of the forces on the walls [N s], by their numbers.
@@ -61,6 +60,8 @@ private:
         Vec3 hydrodynamic = Vec3::Zero();       ///< force [N]
         Vec3 acceleration = Vec3::Zero();       ///< at the step's start [m/s2]
         Vec3 spin_acceleration = Vec3::Zero();  ///< [rad/s2]
+        Vec3 impulse = Vec3::Zero();            ///< since begin() [N s]
+        Vec3 contact_impulse = Vec3::Zero();
     };
 
     bool is_frozen(int rock) const;
@@ -69,7 +70,6 @@ private:
     void add_impulses(int rock);
     void add_impulses_of_walls();
     Vec3 spin_acceleration(int rock) const;
-    void add_impulses_of_bodies();
 
     ContactContext& context_;
     std::vector<SteelWall>& walls_;
@@ -77,8 +77,7 @@ private:
     Vec3 gravity_;
     const coupling::Rocks* rocks_ = nullptr;
     const coupling::HydrodynamicForce* force_ = nullptr;
-    std::vector<State> states_;                    // in LIGGGHTS' order
-    std::vector<Vec3> impulse_, contact_impulse_;  // per rock of rocks_
+    std::vector<State> states_;  // in LIGGGHTS' order
     double angular_impulse_ = 0.0;
     std::vector<Vec3> wall_impulse_;
 };
