@@ -10,6 +10,7 @@ public:
     PstreamCommunicator();
     void sum(gsl::span<double> values) override;
     void max(gsl::span<double> values) override;
+    void swap(gsl::span<coupling::Parcel> parcels) override;
     int rank() const override { return rank_; }
     int size() const override { return size_; }
 

@@ -3,7 +3,9 @@
 #include <condition_variable>
 #include <exception>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace cutterflow::coupling::testing {
 /// Runs `body` once per rank, all at the same time; the first exception of a rank is thrown again (all ranks must throw alike).
 class ThreadedRanks {
 public:
-    explicit ThreadedRanks(int ranks) : parts_(static_cast<std::size_t>(ranks)) {}
+    explicit ThreadedRanks(int ranks) : parts_(static_cast<std::size_t>(ranks)), mail_(parts_.size()) {}
 
     void run(const std::function<void(Communicator&)>& body) {
         std::vector<std::thread> threads;
@@ -43,6 +45,7 @@ private:
         void max(gsl::span<double> values) override {
             all_.combine(rank_, values, [](double a, double b) { return a > b ? a : b; });
         }
+        void swap(gsl::span<Parcel> parcels) override { all_.deliver(rank_, parcels); }
         int rank() const override { return rank_; }
         int size() const override { return static_cast<int>(all_.parts_.size()); }
 
@@ -62,6 +65,19 @@ private:
         wait();
     }
 
+    void deliver(int rank, gsl::span<Parcel> parcels) {
+        std::map<int, std::vector<double>>& sent = mail_[static_cast<std::size_t>(rank)];
+        for (const Parcel& parcel : parcels) sent[parcel.rank] = parcel.values;
+        wait();
+        for (Parcel& parcel : parcels) {
+            const std::vector<double>& here = mail_[static_cast<std::size_t>(parcel.rank)].at(rank);
+            if (here.size() != parcel.values.size()) throw std::logic_error("two ranks swap parcels of unequal length");
+            parcel.values = here;
+        }
+        wait();
+        sent.clear();
+    }
+
     void wait() {
         std::unique_lock<std::mutex> lock(mutex_);
         const int generation = generation_;
@@ -75,6 +91,7 @@ private:
     }
 
     std::vector<std::vector<double>> parts_;
+    std::vector<std::map<int, std::vector<double>>> mail_;  // by sender and receiver
     std::mutex mutex_;
     std::condition_variable condition_;
     int waiting_ = 0;
