@@ -415,10 +415,11 @@ void KernelCoupling::check_range(const physics::Closure& closure, const physics:
     for (const physics::ClosureRange& range : closure.ranges) {
         const double value = numbers.value_of(range.argument);
         const std::string_view symbol = physics::argument_symbol(range.argument);
-        if (range.excludes(value))
-            warn_once(std::string(closure.name) + std::string(symbol),
-                      fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}", closure.name,
-                                  symbol, value, id, range.minimum, range.maximum, closure.citation));
+        if (!range.excludes(value)) continue;
+        const std::string subject = std::string(closure.name) + std::string(symbol);
+        if (warned_.count(subject) == 0)  // the text of a warning costs more than all else here
+            warn_once(subject, fmt::format("{} is used at {} = {:.4g} (rock {}), outside the range {:g} to {:g} of its source {}",
+                                           closure.name, symbol, value, id, range.minimum, range.maximum, closure.citation));
     }
 }
 
