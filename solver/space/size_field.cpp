@@ -47,7 +47,6 @@ struct SizeField::Near {
 
 SizeField::SizeField(const Cells& cells, std::size_t zones, Communicator& communicator) : centres_(zones), sizes_(zones) {
     smallest_ = std::numeric_limits<double>::infinity();
-    double largest = 0.0;
     for (Zone zone = 0; zone < zones; ++zone) {
         std::vector<double> mine;
         for (std::size_t c = 0; c < cells.centres.size(); ++c) {
@@ -63,11 +62,11 @@ SizeField::SizeField(const Cells& cells, std::size_t zones, Communicator& commun
             centres_[zone].push_back(centres[static_cast<std::size_t>(i)]);
             sizes_[zone].push_back(all[4 * static_cast<std::size_t>(i) + 3]);
             smallest_ = std::min(smallest_, sizes_[zone].back());
-            largest = std::max(largest, sizes_[zone].back());
+            largest_ = std::max(largest_, sizes_[zone].back());
         }
         count_ += centres.size();
     }
-    is_uniform_ = largest <= (1.0 + k_uniform) * smallest_;
+    is_uniform_ = largest_ <= (1.0 + k_uniform) * smallest_;
 }
 
 SizeField::Surroundings SizeField::around(const ZoneFrames& frames, const Vec3& point, Vicinity& vicinity) const {

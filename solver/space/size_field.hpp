@@ -38,6 +38,7 @@ public:
     Vec3 nearest_centre(const ZoneFrames& frames, const Vec3& point) const;
 
     double smallest() const { return smallest_; }
+    double largest() const { return largest_; }
 
     /// Largest speed [m/s] at which a moving zone's cells pass the still ones along their interface; 0 when nothing turns.
     double interface_speed(gsl::span<const ZoneMotion> moving) const;
@@ -51,7 +52,7 @@ private:
     std::vector<std::vector<double>> sizes_;
     std::vector<PointTree> trees_;
     std::size_t count_ = 0;
-    double smallest_ = 0.0;
+    double smallest_ = 0.0, largest_ = 0.0;
     bool is_uniform_ = false;
 };
 

@@ -213,7 +213,7 @@ void KernelCoupling::sample() {
 double KernelCoupling::travel_limit() const {
     const Rocks& rocks = dem_.rocks();
     double limit = std::numeric_limits<double>::infinity();
-    for (std::size_t p = 0; p < rocks.size(); ++p) {
+    for (const std::size_t p : present_.shared.near()) {
         Vec3 cell_velocity = Vec3::Zero();
         if (present_.zone[p] != k_still_zone) {
             const ZoneMotion& motion = fluid_.moving_zones()[present_.zone[p] - 1];
@@ -223,7 +223,9 @@ double KernelCoupling::travel_limit() const {
         if (fluid_.feels_rock()) speed = std::max(speed, interface_speed_);
         if (speed > 0.0) limit = std::min(limit, k_travel_share * present_.width[p] / speed);
     }
-    return limit;
+    double least = -limit;
+    communicator_.max(gsl::span<double>(&least, 1));
+    return -least;
 }
 
 /// The part of the force that does not follow the rock's velocity.
@@ -315,8 +317,8 @@ void KernelCoupling::map() {
     add_impulses(present_, step_.impulse, velocity_change, volumes);
     if (!step_.left.id.empty()) follow_departures();
 
-    std::vector<double> drag(rocks.size());
-    for (std::size_t p = 0; p < rocks.size(); ++p) {
+    std::vector<double> drag(rocks.size(), 0.0);
+    for (const std::size_t p : present_.shared.near()) {
         const FlowAtRock& flow = flow_[index_before_[p]];
         drag[p] = drag_per_slip(rock_in_fluid(rocks, p, flow), (flow.velocity - rocks.velocity[p]).norm()) / properties_.density;
     }
@@ -344,7 +346,7 @@ void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
             Eigen::Map<Vec3>(&mean[3 * p]) += present_.deposit[i] * mapping_.cells().volumes[c] * relative(p, c);
         }
-    communicator_.sum(mean);
+    present_.shared.sum(mean, 3, communicator_);
     for (std::size_t p = 0; p < drag.size(); ++p)
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
@@ -406,7 +408,7 @@ void KernelCoupling::check_ranges() {
         numbers.sphericity = sphericity_of(rocks.shape[p]);
         for (const physics::Closure* closure : in_use) check_range(*closure, numbers, rocks.id[p]);
     }
-    if (mapping_.hidden_rocks() > 0)
+    if (mapping_.had_hidden_rock())
         warn_once("hidden",
                   "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ)");
 }

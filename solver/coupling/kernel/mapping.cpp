@@ -34,9 +34,15 @@ CheckFailure no_cell_near(const RockShapes& rocks, std::size_t rock, double dist
                          "Rock must stay inside the mesh", "Let rock.domain end inside the mesh"});
 }
 
+/// Whether a rock has cells, by the sums of w V and psi V over all ranks.
+bool is_mapped(const std::vector<double>& sums, std::size_t rock) {
+    return sums[2 * rock] > 0.0 && sums[2 * rock + 1] > 0.0;
+}
+
 }  // namespace
 
 void Stencils::clear() {
+    shared = {};
     width.clear();
     zone.clear();
     first.assign(1, 0);
@@ -56,6 +62,7 @@ Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMot
     : moving_(moving.begin(), moving.end()),
       frames_(moving, 0.0),
       trees_(cells, frames_.zones()),
+      boxes_(trees_, communicator),
       sizes_(cells, frames_.zones(), communicator),
       visibility_(steel, trees_, frames_),
       kernel_(kernel),
@@ -97,21 +104,21 @@ void Mapping::build(const RockShapes& rocks, Stencils& stencils) {
 
 void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     stencils.clear();
+    stencils.shared = SharedRocks(communicator_.rank());
     ++builds_;
-    forget_vicinities(rocks.size());
     std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
     if (groups_)
         lay_in_groups(rocks, stencils, sums);
     else
         lay_kernels(rocks, stencils, sums);
-    communicator_.sum(sums);
+    forget_vicinities(stencils.shared.near().size());
+    stencils.shared.sum(sums, 2, communicator_);
+    if (!all_are_mapped(stencils, sums)) {
+        replace_hidden(rocks, stencils, sums);
+        if (!all_are_mapped(stencils, sums)) refuse_unmapped(rocks, stencils, sums);
+    }
 
-    std::vector<std::size_t> hidden;
-    for (std::size_t p = 0; p < rocks.size(); ++p)
-        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) hidden.push_back(p);
-    if (!hidden.empty()) replace_hidden(rocks, hidden, stencils, sums);
-
-    for (std::size_t p = 0; p < rocks.size(); ++p) {
+    for (const std::size_t p : stencils.shared.near()) {
         const double deposit_scale = 1.0 / sums[2 * p], sample_scale = 1.0 / sums[2 * p + 1];
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
             stencils.deposit[i] *= deposit_scale;
@@ -120,23 +127,26 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     }
 }
 
-/// Kernels of all rocks, unnormalised, and this rank's part of their sums.
+/// Kernels of the rocks near this rank's cells, unnormalised, and this rank's part of their sums.
 void Mapping::lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
     for (std::size_t p = 0; p < rocks.size(); ++p) {
-        KnownVicinity& vicinity = vicinities_[rocks.id[p]];
-        vicinity.last_build = builds_;
-        const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p], vicinity.sizes);
-        const double width = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * mesh.size);
-        const double narrowest = std::max(kernel_.gamma * rocks.diameter[p], kernel_.min_width_in_cells * sizes_.smallest());
-        stencils.width.push_back(width);
-        stencils.zone.push_back(mesh.nearest_zone);
-        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
+        if (!locate(rocks, p, stencils)) {
+            stencils.width.push_back(0.0);
+            stencils.zone.push_back(k_still_zone);
+            stencils.first.push_back(stencils.cell.size());
+            continue;
+        }
+        const double narrowest = kernel_width(rocks.diameter[p], sizes_.smallest());
+        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * stencils.width[p], k_lattice_spacing * narrowest);
         add_entries(rocks, p, stencils, sums);
     }
 }
 
 /// The same with one group of cells per rock.
 void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
+    std::vector<int> others;  // a group may lie on any rank
+    for (int rank = 0; rank < boxes_.size(); ++rank)
+        if (rank != communicator_.rank()) others.push_back(rank);
     std::vector<CellGroups::Point> points;
     std::vector<double> cell_size;
     for (std::size_t p = 0; p < rocks.size(); ++p) {
@@ -147,6 +157,7 @@ void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::ve
         cell_size.push_back(mesh.size);
         stencils.width.push_back(std::max(kernel_.cluster_size, mesh.size));
         stencils.zone.push_back(mesh.nearest_zone);
+        stencils.shared.add(p, others);
     }
     const std::vector<CellGroups::Nearest> nearest = groups_->at(points);
     for (std::size_t p = 0; p < rocks.size(); ++p) {
@@ -161,6 +172,50 @@ void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::ve
     }
     stencils.deposit.assign(stencils.cell.size(), 1.0);
     stencils.sample.assign(stencils.cell.size(), 1.0);
+}
+
+/// sigma [m]
+double Mapping::kernel_width(double diameter, double cell_size) const {
+    return std::max(kernel_.gamma * diameter, kernel_.min_width_in_cells * cell_size);
+}
+
+/// Adds the kernel's width and the zone of a rock that is near this rank's cells. \return whether it is near
+bool Mapping::locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils) {
+    const Vec3& place = rocks.position[rock];
+    const auto is_near = [&](int rank, double width) { return boxes_.may_reach(rank, frames_, place, physics::k_kernel_reach * width); };
+    const int me = communicator_.rank();
+    if (!is_near(me, kernel_width(rocks.diameter[rock], sizes_.largest()))) return false;
+    KnownVicinity& vicinity = vicinities_[rocks.id[rock]];
+    vicinity.last_build = builds_;
+    const SizeField::Surroundings mesh = sizes_.around(frames_, place, vicinity.sizes);
+    const double width = kernel_width(rocks.diameter[rock], mesh.size);
+    if (!is_near(me, width)) return false;
+    std::vector<int> others;
+    for (int rank = 0; rank < boxes_.size(); ++rank)
+        if (rank != me && is_near(rank, width)) others.push_back(rank);
+    stencils.width.push_back(width);
+    stencils.zone.push_back(mesh.nearest_zone);
+    stencils.shared.add(rock, others);
+    return true;
+}
+
+/// Whether every rock has cells, on any rank.
+bool Mapping::all_are_mapped(const Stencils& stencils, const std::vector<double>& sums) const {
+    const std::vector<std::size_t>& led = stencils.shared.led();
+    auto mapped = static_cast<double>(std::count_if(led.begin(), led.end(), [&](std::size_t p) { return is_mapped(sums, p); }));
+    communicator_.sum(gsl::span<double>(&mapped, 1));
+    return mapped == static_cast<double>(stencils.size());
+}
+
+/// \throws CheckFailure  that names the first rock without cells. Collective
+void Mapping::refuse_unmapped(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const {
+    std::vector<double> mapped(rocks.size(), 0.0);
+    for (const std::size_t p : stencils.shared.led()) mapped[p] = is_mapped(sums, p) ? 1.0 : 0.0;
+    communicator_.sum(mapped);
+    const auto p = static_cast<std::size_t>(std::find(mapped.begin(), mapped.end(), 0.0) - mapped.begin());
+    SizeField::Vicinity vicinity;
+    const double width = kernel_width(rocks.diameter[p], sizes_.around(frames_, rocks.position[p], vicinity).size);
+    throw no_cell_near(rocks, p, physics::k_kernel_reach * width);
 }
 
 /// Drops what is known about rock that has left.
@@ -223,10 +278,13 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& s
 
 /// Rocks without a visible cell (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie inside the
 /// mesh's steel) are mapped from the centre of the nearest cell.
-void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils,
-                             std::vector<double>& sums) {
-    hidden_rocks_ += hidden.size();
+void Mapping::replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
+    had_hidden_rock_ = true;
+    std::vector<std::size_t> hidden;
+    for (const std::size_t p : stencils.shared.near())
+        if (!is_mapped(sums, p)) hidden.push_back(p);
     Stencils replaced;
+    replaced.shared = stencils.shared;
     replaced.first.push_back(0);
     replaced.width = stencils.width;
     replaced.zone = stencils.zone;
@@ -247,12 +305,8 @@ void Mapping::replace_hidden(const RockShapes& rocks, const std::vector<std::siz
         }
         replaced.first.push_back(replaced.cell.size());
     }
-    communicator_.sum(new_sums);
-    for (const std::size_t p : hidden) {
-        sums[2 * p] = new_sums[2 * p];
-        sums[2 * p + 1] = new_sums[2 * p + 1];
-        if (!(sums[2 * p] > 0.0 && sums[2 * p + 1] > 0.0)) throw no_cell_near(rocks, p, physics::k_kernel_reach * stencils.width[p]);
-    }
+    replaced.shared.sum(new_sums, 2, communicator_);
+    for (const std::size_t p : hidden) std::copy_n(&new_sums[2 * p], 2, &sums[2 * p]);
     stencils = std::move(replaced);
 }
 
@@ -307,8 +361,8 @@ std::vector<std::vector<double>> redistribute(gsl::span<Stencils* const> stencil
     for (int pass = 0; largest > limit && pass < k_most_passes; ++pass) {
         for (std::size_t s = 0; s < stencils.size(); ++s) {
             std::vector<double> sums = shrink(*stencils[s], fractions[s], cell_volume, target);
-            communicator.sum(sums);
-            for (std::size_t p = 0; p < stencils[s]->size(); ++p)
+            stencils[s]->shared.sum(sums, 1, communicator);
+            for (const std::size_t p : stencils[s]->shared.near())
                 for (std::size_t i = stencils[s]->first[p]; i < stencils[s]->first[p + 1]; ++i) stencils[s]->deposit[i] /= sums[p];
         }
         largest = refill();

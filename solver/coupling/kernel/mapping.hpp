@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/coupling/kernel/cell_groups.hpp"
+#include "solver/coupling/kernel/shared_rocks.hpp"
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/settings.hpp"
 #include "solver/space/size_field.hpp"
@@ -21,11 +22,12 @@ struct RockShapes {
     std::size_t size() const { return id.size(); }
 };
 
-/// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]).
+/// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]); a rock that is not near has none.
 /// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights.
 struct Stencils {
-    std::vector<double> width;       ///< sigma of each rock, or the side of its group of cells [m]
-    std::vector<Zone> zone;          ///< of the cell nearest to each rock
+    SharedRocks shared;              ///< the rocks near this rank's cells
+    std::vector<double> width;       ///< sigma of each rock that is near, or the side of its group of cells [m]; 0 of others
+    std::vector<Zone> zone;          ///< of the cell nearest to each rock that is near
     std::vector<std::size_t> first;  ///< one more than rocks
     std::vector<std::int32_t> cell;  ///< of each entry
     std::vector<double> deposit;     ///< w: from rock to fluid [1/m3]
@@ -38,7 +40,8 @@ struct Stencils {
 };
 
 /// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock; or, with another
-/// map than gaussian, one group of cells per rock.
+/// map than gaussian, one group of cells per rock. Each rank builds those of the rocks near its cells, and sums over a rock's kernel are
+/// messages between the ranks near to it.
 class Mapping {
 public:
     /// Keeps references to the engine's arrays. The mesh is at its position at time 0.
@@ -51,13 +54,13 @@ public:
     /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are stored and reused: the
     /// new positions of one step are the old ones of the next. Collective.
     /// \param stencils  overwritten; buffers are reused because allocating them would dominate the cost
-    /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel, or near it
+    /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
     void build(const RockShapes& rocks, Stencils& stencils);
 
     const SizeField& sizes() const { return sizes_; }
     const Cells& cells() const { return trees_.cells(); }
-    /// Rocks (of all builds so far) that saw no cell and were mapped from the nearest cell's centre instead.
-    std::size_t hidden_rocks() const { return hidden_rocks_; }
+    /// Whether a rock (of all builds so far, on any rank) saw no cell and was mapped from the nearest cell's centre instead.
+    bool had_hidden_rock() const { return had_hidden_rock_; }
     const Visibility& visibility() const { return visibility_; }
 
 private:
@@ -72,15 +75,20 @@ private:
     };
 
     void build_anew(const RockShapes& rocks, Stencils& stencils);
+    double kernel_width(double diameter, double cell_size) const;
+    bool locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils);
+    bool all_are_mapped(const Stencils& stencils, const std::vector<double>& sums) const;
+    [[noreturn]] void refuse_unmapped(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
     void forget_vicinities(std::size_t rocks);
     void lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
-    void replace_hidden(const RockShapes& rocks, const std::vector<std::size_t>& hidden, Stencils& stencils, std::vector<double>& sums);
+    void replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
 
     std::vector<ZoneMotion> moving_;
     ZoneFrames frames_;
     CellTrees trees_;
+    RankBoxes boxes_;
     SizeField sizes_;
     Visibility visibility_;
     KernelSettings kernel_;
@@ -89,7 +97,7 @@ private:
     std::vector<double> angles_;        // of the moving zones [rad]
     Kept last_;                         // unused once the mesh has turned
     bool has_turned_ = false;
-    std::size_t hidden_rocks_ = 0;
+    bool had_hidden_rock_ = false;
 
     /// Cells about a rock, found when it was near by.
     struct KnownVicinity {

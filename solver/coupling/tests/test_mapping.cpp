@@ -1,4 +1,5 @@
 // Mapping between rock and cells: volume, centroid, walls, blades, the rotor interface, ranks, redistribution.
+#include <functional>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -277,7 +278,7 @@ TEST(RockInSteel, is_mapped_from_the_nearest_cell_on_its_side) {
     mesh.add_sheet(Vec3(-0.2, -0.2, -0.003), Vec3(0.4, 0, 0), Vec3(0, 0.4, 0), 20, 20, false);
     Bench bench(std::move(mesh));
     const Stencils s = bench.build(one_rock(Vec3(0.002, 0.001, 0.002), 0.004));
-    EXPECT_EQ(bench.mapping.hidden_rocks(), 1u);
+    EXPECT_TRUE(bench.mapping.had_hidden_rock());
     EXPECT_LE(bench.normalisation(s), 1e-12);
     ASSERT_GT(s.cell.size(), 10u);
     for (const std::int32_t c : s.cell) EXPECT_GT(bench.mesh.centres[static_cast<std::size_t>(c)][2], 0.003);
@@ -423,6 +424,47 @@ TEST(Ranks, share_the_cells_without_a_trace) {
     });
     for (std::size_t c = 0; c < whole.size(); ++c) ASSERT_NEAR(found[c], expected[c], 1e-12);
     for (std::size_t p = 0; p < rocks.id.size(); ++p) EXPECT_NEAR(found_sample[p], expected_sample[p], 1e-12);
+}
+
+/// Rock in a row across four ranks, each of which has a slab of cells as wide as half of what a kernel spans.
+class FourSlabs : public ::testing::Test {
+protected:
+    FourSlabs() {
+        for (int i = 0; i < 37; ++i) rocks.add(Vec3(-0.18 + 0.01 * i, 0.001 * i, 0.0), 0.02);
+    }
+    void on_each_rank(const std::function<void(Mapping&, Communicator&)>& check) {
+        testing::ThreadedRanks(4).run([&](Communicator& communicator) {
+            const SyntheticMesh part = whole.part(
+                [&](std::size_t c) { return static_cast<int>(std::floor(whole.centres[c].x() / 0.1)) + 2 == communicator.rank(); });
+            Mapping mapping(part.cells(), part.steel(), {}, KernelSettings{}, communicator);
+            check(mapping, communicator);
+        });
+    }
+    SyntheticMesh whole = cube(0.2, 0.01);
+    TestRocks rocks;
+};
+
+TEST_F(FourSlabs, sum_over_the_ranks_near_to_a_rock_as_over_all) {
+    on_each_rank([&](Mapping& mapping, Communicator& communicator) {
+        const SharedRocks shared = stencils_of(mapping, rocks).shared;
+        EXPECT_LT(shared.near().size(), rocks.id.size());
+        std::vector<double> values(2 * rocks.id.size(), 0.0), leaders(rocks.id.size(), 0.0);
+        for (const std::size_t p : shared.near())
+            for (const std::size_t k : {0, 1}) values[2 * p + k] = 0.1 * communicator.rank() + static_cast<double>(p * p + k);
+        for (const std::size_t p : shared.led()) leaders[p] = 1.0;
+        std::vector<double> expected = values;
+        communicator.sum(expected);
+        communicator.sum(leaders);
+        shared.sum(values, 2, communicator);
+        for (const std::size_t p : shared.near())
+            for (const std::size_t k : {0, 1}) EXPECT_DOUBLE_EQ(values[2 * p + k], expected[2 * p + k]);
+        for (const double leader : leaders) EXPECT_EQ(leader, 1.0);
+    });
+}
+
+TEST_F(FourSlabs, know_of_every_rock_that_has_no_cell) {
+    rocks.add(Vec3(0.5, 0.0, 0.0), 0.02);
+    on_each_rank([&](Mapping& mapping, Communicator&) { EXPECT_THROW(stencils_of(mapping, rocks), CheckFailure); });
 }
 
 TEST(Redistribution, makes_room_and_keeps_every_rocks_volume) {
