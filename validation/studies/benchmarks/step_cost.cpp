@@ -1,14 +1,11 @@
 /// What a step costs on the mesh of a run: flow with its rock, flow alone, and stock pimpleFoam, each on one and on two ranks, with the
 /// same time step, schemes and linear solvers from the same start. The unit is the processor second, user and system, of all ranks between
 /// the steps' first lines of output. Variants take turns; the least of the rounds counts.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -16,6 +13,7 @@
 #include "geometry/base/run_files.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 #include "validation/harness/scenes/box_case.hpp"
+#include "validation/studies/benchmarks/descendants.hpp"
 
 namespace cutterflow::validation {
 namespace {
@@ -83,44 +81,11 @@ void remove_results(const fs::path& folder, int ranks) {
     for (int rank = 0; rank < ranks; ++rank) fs::remove_all(folder / fmt::format("processor{}", rank) / end);
 }
 
-/// Processor seconds (user and system) that this process' descendants have used so far: of all ranks, and of mpirun.
-double core_seconds_of_descendants() {
-    struct Process {
-        long parent;
-        double seconds;
-    };
-    const double ticks = static_cast<double>(sysconf(_SC_CLK_TCK));
-    std::map<long, Process> processes;
-    for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
-        const std::string name = entry.path().filename();
-        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        std::string text;
-        std::getline(std::ifstream(entry.path() / "stat"), text);
-        const std::size_t name_end = text.rfind(')');  // a program's name may hold spaces
-        if (name_end == std::string::npos) continue;   // it has ended since
-        std::istringstream fields(text.substr(name_end + 1));
-        std::vector<std::string> value(15);  // from field 3 on: state, parent, ..., user and system ticks at 14 and 15
-        for (std::string& each : value) fields >> each;
-        processes[std::stol(name)] = {std::stol(value[1]), (std::stod(value[11]) + std::stod(value[12])) / ticks};
-    }
-    const auto descends = [&](long id) {
-        while (processes.count(id) != 0) {
-            id = processes.at(id).parent;
-            if (id == getpid()) return true;
-        }
-        return false;
-    };
-    double sum = 0.0;
-    for (const auto& [id, process] : processes)
-        if (descends(id)) sum += process.seconds;
-    return sum;
-}
-
 /// Core seconds of all ranks per counted step, mean of one run.
 double time_steps(const fs::path& folder, const Variant& variant) {
     std::vector<double> begins;
     require_child(meshing::foam_command(folder, variant.program, {}, variant.ranks), [&](const std::string& line) {
-        if (line.rfind("Time = ", 0) == 0) begins.push_back(core_seconds_of_descendants());
+        if (line.rfind("Time = ", 0) == 0) begins.push_back(core_seconds(descendants()));
     });
     remove_results(folder, variant.ranks);
     if (begins.size() != k_steps) throw std::runtime_error(folder.string() + " did not run all its steps");

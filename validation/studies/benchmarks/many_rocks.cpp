@@ -1,0 +1,235 @@
+/// What a step costs with 1e3, 1e4 and 1e5 rocks that settle in a still box, on 1, 2 and 4 ranks: processor seconds, memory, messages and
+/// bytes; and from these counts a model of 16 to 1,000 ranks. Prints the tables of docs/results/many_rocks.md.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "meshing/dictionary/foam_command.hpp"
+#include "validation/harness/scenes/box_case.hpp"
+#include "validation/studies/benchmarks/descendants.hpp"
+
+namespace cutterflow::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double k_diameter = 0.005, k_cell = 2.0 * k_diameter;  // [m]
+constexpr int k_layers = 3;                                      // of rock, one rock per column of cells in each
+constexpr int k_cells_high = 5;
+constexpr double k_time_step = 2e-3;  // [s]
+constexpr int k_settling_steps = 5;   // at the start, not counted
+constexpr int k_steps = 25;           // in all
+constexpr double k_mebibyte = 1024.0 * 1024.0;
+
+/// Rock on a lattice above the floor, in a closed box as wide as it takes: at 20 steps the lowest layers lie on each other.
+BoxCase still_box(int rocks) {
+    const int columns = static_cast<int>(std::lround(std::sqrt(static_cast<double>(rocks) / k_layers)));
+    BoxCase box;
+    box.lower = Vec3::Zero();
+    box.upper = k_cell * Vec3(columns, columns, k_cells_high);
+    box.cells = {columns, columns, k_cells_high};
+    box.time_step = k_time_step;
+    box.pressure_tolerance = 1e-7;
+    box.contact =
+        std::string("youngsModulus 1e7; poissonRock 0.24; poissonSteel 0.27; wetRestitution true; timeStepFraction 0.1; maxSpeed 0.5; ") +
+        k_paper_contact_pairs;
+    for (int k = 0; k < k_layers; ++k)
+        for (int j = 0; j < columns; ++j)
+            for (int i = 0; i < columns; ++i)
+                box.rocks.push_back({static_cast<int>(box.rocks.size()) + 1, 0.0,
+                                     Vec3(k_cell * (i + 0.5), k_cell * (j + 0.5), k_diameter * (0.6 + 1.1 * k)), k_diameter});
+    return box;
+}
+
+/// What one rank sent to others, by messages of its own (neighbours) and within collective calls.
+struct Traffic {
+    double messages = 0.0, bytes = 0.0, collective_messages = 0.0, collective_bytes = 0.0;
+};
+
+struct Run {
+    int rocks = 0, ranks = 0;
+    double core_seconds = 0.0;                     // of all ranks, per counted step
+    double peak_memory = 0.0;                      // of all ranks [bytes]
+    double fluid = 0.0, mapping = 0.0, dem = 0.0;  // share of the steps
+    std::vector<Traffic> traffic;                  // per rank and counted step
+};
+
+/// Open MPI's own counts, by rank, of a whole run.
+std::vector<Traffic> read_traffic(const fs::path& prefix, int ranks) {
+    std::vector<Traffic> traffic(static_cast<std::size_t>(ranks));
+    for (int rank = 0; rank < ranks; ++rank) {
+        std::ifstream stream(fmt::format("{}.{}.prof", prefix.string(), rank));
+        if (!stream) throw std::runtime_error("Open MPI did not write its counts; its component pml monitoring is needed");
+        Traffic& sum = traffic[static_cast<std::size_t>(rank)];
+        for (std::string line; std::getline(stream, line) && line != "# OSC";) {
+            std::istringstream fields(line);
+            std::string kind, word;
+            int from = 0, to = 0;
+            double bytes = 0.0, messages = 0.0;
+            fields >> kind >> from >> to >> bytes >> word >> messages;
+            if (!fields || from == to) continue;
+            (kind == "E" ? sum.bytes : sum.collective_bytes) += bytes;
+            (kind == "E" ? sum.messages : sum.collective_messages) += messages;
+        }
+    }
+    return traffic;
+}
+
+fs::path prepare(const BoxCase& box, int ranks) {
+    const fs::path folder = scratch_folder(fmt::format("many_rocks/{}_{}", box.rocks.size(), ranks));
+    write_box_case(folder, box);
+    if (ranks > 1) decompose(folder, {2, ranks / 2, 1});
+    return folder;
+}
+
+/// Runs a box to its end. \return with the traffic of the whole run
+Run run_box(const BoxCase& box, int ranks) {
+    const fs::path folder = prepare(box, ranks);
+    ChildCommand command = meshing::foam_command(folder, cutter_foam(), {}, ranks);
+    const fs::path counts = folder / "counts";
+    command.environment["OMPI_MCA_pml_monitoring_enable"] = "2";
+    command.environment["OMPI_MCA_pml_monitoring_enable_output"] = "3";
+    command.environment["OMPI_MCA_pml_monitoring_filename"] = counts.string();
+    std::vector<std::vector<Descendant>> begins;
+    require_child(command, [&](const std::string& line) {
+        if (line.rfind("Time = ", 0) == 0) begins.push_back(descendants());
+    });
+    Run run;
+    run.rocks = static_cast<int>(box.rocks.size());
+    run.ranks = ranks;
+    if (ranks > 1) run.traffic = read_traffic(counts, ranks);
+    if (begins.size() <= k_settling_steps) return run;
+    const double steps = static_cast<double>(begins.size()) - 1.0 - k_settling_steps;
+    run.core_seconds = (core_seconds(begins.back()) - core_seconds(begins[k_settling_steps])) / steps;
+    for (const Descendant& process : begins.back())
+        if (process.program == "cutterFoam") run.peak_memory += process.peak_memory;
+    const auto cost = read_columns(folder / "postProcessing/cost/0/cost.csv");
+    const auto sum = [&](const char* column) {
+        double seconds = 0.0;
+        for (std::size_t step = k_settling_steps; step < cost.at(column).size(); ++step) seconds += cost.at(column)[step];
+        return seconds;
+    };
+    const double all = sum("step_s");
+    run.fluid = sum("fluid_s") / all;
+    run.mapping = sum("mapping_s") / all;
+    run.dem = sum("dem_s") / all;
+    return run;
+}
+
+/// Traffic per step is that of a long run less that of a short one.
+Run measure(int rocks, int ranks) {
+    std::cerr << fmt::format("{} rocks on {} rank(s)\n", rocks, ranks);
+    BoxCase box = still_box(rocks);
+    box.end_time = k_steps * k_time_step;
+    Run run = run_box(box, ranks);
+    if (ranks == 1) return run;
+    box.end_time = k_settling_steps * k_time_step;
+    const Run start = run_box(box, ranks);
+    for (std::size_t rank = 0; rank < run.traffic.size(); ++rank)
+        for (double Traffic::*number : {&Traffic::messages, &Traffic::bytes, &Traffic::collective_messages, &Traffic::collective_bytes})
+            run.traffic[rank].*number = (run.traffic[rank].*number - start.traffic[rank].*number) / (k_steps - k_settling_steps);
+    return run;
+}
+
+double largest(const Run& run, double Traffic::*number) {
+    double most = 0.0;
+    for (const Traffic& traffic : run.traffic) most = std::max(most, traffic.*number);
+    return most;
+}
+
+void print_costs(const std::vector<Run>& runs) {
+    fmt::print(
+        "| rocks | ranks | core ms per step, all ranks | core us per rock and step | over 1e4 rocks | peak memory of all ranks, MiB | "
+        "fluid / mapping / DEM, % of the steps |\n|---|---|---|---|---|---|---|\n");
+    const auto per_rock = [](const Run& run) { return 1e6 * run.core_seconds / run.rocks; };
+    for (const Run& run : runs) {
+        const auto middle = std::find_if(runs.begin(), runs.end(),
+                                         [&](const Run& other) { return other.ranks == run.ranks && std::abs(other.rocks - 1e4) < 1e3; });
+        fmt::print("| {} | {} | {:.1f} | {:.1f} | {:+.0f} % | {:.0f} | {:.0f} / {:.0f} / {:.0f} |\n", run.rocks, run.ranks,
+                   1e3 * run.core_seconds, per_rock(run), 100.0 * (per_rock(run) / per_rock(*middle) - 1.0), run.peak_memory / k_mebibyte,
+                   100.0 * run.fluid, 100.0 * run.mapping, 100.0 * run.dem);
+    }
+}
+
+void print_traffic(const std::vector<Run>& runs) {
+    fmt::print(
+        "\nSent per step by the rank that sends most:\n\n| rocks | ranks | messages to neighbours | KiB | messages in collective "
+        "calls | KiB | bytes per rock in collective calls |\n|---|---|---|---|---|---|---|\n");
+    for (const Run& run : runs)
+        if (run.ranks > 1)
+            fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", run.rocks, run.ranks, largest(run, &Traffic::messages),
+                       largest(run, &Traffic::bytes) / 1024.0, largest(run, &Traffic::collective_messages),
+                       largest(run, &Traffic::collective_bytes) / 1024.0, largest(run, &Traffic::collective_bytes) / run.rocks);
+}
+
+// The machine of the model: a node's share per rank of a common network.
+constexpr double k_bandwidth = 1e9;  // [bytes/s]
+constexpr double k_latency = 2e-6;   // per message [s]
+
+/// Core seconds of all R ranks per step are a + b R: what is divided, and what every rank does for itself. \return a, b
+std::pair<double, double> divided_and_repeated(const Run& one, const Run& four) {
+    const double repeated = std::max(0.0, (four.core_seconds - one.core_seconds) / (four.ranks - one.ranks));
+    return {one.core_seconds - repeated, repeated};
+}
+
+/// Time of a step on R ranks: a / R + b + collective calls + neighbours. A rank takes part in a collective call over n bytes by sending and
+/// receiving them once, in log2 R stages; what it has for neighbours goes with the surface of its part, (R / 4)^(-2/3).
+void print_model(const Run& one, const Run& four) {
+    const auto [divided, repeated] = divided_and_repeated(one, four);
+    const double collective = largest(four, &Traffic::collective_bytes), calls = largest(four, &Traffic::collective_messages) / 2.0;
+    fmt::print(
+        "\nModel, {} rocks: {:.2f} core s per step are divided among the ranks, {:.3f} s are every rank's own.\n\n"
+        "| ranks | divided, ms | every rank's, ms | collective calls, ms | neighbours, ms | step, ms | share divided, % |\n"
+        "|---|---|---|---|---|---|---|\n",
+        one.rocks, divided, repeated);
+    for (const int ranks : {1, 4, 16, 64, 256, 1000}) {
+        const double stages = std::ceil(std::log2(static_cast<double>(ranks)));
+        const double parted = divided / ranks;
+        const double together = ranks == 1 ? 0.0 : 2.0 * collective / k_bandwidth + calls * stages * k_latency;
+        const double beside = ranks == 1 ? 0.0
+                                         : largest(four, &Traffic::bytes) / k_bandwidth * std::pow(4.0 / ranks, 2.0 / 3.0) +
+                                               largest(four, &Traffic::messages) * k_latency;
+        const double step = parted + repeated + together + beside;
+        fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |\n", ranks, 1e3 * parted, 1e3 * repeated, 1e3 * together,
+                   1e3 * beside, 1e3 * step, 100.0 * parted / step);
+    }
+}
+
+int measure_all(int most) {
+    std::vector<Run> runs;
+    for (const int ranks : {1, 2, 4})
+        for (int rocks = 1000; rocks <= most; rocks *= 10) runs.push_back(measure(rocks, ranks));
+    print_costs(runs);
+    print_traffic(runs);
+    const auto of = [&](int ranks) {
+        return *std::find_if(runs.rbegin(), runs.rend(), [&](const Run& run) { return run.ranks == ranks; });
+    };
+    print_model(of(1), of(4));
+    return 0;
+}
+
+}  // namespace
+}  // namespace cutterflow::validation
+
+int main(int argc, char** argv) {
+    using namespace cutterflow;
+    const int most = argc == 2 ? std::atoi(argv[1]) : 100000;
+    if (argc > 2 || most < 10000) {
+        std::cerr << "usage: many_rocks [MOST]\n\nMOST is the largest number of rocks, 10000 or more; 100000 without it.\n";
+        return 2;
+    }
+    try {
+        return validation::measure_all(most);
+    } catch (const ToolError& error) {
+        std::cerr << "many_rocks: " << error.what() << '\n';
+        return 3;
+    } catch (const std::exception& error) {
+        std::cerr << "many_rocks: " << error.what() << '\n';
+        return 1;
+    }
+}
