@@ -1,12 +1,16 @@
 /// What a step costs with 1e3, 1e4 and 1e5 rocks that settle in a still box, on 1, 2 and 4 ranks: processor seconds, memory, messages and
-/// bytes; and from these counts a model of 16 to 1,000 ranks. Prints the tables of docs/results/many_rocks.md.
+/// bytes; and from these counts a model of 16 to 1,000 ranks. Each run is a row of a file, so that a machine that is shared can be left
+/// between them; the tables of docs/results/many_rocks.md are printed from the rows.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include "geometry/base/error.hpp"
 #include "meshing/dictionary/foam_command.hpp"
@@ -21,12 +25,12 @@ namespace fs = std::filesystem;
 constexpr double k_diameter = 0.005, k_cell = 2.0 * k_diameter;  // [m]
 constexpr int k_layers = 3;                                      // of rock, one rock per column of cells in each
 constexpr int k_cells_high = 5;
-constexpr double k_time_step = 2e-3;  // [s]
+constexpr double k_time_step = 3e-3;  // [s]
 constexpr int k_settling_steps = 5;   // at the start, not counted
-constexpr int k_steps = 25;           // in all
+constexpr int k_steps = 15;           // in all
 constexpr double k_mebibyte = 1024.0 * 1024.0;
 
-/// Rock on a lattice above the floor, in a closed box as wide as it takes: at 20 steps the lowest layers lie on each other.
+/// Rock on a lattice above the floor, in a closed box as wide as it takes: when steps are counted the layers begin to lie on each other.
 BoxCase still_box(int rocks) {
     const int columns = static_cast<int>(std::lround(std::sqrt(static_cast<double>(rocks) / k_layers)));
     BoxCase box;
@@ -50,13 +54,15 @@ BoxCase still_box(int rocks) {
 struct Traffic {
     double messages = 0.0, bytes = 0.0, collective_messages = 0.0, collective_bytes = 0.0;
 };
+constexpr std::array<double Traffic::*, 4> k_traffic{&Traffic::messages, &Traffic::bytes, &Traffic::collective_messages,
+                                                     &Traffic::collective_bytes};
 
 struct Run {
     int rocks = 0, ranks = 0;
     double core_seconds = 0.0;                     // of all ranks, per counted step
     double peak_memory = 0.0;                      // of all ranks [bytes]
     double fluid = 0.0, mapping = 0.0, dem = 0.0;  // share of the steps
-    std::vector<Traffic> traffic;                  // per rank and counted step
+    Traffic traffic;                               // per counted step; of each number the largest of the ranks
 };
 
 /// Open MPI's own counts, by rank, of a whole run.
@@ -87,8 +93,8 @@ fs::path prepare(const BoxCase& box, int ranks) {
     return folder;
 }
 
-/// Runs a box to its end. \return with the traffic of the whole run
-Run run_box(const BoxCase& box, int ranks) {
+/// Runs a box to its end. \param traffic  of the whole run, by rank
+Run run_box(const BoxCase& box, int ranks, std::vector<Traffic>& traffic) {
     const fs::path folder = prepare(box, ranks);
     ChildCommand command = meshing::foam_command(folder, cutter_foam(), {}, ranks);
     const fs::path counts = folder / "counts";
@@ -102,7 +108,7 @@ Run run_box(const BoxCase& box, int ranks) {
     Run run;
     run.rocks = static_cast<int>(box.rocks.size());
     run.ranks = ranks;
-    if (ranks > 1) run.traffic = read_traffic(counts, ranks);
+    if (ranks > 1) traffic = read_traffic(counts, ranks);
     if (begins.size() <= k_settling_steps) return run;
     const double steps = static_cast<double>(begins.size()) - 1.0 - k_settling_steps;
     run.core_seconds = (core_seconds(begins.back()) - core_seconds(begins[k_settling_steps])) / steps;
@@ -126,20 +132,51 @@ Run measure(int rocks, int ranks) {
     std::cerr << fmt::format("{} rocks on {} rank(s)\n", rocks, ranks);
     BoxCase box = still_box(rocks);
     box.end_time = k_steps * k_time_step;
-    Run run = run_box(box, ranks);
+    std::vector<Traffic> whole, start;
+    Run run = run_box(box, ranks, whole);
     if (ranks == 1) return run;
     box.end_time = k_settling_steps * k_time_step;
-    const Run start = run_box(box, ranks);
-    for (std::size_t rank = 0; rank < run.traffic.size(); ++rank)
-        for (double Traffic::*number : {&Traffic::messages, &Traffic::bytes, &Traffic::collective_messages, &Traffic::collective_bytes})
-            run.traffic[rank].*number = (run.traffic[rank].*number - start.traffic[rank].*number) / (k_steps - k_settling_steps);
+    run_box(box, ranks, start);
+    for (std::size_t rank = 0; rank < whole.size(); ++rank)
+        for (const auto number : k_traffic)
+            run.traffic.*number = std::max(run.traffic.*number, (whole[rank].*number - start[rank].*number) / (k_steps - k_settling_steps));
     return run;
 }
 
-double largest(const Run& run, double Traffic::*number) {
-    double most = 0.0;
-    for (const Traffic& traffic : run.traffic) most = std::max(most, traffic.*number);
-    return most;
+constexpr const char* k_rows = "many_rocks.csv";
+constexpr const char* k_header =
+    "rocks,ranks,core_s_per_step,peak_memory_bytes,fluid,mapping,dem,messages,bytes,collective_messages,collective_bytes";
+
+void append_row(const Run& run) {
+    const bool begins = !fs::exists(k_rows);
+    std::ofstream stream(k_rows, std::ios::app);
+    if (begins) stream << k_header << '\n';
+    fmt::print(stream, "{},{},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g}", run.rocks, run.ranks, run.core_seconds, run.peak_memory, run.fluid,
+               run.mapping, run.dem);
+    for (const auto number : k_traffic) fmt::print(stream, ",{:.6g}", run.traffic.*number);
+    stream << '\n';
+    if (!stream) throw std::runtime_error(std::string("cannot write ") + k_rows);
+}
+
+/// By ranks, then rocks; of equal ones the last.
+std::vector<Run> read_rows() {
+    const auto rows = read_columns(k_rows);
+    std::map<std::pair<int, int>, Run> runs;
+    for (std::size_t row = 0; row < rows.at("rocks").size(); ++row) {
+        const auto at = [&](const char* column) { return rows.at(column)[row]; };
+        const int rocks = static_cast<int>(at("rocks")), ranks = static_cast<int>(at("ranks"));
+        runs[{ranks, rocks}] = {rocks,
+                                ranks,
+                                at("core_s_per_step"),
+                                at("peak_memory_bytes"),
+                                at("fluid"),
+                                at("mapping"),
+                                at("dem"),
+                                {at("messages"), at("bytes"), at("collective_messages"), at("collective_bytes")}};
+    }
+    std::vector<Run> sorted;
+    for (const auto& [key, run] : runs) sorted.push_back(run);
+    return sorted;
 }
 
 void print_costs(const std::vector<Run>& runs) {
@@ -150,6 +187,7 @@ void print_costs(const std::vector<Run>& runs) {
     for (const Run& run : runs) {
         const auto middle = std::find_if(runs.begin(), runs.end(),
                                          [&](const Run& other) { return other.ranks == run.ranks && std::abs(other.rocks - 1e4) < 1e3; });
+        if (middle == runs.end()) throw std::runtime_error(fmt::format("{} has no run of 10000 rocks on {} rank(s)", k_rows, run.ranks));
         fmt::print("| {} | {} | {:.1f} | {:.1f} | {:+.0f} % | {:.0f} | {:.0f} / {:.0f} / {:.0f} |\n", run.rocks, run.ranks,
                    1e3 * run.core_seconds, per_rock(run), 100.0 * (per_rock(run) / per_rock(*middle) - 1.0), run.peak_memory / k_mebibyte,
                    100.0 * run.fluid, 100.0 * run.mapping, 100.0 * run.dem);
@@ -162,9 +200,9 @@ void print_traffic(const std::vector<Run>& runs) {
         "calls | KiB | bytes per rock in collective calls |\n|---|---|---|---|---|---|---|\n");
     for (const Run& run : runs)
         if (run.ranks > 1)
-            fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", run.rocks, run.ranks, largest(run, &Traffic::messages),
-                       largest(run, &Traffic::bytes) / 1024.0, largest(run, &Traffic::collective_messages),
-                       largest(run, &Traffic::collective_bytes) / 1024.0, largest(run, &Traffic::collective_bytes) / run.rocks);
+            fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.0f} | {:.0f} |\n", run.rocks, run.ranks, run.traffic.messages,
+                       run.traffic.bytes / 1024.0, run.traffic.collective_messages, run.traffic.collective_bytes / 1024.0,
+                       run.traffic.collective_bytes / run.rocks);
 }
 
 // The machine of the model: a node's share per rank of a common network.
@@ -181,7 +219,7 @@ std::pair<double, double> divided_and_repeated(const Run& one, const Run& four) 
 /// receiving them once, in log2 R stages; what it has for neighbours goes with the surface of its part, (R / 4)^(-2/3).
 void print_model(const Run& one, const Run& four) {
     const auto [divided, repeated] = divided_and_repeated(one, four);
-    const double collective = largest(four, &Traffic::collective_bytes), calls = largest(four, &Traffic::collective_messages) / 2.0;
+    const double collective = four.traffic.collective_bytes, calls = four.traffic.collective_messages / 2.0;
     fmt::print(
         "\nModel, {} rocks: {:.2f} core s per step are divided among the ranks, {:.3f} s are every rank's own.\n\n"
         "| ranks | divided, ms | every rank's, ms | collective calls, ms | neighbours, ms | step, ms | share divided, % |\n"
@@ -191,26 +229,24 @@ void print_model(const Run& one, const Run& four) {
         const double stages = std::ceil(std::log2(static_cast<double>(ranks)));
         const double parted = divided / ranks;
         const double together = ranks == 1 ? 0.0 : 2.0 * collective / k_bandwidth + calls * stages * k_latency;
-        const double beside = ranks == 1 ? 0.0
-                                         : largest(four, &Traffic::bytes) / k_bandwidth * std::pow(4.0 / ranks, 2.0 / 3.0) +
-                                               largest(four, &Traffic::messages) * k_latency;
+        const double beside =
+            ranks == 1 ? 0.0 : four.traffic.bytes / k_bandwidth * std::pow(4.0 / ranks, 2.0 / 3.0) + four.traffic.messages * k_latency;
         const double step = parted + repeated + together + beside;
         fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |\n", ranks, 1e3 * parted, 1e3 * repeated, 1e3 * together,
                    1e3 * beside, 1e3 * step, 100.0 * parted / step);
     }
 }
 
-int measure_all(int most) {
-    std::vector<Run> runs;
-    for (const int ranks : {1, 2, 4})
-        for (int rocks = 1000; rocks <= most; rocks *= 10) runs.push_back(measure(rocks, ranks));
+void print_tables() {
+    const std::vector<Run> runs = read_rows();
     print_costs(runs);
     print_traffic(runs);
-    const auto of = [&](int ranks) {
-        return *std::find_if(runs.rbegin(), runs.rend(), [&](const Run& run) { return run.ranks == ranks; });
+    const auto most_on = [&](int ranks) {
+        const auto run = std::find_if(runs.rbegin(), runs.rend(), [&](const Run& other) { return other.ranks == ranks; });
+        if (run == runs.rend()) throw std::runtime_error(fmt::format("{} has no run on {} rank(s)", k_rows, ranks));
+        return *run;
     };
-    print_model(of(1), of(4));
-    return 0;
+    print_model(most_on(1), most_on(4));
 }
 
 }  // namespace
@@ -218,13 +254,17 @@ int measure_all(int most) {
 
 int main(int argc, char** argv) {
     using namespace cutterflow;
-    const int most = argc == 2 ? std::atoi(argv[1]) : 100000;
-    if (argc > 2 || most < 10000) {
-        std::cerr << "usage: many_rocks [MOST]\n\nMOST is the largest number of rocks, 10000 or more; 100000 without it.\n";
+    const int rocks = argc == 3 ? std::atoi(argv[1]) : 0, ranks = argc == 3 ? std::atoi(argv[2]) : 0;
+    if (argc != 1 && (rocks < 1000 || (ranks != 1 && ranks != 2 && ranks != 4))) {
+        std::cerr << "usage: many_rocks ROCKS RANKS   measures 1000 or more rocks on 1, 2 or 4 ranks: a row of many_rocks.csv\n"
+                     "       many_rocks               prints the tables of these rows\n";
         return 2;
     }
     try {
-        return validation::measure_all(most);
+        if (argc == 1)
+            validation::print_tables();
+        else
+            validation::append_row(validation::measure(rocks, ranks));
     } catch (const ToolError& error) {
         std::cerr << "many_rocks: " << error.what() << '\n';
         return 3;
