@@ -176,6 +176,13 @@ TEST(RepeatMean, has_students_interval_and_none_for_what_never_came) {
     EXPECT_TRUE(std::isnan(postproc::repeat_mean({1.0, postproc::k_never}).mean));
 }
 
+TEST(RepeatMean, tells_settings_apart_where_the_interval_leaves_0_out) {
+    EXPECT_EQ(postproc::verdict_of({0.3, 0.2}), "higher");
+    EXPECT_EQ(postproc::verdict_of({-0.3, 0.2}), "lower");
+    EXPECT_EQ(postproc::verdict_of({-0.3, 0.3}), "not told apart");
+    EXPECT_EQ(postproc::verdict_of({0.3, std::nan("")}), "no interval");
+}
+
 /// A pipe with four bodies: rows of two processes, the later from 0.2 s on.
 void write_rows(const fs::path& run) {
     const auto put = [&](const std::string& name, const std::string& text) {

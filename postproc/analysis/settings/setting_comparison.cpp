@@ -80,6 +80,12 @@ RepeatMean repeat_mean(const std::vector<double>& values) {
     return {sample.mean, sample.count < 2 ? k_unknown : half_interval(sample)};
 }
 
+std::string verdict_of(const RepeatMean& difference) {
+    if (!std::isfinite(difference.half)) return "no interval";
+    if (std::abs(difference.mean) <= difference.half) return "not told apart";
+    return difference.mean > 0.0 ? "higher" : "lower";
+}
+
 std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
                                              const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
     std::vector<SettingResults> settings;
@@ -114,7 +120,8 @@ std::string setting_comparison_text(const std::vector<SettingResults>& settings)
         for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];
             text += fmt::format("  {:<40} {:<24}", setting.name, mean_text(found.mean, found.unit));
-            if (&setting != &settings.front()) text += " difference " + mean_text(found.difference, found.unit, true);
+            if (&setting != &settings.front())
+                text += fmt::format(" difference {}: {}", mean_text(found.difference, found.unit, true), verdict_of(found.difference));
             text += fmt::format("  ({} run{})\n", setting.repeats.size(), setting.repeats.size() == 1 ? "" : "s");
         }
     }
@@ -126,7 +133,10 @@ nlohmann::json setting_comparison_json(const std::vector<SettingResults>& settin
     for (const SettingResults& setting : settings) {
         nlohmann::json row{{"name", setting.name}, {"repeats", setting.repeats.size()}};
         for (const SettingQuantity& quantity : setting.quantities)
-            row[quantity.key] = {{"value", json_of(quantity.mean)}, {"difference", json_of(quantity.difference)}};
+            row[quantity.key] = {
+                {"value", json_of(quantity.mean)},
+                {"difference", json_of(quantity.difference)},
+                {"verdict", &setting == &settings.front() ? nlohmann::json() : nlohmann::json(verdict_of(quantity.difference))}};
         rows.push_back(row);
     }
     return {{"schema", schema}, {"settings", rows}};
@@ -142,13 +152,17 @@ fs::path write_setting_comparison(const std::vector<SettingResults>& settings, c
         std::vector<std::vector<std::string>> rows;
         for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];
+            const bool is_first = &setting == &settings.front();
             rows.push_back({html::escape(setting.name), fmt::format("{}", setting.repeats.size()), mean_text(found.mean, found.unit),
-                            &setting == &settings.front() ? "" : mean_text(found.difference, found.unit, true)});
+                            is_first ? "" : mean_text(found.difference, found.unit, true), is_first ? "" : verdict_of(found.difference)});
         }
         body += html::section(settings.front().quantities[q].name,
-                              html::table({"setting", "runs", "mean", "difference from the first"}, rows, true));
+                              html::table({"setting", "runs", "mean", "difference from the first", "verdict"}, rows, true));
     }
-    body += "<p>Mean and half of the 95 % interval (Student's t over repeats); differences in pairs of repeats.</p>";
+    body +=
+        "<p>Mean and half of the 95 % interval (Student's t over repeats); differences in pairs of repeats. Higher or lower: the interval "
+        "of the difference "
+        "leaves 0 out.</p>";
     const Page page(folder / "index.html", PageForm::live);
     page.write("Comparison of runs", body, "");
     return folder / "index.html";

@@ -16,6 +16,10 @@ struct RepeatMean {
 
 RepeatMean repeat_mean(const std::vector<double>& values);
 
+/// What the interval of a difference says: "higher" or "lower" when it leaves 0 out, "not told apart" when it holds 0, "no interval"
+/// without one.
+std::string verdict_of(const RepeatMean& difference);
+
 /// One quantity of one setting.
 struct SettingQuantity {
     std::string key, name, unit;
