@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class SurfaceStudy : public ::testing::Test {
 protected:
@@ -199,10 +200,15 @@ void write_rows(const fs::path& run) {
             "0.1,0.12,0.12,-1e-4,0,1e-4,4,-0.1,0.1,0.1,0.15\n0.2,0.14,0.08,-1e-4,0,1e-4,2,-0.2,0.1,0.1,0.15\n0.3,9,0,0,0,0,0,0,0,0,0\n");
     put("postProcessing/levels/0.2/levels.csv",
         levels + "0.3,0.15,0.05,1e-4,0,1e-4,1,0.05,0.1,0.1,0.299\n0.4,0.14,0.1,1e-4,0,1e-4,0,0,0.1,0.1,0.28\n");
-    const std::string balance = "time_s,volume_error,energy_j,pushed_out,pressure_iterations,enclosed_waters,through_walls,core_s\n";
-    put("postProcessing/balance/0/balance.csv", balance + "0.1,0.001,5,1,20,0,1,1\n0.2,-0.004,4,2,22,0,2,3\n");
-    put("postProcessing/balance/0.2/balance.csv", balance + "0.3,0.002,3,1,20,1,0,1.5\n0.4,0,3,1,20,0,4,2.5\n");
-    put("postProcessing/bodies/0/bodies.csv", "time_s,id,x_m,z_m\n0,1,0.1,0.1\n");
+    const std::string balance =
+        "time_s,volume_error,energy_j,pushed_out,pressure_iterations,enclosed_waters,through_walls,core_s,pressure_impulse_error_n_s,"
+        "body_impulse_error,gap_impulse_n_s,deepest_m\n";
+    put("postProcessing/balance/0/balance.csv",
+        balance + "0.1,0.001,5,1,20,0,1,1,1e-12,2e-11,0.25,1e-4\n0.2,-0.004,4,2,22,0,2,3,3e-12,1e-11,0.5,7e-4\n");
+    put("postProcessing/balance/0.2/balance.csv",
+        balance + "0.3,0.002,3,1,20,1,0,1.5,1e-12,1e-11,0,0\n0.4,0,3,1,20,0,4,2.5,1e-12,1e-11,0.25,0\n");
+    put("postProcessing/bodies/0/bodies.csv",
+        "time_s,id,x_m,z_m,spin_y_rad_s\n0,1,0.1,0.1,0\n0,2,0.2,0.1,0\n0.1,1,0.1,0.1,0\n0.1,2,0.2,0.1,31.415927\n");
     put("postProcessing/gauges/0/gauges.csv", "time_s,gauge,level_m,pressure_pa\n0.1,far wall,0.1,\n0.1,foot,0.1,900\n0.3,foot,0,0\n");
     put("postProcessing/gauges/0.2/gauges.csv", "time_s,gauge,level_m,pressure_pa\n0.3,far wall,0.12,\n0.3,foot,0.12,1100\n");
 }
@@ -239,7 +245,11 @@ TEST_F(SurfaceStudy, pictures_of_the_page_have_a_bar_of_length_and_a_scale_of_sp
     EXPECT_THAT(without, HasSubstr(">1</text>"));
     EXPECT_THAT(without, HasSubstr(">2 m/s and more</text>"));
     write("postProcessing/bodies/vtk/bodies_0.100000.vtp", array("radius_m", "0.02 0.04") + array("Points", "0.1 0 0.1 0.2 0 0.1"));
-    EXPECT_NE(read_file(postproc::write_surface_report(folder_)), without);
+    const std::string with = read_file(postproc::write_surface_report(folder_));
+    EXPECT_NE(with, without);
+    EXPECT_THAT(without, Not(HasSubstr("class=\"spin\"")));
+    // A spin that grows from 0 to 10 pi within 0.1 s turns the second body by a quarter, clockwise.
+    EXPECT_THAT(with, HasSubstr("d=\"M186.7,186.3 l0.0,-37.3M373.3,186.3 l74.7,0.0\""));
 }
 
 TEST_F(SurfaceStudy, page_shows_the_answers_without_any_picture_written) {
@@ -252,6 +262,8 @@ TEST_F(SurfaceStudy, page_shows_the_answers_without_any_picture_written) {
     EXPECT_THAT(page, HasSubstr("through the pipe's wall"));
     EXPECT_THAT(page, HasSubstr("steps with closed water"));
     EXPECT_THAT(page, HasSubstr("Pressure at the gauges"));
+    EXPECT_THAT(page, AllOf(HasSubstr("0.7 mm"), HasSubstr("3e-12 N s"), HasSubstr("2e-11"), HasSubstr("1 N s")));
+    EXPECT_THAT(page, AllOf(HasSubstr("not available here"), HasSubstr("lower end at 40 mm"), HasSubstr("it slips")));
     EXPECT_THAT(read_file(folder_ / "report/results.json"), HasSubstr("\"half_out_s\": 0.2"));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -23,7 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_not_modelled =
     "Not modelled: in a plane scene the third dimension; air and trapped bubbles, surface tension, turbulence, leakage at the ends of the "
-    "cylinders.";
+    "cylinders. Bodies hold the water at their surface (no slip); along walls and solids that stand still it slips.";
+constexpr const char* k_lost_arrivals =
+    "The measured curves of columns that collapse [Zhang et al. 2009] are not available here, nor those of [Chen et al. 2019], who say "
+    "that cylinders arrive within half a second: no arrival is compared with them, and no number was tuned to one.";
+
+std::string paragraph(const std::string& text) {
+    return "<p>" + text + "</p>";
+}
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
     for (double& value : values) value *= factor;
@@ -141,17 +149,26 @@ std::string answers(const SurfaceRows& rows, const SurfaceResults& results) {
 }
 
 std::string cost_table(const SurfaceRows& rows, const SurfaceResults& results, const fs::path& run_directory) {
-    const auto mean = [&](const char* column) {
-        double sum = 0.0;
-        for (const double value : rows.balance.number(column)) sum += value;
-        return sum / static_cast<double>(std::max<std::size_t>(1, rows.balance.rows()));
+    const auto sum = [&](const char* column) {
+        const std::vector<double>& values = rows.balance.number(column);
+        return std::accumulate(values.begin(), values.end(), 0.0);
     };
+    const auto mean = [&](const char* column) { return sum(column) / static_cast<double>(std::max<std::size_t>(1, rows.balance.rows())); };
     std::vector<std::vector<std::string>> lines{
         {"simulated time", fmt::format("{:.4f} of {:g} s", results.end_s, rows.scene.at("end_s").get<double>())},
         {"steps", fmt::format("{}", rows.balance.rows())},
         {"core seconds", fmt::format("{:.1f}", results.core_s)},
         {"iterations of the pressure, mean of a step", fmt::format("{:.1f}", mean("pressure_iterations"))},
         {"particles put out of solids, mean of a step", fmt::format("{:.1f}", mean("pushed_out"))}};
+    const auto largest = [&](const char* column, const char* what, double factor, const char* unit) {
+        if (const std::vector<double>* values = counted(rows.balance, column); values && !values->empty())
+            lines.push_back({what, fmt::format("{:.2g}{}", factor * *std::max_element(values->begin(), values->end()), unit)});
+    };
+    largest("deepest_m", "their farthest way out", 1e3, " mm");
+    largest("pressure_impulse_error_n_s", "momentum that the pressure makes in a step, largest", 1.0, " N s");
+    if (rows.has_bodies()) largest("body_impulse_error", "share of the pressure's impulse that bodies did not take, largest", 1.0, "");
+    if (rows.has_bodies() && counted(rows.balance, "gap_impulse_n_s"))
+        lines.push_back({"momentum that the damping of gaps took out, sum", fmt::format("{:.3g} N s", sum("gap_impulse_n_s"))});
     if (rows.has_pipe()) lines.push_back({"particles through the pipe's wall", fmt::format("{:.0f}", results.through_walls)});
     if (const std::vector<double>* waters = counted(rows.balance, "enclosed_waters")) {
         const auto steps = std::count_if(waters->begin(), waters->end(), [](double count) { return count > 0.0; });
@@ -165,6 +182,23 @@ std::string cost_table(const SurfaceRows& rows, const SurfaceResults& results, c
         lines.push_back({"core seconds predicted", fmt::format("{:.0f}", predicted.at("core_s").get<double>())});
     }
     return html::table({"quantity", "value"}, lines, true);
+}
+
+/// What the numbers can be compared with, and what sizes stand for those that are lost.
+std::string what_is_known(const SurfaceRows& rows) {
+    std::string text;
+    if (rows.has_bodies()) text += paragraph(k_lost_arrivals);
+    if (!rows.has_pipe()) return text;
+    const auto millimetres = [&](const char* key) {
+        const nlohmann::json& pipe = rows.scene.at("pipe");
+        return pipe.contains(key) ? fmt::format("{:g} mm", 1e3 * pipe.at(key).get<double>()) : std::string("not recorded");
+    };
+    return text +
+           paragraph(fmt::format(
+               "Pipe: inner width {}, lower end at {}, upper end at {}. The drawing of the fall pipe of [Chen et al. 2019] is lost: its "
+               "dimensions in the examples are choices (70 mm for a stack of 67 mm, 40 mm above the floor, holes of 1 mm every 20 mm "
+               "as printed).",
+               millimetres("inner_width_m"), millimetres("bottom_m"), millimetres("top_m")));
 }
 
 }  // namespace
@@ -191,7 +225,7 @@ fs::path write_surface_report(const fs::path& run_directory) {
                              html::section("Water and bodies", surface_pictures(page, rows, run_directory)) +
                              html::section("In time", "<div class=\"figures\">" + plots + "</div>") +
                              html::section("Balances and cost", cost_table(rows, results, run_directory)) +
-                             fmt::format("<p>{}</p>", k_not_modelled);
+                             html::section("What this stands on", what_is_known(rows) + paragraph(k_not_modelled));
     page.write(title, body, "");
     return file;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char *k_air = palette::field[0], *k_slow = palette::field[1], *k_fast = palette::field[4];
 constexpr const char *k_solid = palette::faint, *k_body = palette::in_cutter;
 constexpr int k_snapshots = 6;
+constexpr double k_same_time = 1e-6;  // [s]: digits of a file's name
 constexpr int k_picture_width = 560;  // [px]
 constexpr int k_scales_height = 46;   // below a picture [px]
 
@@ -65,6 +67,7 @@ Colour mixed(const Colour& a, const Colour& b, double share) {
 
 struct Disc {
     double x = 0.0, z = 0.0, radius = 0.0;
+    double turned = 0.0;  // about the axis across, clockwise [rad]
 };
 
 /// Across the tank the layer of cells that pictures show: the middle one; scenes of earlier programs are plane.
@@ -79,16 +82,37 @@ double radius_in_section(const nlohmann::json& scene, double radius, double y) {
     return std::sqrt(std::max(0.0, radius * radius - off * off));
 }
 
+/// By how much each body has turned until a time [rad], in the order of their ids: its spin over the outputs, by the trapezoidal rule.
+std::vector<double> turned_until(const Table& bodies, double time) {
+    const std::vector<double>* spins = counted(bodies, "spin_y_rad_s");
+    if (!spins) return {};
+    struct Turn {
+        double time = 0.0, spin = 0.0, angle = 0.0;
+    };
+    std::map<double, Turn> turns;
+    for (std::size_t n = 0; n < bodies.rows(); ++n) {
+        const double now = bodies.number("time_s")[n], spin = (*spins)[n];
+        if (now > time + k_same_time) continue;
+        const auto [turn, first] = turns.try_emplace(bodies.number("id")[n], Turn{now, spin, 0.0});
+        if (!first) turn->second = {now, spin, turn->second.angle + 0.5 * (now - turn->second.time) * (spin + turn->second.spin)};
+    }
+    std::vector<double> angles;
+    for (const auto& [id, turn] : turns) angles.push_back(turn.angle);
+    return angles;
+}
+
 /// Bodies at the time of a snapshot, from the file that was written with it.
-std::vector<Disc> bodies_of(const nlohmann::json& scene, const fs::path& run_directory, const Snapshot& snapshot) {
+std::vector<Disc> bodies_of(const SurfaceRows& rows, const fs::path& run_directory, const Snapshot& snapshot) {
     const std::string time = snapshot.file.stem().string().substr(std::string("water_").size());
     const fs::path file = run_directory / "postProcessing/bodies/vtk" / ("bodies_" + time + ".vtp");
     if (!fs::exists(file)) return {};
     const std::string text = read_file(file);
     const std::vector<double> places = array_of(text, "Points"), radii = array_of(text, "radius_m");
+    const std::vector<double> angles = turned_until(rows.bodies, snapshot.time);
     std::vector<Disc> discs;
     for (std::size_t n = 0; n < radii.size() && 3 * n + 2 < places.size(); ++n)
-        discs.push_back({places[3 * n], places[3 * n + 2], radius_in_section(scene, radii[n], places[3 * n + 1])});
+        discs.push_back({places[3 * n], places[3 * n + 2], radius_in_section(rows.scene, radii[n], places[3 * n + 1]),
+                         n < angles.size() ? angles[n] : 0.0});
     return discs;
 }
 
@@ -160,13 +184,24 @@ std::string speed_scale(double left, double right, double y, double fastest, con
     return markup;
 }
 
-/// A picture with a bar of length and the speeds of its colours below.
+/// A line from the middle of each body to the place of its rim that was the highest at the start.
+std::string spin_marks(const std::vector<Disc>& discs, const Image& image, double width) {
+    if (discs.empty()) return "";
+    const double scale = image.width / width;
+    std::string ways;
+    for (const Disc& disc : discs)
+        ways += fmt::format("M{:.1f},{:.1f} l{:.1f},{:.1f}", scale * disc.x, image.height - scale * disc.z,
+                            scale * disc.radius * std::sin(disc.turned), -scale * disc.radius * std::cos(disc.turned));
+    return fmt::format("<path class=\"spin\" d=\"{}\" stroke=\"{}\" stroke-width=\"1.2\"/>", ways, palette::ink);
+}
+
+/// A picture with marks on it, and a bar of length and the speeds of its colours below.
 std::string with_scales(const Image& image, const std::string& address, const std::string& label, double width, double fastest,
-                        const std::string& id) {
+                        const std::string& id, const std::string& marks) {
     const double length = round_below(width / 4.0), y = image.height + 14.0;
     return fmt::format(
-        "<svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"{2}\"><image width=\"{0}\" height=\"{3}\" href=\"{4}\"/>{5}{6}</svg>",
-        image.width, image.height + k_scales_height, label, image.height, address,
+        "<svg viewBox=\"0 0 {0} {1}\" role=\"img\" aria-label=\"{2}\"><image width=\"{0}\" height=\"{3}\" href=\"{4}\"/>{5}{6}{7}</svg>",
+        image.width, image.height + k_scales_height, label, image.height, address, marks,
         bar(20.0, 20.0 + length / width * image.width, y, fmt::format("{:g} mm", 1e3 * length)),
         speed_scale(0.5 * image.width, 0.86 * image.width, y, fastest, id));
 }
@@ -180,15 +215,18 @@ std::string surface_pictures(const Page& page, const SurfaceRows& rows, const fs
     int number = 0;
     for (const Snapshot& snapshot : snapshots(run_directory)) {
         const std::string id = fmt::format("water_{}", number++), time = fmt::format("{:.3f} s", snapshot.time);
-        const Image image = picture(rows, snapshot, bodies_of(rows.scene, run_directory, snapshot), fastest);
-        markup += html::figure(with_scales(image, page.address(image, id), "Water and bodies at " + time, width, fastest, id), time);
+        const std::vector<Disc> discs = bodies_of(rows, run_directory, snapshot);
+        const Image image = picture(rows, snapshot, discs, fastest);
+        const std::string marks = spin_marks(discs, image, width);
+        markup += html::figure(with_scales(image, page.address(image, id), "Water and bodies at " + time, width, fastest, id, marks), time);
     }
     if (markup.empty()) return markup;
     const std::string section =
         rows.scene.value("layers", 1) > 1
             ? fmt::format("<p>Section at y = {:g} m.</p>", (section_layer(rows.scene) + 0.5) * rows.scene.at("cell_m").get<double>())
             : "";
-    return section + html::legend({{k_fast, "water, darker where it is faster"}, {k_body, "bodies"}, {k_solid, "solids"}}) +
+    return section +
+           html::legend({{k_fast, "water, darker where it is faster"}, {k_body, "bodies; the line turns with them"}, {k_solid, "solids"}}) +
            "<div class=\"figures\">" + markup + "</div>";
 }
 
