@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/process/child_process.hpp"
-#include "solver/free_surface/surface_run.hpp"
+#include "solver/free_surface/output/scene_gauges.hpp"
 #include "validation/harness/reference_table.hpp"
 #include "validation/harness/verification.hpp"
 
@@ -253,7 +253,7 @@ void compare_with_experiment(Verification& verification, const Fall& fallen, con
     const std::string mesh = fmt::format(", {} cells a width", cells);
     const ExperimentError error = error_of(fallen.front, table);
     verification.at_most("error of the front after one shift in time" + mesh, "-", error.largest, 0.04,
-                         {table.source, "largest of 15 places; the first, 22 ms after the release, is the worst", {}});
+                         {table.source, "largest of 15 places after the shift that makes it least", {}});
     verification.at_most("shift in time of the measured front" + mesh, "-", error.shift, 0.35,
                          {table.source, "in T = t sqrt(2 g/a): the diaphragm", {}});
     verification.report("error of the front at the other 14 places" + mesh, "-", error.after_first, {}, {table.source, "same shift", {}});
@@ -291,8 +291,59 @@ void check_fall(Verification& verification, int cells, double volume_limit) {
     }
 }
 
+// A column 0.6 m wide and 0.3 m high in a tank of 1.61 m, a sensor 3 mm above the floor in the far wall.
+constexpr double k_high = 0.3, k_wide = 0.6, k_far_wall = 1.61, k_sensor = 0.003, k_pressure_cell = 0.01;
+constexpr double k_still_from = 30.0, k_still_to = 42.0;  // [s]: about four periods of the slowest wave
+
+struct WallPressure {
+    double before = 0.0;   // largest while the front is two cells and more away [Pa]
+    double arrival = 0.0;  // of the front at the wall [s]
+    double peak = 0.0;     // [Pa]
+    double mean = 0.0;     // from k_still_from to k_still_to [Pa]
+};
+
+WallPressure wall_pressure() {
+    SceneSettings scene;
+    scene.tank.cell = k_pressure_cell;
+    scene.tank.cells = {static_cast<int>(std::lround(k_far_wall / k_pressure_cell)), 1, 60};
+    scene.tank.depth = 0.15;
+    scene.gravity = Vec3(0, 0, -k_gravity);
+    scene.water.filled = {{Vec3(0, -1, 0), Vec3(k_wide, 1, k_high)}};
+    SurfaceRun run(scene, nullptr);
+    const Gauge sensor{"far wall", k_far_wall, 0.0, k_sensor};
+    const int columns = run.grid().cells(0);
+    WallPressure found;
+    while (run.time() < k_still_to) {
+        const double step = run.step(k_still_to - run.time()).step, pressure = read_gauge(run, sensor).pressure;
+        found.peak = std::max(found.peak, pressure);
+        if (run.time() > k_still_from) found.mean += pressure * step / (k_still_to - k_still_from);
+        if (found.arrival > 0.0) continue;
+        std::vector<double> row;
+        for (int i = 0; i < columns; ++i) row.push_back(run.water().fraction[run.grid().at(i, 0, 0)]);
+        const double front = front_of(row);
+        if (front < columns - 2.0) found.before = std::max(found.before, std::abs(pressure));
+        if (front > columns - 0.5) found.arrival = run.time();
+    }
+    return found;
+}
+
+void check_wall_pressure(Verification& verification) {
+    const WallPressure found = wall_pressure();
+    const double unit = 1000.0 * k_gravity * k_high, level = k_high * k_wide / k_far_wall;
+    const std::string where = " at a sensor 3 mm high in the far wall";
+    verification.at_most("pressure before the front arrives" + where, "Pa", found.before, 0.0,
+                         {"exact", "front two cells and more away; column 0.6 m x 0.3 m, tank of 1.61 m, cells of 10 mm", {}});
+    verification.relative("mean pressure of still water" + where, "Pa", found.mean, 1000.0 * k_gravity * (level - k_sensor), 0.05,
+                          {"exact", "30 to 42 s; the lowest centre of a cell is 2 mm higher than the sensor: 1.8 %", {}});
+    verification.report("arrival of the front at the far wall, t sqrt(g/H)", "-", found.arrival * std::sqrt(k_gravity / k_high), {},
+                        {"exact", "no measured record is available here", {}});
+    verification.report("largest pressure over rho g H" + where, "-", found.peak / unit, {},
+                        {"exact", "of single steps; no measured record is available here", {}});
+}
+
 void run(Verification& verification) {
     check_fall(verification, 20, 0.01);
+    if (verification.wants(Effort::standard)) check_wall_pressure(verification);
     if (verification.wants(Effort::standard)) check_fall(verification, 40, 0.01);
 }
 
