@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/coupling/kernel/testing/normalisation_error.hpp"
 #include "solver/coupling/tests/coupling_rig.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
 
@@ -15,6 +16,7 @@ namespace cutterflow::coupling {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::normalisation_error;
 using testing::SyntheticMesh;
 
 constexpr double k_dx = 0.01;
