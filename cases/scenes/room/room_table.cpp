@@ -16,6 +16,7 @@ using namespace room_stage;
 
 constexpr double k_largest_length = 1e3;  // [m]
 constexpr double k_longest_time = 1e6;    // [s]
+constexpr double k_shortest_run = 1e-6;   // [s], of which the intervals of a run are parts above 0
 
 Row number(const std::string& key, const char* unit, const char* help) {
     return Row(key, ParameterKind::number, unit, help);
@@ -258,7 +259,7 @@ ParameterTable event_rows() {
 
 ParameterTable run_rows() {
     return {
-        duration("run.end_s", "When the run ends."),
+        number("run.end_s", "s", "When the run ends.").at_least(k_shortest_run).at_most(k_longest_time),
         text("run.stop.measure", "Name of a measure with a gate: the run ends when nothing has passed the gate for idle_s.").optional(),
         duration("run.stop.idle_s", "How long nothing passes.").optional(),
         Row("run.stop.settled", ParameterKind::boolean, "-", "End the run when the grains are at rest.").optional(),
