@@ -8,11 +8,10 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
-#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "meshing/cutter/background_mesh.hpp"
 #include "meshing/cutter/mesh_dictionaries.hpp"
-#include "meshing/dictionary/foam_command.hpp"
+#include "meshing/dictionary/mesher_sections.hpp"
 
 namespace cutterflow::meshing {
 namespace {
@@ -26,43 +25,9 @@ constexpr int k_angles_per_pitch = 8;
 constexpr double k_least_cells_to_share = 2e5;
 constexpr std::array<double, 3> k_attempts = {1.0, 0.93, 0.85};  // cells over those of the preset
 
-/// One program of the stage; `weight` is its usual share of the time.
-struct Step {
-    fs::path program;
-    std::vector<std::string> arguments;
-    double weight;
-    int ranks = 1;
-};
-
 std::string foam_list(const std::vector<double>& numbers) {
     return fmt::format("({})", fmt::join(numbers, " "));
 }
-
-/// Sums the cost of the programs and notifies the observer.
-class StepRunner {
-public:
-    StepRunner(fs::path directory, double total_weight, const MeshObserver& observer)
-        : directory_(std::move(directory)), total_weight_(total_weight), observer_(observer) {}
-
-    void run(const Step& step) {
-        if (observer_) observer_(done_ / total_weight_, step.program.filename().string());
-        const ChildResult result = require_child(foam_command(directory_, step.program.string(), step.arguments, step.ranks));
-        wall_s += result.wall_s;
-        core_s += result.core_s;
-        memory = std::max(memory, step.ranks * result.memory);  // the ranks' shares are alike
-        program_core_s.emplace_back(step.program.filename().string(), result.core_s);
-        done_ += step.weight;
-    }
-
-    double wall_s = 0.0, core_s = 0.0, memory = 0.0;
-    std::vector<std::pair<std::string, double>> program_core_s;
-
-private:
-    fs::path directory_;
-    double total_weight_;
-    const MeshObserver& observer_;
-    double done_ = 0.0;
-};
 
 /// Copies the mesh of blockMesh, which cutterInterfaceRestore needs.
 void keep_background(const fs::path& mesh_case) {
@@ -72,8 +37,8 @@ void keep_background(const fs::path& mesh_case) {
 }
 
 /// On several ranks the mesh is reconstructed afterwards.
-std::vector<Step> steel_cutting(int ranks) {
-    const Step cut = {"snappyHexMesh", {"-overwrite"}, 80.0, ranks};
+std::vector<FoamStep> steel_cutting(int ranks) {
+    const FoamStep cut = {"snappyHexMesh", {"-overwrite"}, 80.0, ranks};
     if (ranks == 1) return {cut};
     return {{"decomposePar", {"-force"}, 1.0}, cut, {"reconstructParMesh", {"-constant"}, 2.0}};
 }
@@ -81,17 +46,6 @@ std::vector<Step> steel_cutting(int ranks) {
 void remove_processors(const fs::path& mesh_case) {
     for (int rank = 0; fs::remove_all(mesh_case / fmt::format("processor{}", rank)) > 0; ++rank) {
     }
-}
-
-/// The mesh only, without the other files of snappyHexMesh and topoSet.
-void move_mesh(const fs::path& mesh_case, const fs::path& run_directory) {
-    const fs::path target = run_directory / "constant" / "polyMesh";
-    fs::remove_all(target);
-    fs::create_directories(target);
-    for (const char* file : {"boundary", "cellZones", "faces", "neighbour", "owner", "points"})
-        fs::rename(mesh_case / "constant" / "polyMesh" / file, target / file);
-    fs::remove_all(mesh_case / "constant" / "polyMesh");
-    fs::remove_all(mesh_case / "constant" / "background");
 }
 
 }  // namespace
@@ -116,14 +70,15 @@ std::optional<MeshRetry> next_attempt(const MeshReport& failed, int attempts, Me
 }
 
 std::vector<fs::path> write_mesh_case(const fs::path& run_directory, const MeshPlan& plan, int ranks) {
-    std::vector<std::pair<const char*, FoamDictionary>> dictionaries = {{"controlDict", mesh_control()},
-                                                                        {"fvSchemes", mesh_schemes()},
-                                                                        {"fvSolution", FoamDictionary()},
-                                                                        {"blockMeshDict", background_mesh(plan)},
-                                                                        {"surfaceFeatureExtractDict", feature_extraction(steel_surfaces())},
-                                                                        {"snappyHexMeshDict", steel_cut(plan)},
-                                                                        {"topoSetDict", outlet_selection(plan)},
-                                                                        {"createPatchDict", final_patches()}};
+    std::vector<std::pair<const char*, FoamDictionary>> dictionaries = {
+        {"controlDict", mesh_control()},
+        {"fvSchemes", mesh_schemes()},
+        {"fvSolution", FoamDictionary()},
+        {"blockMeshDict", background_mesh(plan)},
+        {"surfaceFeatureExtractDict", feature_extraction({steel_surfaces().begin(), steel_surfaces().end()})},
+        {"snappyHexMeshDict", steel_cut(plan)},
+        {"topoSetDict", outlet_selection(plan)},
+        {"createPatchDict", final_patches()}};
     if (ranks > 1) dictionaries.emplace_back("decomposeParDict", decomposition(ranks));
     std::vector<fs::path> written;
     for (const auto& [name, dictionary] : dictionaries) {
@@ -144,21 +99,21 @@ MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const
     const fs::path mesh_case = run_directory / k_mesh_case;
     const fs::path own = fs::absolute(programs);  // the programs start in the mesh's folder
     const std::string sides = fmt::format("({} {})", k_rotor_side_patch, k_stator_side_patch);
-    std::vector<Step> steps = {{"surfaceFeatureExtract", {}, 1.0}};
-    for (const Step& step : steel_cutting(ranks)) steps.push_back(step);
-    const std::vector<Step> finish = {
+    std::vector<FoamStep> steps = {{"surfaceFeatureExtract", {}, 1.0}};
+    for (const FoamStep& step : steel_cutting(ranks)) steps.push_back(step);
+    const std::vector<FoamStep> finish = {
         {own / "cutterInterfaceRestore", {"-patches", sides, "-output", k_restore_report}, 2.0},
         {"topoSet", {}, 1.0},
         {"createPatch", {"-overwrite"}, 2.0},
         {"checkMesh", {}, 3.0},
         {own / "cutterMeshProbe", {"-angles", foam_list(probe_angles(plan.rotor)), "-output", k_probe_report}, 10.0},
     };
-    StepRunner runner(mesh_case, 100.0, observer);
+    FoamSteps runner(mesh_case, 100.0, observer);
     runner.run({"blockMesh", {}, 1.0});
     keep_background(mesh_case);
-    for (const Step& step : steps) runner.run(step);
+    for (const FoamStep& step : steps) runner.run(step);
     remove_processors(mesh_case);
-    for (const Step& step : finish) runner.run(step);
+    for (const FoamStep& step : finish) runner.run(step);
 
     MeshReport report;
     report.preset = plan.input.resolution.preset;
@@ -172,6 +127,7 @@ MeshReport build_mesh(const fs::path& run_directory, const MeshPlan& plan, const
     report.program_core_s = runner.program_core_s;
     report.retries = retries;
     move_mesh(mesh_case, run_directory);
+    fs::remove_all(mesh_case / "constant" / "background");
     write_file(run_directory / names::mesh_report, to_json(report).dump(2) + "\n");
     return report;
 }

@@ -1,20 +1,17 @@
 #pragma once
 /// \file The mesh stage: from a plan and the steel's surfaces to constant/polyMesh and mesh.json.
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "meshing/cutter/mesh_report.hpp"
+#include "meshing/dictionary/foam_steps.hpp"
 
 namespace cutterflow::meshing {
 
 /// Folder of a run directory in which the mesh is built: a separate OpenFOAM case with dictionaries and logs.
 inline constexpr const char* k_mesh_case = "mesh";
-
-/// Called before each program with the share of the stage that is done and the program's name.
-using MeshObserver = std::function<void(double fraction, const std::string& program)>;
 
 /// Writes the case of the mesher: dictionaries, and copies of geometry/{cutter,backplate,suction_pipe}.stl. Existing files
 /// are overwritten; copy the user's changes over them before build_mesh.

@@ -11,14 +11,11 @@ namespace cutterflow::meshing {
 /// Patches that snappyHexMesh cuts; each has a surface `<name>.stl` in constant/triSurface.
 const std::array<std::string, 3>& steel_surfaces();
 
-FoamDictionary feature_extraction(const std::array<std::string, 3>& surfaces);  ///< surfaceFeatureExtractDict
-FoamDictionary steel_cut(const MeshPlan& plan);                                 ///< snappyHexMeshDict
+FoamDictionary steel_cut(const MeshPlan& plan);         ///< snappyHexMeshDict
 FoamDictionary outlet_selection(const MeshPlan& plan);  ///< topoSetDict: faceSet `outlet`, where the pipe meets the tank's top
 FoamDictionary final_patches();                         ///< createPatchDict: outlet and the two cyclicAMI sides
 /// decomposeParDict: `ranks` boxes in the plane normal to the axis, as square as the number allows (hierarchical: Debian's scotch is a
 /// stub). \pre ranks >= 1
 FoamDictionary decomposition(int ranks);
-FoamDictionary mesh_control();  ///< controlDict of the mesh stage
-FoamDictionary mesh_schemes();  ///< fvSchemes, which the programs read but do not use
 
 }  // namespace cutterflow::meshing

@@ -1,16 +1,12 @@
 #include "meshing/cutter/mesh_report.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/error.hpp"
 #include "geometry/head/head_names.hpp"
 #include "meshing/cutter/background_mesh.hpp"
 
@@ -18,17 +14,6 @@ namespace cutterflow::meshing {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* k_number = "([-+0-9.eE]+)";
-
-/// The number after the first `before` in the log.
-double number_after(const std::string& log, const std::string& before, const std::string& name) {
-    std::smatch found;
-    if (!std::regex_search(log, found, std::regex(before + k_number)))
-        throw ToolError({"", fmt::format("{} does not contain '{}'", name, before),
-                         "checkMesh of OpenFOAM 1912 ends with the mesh's quality", "Read the error in the log"});
-    return std::stod(found[1]);
-}
 
 double relative_error(double value, double exact) {
     return std::abs(value / exact - 1.0);
@@ -61,16 +46,6 @@ InterfaceSide side_of(const json& restore, const char* patch) {
 }
 
 }  // namespace
-
-CheckMeshFigures parse_check_mesh(const std::string& log, const std::string& name) {
-    CheckMeshFigures figures;
-    figures.non_orthogonality_max = number_after(log, "Mesh non-orthogonality Max: ", name);
-    figures.non_orthogonality_mean = number_after(log, "Mesh non-orthogonality Max: [-+0-9.eE]+ average: ", name);
-    figures.skewness_max = number_after(log, "Max skewness = ", name);
-    figures.aspect_ratio_max = number_after(log, "[Mm]ax aspect ratio[ :=]+", name);
-    if (log.find("\nMesh OK.") == std::string::npos) figures.failed_checks = static_cast<int>(number_after(log, "\nFailed ", name));
-    return figures;
-}
 
 ProbeFigures parse_probe(const json& probe, const json& restore) {
     ProbeFigures figures;
@@ -140,9 +115,6 @@ std::vector<MeshGate> check_mesh_gates(const MeshPlan& plan, const CheckMeshFigu
 }
 
 json to_json(const MeshReport& report) {
-    json gates = json::array();
-    for (const MeshGate& gate : report.gates)
-        gates.push_back({{"name", gate.name}, {"value", gate.value}, {"limit", gate.limit}, {"passed", gate.passed()}});
     json retries = json::array();
     for (const MeshRetry& retry : report.retries) retries.push_back({{"failed_gate", retry.failed_gate}, {"change", retry.change}});
     json programs = json::object();
@@ -167,7 +139,7 @@ json to_json(const MeshReport& report) {
             {"predicted_core_hours_per_revolution", report.prediction.core_hours_per_revolution},
             {"predicted_memory_bytes", std::round(report.prediction.mesh_memory)},
             {"memory_bytes", report.memory},
-            {"gates", gates},
+            {"gates", gates_json(report.gates)},
             {"retries", retries},
             {"program_core_s", programs},
             {"wall_s", report.wall_s},
@@ -175,15 +147,7 @@ json to_json(const MeshReport& report) {
 }
 
 void require_mesh_gates(const MeshReport& report) {
-    std::vector<const MeshGate*> failed;
-    for (const MeshGate& gate : report.gates)
-        if (!gate.passed()) failed.push_back(&gate);
-    if (failed.empty()) return;
-    std::string others;
-    for (std::size_t i = 1; i < failed.size(); ++i) others += (i == 1 ? "; failed too: " : ", ") + failed[i]->name;
-    const MeshGate& first = *failed.front();
-    throw CheckFailure({"", fmt::format("The mesh's {} is {:.4g}{}", first.name, first.value, others),
-                        fmt::format("It must be {} {:.4g}", first.at_least ? "at least" : "at most", first.limit), first.remedy});
+    require_gates(report.gates);
 }
 
 }  // namespace cutterflow::meshing

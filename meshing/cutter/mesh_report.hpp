@@ -7,21 +7,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "meshing/cutter/mesh_plan.hpp"
+#include "meshing/quality/check_mesh.hpp"
 
 namespace cutterflow::meshing {
-
-/// Figures of checkMesh.
-struct CheckMeshFigures {
-    double non_orthogonality_max = 0.0;   ///< [deg]
-    double non_orthogonality_mean = 0.0;  ///< [deg]
-    double skewness_max = 0.0;
-    double aspect_ratio_max = 0.0;
-    int failed_checks = 0;
-};
-
-/// Reads the log of `checkMesh`.
-/// \throws ToolError  when the log is incomplete; `name` is the log's name in the message
-CheckMeshFigures parse_check_mesh(const std::string& log, const std::string& name);
 
 /// Figures of cutterInterfaceRestore for one side.
 struct InterfaceSide {
@@ -49,16 +37,6 @@ struct ProbeFigures {
 
 /// Reads the reports of the two programs.
 ProbeFigures parse_probe(const nlohmann::json& probe, const nlohmann::json& restore);
-
-/// One demand on the mesh. `at_least`: passed when value >= limit, otherwise when value <= limit.
-struct MeshGate {
-    std::string name;
-    double value = 0.0;
-    double limit = 0.0;
-    bool at_least = false;
-    std::string remedy;
-    bool passed() const { return at_least ? value >= limit : value <= limit; }
-};
 
 /// Change of the next attempt after a failed gate.
 struct MeshRetry {
@@ -99,7 +77,7 @@ std::vector<MeshGate> check_mesh_gates(const MeshPlan& plan, const CheckMeshFigu
 /// mesh.json (docs/design/001-contracts.md).
 nlohmann::json to_json(const MeshReport& report);
 
-/// \throws CheckFailure  when gates failed: the first with value, limit and remedy, the others by name
+/// \throws CheckFailure  as require_gates
 void require_mesh_gates(const MeshReport& report);
 
 }  // namespace cutterflow::meshing

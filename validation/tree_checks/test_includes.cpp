@@ -42,7 +42,8 @@ const std::vector<Layer> k_layers = {
     {"geometry/tests/", {"geometry/"}},
 
     {"meshing/dictionary/", {k_base, "meshing/dictionary/"}},
-    {"meshing/cutter/", {k_base, "geometry/surface/", "geometry/head/", "meshing/dictionary/", "meshing/cutter/"}},
+    {"meshing/quality/", {k_base, "meshing/quality/"}},
+    {"meshing/cutter/", {k_base, "geometry/surface/", "geometry/head/", "meshing/dictionary/", "meshing/quality/", "meshing/cutter/"}},
     {"meshing/foam/", {k_base, k_head_names}},
     {"meshing/tests/", {"geometry/", "meshing/"}},
 
