@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/scenes/flow/flow_files.hpp"
 #include "geometry/base/axial_cylinder.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -18,20 +19,6 @@ namespace cutterflow::cases {
 struct Rotor {
     RotationAxis axis;   ///< from hub to ring
     double speed = 0.0;  ///< [rad/s], right-handed about the axis; not 0
-};
-
-/// Scheme of momentum convection in the transient run. The frozen-rotor start is always upwind.
-enum class ConvectionScheme {
-    upwind,         ///< first order
-    linear_upwind,  ///< second order, from the upwind cell with its limited gradient; the matrix is that of upwind
-};
-
-/// How the transient flow is solved. docs/design/007-flow-settings.md has the measurements behind the defaults.
-struct FlowNumerics {
-    ConvectionScheme convection = ConvectionScheme::linear_upwind;
-    double max_courant = 1.8;
-    int outer_correctors = 1;
-    int pressure_correctors = 2;
 };
 
 /// Times of the transient run [s]; 0 is its start, with the frozen rotor's flow.

@@ -10,35 +10,14 @@
 namespace cutterflow::cases {
 namespace {
 
-constexpr double k_intensity = 0.05;
 constexpr double k_length_per_ring_radius = 0.07;
-constexpr double k_c_mu = 0.09;
-constexpr double k_pressure_tolerance = 2e-8;  // keeps the flow balance well within 1e-6 of the discharge, also in the first step
-
-constexpr std::array<int, 7> k_velocity = {0, 1, -1, 0, 0, 0, 0};
-constexpr std::array<int, 7> k_pressure = {0, 2, -2, 0, 0, 0, 0};
-constexpr std::array<int, 7> k_dissipation = {0, 2, -3, 0, 0, 0, 0};
-constexpr std::array<int, 7> k_viscosity = {0, 2, -1, 0, 0, 0, 0};
-constexpr std::array<int, 7> k_acceleration = {0, 1, -2, 0, 0, 0, 0};
-
-meshing::FoamValue uniform(meshing::FoamValue value) {
-    return meshing::FoamValue::sequence({"uniform", std::move(value)});
-}
-
-meshing::FoamDictionary typed(const std::string& type) {
-    return meshing::FoamDictionary().add("type", type);
-}
-
-meshing::FoamDictionary typed(const std::string& type, meshing::FoamValue value) {
-    return typed(type).add("value", uniform(std::move(value)));
-}
 
 /// Boundary conditions of one field by group of patches.
 struct Boundary {
     meshing::FoamDictionary inlet, outlet, cutter, steel, tank;
 };
 
-FoamFile field_file(const std::string& name, const std::string& foam_class, const std::array<int, 7>& dimensions,
+FoamFile head_field(const std::string& name, const std::string& foam_class, const std::array<int, 7>& dimensions,
                     meshing::FoamValue internal, const Boundary& boundary) {
     meshing::FoamDictionary patches;
     patches.add(names::inlet_patch, boundary.inlet).add(names::outlet_patch, boundary.outlet).add(names::cutter_patch, boundary.cutter);
@@ -46,11 +25,7 @@ FoamFile field_file(const std::string& name, const std::string& foam_class, cons
     for (const char* wall : {names::tank_top_patch, names::tank_bottom_patch}) patches.add(wall, boundary.tank);
     for (const char* side : {names::rotor_interface_patch, names::stator_interface_patch}) patches.add(side, typed("cyclicAMI"));
 
-    meshing::FoamDictionary field;
-    field.add("dimensions", meshing::FoamValue::dimensions(dimensions))
-        .add("internalField", uniform(std::move(internal)))
-        .add("boundaryField", patches);
-    return {"0/" + name, foam_class, field};
+    return field_file(name, foam_class, dimensions, std::move(internal), patches);
 }
 
 /// A turbulence quantity: given where water enters, free where it leaves, a wall function on steel and bed.
@@ -58,66 +33,11 @@ FoamFile turbulence_field(const std::string& name, const std::array<int, 7>& dim
                           const std::string& wall_function) {
     const meshing::FoamDictionary open = typed("inletOutlet").add("inletValue", uniform(inlet)).add("value", uniform(inlet));
     const meshing::FoamDictionary wall = typed(wall_function, start);
-    return field_file(name, "volScalarField", dimensions, start, {open, open, wall, wall, wall});
-}
-
-FoamFile property_file(const std::string& name, meshing::FoamDictionary contents) {
-    return {"constant/" + name, "dictionary", std::move(contents)};
-}
-FoamFile system_file(const std::string& name, meshing::FoamDictionary contents) {
-    return {"system/" + name, "dictionary", std::move(contents)};
-}
-
-const char* scheme_text(ConvectionScheme scheme) {
-    return scheme == ConvectionScheme::upwind ? "Gauss upwind" : "Gauss linearUpwindV grad(U)";
-}
-
-meshing::FoamDictionary one(const std::string& key, const std::string& scheme) {
-    return meshing::FoamDictionary().add(key, meshing::FoamValue::raw(scheme));
-}
-
-/// Schemes that start and run share. `limit` is the share of the non-orthogonal correction that is kept (0 to 1).
-FoamFile schemes_file(const std::string& time_scheme, const meshing::FoamDictionary& convection, double limit) {
-    const std::string limited = fmt::format("limited corrected {}", limit);
-    meshing::FoamDictionary gradients = one("default", "Gauss linear");
-    gradients.add("grad(U)", meshing::FoamValue::raw("cellLimited Gauss linear 1"));
-    meshing::FoamDictionary schemes;
-    schemes.add("ddtSchemes", one("default", time_scheme))
-        .add("gradSchemes", gradients)
-        .add("divSchemes", convection)
-        .add("laplacianSchemes", one("default", "Gauss linear " + limited))
-        .add("interpolationSchemes", one("default", "linear"))
-        .add("snGradSchemes", one("default", limited))
-        .add("wallDist", one("method", "meshWave"));
-    return system_file("fvSchemes", schemes);
-}
-
-meshing::FoamDictionary multigrid(const char* role) {
-    return meshing::FoamDictionary()
-        .add(role, "GAMG")
-        .add("smoother", "DICGaussSeidel")
-        .add("cacheAgglomeration", true);  // both solutions of a step share it, and it turns with the mesh
+    return head_field(name, "volScalarField", dimensions, start, {open, open, wall, wall, wall});
 }
 
 meshing::FoamDictionary steady_pressure_solver(double tolerance, double relative) {
     return multigrid("solver").add("tolerance", tolerance).add("relTol", relative);
-}
-
-/// Conjugate gradients with two V-cycles an iteration; docs/design/007-flow-settings.md has the cost of the alternatives.
-meshing::FoamDictionary pressure_solver(double tolerance, double relative) {
-    return meshing::FoamDictionary()
-        .add("solver", "PCG")
-        .add("preconditioner", multigrid("preconditioner"))
-        .add("tolerance", tolerance)
-        .add("relTol", relative);
-}
-
-meshing::FoamDictionary transport_solver(double tolerance, double relative) {
-    return meshing::FoamDictionary()
-        .add("solver", "smoothSolver")
-        .add("smoother", "symGaussSeidel")
-        .add("tolerance", tolerance)
-        .add("relTol", relative);
 }
 
 meshing::FoamDictionary monitor(const std::string& type, const std::string& library) {
@@ -136,15 +56,6 @@ meshing::FoamDictionary patch_monitor(const char* patch, const std::string& oper
 }
 
 }  // namespace
-
-double Turbulence::eddy_viscosity() const {
-    return k_c_mu * k * k / epsilon;
-}
-
-Turbulence turbulence_of(double speed, double length) {
-    const double k = 1.5 * std::pow(k_intensity * speed, 2);
-    return {k, std::pow(k_c_mu, 0.75) * std::pow(k, 1.5) / length};
-}
 
 Turbulence inlet_turbulence(const CaseInputs& inputs) {
     const double area = 2.0 * k_pi * inputs.tank.radius * (inputs.tank.z_max - inputs.tank.z_min);
@@ -174,27 +85,17 @@ std::vector<FoamFile> field_files(const CaseInputs& inputs) {
     const meshing::FoamDictionary calculated = typed("calculated", 0.0);
     const meshing::FoamDictionary wall_viscosity = typed("nutkWallFunction", 0.0);
 
-    return {field_file("U", "volVectorField", k_velocity, far, velocity), field_file("p", "volScalarField", k_pressure, 0.0, pressure),
-            turbulence_field("k", k_pressure, start.k, inlet.k, "kqRWallFunction"),
-            turbulence_field("epsilon", k_dissipation, start.epsilon, inlet.epsilon, "epsilonWallFunction"),
-            field_file("nut", "volScalarField", k_viscosity, start.eddy_viscosity(),
+    return {head_field("U", "volVectorField", k_velocity_dimensions, far, velocity),
+            head_field("p", "volScalarField", k_pressure_dimensions, 0.0, pressure),
+            turbulence_field("k", k_pressure_dimensions, start.k, inlet.k, "kqRWallFunction"),
+            turbulence_field("epsilon", k_dissipation_dimensions, start.epsilon, inlet.epsilon, "epsilonWallFunction"),
+            head_field("nut", "volScalarField", k_viscosity_dimensions, start.eddy_viscosity(),
                        {calculated, calculated, wall_viscosity, wall_viscosity, wall_viscosity})};
 }
 
 std::vector<FoamFile> property_files(const CaseInputs& inputs) {
-    meshing::FoamDictionary transport;
-    transport.add("transportModel", "Newtonian").add("nu", inputs.fluid.kinematic_viscosity).add("rho", inputs.fluid.density);
-
-    meshing::FoamDictionary model;
-    model.add("RASModel", "realizableKE").add("turbulence", true).add("printCoeffs", false);
-    meshing::FoamDictionary turbulence;
-    turbulence.add("simulationType", "RAS").add("RAS", model);
-
-    meshing::FoamDictionary gravity;
-    gravity.add("dimensions", meshing::FoamValue::dimensions(k_acceleration)).add("value", inputs.gravity);
-    return {property_file("transportProperties", transport),
-            property_file("turbulenceProperties", turbulence),
-            {"constant/g", "uniformDimensionedVectorField", gravity}};
+    return {transport_file(inputs.fluid.density, inputs.fluid.kinematic_viscosity), turbulence_file("realizableKE"),
+            gravity_file(inputs.gravity)};
 }
 
 FoamFile dynamic_mesh_file(const CaseInputs& inputs) {
@@ -221,27 +122,6 @@ FoamFile frozen_rotor_file(const CaseInputs& inputs) {
 }
 
 std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
-    meshing::FoamDictionary convection = one("default", "none");
-    convection.add("div(phi,U)", meshing::FoamValue::raw(scheme_text(inputs.numerics.convection)))
-        .add("div(phi,k)", meshing::FoamValue::raw("Gauss upwind"))
-        .add("div(phi,epsilon)", meshing::FoamValue::raw("Gauss upwind"))
-        .add("div((nuEff*dev2(T(grad(U)))))", meshing::FoamValue::raw("Gauss linear"));
-
-    meshing::FoamDictionary solvers;
-    solvers.add("p", pressure_solver(k_pressure_tolerance, 0.02)).add("pFinal", pressure_solver(k_pressure_tolerance, 0.0));
-    solvers.add("pcorr", pressure_solver(1e-3, 0.0)).add("pcorrFinal", pressure_solver(1e-3, 0.0));
-    solvers.add_pattern("(U|k|epsilon)", transport_solver(1e-7, 0.1)).add_pattern("(U|k|epsilon)Final", transport_solver(1e-7, 0.0));
-    meshing::FoamDictionary pimple;
-    pimple.add("momentumPredictor", true)
-        .add("nOuterCorrectors", inputs.numerics.outer_correctors)
-        .add("nCorrectors", inputs.numerics.pressure_correctors)
-        .add("nNonOrthogonalCorrectors", 0)
-        .add("correctPhi", false)
-        .add("checkMeshCourantNo", false)
-        .add("turbOnFinalIterOnly", true);
-    meshing::FoamDictionary solution;
-    solution.add("cache", one("grad(U)", "on")).add("solvers", solvers).add("PIMPLE", pimple);
-
     const RunTimes& times = inputs.times;
     meshing::FoamDictionary control;
     control.add("application", "cutterFoam")
@@ -263,11 +143,13 @@ std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
         .add("runTimeModifiable", true)
         .add("libs", meshing::FoamValue::list({}));
 
-    return {schemes_file("Euler", convection, 0.5), system_file("fvSolution", solution), system_file("controlDict", control)};
+    std::vector<FoamFile> files = run_numerics_files(inputs.numerics);
+    files.push_back(system_file("controlDict", control));
+    return files;
 }
 
 std::vector<FoamFile> start_system_files(const CaseInputs& inputs, int iterations) {
-    meshing::FoamDictionary convection = one("default", "none");
+    meshing::FoamDictionary convection = one_scheme("default", "none");
     for (const char* field : {"U", "k", "epsilon"})
         convection.add(fmt::format("div(phi,{})", field), meshing::FoamValue::raw("bounded Gauss upwind"));
     convection.add("div((nuEff*dev2(T(grad(U)))))", meshing::FoamValue::raw("Gauss linear"));

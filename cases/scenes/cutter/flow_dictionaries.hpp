@@ -4,34 +4,15 @@
 #include <vector>
 
 #include "cases/scenes/cutter/case_inputs.hpp"
-#include "meshing/dictionary/foam_dictionary.hpp"
+#include "cases/scenes/flow/flow_files.hpp"
 
 namespace cutterflow::cases {
-
-/// k [m2/s2] and epsilon [m2/s3] of isotropic turbulence.
-struct Turbulence {
-    double k = 0.0;
-    double epsilon = 0.0;
-    double eddy_viscosity() const;  ///< 0.09 k^2 / epsilon [m2/s]
-};
-
-/// k = 1.5 (I U)^2, epsilon = 0.09^(3/4) k^(3/2) / L with the intensity I = 5 %.
-/// \param speed   U [m/s] > 0
-/// \param length  L [m] > 0
-Turbulence turbulence_of(double speed, double length);
 
 /// Of the water that enters: mean speed through the tank's circumference, L = 0.07 R.
 Turbulence inlet_turbulence(const CaseInputs& inputs);
 
 /// To start from: tip speed of the rotor, L = 0.07 R.
 Turbulence initial_turbulence(const CaseInputs& inputs);
-
-/// A dictionary with its place in the case.
-struct FoamFile {
-    std::string path;        ///< relative to the case
-    std::string foam_class;  ///< "dictionary", "volVectorField" ...
-    meshing::FoamDictionary contents;
-};
 
 /// 0/U, p, k, epsilon, nut. p is p/rho - g.x (gravity is left out of the fluid's equations), 0 on the circumference.
 std::vector<FoamFile> field_files(const CaseInputs& inputs);
