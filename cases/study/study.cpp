@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/study/closure_rules.hpp"
 #include "cases/study/size_law.hpp"
 #include "cases/study/study_section.hpp"
 #include "geometry/base/axis_frame.hpp"
@@ -198,6 +199,7 @@ public:
         if (!kept) mistakes_.add({table.where(key), value_text(table, key), rule, remedy});
     }
     void add(const std::string& what, const std::string& rule, const std::string& remedy) { mistakes_.add(what, rule, remedy); }
+    void add(const Mistake& mistake) { mistakes_.add(mistake); }
     std::vector<Mistake> take() { return mistakes_.take(); }
 
 private:
@@ -603,12 +605,7 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
     check_report(resolved, head, rules);
     check_intervals(resolved, rules);
     check_recording(resolved, rules);
-    rules.require(!physics::drag_law_holds_void_fraction(resolved.text("closures.drag")) ||
-                      resolved.text("closures.hindrance") == physics::k_no_closure,
-                  "closures.hindrance",
-                  fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice",
-                              resolved.text("closures.drag")),
-                  "Set closures.hindrance = \"none\"");
+    for (const Mistake& mistake : closure_mistakes(resolved)) rules.add(mistake);
     rules.require(resolved.text("kernel.map") != coupling::k_cluster_map, "kernel.map",
                   "Clusters of cells do not turn with the rotor, and reach through its blades", "Set kernel.map = \"gaussian\"");
     rules.require(resolved.number("kernel.cluster_size_m") == 0.0, "kernel.cluster_size_m",
@@ -618,33 +615,12 @@ std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize
 
 namespace {
 
-constexpr double k_dilute_solids = 0.05;       // solid fraction up to which rock hardly hinders other rock
-constexpr double k_resolved_by_kernels = 4.0;  // kernel widths
-
 /// Whether rock is placed so densely that its drag grows by that of other rock.
 bool is_dense(const ParameterValues& feed) {
     const double spacing = feed.number("feed.spacing_diameters");
     return is_cut_face(feed) || k_pi / 6.0 > k_dilute_solids * spacing * spacing * spacing;
 }
 
-/// The drag of rock among rock is counted twice, or not at all.
-void warn_of_hindrance(const ParameterValues& resolved, Rules& rules) {
-    const bool hindered = resolved.text("closures.hindrance") != physics::k_no_closure ||
-                          physics::drag_law_holds_void_fraction(resolved.text("closures.drag"));
-    rules.require(!hindered || resolved.number("closures.drag_modifier") == 1.0, "closures.drag_modifier",
-                  "The hindrance by other rock is in the drag already; a modifier that was fitted without it counts it twice",
-                  "Set it to 1, or closures.hindrance = \"none\"");
-    for (const ParameterValues& feed : resolved.tables("feed"))
-        if (!hindered && resolved.number("closures.drag_modifier") == 1.0 && is_dense(feed)) {
-            rules.require(
-                false, "closures.hindrance",
-                fmt::format("Rock starts with a solid fraction above {:g}, where the drag of a single rock is too small", k_dilute_solids),
-                "Choose a hindrance");
-            return;
-        }
-}
-
-/// A kernel averages the flow over an opening that is not much wider, so that rock there feels a wrong speed.
 void warn_of_wide_kernels(const ParameterValues& resolved, Rules& rules) {
     if (resolved.text("kernel.map") != coupling::k_gaussian_map) return;
     double largest = 0.0;
@@ -652,21 +628,18 @@ void warn_of_wide_kernels(const ParameterValues& resolved, Rules& rules) {
         if (has_size_law(feed)) largest = std::max(largest, feed.number("feed.size_max_m"));
         for (const ParameterValues& rock : feed.tables("feed.class")) largest = std::max(largest, rock.number("feed.class.diameter_m"));
     }
-    const double width = resolved.number("kernel.gamma") * largest;
     for (const char* key : {"suction.mouth_radius_m", "suction.gap_m"})
-        rules.require(
-            resolved.number(key) >= k_resolved_by_kernels * width, key,
-            fmt::format("It is {:.2g} kernel widths of rock of {:g} m; below {:g} the speed that rock feels there is off by more than a "
-                        "tenth",
-                        resolved.number(key) / width, largest, k_resolved_by_kernels),
-            "Compare with kernel.gamma = 0.5");
+        if (const auto warning =
+                wide_kernel_warning({resolved.where(key), key, resolved.number(key)}, resolved.number("kernel.gamma"), largest))
+            rules.add(*warning);
 }
 
 }  // namespace
 
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
-    warn_of_hindrance(resolved, rules);
+    const auto& feeds = resolved.tables("feed");
+    for (const Mistake& warning : hindrance_warnings(resolved, std::any_of(feeds.begin(), feeds.end(), is_dense))) rules.add(warning);
     warn_of_wide_kernels(resolved, rules);
     const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
     const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;

@@ -41,6 +41,16 @@ struct StudySection {
         const std::string& unit = setting.parameter.unit;
         return std::string(name) + "." + snake_case(setting.parameter.key) + (unit == "-" ? "" : "_" + lower_case(unit));
     }
+    /// Rows of the settings that a study offers, in its spelling.
+    ParameterTable rows() const {
+        ParameterTable all;
+        for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>()) {
+            if (!offers(setting)) continue;
+            all.push_back(setting.parameter);
+            all.back().key = key_of(setting);
+        }
+        return all;
+    }
     /// \pre there is such a setting
     static const Parameter& row(const std::string& key_in_dictionary) {
         const auto& table = coupling::setting_table<Settings>();

@@ -183,12 +183,7 @@ Row setting(const char* key, const char* name_in_dictionary) {
 template <class Settings>
 ParameterTable settings_of(const StudySection<Settings>& section) {
     ParameterTable rows;
-    for (const coupling::Setting<Settings>& setting : coupling::setting_table<Settings>()) {
-        if (!section.offers(setting)) continue;
-        Parameter parameter = setting.parameter;
-        parameter.key = section.key_of(setting);
-        rows.push_back(Row(std::move(parameter)).stage(k_case_stage));
-    }
+    for (const Parameter& row : section.rows()) rows.push_back(Row(row).stage(k_case_stage));
     return rows;
 }
 

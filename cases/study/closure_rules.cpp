@@ -1,0 +1,46 @@
+#include "cases/study/closure_rules.hpp"
+
+#include <fmt/format.h>
+
+#include "solver/physics/catalogue.hpp"
+
+namespace cutterflow::cases {
+
+std::vector<Mistake> closure_mistakes(const ParameterValues& values) {
+    const std::string &drag = values.text("closures.drag"), &hindrance = values.text("closures.hindrance");
+    if (!physics::drag_law_holds_void_fraction(drag) || hindrance == physics::k_no_closure) return {};
+    const char* const given = values.where("closures.hindrance").empty() ? "closures.drag" : "closures.hindrance";
+    return {{values.where(given), fmt::format("closures.hindrance = \"{}\"", hindrance),
+             fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice", drag),
+             "Set closures.hindrance = \"none\""}};
+}
+
+std::vector<Mistake> hindrance_warnings(const ParameterValues& values, bool dense) {
+    const std::string& hindrance = values.text("closures.hindrance");
+    const double modifier = values.number("closures.drag_modifier");
+    const bool hindered = hindrance != physics::k_no_closure || physics::drag_law_holds_void_fraction(values.text("closures.drag"));
+    if (hindered && modifier != 1.0)
+        return {{values.where("closures.drag_modifier"), fmt::format("closures.drag_modifier = {:g}", modifier),
+                 "The hindrance by other rock is in the drag already; a modifier that was fitted without it counts it twice",
+                 "Set it to 1, or closures.hindrance = \"none\""}};
+    if (!hindered && modifier == 1.0 && dense)
+        const char* const given = values.where("closures.hindrance").empty() ? "closures.drag" : "closures.hindrance";
+    return {{values.where(given), fmt::format("closures.hindrance = \"{}\"", hindrance),
+             fmt::format("Rock starts with a solid fraction above {:g}, where the drag of a single rock is too small", k_dilute_solids),
+             "Choose a hindrance"}};
+    return {};
+}
+
+std::optional<Mistake> wide_kernel_warning(const Opening& opening, double gamma, double diameter) {
+    constexpr double resolved_by = 4.0;  // kernel widths
+    const double width = gamma * diameter;
+    if (opening.width >= resolved_by * width) return std::nullopt;
+    return Mistake{
+        opening.where, fmt::format("{} = {:.6g}", opening.name, opening.width),
+        fmt::format("It is {:.2g} kernel widths of rock of {:g} m; below {:g} the speed that rock feels there is off by more than "
+                    "a tenth",
+                    opening.width / width, diameter, resolved_by),
+        "Compare with kernel.gamma = 0.5"};
+}
+
+}  // namespace cutterflow::cases

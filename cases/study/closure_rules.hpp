@@ -1,0 +1,32 @@
+#pragma once
+/// \file Rules about closures.* and kernel.* that every kind of study has alike.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/parameters/parameter.hpp"
+
+namespace cutterflow::cases {
+
+/// A drag law that holds the void fraction itself goes without hindrance. \pre closures.* have values
+std::vector<Mistake> closure_mistakes(const ParameterValues& values);
+
+/// The drag of rock among rock is counted twice, or not at all. \param dense  whether rock starts with a solid fraction above
+/// k_dilute_solids
+std::vector<Mistake> hindrance_warnings(const ParameterValues& values, bool dense);
+
+inline constexpr double k_dilute_solids = 0.05;  ///< solid fraction up to which rock hardly hinders other rock
+
+/// A length across which the flow changes.
+struct Opening {
+    std::string where;   ///< in the study
+    std::string name;    ///< as its key
+    double width = 0.0;  ///< [m]
+};
+
+/// A kernel averages the flow over an opening that is not much wider, so that rock there feels a wrong speed: below 4 widths by more than a
+/// tenth (measured in the field of a disc sink). \param gamma  kernel.gamma \param diameter  of the largest rock [m]
+std::optional<Mistake> wide_kernel_warning(const Opening& opening, double gamma, double diameter);
+
+}  // namespace cutterflow::cases
