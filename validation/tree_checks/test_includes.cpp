@@ -44,6 +44,8 @@ const std::vector<Layer> k_layers = {
     {"meshing/dictionary/", {k_base, "meshing/dictionary/"}},
     {"meshing/quality/", {k_base, "meshing/quality/"}},
     {"meshing/cutter/", {k_base, "geometry/surface/", "geometry/head/", "meshing/dictionary/", "meshing/quality/", "meshing/cutter/"}},
+    {"meshing/room/",
+     {k_base, "geometry/surface/", "geometry/cgal/solid_search.hpp", "meshing/dictionary/", "meshing/quality/", "meshing/room/"}},
     {"meshing/foam/", {k_base, k_head_names}},
     {"meshing/tests/", {"geometry/", "meshing/"}},
 
@@ -98,7 +100,7 @@ const std::vector<Layer> k_layers = {
     {"cases/scenes/free_surface/", {k_base, "solver/free_surface/", "cases/scenes/free_surface/"}},
     {"cases/scenes/room/",
      {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "postproc/analysis/measures/", "cases/study/study_section.hpp",
-      "cases/scenes/room/"}},
+      "cases/study/closure_rules.hpp", "cases/scenes/flow/", "cases/scenes/room/"}},
     {"cases/runner/", {"geometry/", "meshing/", "solver/ports/", "postproc/pages/", "cases/study/", "cases/scenes/", "cases/runner/"}},
     {"cases/replay/",
      {k_base, "geometry/io/", "geometry/head/", "meshing/dictionary/", "postproc/analysis/", "postproc/run/", "cases/study/",
