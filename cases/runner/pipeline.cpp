@@ -111,19 +111,6 @@ double smallest_diameter(const Study& study) {
     return smallest;
 }
 
-/// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed.
-void remove_unfinished_run(const fs::path& directory) {
-    std::vector<fs::path> left;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-        const std::string name = entry.path().filename().string();
-        const bool later_time = name != "0" && name.find_first_not_of("0123456789.e-+") == std::string::npos;
-        const bool processor = name.rfind("processor", 0) == 0;
-        if (entry.is_directory() && (later_time || processor || name == "postProcessing" || name == names::checkpoints))
-            left.push_back(entry);
-    }
-    for (const fs::path& folder : left) fs::remove_all(folder);
-}
-
 }  // namespace
 
 void require_start_donor(const fs::path& folder) {

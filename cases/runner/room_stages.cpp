@@ -8,6 +8,7 @@
 
 #include "cases/runner/run_progress.hpp"
 #include "cases/scenes/room/room_case.hpp"
+#include "cases/scenes/room/room_mesh.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/csv_table.hpp"
@@ -18,6 +19,7 @@
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "meshing/dictionary/foam_command.hpp"
+#include "meshing/room/build_room_mesh.hpp"
 #include "postproc/pages/room/room_page.hpp"
 
 namespace cutterflow::cases {
@@ -65,8 +67,10 @@ void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
 
 /// Runs cutterFoam in a folder, from its newest checkpoint if there is one, and shows how far it is.
 double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end) {
-    // What a run wrote that was stopped before its first checkpoint.
-    if (newest_checkpoint(folder).empty()) fs::remove_all(folder / "postProcessing");
+    if (newest_checkpoint(folder).empty())
+        remove_unfinished_run(folder);
+    else
+        drop_times_after_checkpoint(folder);  // what a killed run wrote after it
     const ChildCommand command = meshing::foam_command(folder, solver.string(), {}, 1);
     keep_older_log(command.log);
     TimeProgress progress(what, end);
@@ -75,6 +79,23 @@ double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std
     if (result.exit_code != 0) throw ToolError(failure_of(command, result));
     progress.finish();
     return result.core_s;
+}
+
+/// Those below mesh/ belong to the mesh stage, the others to the case.
+std::vector<std::string> overrides_of(const RunDirectory& directory, bool of_mesh) {
+    std::vector<std::string> files;
+    for (const std::string& file : directory.overrides())
+        if ((file.rfind("mesh/", 0) == 0) == of_mesh) files.push_back(file);
+    return files;
+}
+
+/// Keys and overriding files that a stage depends on.
+std::map<std::string, std::string> inputs_with_overrides(const ParameterValues& values, const std::string& stage,
+                                                         const RunDirectory& directory, bool of_mesh) {
+    std::map<std::string, std::string> inputs = inputs_of(values, stage);
+    for (const std::string& file : overrides_of(directory, of_mesh))
+        inputs["overrides/" + file] = sha256_of_file(directory.file("overrides/" + file));
+    return inputs;
 }
 
 /// A room's run directory.
@@ -87,7 +108,8 @@ public:
           values_(request.values),
           solver_(std::move(solver)),
           say_(std::move(say)),
-          bed_(bed_name(scene_, pieces_)) {}
+          bed_(bed_name(scene_, pieces_)),
+          mesh_(request.mesh) {}
 
     StageOutcome make_geometry() const {
         StageOutcome outcome;
@@ -121,9 +143,25 @@ public:
         return outcome;
     }
 
+    /// \pre the room has a medium
+    StageOutcome make_mesh() const {
+        StageOutcome outcome;
+        for (const fs::path& file : meshing::write_room_mesh_case(directory_.path(), *mesh_)) outcome.outputs.push_back(file.string());
+        apply_overrides(true, outcome.outputs);
+        Progress progress("  mesh");
+        const meshing::RoomMeshReport report = meshing::build_room_mesh(
+            directory_.path(), *mesh_, [&](double fraction, const std::string& program) { progress.update(fraction, program); });
+        progress.finish(fmt::format("{} cells ({:.0f} were predicted)", report.size.cells, report.predicted_cells));
+        meshing::require_gates(report.gates);
+        for (const std::string& file : files_below(directory_.path(), "constant/polyMesh")) outcome.outputs.push_back(file);
+        outcome.outputs.emplace_back(names::mesh_report);
+        outcome.core_s = report.core_s;
+        return outcome;
+    }
+
     StageOutcome make_case() const {
         std::vector<CaseText> files = grain_files(scene_, pieces_.empty() ? "" : bed_start(), first_fed_id());
-        files.push_back(dry_control(scene_.run.end, scene_.run.longest_step, scene_.run.write_interval));
+        for (CaseText& file : mesh_ ? flow_files(scene_, *mesh_) : dry_files(scene_)) files.push_back(std::move(file));
         files.push_back({k_measures, scene_.measures.dump(2) + "\n"});
         files.push_back({postproc::k_room_file, room_json().dump(2) + "\n"});
         files.push_back(
@@ -132,10 +170,7 @@ public:
         write_texts(directory_.path(), files);
         StageOutcome outcome;
         for (const CaseText& file : files) outcome.outputs.push_back(file.path);
-        for (const std::string& file : directory_.apply_overrides(directory_.overrides())) {
-            say_("override: " + file);
-            if (std::find(outcome.outputs.begin(), outcome.outputs.end(), file) == outcome.outputs.end()) outcome.outputs.push_back(file);
-        }
+        apply_overrides(false, outcome.outputs);
         return outcome;
     }
 
@@ -152,6 +187,14 @@ public:
 private:
     static constexpr const char* k_done = "done";
     static constexpr const char* k_measures = "measures.json";
+
+    /// Files of the user over those of the mesh stage, or of the case.
+    void apply_overrides(bool of_mesh, std::vector<std::string>& outputs) const {
+        for (const std::string& file : directory_.apply_overrides(overrides_of(directory_, of_mesh))) {
+            say_("override: " + file);
+            if (std::find(outputs.begin(), outputs.end(), file) == outputs.end()) outputs.push_back(file);
+        }
+    }
 
     fs::path piece_folder(std::size_t piece) const { return directory_.file(fmt::format("bed/{}", piece + 1)); }
     std::string bed_start() const { return "bed/checkpoints/" + bed_; }
@@ -239,6 +282,7 @@ private:
     fs::path solver_;
     Say say_;
     std::string bed_;
+    const std::optional<meshing::RoomMeshPlan>& mesh_;
 };
 
 }  // namespace
@@ -251,6 +295,7 @@ RoomRequest read_room_request(const fs::path& study) {
     mistakes.gather([&] { request.pieces = bed_pieces(request.scene); });
     std::mt19937_64 random(request.scene.run.seed);
     mistakes.gather([&] { place_feeds(request.scene, 1, random); });  // a feed without a place is refused before anything is run
+    if (request.scene.medium.present()) mistakes.gather([&] { request.mesh = meshing::plan_room_mesh(mesh_input_of(request.scene)); });
     mistakes.refuse();
     return request;
 }
@@ -263,14 +308,18 @@ std::map<std::string, std::string> bed_inputs(const ParameterValues& values) {
 
 std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, Say say) {
     const auto room = std::make_shared<const RoomWork>(directory, request, solver, std::move(say));
-    std::map<std::string, std::string> of_case = inputs_of(request.values, k_case);
-    for (const std::string& file : directory.overrides())
-        of_case["overrides/" + file] = sha256_of_file(directory.file("overrides/" + file));
-    return {{k_geometry, inputs_of(request.values, k_geometry), {}, false, [room](bool) { return room->make_geometry(); }},
-            {k_bed, inputs_of(request.values, k_bed), {}, true, [room](bool) { return room->make_bed(); }},
-            {k_case, of_case, {}, false, [room](bool) { return room->make_case(); }},
-            {"run", {}, {}, true, [room](bool resume) { return room->run(resume); }},
-            {k_report, inputs_of(request.values, k_report), {}, false, [room](bool) { return room->report(); }}};
+    std::vector<Stage> stages{
+        {k_geometry, inputs_of(request.values, k_geometry), {}, false, [room](bool) { return room->make_geometry(); }},
+        {k_bed, inputs_of(request.values, k_bed), {}, true, [room](bool) { return room->make_bed(); }}};
+    if (request.mesh)
+        stages.push_back({k_mesh, inputs_with_overrides(request.values, k_mesh, directory, true), {}, false, [room](bool) {
+                              return room->make_mesh();
+                          }});
+    stages.push_back(
+        {k_case, inputs_with_overrides(request.values, k_case, directory, false), {}, false, [room](bool) { return room->make_case(); }});
+    stages.push_back({"run", {}, {}, true, [room](bool resume) { return room->run(resume); }});
+    stages.push_back({k_report, inputs_of(request.values, k_report), {}, false, [room](bool) { return room->report(); }});
+    return stages;
 }
 
 }  // namespace cutterflow::cases

@@ -1,13 +1,15 @@
 #pragma once
-/// \file The stages of a room's study in its run directory: geometry, bed, case, run, report.
+/// \file The stages of a room's study in its run directory: geometry, bed, mesh (with a medium), case, run, report.
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/stages.hpp"
 #include "cases/scenes/room/bed.hpp"
 #include "cases/scenes/room/room_study.hpp"
+#include "meshing/room/room_mesh_plan.hpp"
 
 namespace cutterflow::cases {
 
@@ -16,6 +18,7 @@ struct RoomRequest {
     ParameterValues values;  ///< files by absolute paths
     RoomScene scene;
     std::vector<BedPiece> pieces;
+    std::optional<meshing::RoomMeshPlan> mesh;  ///< with a medium
 };
 
 /// \throws UserError  with every mistake of the file

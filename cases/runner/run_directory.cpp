@@ -76,6 +76,18 @@ RunDirectory::~RunDirectory() {
     ::close(lock_);
 }
 
+void remove_unfinished_run(const fs::path& directory) {
+    std::vector<fs::path> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        const bool later_time = name != "0" && name.find_first_not_of("0123456789.e-+") == std::string::npos;
+        const bool processor = name.rfind("processor", 0) == 0;
+        if (entry.is_directory() && (later_time || processor || name == "postProcessing" || name == names::checkpoints))
+            left.push_back(entry);
+    }
+    for (const fs::path& folder : left) fs::remove_all(folder);
+}
+
 std::vector<std::string> files_below(const fs::path& root, const std::string& folder) {
     std::vector<std::string> files;
     if (!fs::is_directory(root / folder)) return files;

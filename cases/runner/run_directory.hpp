@@ -43,6 +43,9 @@ private:
     int lock_ = -1;
 };
 
+/// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed.
+void remove_unfinished_run(const std::filesystem::path& directory);
+
 /// Regular files below a folder of the run directory, relative to `root`, sorted; empty when there is no such folder.
 std::vector<std::string> files_below(const std::filesystem::path& root, const std::string& folder);
 

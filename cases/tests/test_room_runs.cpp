@@ -1,6 +1,7 @@
 /// Rooms from their study file to their report, through the program itself.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,8 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
+#include "postproc/run/run_table.hpp"
+#include "solver/physics/settling.hpp"
 
 using namespace cutterflow;
 namespace fs = std::filesystem;
@@ -64,6 +67,10 @@ material = "plastic"
 density_kg_m3 = 828
 diameter_m = { uniform_by_number = [0.0045, 0.0055] }
 )";
+
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
 
 /// A tube is lifted from a disc.
 const char* const k_heap = R"(
@@ -207,6 +214,128 @@ TEST_F(RoomRuns, sweep_over_the_tilt_finds_where_a_sphere_begins_to_roll) {
     // One of them made the bed, the other took it.
     EXPECT_NE(fs::exists(folder_ / "tilt/study_tilt_deg_10.5/bed/1"), fs::exists(folder_ / "tilt/study_tilt_deg_12.5/bed/1"));
     EXPECT_TRUE(fs::exists(folder_ / "tilt/comparison/comparison.json"));
+}
+
+/// A closed room of still water, into which a grain is fed.
+const char* const k_still_water = R"(
+name = "a grain in still water"
+[scene]
+kind = "room"
+[room]
+size_m = [0.12, 0.12, 0.30]
+medium = "water"
+cell_m = 0.012
+turbulence = "laminar"
+[[material]]
+name = "quartz"
+youngs_modulus_pa = 5e6
+[[contact]]
+pair = ["quartz", "quartz"]
+friction = 0.5
+restitution = 0.6
+[[contact]]
+pair = ["quartz", "steel"]
+friction = 0.3
+restitution = 0.6
+[[grains]]
+name = "grains"
+material = "quartz"
+density_kg_m3 = 2650
+diameter_m = 0.005
+[[event]]
+do = "feed"
+grains = "grains"
+from_s = 0
+to_s = 0.01
+rate_kg_s = 0.0174
+region = { box = { lower_m = [-0.02, -0.02, 0.285], upper_m = [0.02, 0.02, 0.30] } }
+[[measure]]
+name = "fallen"
+what = "passed_mass"
+gate = { disc_m = [0, 0, 0.06], radius_m = 0.06, normal = [0, 0, -1] }
+[run]
+end_s = 0.7
+write_interval_s = 0.35
+)";
+
+/// After 44 diameters a grain falls at the terminal speed of its force balance but for exp(-12) of it. The room is 24 diameters wide.
+TEST_F(RoomRuns, a_grain_in_still_water_falls_at_its_terminal_speed) {
+    write_file(folder_ / "water.toml", k_still_water);
+    EXPECT_NE(call({"check", "water.toml"}).find("mesh of 2500 cells"), std::string::npos);
+    call({"run", "water.toml", "-o", "water"});
+    const postproc::Table crossings =
+        postproc::read_joined_table(folder_ / "water", "rock", "gates.csv", {{"time_s", "vz_m_s"}, {"gate"}, {}, ""});
+    const postproc::Table balance =
+        postproc::read_joined_table(folder_ / "water", "balance", "balance.csv",
+                                    {{"time_s", "solid_volume_error", "momentum_error", "continuity_error", "rocks"}, {}, {}, ""});
+    physics::SettlingRock grain;
+    grain.rock = {0.005, 1000.0, 1e-6, 1.0, 1.0};
+    grain.density = 2650.0;
+    const double terminal = physics::terminal_slip_speed(grain);
+    ASSERT_EQ(crossings.rows(), 1u);
+    EXPECT_NEAR(-crossings.number("vz_m_s").front(), terminal, 0.02 * terminal);
+    EXPECT_LE(largest(balance.number("solid_volume_error")), 1e-10);
+    EXPECT_LE(largest(balance.number("momentum_error")), 1e-5);
+    EXPECT_LE(largest(balance.number("continuity_error")), 1e-6);
+    EXPECT_EQ(balance.number("rocks").back(), 1.0);
+    EXPECT_TRUE(json_of("water/report/results.json").at("finished").get<bool>());
+    EXPECT_TRUE(json_of("water/mesh.json").at("gates").at(0).at("passed").get<bool>());
+}
+
+/// A tube hangs over a bed in a pool whose sides are open above the bed, and water is drawn through it.
+const char* const k_riser = R"(
+name = "a riser over a bed"
+[scene]
+kind = "room"
+[room]
+size_m = [0.20, 0.20, 0.20]
+medium = "water"
+cell_m = 0.02
+[[room.refine]]
+cylinder = { from_m = [0, 0, 0.0], to_m = [0, 0, 0.2], radius_m = 0.045 }
+cell_m = 0.01
+[[solid]]
+name = "riser"
+generate = "tube"
+from_m = [0, 0, 0.04]
+to_m = [0, 0, 0.20]
+inner_radius_m = 0.025
+wall_m = 0.01
+[[boundary]]
+on = "top"
+inside = "riser"
+flow = { outflow_m_s = 1.0, ramp_s = 0.1 }
+[[boundary]]
+on = "sides"
+above_m = 0.03
+flow = "pressure"
+[[prepare]]
+do = "pour"
+grains = "grains"
+count = 300
+region = { box = { lower_m = [-0.04, -0.04, 0], upper_m = [0.04, 0.04, 0.038] } }
+[[measure]]
+name = "lifted"
+what = "passed_mass"
+gate = { disc_m = [0, 0, 0.10], radius_m = 0.025 }
+[run]
+end_s = 0.8
+write_interval_s = 0.4
+)";
+
+/// 1 m/s in a pipe lifts grains that fall at some 0.06 m/s; its discharge is speed times area, and its mesh has the tube.
+TEST_F(RoomRuns, water_that_is_drawn_through_a_tube_lifts_grains) {
+    write_file(folder_ / "riser.toml", std::string(k_riser) + k_materials);
+    std::string study = read_file(folder_ / "riser.toml");
+    study.replace(study.find("density_kg_m3 = 828"), 19, "density_kg_m3 = 1050");
+    write_file(folder_ / "riser.toml", study);
+    call({"run", "riser.toml", "-o", "riser"});
+    const double poured = json_of("riser/room.json").at("bed").at("poured_kg").get<double>();
+    EXPECT_GT(json_of("riser/report/measures.json").at("lifted").at("value").get<double>(), 0.01 * poured);
+    const postproc::Table balance = postproc::read_joined_table(folder_ / "riser", "balance", "balance.csv",
+                                                                {{"time_s", "outlet_flow_m3_s", "momentum_error"}, {}, {}, ""});
+    EXPECT_NEAR(balance.number("outlet_flow_m3_s").back(), k_pi * 0.025 * 0.025, 1e-6 * k_pi * 0.025 * 0.025);
+    EXPECT_LE(largest(balance.number("momentum_error")), 1e-5);
 }
 
 TEST_F(RoomRuns, commands_refuse_what_rooms_have_no_use_for) {

@@ -127,8 +127,8 @@ TEST(StageInputs, of_a_room_belong_to_the_stage_that_every_row_names) {
     std::map<std::string, std::string> stage_of;
     for (const Parameter& parameter : room_table()) stage_of[parameter.key] = parameter.stage;
     for (const auto& [key, stage] : stage_of)
-        EXPECT_TRUE(stage == room_stage::k_geometry || stage == room_stage::k_bed || stage == room_stage::k_case ||
-                    stage == room_stage::k_report)
+        EXPECT_TRUE(stage == room_stage::k_geometry || stage == room_stage::k_bed || stage == room_stage::k_mesh ||
+                    stage == room_stage::k_case || stage == room_stage::k_report)
             << key << ": " << stage;
     const std::map<std::string, std::string> expected{{"name", "report"},
                                                       {"room.size_m", "bed"},

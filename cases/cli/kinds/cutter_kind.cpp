@@ -45,12 +45,6 @@ std::string new_study(const NewOptions& options) {
     return cases::study_template(fs::path(options.study).stem().string(), cutter.string(), options.unit);
 }
 
-nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const Mistake& mistake : mistakes) list.push_back(mistake.text());
-    return list;
-}
-
 void check(const CheckOptions& options) {
     Mistakes mistakes;
     cases::CheckedStudy checked;

@@ -29,41 +29,45 @@ std::string new_study(const NewOptions& options) {
     return cases::room_template(fs::path(options.study).stem().string());
 }
 
-cases::RoomPrediction prediction_of(const std::string& study) {
-    const cases::RoomRequest request = cases::read_room_request(study);
-    return cases::predict(request.scene, request.pieces);
+cases::RoomPrediction prediction_of(const cases::RoomRequest& request) {
+    return cases::predict(request.scene, request.pieces, request.mesh);
 }
 
 void check(const CheckOptions& options) {
-    const cases::RoomPrediction prediction = prediction_of(options.study);
+    const cases::RoomRequest request = cases::read_room_request(options.study);
+    const cases::RoomPrediction prediction = prediction_of(request);
+    const std::vector<Mistake> warnings = cases::room_warnings(request.values, request.scene, request.mesh);
     if (options.json) {
-        std::cout << to_json(prediction).dump(2) << std::endl;
+        nlohmann::json found = to_json(prediction);
+        found["warnings"] = mistakes_json(warnings);
+        std::cout << found.dump(2) << std::endl;
         return;
     }
-    const std::string next =
-        prediction.medium == "none" ? "next: cutterflow run " + shell_word(options.study) : "rooms with a medium are not run yet";
-    std::cout << to_text(prediction) << fmt::format("{} is valid; {}\n", options.study, next);
+    std::cout << to_text(prediction);
+    for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
+    std::cout << fmt::format("{} is valid; next: cutterflow run {}\n", options.study, shell_word(options.study));
 }
 
 std::optional<double> predicted_core_s(const fs::path& study) {
-    return prediction_of(study.string()).core_seconds;
+    return prediction_of(cases::read_room_request(study.string())).core_seconds();
 }
 
 cases::RoomRequest begun_well(const RunOptions& options) {
     Mistakes mistakes;
     if (options.ranks != 1)
-        mistakes.add({"", fmt::format("--ranks {}", options.ranks), "A room without a medium runs on one core",
-                      "Leave it out; run several studies side by side"});
+        mistakes.add(
+            {"", fmt::format("--ranks {}", options.ranks), "A room runs on one core", "Leave it out; run several studies side by side"});
     if (!options.start_from.empty()) mistakes.add({"", "--start-from with a room", "It has no frozen-rotor flow", "Leave it out"});
     mistakes.gather([&] { cases::require_usable_run_directory(options.folder()); });
     mistakes.gather([&] { cases::require_machine(1); });
     cases::RoomRequest request;
     mistakes.gather([&] { request = cases::read_room_request(options.study); });
-    if (request.scene.medium.present())
-        mistakes.add({request.values.where("room.medium"), fmt::format("room.medium = \"{}\"", request.scene.medium.name),
-                      "Rooms are run without a medium as yet: with one they are checked alone", "Set medium = \"none\""});
     mistakes.refuse();
-    require_programs({(installation().programs / "cutterFoam").string()});
+    std::vector<std::string> programs{(installation().programs / "cutterFoam").string()};
+    if (request.mesh)
+        for (const char* program : {"blockMesh", "snappyHexMesh", "topoSet", "createPatch", "checkMesh"}) programs.emplace_back(program);
+    require_programs(programs);
+    for (const Mistake& warning : cases::room_warnings(request.values, request.scene, request.mesh)) say("warning: " + warning.text());
     return request;
 }
 

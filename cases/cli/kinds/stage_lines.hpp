@@ -3,11 +3,14 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "cases/cli/kinds/study_kind.hpp"
 #include "cases/runner/stages.hpp"
+#include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
@@ -27,6 +30,13 @@ inline cases::StageObserver stage_lines(std::size_t count) {
         if (event == cases::StageEvent::begins) std::cerr << title << std::endl;
         if (event == cases::StageEvent::ends) std::cerr << title << ": done in " << duration_text(wall_s) << std::endl;
     };
+}
+
+/// Warnings for programs that read them.
+inline nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const Mistake& mistake : mistakes) list.push_back(mistake.text());
+    return list;
 }
 
 inline void say_where_the_report_is(const RunOptions& options, const cases::RunDirectory& directory) {

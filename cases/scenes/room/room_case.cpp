@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/scenes/room/room_flow.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -189,9 +190,8 @@ CaseText foam_text(const std::string& path, const std::string& foam_class, const
     return {path, meshing::foam_file_text(foam_class, path.substr(path.rfind('/') + 1), contents)};
 }
 
-CaseText gravity_file(const Vec3& gravity) {
-    return foam_text("constant/g", "uniformDimensionedVectorField",
-                     FoamDictionary().add("dimensions", FoamValue::dimensions({0, 1, -2, 0, 0, 0, 0})).add("value", gravity));
+CaseText text_of(const FoamFile& file) {
+    return foam_text(file.path, file.foam_class, file.contents);
 }
 
 FoamDictionary stop_section(const RoomScene& scene) {
@@ -199,12 +199,6 @@ FoamDictionary stop_section(const RoomScene& scene) {
     const auto* idle = std::get_if<StopWhenIdle>(&scene.run.stop);
     if (idle == nullptr) return {};
     return FoamDictionary().add("idle", FoamDictionary().add("gate", idle->gate).add("duration", idle->idle));
-}
-
-}  // namespace
-
-std::string surface_file(const RoomSolid& solid) {
-    return "geometry/" + solid.name + ".stl";
 }
 
 CaseText dry_control(double end, double longest_step, double write_interval) {
@@ -220,6 +214,12 @@ CaseText dry_control(double end, double longest_step, double write_interval) {
                          .add("writeInterval", write_interval));
 }
 
+}  // namespace
+
+std::string surface_file(const RoomSolid& solid) {
+    return "geometry/" + solid.name + ".stl";
+}
+
 std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, const std::string& start, const std::string& to_run) {
     FoamDictionary coupling;
     coupling.add("medium", "none").add("rock", rock_section(scene, start, !piece.grains.empty(), to_run, false));
@@ -229,7 +229,8 @@ std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, co
         coupling.add("events", FoamValue::list(events));
     }
     coupling.add("stop", at_rest()).add("checkpoint", checkpoint_section(k_bed_checkpoints));
-    std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling), gravity_file(scene.upright_gravity()),
+    std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling),
+                                text_of(gravity_file(scene.upright_gravity())),
                                 dry_control(piece.end(), std::min(scene.bed_step, k_bed_pictures), k_bed_pictures)};
     if (!piece.grains.empty()) files.push_back({names::rock_feed, grain_feed_csv(piece.grains)});
     add_clump_files(scene, files);
@@ -241,6 +242,7 @@ std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& sta
     const std::vector<PlacedGrain> fed = place_feeds(scene, first_id, random);
     FoamDictionary coupling;
     if (!scene.medium.present()) coupling.add("medium", "none");
+    if (const std::string outlet = outlet_patch(scene); !outlet.empty()) coupling.add("patches", FoamDictionary().add("outlet", outlet));
     coupling.add("rock", rock_section(scene, start, !fed.empty(), "", true));
     if (scene.medium.present()) coupling.add("kernel", section_of(scene.kernel)).add("closures", section_of(scene.closures));
     if (const std::vector<FoamValue> events = event_list(scene.events); !events.empty()) coupling.add("events", FoamValue::list(events));
@@ -251,9 +253,19 @@ std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& sta
     }
     if (const FoamDictionary stop = stop_section(scene); !stop.empty()) coupling.add("stop", stop);
     coupling.add("checkpoint", checkpoint_section(scene.run.checkpoint_interval));
-    std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling), gravity_file(scene.gravity)};
+    std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling)};
     if (!fed.empty()) files.push_back({names::rock_feed, grain_feed_csv(fed)});
     add_clump_files(scene, files);
+    return files;
+}
+
+std::vector<CaseText> dry_files(const RoomScene& scene) {
+    return {text_of(gravity_file(scene.gravity)), dry_control(scene.run.end, scene.run.longest_step, scene.run.write_interval)};
+}
+
+std::vector<CaseText> flow_files(const RoomScene& scene, const meshing::RoomMeshPlan& plan) {
+    std::vector<CaseText> files;
+    for (const FoamFile& file : room_flow_files(scene, plan)) files.push_back(text_of(file));
     return files;
 }
 

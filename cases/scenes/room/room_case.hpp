@@ -5,7 +5,7 @@
 
 #include "cases/scenes/room/bed.hpp"
 #include "cases/scenes/room/room_scene.hpp"
-#include "meshing/dictionary/foam_dictionary.hpp"
+#include "meshing/room/room_mesh_plan.hpp"
 
 namespace cutterflow::cases {
 
@@ -20,12 +20,14 @@ struct CaseText {
 /// \param to_run   from the case to the run directory, as "../../"
 std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, const std::string& start, const std::string& to_run);
 
-/// Files of the run that do not depend on its mesh: couplingProperties, g, rockFeed.csv. \param start  as above \param first_id  of grains
-/// that are fed
+/// Files of the run's grains: couplingProperties, rockFeed.csv, shapes. \param start  as above \param first_id  of grains that are fed
 std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& start, int first_id);
 
-/// system/controlDict of a run without a medium.
-CaseText dry_control(double end, double longest_step, double write_interval);
+/// The other files of a run without a medium: g, controlDict.
+std::vector<CaseText> dry_files(const RoomScene& scene);
+
+/// The other files of a run with a medium: fields, properties, system/ (room_flow_files).
+std::vector<CaseText> flow_files(const RoomScene& scene, const meshing::RoomMeshPlan& plan);
 
 /// The name of a bed: of the files of its pieces and the surfaces of its solids.
 std::string bed_name(const RoomScene& scene, const std::vector<BedPiece>& pieces);

@@ -1,13 +1,18 @@
 #include "cases/scenes/room/room_prediction.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "cases/scenes/room/room_flow.hpp"
+#include "cases/study/closure_rules.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/progress.hpp"
+#include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
+#include "solver/physics/settling.hpp"
 
 namespace cutterflow::cases {
 
@@ -15,6 +20,10 @@ namespace {
 
 constexpr double k_seconds_per_grain_and_step = 0.65e-6;  // of a dense bed with rolling friction and walls, on one core
 constexpr double k_rest = 0.5;                            // of a small bed [s]
+// Of a coupled step on one core: of the flow, with grains (docs/design/003-meshing.md), and of mapping a grain to cells.
+constexpr double k_seconds_per_cell_and_step = 9.3e-6 * 1.32, k_seconds_per_mapped_grain = 30e-6;
+constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
+constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
 
 double mass_of(const PlacedGrain& grain) {
     return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
@@ -33,10 +42,67 @@ double contact_step(const RoomScene& scene) {
     return scene.grains.empty() ? 0.0 : scene.contact.time_step_fraction * step;
 }
 
+double largest_diameter(const RoomScene& scene) {
+    double largest = 0.0;
+    for (const RoomGrains& kind : scene.grains) largest = std::max(largest, kind.largest());
+    return largest;
+}
+
+double smallest_diameter(const RoomScene& scene) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const RoomGrains& kind : scene.grains) smallest = std::min(smallest, kind.smallest());
+    return smallest;
+}
+
+/// Terminal speed of the fastest grains in the medium [m/s]; 0 where none is heavier.
+double fall_speed(const RoomScene& scene) {
+    double fastest = 0.0;
+    for (const RoomGrains& kind : scene.grains) {
+        if (kind.density <= scene.medium.density || scene.gravity.norm() == 0.0) continue;
+        physics::SettlingRock falling;
+        falling.rock = {kind.largest(), scene.medium.density, scene.medium.kinematic_viscosity, 1.0, scene.closures.sphericity};
+        falling.density = kind.density;
+        falling.gravity = scene.gravity.norm();
+        falling.drag = physics::find_drag_law(scene.closures.drag);
+        falling.hindrance = physics::find_hindrance_law(scene.closures.hindrance);
+        fastest = std::max(fastest, physics::terminal_slip_speed(falling));
+    }
+    return fastest;
+}
+
+/// Courant number in the smallest cells, and the way of grains in a step.
+double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
+    const double cell = mesh.smallest_cell(), flow = fastest_flow(scene), grains = std::max(flow, fall_speed(scene));
+    double step = scene.run.longest_step;
+    if (flow > 0.0) step = std::min(step, k_room_max_courant * cell / flow);
+    if (grains > 0.0 && !scene.grains.empty()) {
+        const double width = std::max(scene.kernel.gamma * smallest_diameter(scene), scene.kernel.min_width_in_cells * cell);
+        step = std::min(step, k_travel_share * width / grains);
+    }
+    return step;
+}
+
+/// Bores that something flows through.
+std::vector<Opening> flow_openings(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Opening> openings;
+    for (const ParameterValues& boundary : values.tables("boundary")) {
+        if (!boundary.has("boundary.inside")) continue;
+        for (const RoomSolid& solid : scene.solids)
+            if (solid.name == boundary.text("boundary.inside") && solid.bore)
+                openings.push_back({boundary.where("boundary.inside"), "radius of " + solid.name, solid.bore->radius});
+    }
+    return openings;
+}
+
 std::vector<std::string> models_of(const RoomScene& scene) {
     std::vector<std::string> on;
-    if (scene.medium.present()) on.push_back(fmt::format("flow of {}: room.medium", scene.medium.name));
+    if (scene.medium.present()) on.push_back(fmt::format("flow of {}, {}: room.medium", scene.medium.name, scene.medium.turbulence));
     if (scene.grains.empty()) return on;
+    if (scene.medium.present()) {
+        const coupling::ClosureSettings& closures = scene.closures;
+        on.push_back(fmt::format("drag {} x {:g}, hindrance {}, added mass {:g}: closures", closures.drag, closures.drag_modifier,
+                                 closures.hindrance, closures.added_mass));
+    }
     on.emplace_back("contacts of grains, spring and dashpot of Hertz with friction");
     if (std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const RoomPair& pair) { return pair.settings.rolling_friction > 0.0; }))
         on.push_back(fmt::format("rolling friction ({}): contact.rolling", scene.contact.rolling_law));
@@ -57,7 +123,7 @@ std::vector<std::string> models_of(const RoomScene& scene) {
 
 }  // namespace
 
-RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces) {
+RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh) {
     RoomPrediction found;
     found.name = scene.name;
     found.medium = scene.medium.name;
@@ -70,10 +136,34 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
     }
     found.end = scene.run.end;
     if (found.contact_step > 0.0)
-        found.core_seconds =
+        found.grain_seconds =
             k_seconds_per_grain_and_step * static_cast<double>(found.grains) * (found.bed_time + found.end) / found.contact_step;
+    if (mesh) {
+        found.cells = mesh->predicted_cells;
+        found.mesh_seconds = mesh->predicted_core_s;
+        found.flow_step = flow_step(scene, *mesh);
+        found.flow_seconds = found.end / found.flow_step *
+                             (k_seconds_per_cell_and_step * found.cells + k_seconds_per_mapped_grain * static_cast<double>(found.grains));
+    }
     found.on = models_of(scene);
     return found;
+}
+
+std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene,
+                                   const std::optional<meshing::RoomMeshPlan>& mesh) {
+    if (!mesh) return {};
+    std::vector<Mistake> warnings = meshing::room_mesh_warnings(*mesh);
+    if (scene.grains.empty()) return warnings;
+    for (const Mistake& warning : hindrance_warnings(values, !scene.preparation.empty())) warnings.push_back(warning);
+    const double largest = largest_diameter(scene);
+    for (const Opening& opening : flow_openings(values, scene)) {
+        if (const auto warning = wide_kernel_warning(opening, scene.kernel.gamma, largest)) warnings.push_back(*warning);
+        if (2.0 * opening.width < k_most_diameters_across * largest)
+            warnings.push_back({opening.where, fmt::format("{} = {:g}", opening.name, opening.width),
+                                fmt::format("Grains of {:g} m may block an opening below {:g} diameters", largest, k_most_diameters_across),
+                                "Check the diameters"});
+    }
+    return warnings;
 }
 
 std::string to_text(const RoomPrediction& found) {
@@ -82,16 +172,28 @@ std::string to_text(const RoomPrediction& found) {
     if (found.contact_step > 0.0)
         text += fmt::format(
             "contact step {:.3g} s, {:.2g} steps; grains about {} on one core for a preparation of {:.2g} s and a run of {:g} s\n",
-            found.contact_step, (found.bed_time + found.end) / found.contact_step, duration_text(found.core_seconds), found.bed_time,
+            found.contact_step, (found.bed_time + found.end) / found.contact_step, duration_text(found.grain_seconds), found.bed_time,
             found.end);
+    if (found.cells > 0.0)
+        text +=
+            fmt::format("mesh of {:.0f} cells, about {}; flow step {:.2g} s, {:.0f} steps, about {} on one core\n", found.cells,
+                        duration_text(found.mesh_seconds), found.flow_step, found.end / found.flow_step, duration_text(found.flow_seconds));
     for (const std::string& model : found.on) text += "on: " + model + "\n";
     return text;
 }
 
 nlohmann::json to_json(const RoomPrediction& found) {
-    return {{"name", found.name},      {"medium", found.medium}, {"solids", found.solids},
-            {"grains", found.grains},  {"mass_kg", found.mass},  {"contact_step_s", found.contact_step},
-            {"bed_s", found.bed_time}, {"end_s", found.end},     {"core_s", found.core_seconds},
+    return {{"name", found.name},
+            {"medium", found.medium},
+            {"solids", found.solids},
+            {"grains", found.grains},
+            {"mass_kg", found.mass},
+            {"contact_step_s", found.contact_step},
+            {"bed_s", found.bed_time},
+            {"end_s", found.end},
+            {"cells", std::round(found.cells)},
+            {"flow_step_s", found.flow_step},
+            {"core_s", found.core_seconds()},
             {"on", found.on}};
 }
 

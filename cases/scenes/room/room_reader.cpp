@@ -11,7 +11,10 @@
 #include "cases/scenes/room/grain_placement.hpp"
 #include "cases/scenes/room/room_measures.hpp"
 #include "cases/scenes/room/room_study.hpp"
+#include "cases/scenes/room/side_parts.hpp"
 #include "cases/scenes/room/solid_generators.hpp"
+#include "cases/study/closure_rules.hpp"
+#include "cases/study/study_section.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -60,6 +63,8 @@ public:
         for (const ParameterValues& solid : values_.tables("solid")) read_solid(solid);
         for (const ParameterValues& boundary : values_.tables("boundary")) read_boundary(boundary);
         require_balanced_flow();
+        require_whole_flows();
+        require_patch_names();
         read_pairs();
         for (const ParameterValues& step : values_.tables("prepare")) read_step(step);
         require_ordered_preparation();
@@ -123,12 +128,16 @@ private:
                         "Without a medium there are neither flow nor mesh (room.medium = \"none\")");
             for (const ParameterValues& refine : values_.tables("room.refine"))
                 refuse_keys(refine, {"room.refine.cell_m"}, "Without a medium there is no mesh (room.medium = \"none\")");
+            refuse_coupling_keys();
             return;
         }
         const bool water = scene_.medium.name == "water";
         scene_.medium.density = number_or(values_, "room.density_kg_m3", water ? k_water_density : k_air_density);
         scene_.medium.kinematic_viscosity =
             number_or(values_, "room.kinematic_viscosity_m2_s", water ? k_water_viscosity : k_air_viscosity);
+        scene_.kernel = k_kernel_section.read(values_);
+        scene_.closures = k_closure_section.read(values_);
+        mistakes_.add(closure_mistakes(values_));
         scene_.medium.turbulence = values_.has("room.turbulence") ? values_.text("room.turbulence") : "realizableKE";
         if (const auto cell = required(values_, "room.cell_m", "a room with " + scene_.medium.name, "room.size_m")) scene_.cell = *cell;
         for (const ParameterValues& refine : values_.tables("room.refine")) {
@@ -145,6 +154,14 @@ private:
             else
                 scene_.refinements.push_back({*region, cell});
         }
+    }
+
+    /// Keys of closures and kernel count with a medium only.
+    void refuse_coupling_keys() {
+        ParameterTable rows = k_closure_section.rows();
+        for (const Parameter& row : k_kernel_section.rows()) rows.push_back(row);
+        for (const Parameter& row : rows)
+            refuse_keys(values_, {row.key.c_str()}, "Without a medium nothing drags grains (room.medium = \"none\")");
     }
 
     static double number_or(const ParameterValues& table, const char* key, double otherwise) {
@@ -428,7 +445,10 @@ private:
         solid.material = values.text("solid.material");
         require_material(solid.material, "solid.material", place_of(values, "solid.material", "solid.name"));
         solid.felt_by_fluid = values.boolean("solid.fluid");
-        if (values.has("solid.removed_at_s")) solid.removed_at = values.number("solid.removed_at_s");
+        if (values.has("solid.removed_at_s")) {
+            solid.removed_at = values.number("solid.removed_at_s");
+            refuse_in_medium(solid, where, "is taken away");
+        }
         read_travel(values, solid);
         if (!read_surface(values, solid)) return;
         require_inside(solid, where);
@@ -447,8 +467,12 @@ private:
         if (solid.travel->begin >= solid.travel->end)
             refuse(values.where(keys[2]), fmt::format("solid.to_s = {:g} of {}", solid.travel->end, solid.name),
                    fmt::format("It is after from_s = {:g}", solid.travel->begin), "Correct one of them");
+        refuse_in_medium(solid, where, "moves");
+    }
+
+    void refuse_in_medium(const RoomSolid& solid, const std::string& where, const char* what) {
         if (scene_.medium.present() && solid.felt_by_fluid)
-            refuse(where, fmt::format("{} moves in {}", solid.name, scene_.medium.name),
+            refuse(where, fmt::format("{} {} in {}", solid.name, what, scene_.medium.name),
                    "The mesh stands still: the medium feels solids that stand", "Set fluid = false");
     }
 
@@ -558,7 +582,44 @@ private:
                           "Nothing flows there (room.medium = \"none\")", "Remove it");
         boundary.flow = *flow;
         boundary.part = *part;
+        require_on_sides(boundary, where);
+        set_flow_through(boundary, values);
+        boundary_places_.push_back(where);
         scene_.boundaries.push_back(std::move(boundary));
+    }
+
+    /// The area is known when the part is; a discharge was kept as a speed through 1 m2 until now.
+    void set_flow_through(RoomBoundary& boundary, const ParameterValues& values) const {
+        auto* flow = std::get_if<ThroughFlow>(&boundary.flow);
+        if (flow == nullptr) return;
+        flow->area = area_of(boundary, scene_);
+        if (values.has("boundary.flow.inflow_m3_s") || values.has("boundary.flow.outflow_m3_s"))
+            for (auto& [time, speed] : flow->speed) speed /= flow->area;
+    }
+
+    /// Discs and rectangles lie on their side, bands between bottom and top.
+    void require_on_sides(const RoomBoundary& boundary, const std::string& where) {
+        const double allowed = 1e-6 * scene_.size.maxCoeff();
+        for (const coupling::DomainSide side : boundary.sides) {
+            const RegionBox whole = bounds_of(WholeSide{}, side, scene_), part = bounds_of(boundary.part, side, scene_);
+            const bool inside =
+                (part.lower.array() >= whole.lower.array() - allowed).all() && (part.upper.array() <= whole.upper.array() + allowed).all();
+            const bool has_area = ((part.upper - part.lower).array() > 0.0).count() == 2;
+            if (inside && has_area && distance_to_side(boundary.part, side) <= allowed) continue;
+            return refuse(where, fmt::format("{} is about no part of the side {}", boundary.name, k_sides[static_cast<std::size_t>(side)]),
+                          fmt::format("The side reaches from {} to {} m", text_of(whole.lower), text_of(whole.upper)),
+                          "Correct the disc, rectangle or level");
+        }
+    }
+
+    double distance_to_side(const SidePart& part, coupling::DomainSide side) const {
+        const auto number = static_cast<std::size_t>(side);
+        const auto axis = static_cast<Eigen::Index>(number / 2);
+        const double position = (number % 2 == 0 ? scene_.lower() : scene_.upper())[axis];
+        if (const auto* disc = std::get_if<SideDisc>(&part)) return std::abs(disc->centre[axis] - position);
+        if (const auto* rectangle = std::get_if<SideRectangle>(&part))
+            return std::max(std::abs(rectangle->lower[axis] - position), std::abs(rectangle->upper[axis] - position));
+        return 0.0;
     }
 
     void set_sides(const std::vector<coupling::DomainSide>& sides, const std::string& word, const std::string& where) {
@@ -583,22 +644,17 @@ private:
         }
         if (values.where("boundary.flow").empty()) return std::nullopt;
         std::vector<std::string> given;
-        for (const char* key : {"rough_m", "inflow_m_s", "outflow_m_s", "speeds_m_s"})
+        for (const char* key : {"rough_m", "inflow_m_s", "outflow_m_s", "inflow_m3_s", "outflow_m3_s", "speeds_m_s"})
             if (values.has(std::string("boundary.flow.") + key)) given.emplace_back(key);
         if (given.size() != 1) {
             refuse(where, fmt::format("boundary.flow has {}", given.empty() ? "no kind" : fmt::format("{}", fmt::join(given, " and "))),
-                   "It has one of rough_m, inflow_m_s, outflow_m_s, speeds_m_s", given.empty() ? "Add one" : "Remove all but one");
+                   "It has one of rough_m, inflow_m_s, outflow_m_s, inflow_m3_s, outflow_m3_s, speeds_m_s",
+                   given.empty() ? "Add one" : "Remove all but one");
             return std::nullopt;
         }
         if (given.front() == "rough_m") return RoughWall{values.number("boundary.flow.rough_m")};
         ThroughFlow flow;
-        flow.into_room = given.front() != "outflow_m_s";
-        if (values.has("boundary.flow.profile")) {
-            flow.profile = folder_ / values.text("boundary.flow.profile");
-            if (!fs::exists(flow.profile))
-                refuse(values.where("boundary.flow.profile"), fmt::format("{} does not exist", flow.profile.string()),
-                       "It is a CSV file of a profile", "Check the path");
-        }
+        flow.into_room = given.front().rfind("outflow", 0) != 0;
         if (given.front() == "speeds_m_s") return with_table(values, flow, where);
         const double speed = values.number("boundary.flow." + given.front()), ramp = number_or(values, "boundary.flow.ramp_s", 0.0);
         if (ramp > 0.0) flow.speed.emplace_back(0.0, 0.0);
@@ -672,18 +728,45 @@ private:
         return SideDisc{centre, solid->bore->radius};
     }
 
-    /// What flows in flows out: one or the other alone has no solution in a closed room.
+    /// What flows in flows out, through a part where the pressure is given: flows that are both given differ by rounding at least.
     void require_balanced_flow() {
         bool in = false, out = false, pressure = false;
         for (const RoomBoundary& boundary : scene_.boundaries) {
             pressure = pressure || std::holds_alternative<FixedPressure>(boundary.flow);
             if (const auto* flow = std::get_if<ThroughFlow>(&boundary.flow)) (flow->into_room ? in : out) = true;
         }
-        if (pressure || in == out) return;
-        refuse(values_.tables("boundary").front().where("boundary.on"), in ? "an inflow without an outlet" : "an outflow without an inlet",
-               "What comes into a closed room leaves it at once",
-               in ? "Add a boundary with flow = \"pressure\" or { outflow_m_s = ... }"
-                  : "Add a boundary with flow = \"pressure\" or { inflow_m_s = ... }");
+        if (pressure || (!in && !out)) return;
+        refuse(boundary_places_.front(), in ? "an inflow without an outlet" : "an outflow without an inlet",
+               "What comes into a closed room leaves it at once", "Add a boundary with flow = \"pressure\"");
+    }
+
+    /// Later tables cover earlier ones, but a flow has the area that its table gives.
+    void require_whole_flows() {
+        const std::vector<RoomBoundary>& all = scene_.boundaries;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            for (std::size_t later = i + 1; later < all.size(); ++later)
+                if (std::holds_alternative<ThroughFlow>(all[i].flow) && overlap(all[i], all[later], scene_))
+                    refuse(boundary_places_[later], fmt::format("{} covers a part of {}", all[later].name, all[i].name),
+                           "Later tables cover earlier ones, and a flow goes through the whole of its part",
+                           "Write the flow's table last, or give it a disc or a rectangle that nothing covers");
+    }
+
+    /// Sides, solids and boundaries are patches of one mesh.
+    void require_patch_names() {
+        if (!scene_.medium.present()) return;
+        std::set<std::string> names(k_sides.begin(), k_sides.end());
+        const auto require_new = [&](const std::string& name, const std::string& key, const std::string& where) {
+            if (!names.insert(name).second)
+                refuse(where, fmt::format("{} = \"{}\" is the name of another solid, side or boundary", key, name),
+                       "Each is a patch of the mesh with a name of its own", "Change it");
+        };
+        for (const ParameterValues& solid : values_.tables("solid"))
+            if (names.count(solid.text("solid.name")) > 0) require_new(solid.text("solid.name"), "solid.name", solid.where("solid.name"));
+        for (const RoomSolid& solid : scene_.solids) names.insert(solid.name);
+        for (std::size_t i = 0; i < scene_.boundaries.size(); ++i) {
+            require_name(scene_.boundaries[i].name, "boundary.name", boundary_places_[i]);
+            require_new(scene_.boundaries[i].name, "boundary.name", boundary_places_[i]);
+        }
     }
 
     // --------------------------------------------------------- preparation
@@ -923,9 +1006,9 @@ private:
     }
 
     void require_something() {
-        if (scene_.grains.empty() && !scene_.medium.present())
-            refuse(values_.where("room.size_m"), "The room has neither grains nor a medium", "One of them must be there",
-                   "Add [[grains]], or set room.medium");
+        if (values_.tables("grains").empty())
+            refuse(values_.where("room.size_m"), "The room has no grains", "Rooms are studies of grains; a flow alone is any OpenFOAM case",
+                   "Add [[grains]]");
         const bool comes = std::any_of(scene_.events.begin(), scene_.events.end(),
                                        [](const RoomEvent& event) { return std::holds_alternative<FeedEvent>(event); });
         if (!values_.tables("grains").empty() && values_.tables("prepare").empty() && !comes && values_.tables("event").empty())
@@ -939,6 +1022,7 @@ private:
     Mistakes mistakes_;
     std::set<std::string> solid_names_;
     std::map<coupling::DomainSide, std::string> grains_at_;
+    std::vector<std::string> boundary_places_;  ///< of scene_.boundaries, in the study
 };
 
 }  // namespace
@@ -958,7 +1042,6 @@ ParameterValues read_placed_room(const fs::path& study) {
     };
     for (ParameterValues& solid : values.tables_for_writing("solid")) place(solid, "solid.file");
     for (ParameterValues& grains : values.tables_for_writing("grains")) place(grains, "grains.shape");
-    for (ParameterValues& boundary : values.tables_for_writing("boundary")) place(boundary, "boundary.flow.profile");
     for (ParameterValues& measure : values.tables_for_writing("measure")) place(measure, "measure.against");
     return values;
 }

@@ -34,6 +34,12 @@ bool contains(const Region& region, const Vec3& place) {
     return std::visit(Contains{place}, region);
 }
 
+double ThroughFlow::largest_speed() const {
+    double largest = 0.0;
+    for (const auto& [time, value] : speed) largest = std::max(largest, value);
+    return largest;
+}
+
 double RoomGrains::smallest() const {
     if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) return uniform->smallest;
     const auto& classes = std::get<std::vector<GrainClass>>(sizes);

@@ -88,23 +88,19 @@ struct SideRectangle {
 };
 using SidePart = std::variant<WholeSide, SideBand, SideDisc, SideRectangle>;
 
-/// A value that changes linearly from one time to another.
-struct Ramp {
-    double from = 0.0, to = 0.0;  ///< [s]
-    double before = 0.0, after = 0.0;
-};
-
 struct NoSlip {};
 struct Slip {};
 struct RoughWall {
     double height = 0.0;  ///< k_s [m]
 };
 struct FixedPressure {};
-/// Velocity through the part, by time; positive into the room for an inflow, out of it for an outflow.
+/// Flow through the part, by time: into the room, or out of it.
 struct ThroughFlow {
     bool into_room = true;
     std::vector<std::pair<double, double>> speed;  ///< time [s], mean speed over the part [m/s]; linear between, constant outside
-    std::filesystem::path profile;  ///< CSV z_m,u_m_s[,k_m2_s2,epsilon_m2_s3] whose values are scaled to the speed; empty: uniform
+    double area = 0.0;                             ///< of the part [m2]
+
+    double largest_speed() const;  ///< [m/s]
 };
 using SideFlow = std::variant<NoSlip, Slip, RoughWall, FixedPressure, ThroughFlow>;
 

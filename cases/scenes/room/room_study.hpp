@@ -13,6 +13,7 @@ namespace cutterflow::cases {
 namespace room_stage {
 inline constexpr const char* k_geometry = "geometry";
 inline constexpr const char* k_bed = "bed";
+inline constexpr const char* k_mesh = "mesh";  ///< of a room with a medium
 inline constexpr const char* k_case = "case";
 inline constexpr const char* k_report = "report";
 }  // namespace room_stage

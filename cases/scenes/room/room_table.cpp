@@ -94,7 +94,7 @@ ParameterTable room_rows() {
         choice("room.turbulence", {"realizableKE", "kEpsilon", "laminar"}, "Model of turbulence of the medium.")
             .derived("realizableKE")
             .stage(k_case),
-        length("room.cell_m", "Size of the mesh's cells; with a medium only.").derived("needed with a medium").stage(k_case),
+        length("room.cell_m", "Size of the mesh's cells; with a medium only.").derived("needed with a medium").stage(k_mesh),
         number("room.gravity_m_s2", "m/s2", "Gravity.").at_least(0.0).at_most(100.0).by_default(9.81),
         number("room.tilt_deg", "deg", "By how much gravity leans from the vertical, towards +x, in the run; the preparation is upright.")
             .at_least(-90.0)
@@ -102,9 +102,9 @@ ParameterTable room_rows() {
             .by_default(0.0)
             .stage(k_case),
         text("room.material", "Material of the sides that are walls to grains.").by_default(std::string("steel")),
-        length("room.refine.cell_m", "Size of the cells in the part that this table gives.").repeated().stage(k_case),
+        length("room.refine.cell_m", "Size of the cells in the part that this table gives.").repeated().stage(k_mesh),
     };
-    for (const Parameter& row : region_rows("room.refine")) rows.push_back(Row(row).stage(k_case));
+    for (const Parameter& row : region_rows("room.refine")) rows.push_back(Row(row).stage(k_mesh));
     return rows;
 }
 
@@ -122,7 +122,7 @@ ParameterTable solid_rows() {
         Row("solid.fluid", ParameterKind::boolean, "-", "Whether the medium feels the solid; grains always do.")
             .by_default(true)
             .repeated()
-            .stage(k_case),
+            .stage(k_mesh),
         Row("solid.velocity_m_s", ParameterKind::numbers, "m/s",
             "Constant velocity from from_s to to_s; before and after the solid stands.")
             .of_length(3)
@@ -152,18 +152,18 @@ ParameterTable boundary_rows() {
         point("boundary.rectangle.lower_m", "Lower corner of a rectangle on the side.").optional(),
         point("boundary.rectangle.upper_m", "Upper corner of the rectangle.").optional(),
         choice("boundary.flow", {"no_slip", "slip", "pressure"},
-               "What the medium meets there; or a table with one of the keys of boundary.flow.")
+               "What the medium meets there: walls, or water at the pressure outside; or a table with one of the keys of boundary.flow.")
             .optional()
             .repeated(),
         length("boundary.flow.rough_m", "Height k_s of the roughness of a wall.").optional(),
         number("boundary.flow.inflow_m_s", "m/s", "Mean speed into the room.").above(0.0).at_most(1e3).optional(),
         number("boundary.flow.outflow_m_s", "m/s", "Mean speed out of the room.").above(0.0).at_most(1e3).optional(),
-        time("boundary.flow.ramp_s", "Time in which the speed grows from 0.").optional(),
+        number("boundary.flow.inflow_m3_s", "m3/s", "Discharge into the room.").above(0.0).at_most(1e6).optional(),
+        number("boundary.flow.outflow_m3_s", "m3/s", "Discharge out of the room.").above(0.0).at_most(1e6).optional(),
+        time("boundary.flow.ramp_s", "Time in which the flow grows from 0.").optional(),
         Row("boundary.flow.times_s", ParameterKind::numbers, "s", "Times of a table of speeds, with speeds_m_s.").at_least(0.0).optional(),
         Row("boundary.flow.speeds_m_s", ParameterKind::numbers, "m/s", "Mean speeds into the room at these times.")
             .at_least(0.0)
-            .optional(),
-        Row("boundary.flow.profile", ParameterKind::path, "-", "CSV z_m,u_m_s of an inflow's profile, scaled to the mean speed.")
             .optional(),
         choice("boundary.grains", {"wall", "open", "frictionless"}, "What the whole of these sides is to grains.")
             .derived("walls; the top is open")
@@ -278,6 +278,13 @@ void add(ParameterTable& table, const char* stage, const ParameterTable& rows) {
     for (const Parameter& row : rows) table.push_back(row.stage.empty() ? Row(row).stage(stage) : row);
 }
 
+/// The same keys, bounds and defaults as in a study of a cutter.
+ParameterTable coupling_rows() {
+    ParameterTable rows = k_closure_section.rows();
+    for (const Parameter& row : k_kernel_section.rows()) rows.push_back(row);
+    return rows;
+}
+
 }  // namespace
 
 const ParameterTable& room_table() {
@@ -287,9 +294,10 @@ const ParameterTable& room_table() {
         add(all, k_bed, room_rows());
         add(all, k_case, run_rows());
         add(all, k_geometry, solid_rows());
-        add(all, k_case, boundary_rows());
+        add(all, k_mesh, boundary_rows());
         add(all, k_bed, material_rows());
         add(all, k_bed, grain_rows());
+        add(all, k_case, coupling_rows());
         add(all, k_bed, prepare_rows());
         add(all, k_case, event_rows());
         add(all, k_case, measure_rows());
