@@ -755,17 +755,19 @@ private:
     void require_patch_names() {
         if (!scene_.medium.present()) return;
         std::set<std::string> names(k_sides.begin(), k_sides.end());
-        const auto require_new = [&](const std::string& name, const std::string& key, const std::string& where) {
-            if (!names.insert(name).second)
+        const auto require_free = [&](const std::string& name, const std::string& key, const std::string& where) {
+            if (names.count(name) > 0)
                 refuse(where, fmt::format("{} = \"{}\" is the name of another solid, side or boundary", key, name),
                        "Each is a patch of the mesh with a name of its own", "Change it");
         };
         for (const ParameterValues& solid : values_.tables("solid"))
-            if (names.count(solid.text("solid.name")) > 0) require_new(solid.text("solid.name"), "solid.name", solid.where("solid.name"));
-        for (const RoomSolid& solid : scene_.solids) names.insert(solid.name);
+            require_free(solid.text("solid.name"), "solid.name", solid.where("solid.name"));
+        names.insert(solid_names_.begin(), solid_names_.end());
         for (std::size_t i = 0; i < scene_.boundaries.size(); ++i) {
-            require_name(scene_.boundaries[i].name, "boundary.name", boundary_places_[i]);
-            require_new(scene_.boundaries[i].name, "boundary.name", boundary_places_[i]);
+            const std::string& name = scene_.boundaries[i].name;
+            require_name(name, "boundary.name", boundary_places_[i]);
+            require_free(name, "boundary.name", boundary_places_[i]);
+            names.insert(name);
         }
     }
 
