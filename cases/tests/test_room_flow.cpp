@@ -107,7 +107,7 @@ protected:
 TEST_F(RoomFlow, boundaries_are_patches_with_conditions_of_every_field) {
     const RoomRequest room = request(std::string(k_tank) + k_out + k_free);
     EXPECT_THAT(condition(room, "U", "out"), HasSubstr("flowRateOutletVelocity"));
-    EXPECT_THAT(condition(room, "U", "out"), ContainsRegex("rho +voidFraction"));
+    EXPECT_THAT(condition(room, "U", "out"), HasSubstr("volumetricFlowRate"));
     EXPECT_THAT(condition(room, "U", "free"), HasSubstr("pressureInletOutletVelocity"));
     EXPECT_THAT(condition(room, "U", "riser"), HasSubstr("noSlip"));
     EXPECT_THAT(condition(room, "U", "bottom"), HasSubstr("noSlip"));
@@ -140,6 +140,7 @@ TEST_F(RoomFlow, discharge_is_speed_times_area) {
     EXPECT_NEAR(inflow.area, 0.06, 1e-12);
     EXPECT_NEAR(inflow.speed.front().second, 0.05, 1e-12);
     EXPECT_THAT(condition(given, "U", "in"), HasSubstr("flowRateInletVelocity"));
+    EXPECT_THAT(condition(given, "U", "in"), ContainsRegex("rho +voidFraction"));
     EXPECT_EQ(outlet_patch(given.scene), "x_max_2");
 }
 

@@ -47,13 +47,15 @@ FoamValue discharge_table(const ThroughFlow& flow) {
     return FoamValue::sequence({"table", FoamValue::list(rows)});
 }
 
-/// The condition of a mass flow, with the void fraction for a density: discharge of the medium between grains.
+/// What comes in is the medium alone: a mass flow with the void fraction for a density. What goes out is a mixture whose grains move as the
+/// medium does, as in the suction pipe of a cutter.
 FoamDictionary through_velocity(const ThroughFlow& flow) {
-    const bool in = flow.into_room;
-    return typed(in ? "flowRateInletVelocity" : "flowRateOutletVelocity")
+    if (!flow.into_room)
+        return typed("flowRateOutletVelocity").add("volumetricFlowRate", discharge_table(flow)).add("value", uniform(still()));
+    return typed("flowRateInletVelocity")
         .add("massFlowRate", discharge_table(flow))
         .add("rho", k_void_fraction)
-        .add(in ? "rhoInlet" : "rhoOutlet", 1.0)
+        .add("rhoInlet", 1.0)
         .add("value", uniform(still()));
 }
 
