@@ -65,15 +65,15 @@ cases::RoomRequest begun_well(const RunOptions& options) {
     mistakes.refuse();
     std::vector<std::string> programs{(installation().programs / "cutterFoam").string()};
     if (request.mesh)
-        for (const char* program : {"blockMesh", "snappyHexMesh", "topoSet", "createPatch", "checkMesh"}) programs.emplace_back(program);
+        for (const char* program : {"blockMesh", "surfaceFeatureExtract", "snappyHexMesh", "topoSet", "createPatch", "checkMesh"})
+            programs.emplace_back(program);
     require_programs(programs);
     for (const Mistake& warning : cases::room_warnings(request.values, request.scene, request.mesh)) say("warning: " + warning.text());
     return request;
 }
 
 /// \return the run directory's path
-fs::path go_through(const RunOptions& options, const std::string& until) {
-    const cases::RoomRequest request = begun_well(options);
+fs::path go_through(const cases::RoomRequest& request, const RunOptions& options, const std::string& until) {
     const cases::RunDirectory directory(options.folder());
     cases::Manifest manifest(directory.file(names::manifest));
     const auto versions = build_versions();
@@ -91,12 +91,15 @@ fs::path go_through(const RunOptions& options, const std::string& until) {
 }
 
 void prepare(const RunOptions& options) {
-    const fs::path folder = go_through(options, "bed");
-    std::cout << fmt::format("the bed: {}\n", (folder / "bed").string()) << std::flush;
+    const cases::RoomRequest request = begun_well(options);
+    const fs::path folder = go_through(request, options, request.mesh ? "mesh" : "bed");
+    std::cout << fmt::format("the bed: {}\n", (folder / "bed").string());
+    if (request.mesh) std::cout << fmt::format("the mesh: {}\n", (folder / "constant/polyMesh").string());
+    std::cout << std::flush;
 }
 
 void run(const RunOptions& options) {
-    const fs::path folder = go_through(options, "report");
+    const fs::path folder = go_through(begun_well(options), options, "report");
     std::cout << (options.json ? read_file(folder / names::results_json)
                                : fmt::format("the report: {}\n", (folder / names::report_page).string()))
               << std::flush;
