@@ -82,14 +82,30 @@ double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     return step;
 }
 
+const RoomSolid* find_solid(const RoomScene& scene, const std::string& name) {
+    const auto found = std::find_if(scene.solids.begin(), scene.solids.end(), [&](const RoomSolid& one) { return one.name == name; });
+    return found == scene.solids.end() ? nullptr : &*found;
+}
+
 /// Bores that something flows through.
-std::vector<Opening> flow_openings(const ParameterValues& values, const RoomScene& scene) {
-    std::vector<Opening> openings;
+std::vector<Opening> flow_bores(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Opening> bores;
     for (const ParameterValues& boundary : values.tables("boundary")) {
         if (!boundary.has("boundary.inside")) continue;
-        for (const RoomSolid& solid : scene.solids)
-            if (solid.name == boundary.text("boundary.inside") && solid.bore)
-                openings.push_back({boundary.where("boundary.inside"), "radius of " + solid.name, solid.bore->radius});
+        const RoomSolid* solid = find_solid(scene, boundary.text("boundary.inside"));
+        if (solid != nullptr && solid->bore)
+            bores.push_back({boundary.where("boundary.inside"), "radius of " + solid->name, solid->bore->radius});
+    }
+    return bores;
+}
+
+/// Openings in floors and spouts of solids that the medium feels.
+std::vector<Opening> floor_openings(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Opening> openings;
+    for (const ParameterValues& table : values.tables("solid")) {
+        const RoomSolid* solid = find_solid(scene, table.text("solid.name"));
+        if (solid != nullptr && solid->felt_by_fluid && solid->opening > 0.0)
+            openings.push_back({table.where("solid.name"), "opening of " + solid->name, solid->opening});
     }
     return openings;
 }
@@ -156,13 +172,16 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
     if (scene.grains.empty()) return warnings;
     for (const Mistake& warning : hindrance_warnings(values, !scene.preparation.empty())) warnings.push_back(warning);
     const double largest = largest_diameter(scene);
-    for (const Opening& opening : flow_openings(values, scene)) {
-        if (const auto warning = wide_kernel_warning(opening, scene.kernel.gamma, largest)) warnings.push_back(*warning);
-        if (2.0 * opening.width < k_most_diameters_across * largest)
-            warnings.push_back({opening.where, fmt::format("{} = {:g}", opening.name, opening.width),
+    std::vector<Opening> openings = floor_openings(values, scene);
+    for (const Opening& bore : flow_bores(values, scene)) {
+        openings.push_back(bore);
+        if (2.0 * bore.width < k_most_diameters_across * largest)
+            warnings.push_back({bore.where, fmt::format("{} = {:g}", bore.name, bore.width),
                                 fmt::format("Grains of {:g} m may block an opening below {:g} diameters", largest, k_most_diameters_across),
                                 "Check the diameters"});
     }
+    for (const Opening& opening : openings)
+        if (const auto warning = wide_kernel_warning(opening, scene.kernel.gamma, largest)) warnings.push_back(*warning);
     return warnings;
 }
 

@@ -512,6 +512,7 @@ private:
             solid.surface = std::move(made.surface);
             solid.bore = made.bore;
             solid.thinnest = made.thinnest;
+            solid.opening = made.opening.value_or(0.0);
             require_opening(made.opening, solid.name, where);
         } catch (const UserError& error) {
             for (Mistake mistake : error.mistakes()) {
