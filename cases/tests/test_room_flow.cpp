@@ -247,7 +247,7 @@ TEST_F(RoomFlow, a_room_without_grains_is_refused) {
 TEST_F(RoomFlow, closures_without_a_medium_are_refused) {
     std::string text = k_tank;
     text.replace(text.find("medium = \"water\"\ncell_m = 0.02\n"), 31, "");
-    EXPECT_THAT(mistakes_of(text + "[closures]\nadded_mass = 0.5\n[kernel]\ngamma = 1\n"),
+    EXPECT_THAT(mistakes_of(text + "[closures]\nadded_mass = 0.3\n[kernel]\ngamma = 2\n"),
                 testing::AllOf(HasSubstr("closures.added_mass is given"), HasSubstr("kernel.gamma is given")));
 }
 

@@ -156,12 +156,13 @@ private:
         }
     }
 
-    /// Keys of closures and kernel count with a medium only.
+    /// Keys of closures and kernel count with a medium only. A study that is written out in full has their defaults.
     void refuse_coupling_keys() {
         ParameterTable rows = k_closure_section.rows();
         for (const Parameter& row : k_kernel_section.rows()) rows.push_back(row);
         for (const Parameter& row : rows)
-            refuse_keys(values_, {row.key.c_str()}, "Without a medium nothing drags grains (room.medium = \"none\")");
+            if (*values_.find(row.key) != row.default_value)
+                refuse_keys(values_, {row.key.c_str()}, "Without a medium nothing drags grains (room.medium = \"none\")");
     }
 
     static double number_or(const ParameterValues& table, const char* key, double otherwise) {
