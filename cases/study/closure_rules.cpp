@@ -5,12 +5,19 @@
 #include "solver/physics/catalogue.hpp"
 
 namespace cutterflow::cases {
+namespace {
+
+/// In the study, or of the drag law where the hindrance is its default.
+std::string place_of_hindrance(const ParameterValues& values) {
+    return values.where(values.where("closures.hindrance").empty() ? "closures.drag" : "closures.hindrance");
+}
+
+}  // namespace
 
 std::vector<Mistake> closure_mistakes(const ParameterValues& values) {
     const std::string &drag = values.text("closures.drag"), &hindrance = values.text("closures.hindrance");
     if (!physics::drag_law_holds_void_fraction(drag) || hindrance == physics::k_no_closure) return {};
-    const char* const given = values.where("closures.hindrance").empty() ? "closures.drag" : "closures.hindrance";
-    return {{values.where(given), fmt::format("closures.hindrance = \"{}\"", hindrance),
+    return {{place_of_hindrance(values), fmt::format("closures.hindrance = \"{}\"", hindrance),
              fmt::format("closures.drag = \"{}\" holds the void fraction itself: hindrance would count it twice", drag),
              "Set closures.hindrance = \"none\""}};
 }
@@ -24,10 +31,9 @@ std::vector<Mistake> hindrance_warnings(const ParameterValues& values, bool dens
                  "The hindrance by other rock is in the drag already; a modifier that was fitted without it counts it twice",
                  "Set it to 1, or closures.hindrance = \"none\""}};
     if (!hindered && modifier == 1.0 && dense)
-        const char* const given = values.where("closures.hindrance").empty() ? "closures.drag" : "closures.hindrance";
-    return {{values.where(given), fmt::format("closures.hindrance = \"{}\"", hindrance),
-             fmt::format("Rock starts with a solid fraction above {:g}, where the drag of a single rock is too small", k_dilute_solids),
-             "Choose a hindrance"}};
+        return {{place_of_hindrance(values), fmt::format("closures.hindrance = \"{}\"", hindrance),
+                 fmt::format("Rock starts with a solid fraction above {:g}, where the drag of a single rock is too small", k_dilute_solids),
+                 "Choose a hindrance"}};
     return {};
 }
 

@@ -234,6 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[boundary]]\non = \"top\"\nname = \"riser\"\nflow = \"pressure\"\n", "boundary.name = \"riser\" is the name of another"},
         Bad{"[[boundary]]\non = \"top\"\nname = \"bottom\"\nflow = \"pressure\"\n", "boundary.name = \"bottom\" is the name of another"},
         Bad{"[closures]\ndrag = \"gidaspow\"\n", "hindrance would count it twice"},
+        Bad{"[kernel]\ncluster_size_m = 0.05\n", "kernel.cluster_size_m = 0.05 with kernel.map"},
+        Bad{"[kernel]\nmap = \"cluster\"\ncluster_size_m = 0.01\n", "kernel.cluster_size_m = 0.01"},
         Bad{"[closures]\nadded_mass = 3\n", "closures.added_mass = 3"},
         Bad{"[[solid]]\nname = \"gate\"\ngenerate = \"box\"\nlower_m = [0.1, 0, 0.1]\nupper_m = [0.15, 0.05, 0.15]\nremoved_at_s = 1\n",
             "gate is taken away in water"},

@@ -124,7 +124,7 @@ const std::vector<std::string> k_room_words{
 /// As `cutterflow check`, and the files of the cases.
 void check_room_file(const fs::path& folder, const std::string& file) {
     const cases::RoomRequest request = cases::read_room_request(folder / file);
-    const cases::RoomPrediction prediction = cases::predict(request.scene, request.pieces);
+    const cases::RoomPrediction prediction = cases::predict(request.scene, request.pieces, request.mesh);
     to_text(prediction);
     to_json(prediction).dump();
     cases::bed_inputs(request.values);

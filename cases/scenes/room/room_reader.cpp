@@ -140,6 +140,7 @@ private:
         mistakes_.add(closure_mistakes(values_));
         scene_.medium.turbulence = values_.has("room.turbulence") ? values_.text("room.turbulence") : "realizableKE";
         if (const auto cell = required(values_, "room.cell_m", "a room with " + scene_.medium.name, "room.size_m")) scene_.cell = *cell;
+        check_map();
         for (const ParameterValues& refine : values_.tables("room.refine")) {
             const std::string where = refine.where("room.refine.cell_m");
             const double cell = refine.number("room.refine.cell_m");
@@ -154,6 +155,19 @@ private:
             else
                 scene_.refinements.push_back({*region, cell});
         }
+    }
+
+    /// Cubes belong to map cluster, and hold a cell or more.
+    void check_map() {
+        const double side = scene_.kernel.cluster_size;
+        const bool clusters = scene_.kernel.map == coupling::k_cluster_map;
+        const std::string where = values_.where(side > 0.0 ? "kernel.cluster_size_m" : "kernel.map");
+        if (!clusters && side > 0.0)
+            refuse(where, fmt::format("kernel.cluster_size_m = {:g} with kernel.map = \"{}\"", side, scene_.kernel.map),
+                   "Only map cluster has cubes", "Remove it, or set kernel.map = \"cluster\"");
+        else if (clusters && side < scene_.cell)
+            refuse(where, fmt::format("kernel.cluster_size_m = {:g}", side),
+                   fmt::format("A cube of map cluster holds a cell of {:g} m or more", scene_.cell), "Give a cell or more");
     }
 
     /// Keys of closures and kernel count with a medium only. A study that is written out in full has their defaults.
