@@ -285,6 +285,17 @@ private:
     const std::optional<meshing::RoomMeshPlan>& mesh_;
 };
 
+/// \throws UserError  that names the study's line
+meshing::RoomMeshPlan mesh_plan_of(const RoomRequest& request) {
+    try {
+        return meshing::plan_room_mesh(mesh_input_of(request.scene));
+    } catch (const UserError& error) {
+        std::vector<Mistake> mistakes = error.mistakes();
+        for (Mistake& mistake : mistakes) mistake.where = request.values.where("room.cell_m");
+        throw UserError(std::move(mistakes));
+    }
+}
+
 }  // namespace
 
 RoomRequest read_room_request(const fs::path& study) {
@@ -295,7 +306,7 @@ RoomRequest read_room_request(const fs::path& study) {
     mistakes.gather([&] { request.pieces = bed_pieces(request.scene); });
     std::mt19937_64 random(request.scene.run.seed);
     mistakes.gather([&] { place_feeds(request.scene, 1, random); });  // a feed without a place is refused before anything is run
-    if (request.scene.medium.present()) mistakes.gather([&] { request.mesh = meshing::plan_room_mesh(mesh_input_of(request.scene)); });
+    if (request.scene.medium.present()) mistakes.gather([&] { request.mesh = mesh_plan_of(request); });
     mistakes.refuse();
     return request;
 }

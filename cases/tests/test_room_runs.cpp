@@ -265,9 +265,12 @@ TEST_F(RoomRuns, a_grain_in_still_water_falls_at_its_terminal_speed) {
     call({"run", "water.toml", "-o", "water"});
     const postproc::Table crossings =
         postproc::read_joined_table(folder_ / "water", "rock", "gates.csv", {{"time_s", "vz_m_s"}, {"gate"}, {}, ""});
-    const postproc::Table balance =
-        postproc::read_joined_table(folder_ / "water", "balance", "balance.csv",
-                                    {{"time_s", "solid_volume_error", "momentum_error", "continuity_error", "rocks"}, {}, {}, ""});
+    const postproc::Table balance = postproc::read_joined_table(
+        folder_ / "water", "balance", "balance.csv",
+        {{"time_s", "solid_volume_error", "momentum_error", "continuity_error", "rocks", "outlet_flow_m3_s", "outlet_pressure_m2_s2"},
+         {},
+         {"outlet_flow_m3_s", "outlet_pressure_m2_s2"},
+         ""});
     physics::SettlingRock grain;
     grain.rock = {0.005, 1000.0, 1e-6, 1.0, 1.0};
     grain.density = 2650.0;

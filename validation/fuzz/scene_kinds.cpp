@@ -342,7 +342,7 @@ std::vector<FuzzKind> scene_kinds() {
          [](const fs::path& folder, const std::string&) { postproc::measures_text(postproc::measure_run(folder)); },
          1.0},
         {"measured",
-         {{"measured.csv", postproc::measured_template() + "60,0.12,0.2,0.05,0.8,0.05\n30,0.12,0.1,,,\n"}},
+         {{"measured.csv", postproc::measured_template() + "60,0.12,0.2,0.05,0.8,0.05\n30,0.12,0.1,0.02,0.9,0.02\n"}},
          csv_words,
          {},
          [](const fs::path& folder, const std::string& file) { postproc::read_measured_points(folder / file); },

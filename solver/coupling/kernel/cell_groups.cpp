@@ -103,7 +103,7 @@ std::vector<Mistake> map_mistakes(const KernelSettings& kernel, const FluidEngin
     Mistakes mistakes(names::coupling_properties);
     for (const ZoneMotion& zone : fluid.moving_zones())
         mistakes.add(fmt::format("kernel.map = {} with the turning cell zone {}", kernel.map, zone.name),
-                     "Clusters of cells do not turn, and reach through blades", "Set: map gaussian;");
+                     "Clusters of cells do not turn, and reach through steel", "Set: map gaussian;");
     double largest = 0.0;
     for (const double size : fluid.cells().sizes) largest = std::max(largest, size);
     communicator.max(gsl::span<double>(&largest, 1));
