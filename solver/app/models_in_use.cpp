@@ -11,7 +11,7 @@ coupling::ModelNote map_in_use(const coupling::KernelSettings& kernel) {
         return {fmt::format("mapping: a rock is spread evenly over the cells of a cube of {:.4g} m", kernel.cluster_size), "kernel.map"};
     return {fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma,
                         kernel.min_width_in_cells),
-            "rock is larger than cells; steel hides what lies behind it"};
+            "rock may be larger than cells; steel hides what lies behind it"};
 }
 
 void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {
