@@ -13,6 +13,7 @@
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/progress.hpp"
+#include "solver/ports/mapping_width.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -55,10 +56,7 @@ double smallest_rock(const Study& study) {
 
 /// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed.
 double step_of_rock(double tip_speed, double cell_size, const Study& study) {
-    const double cell = k_cell_at_rock * cell_size;
-    const coupling::KernelSettings& kernel = study.kernel;
-    const double width =
-        kernel.map == coupling::k_gaussian_map ? std::max(kernel.gamma * smallest_rock(study), kernel.min_width_in_cells * cell) : cell;
+    const double width = coupling::mapping_width(study.kernel, smallest_rock(study), k_cell_at_rock * cell_size);
     return k_travel_share * width / tip_speed;
 }
 

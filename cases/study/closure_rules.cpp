@@ -37,10 +37,10 @@ std::vector<Mistake> hindrance_warnings(const ParameterValues& values, bool dens
     return {};
 }
 
-std::optional<Mistake> wide_kernel_warning(const Opening& opening, double gamma, double diameter) {
+std::optional<Mistake> wide_kernel_warning(const Opening& opening, const coupling::KernelSettings& kernel, double diameter) {
     constexpr double resolved_by = 4.0;  // kernel widths
-    const double width = gamma * diameter;
-    if (opening.width >= resolved_by * width) return std::nullopt;
+    const double width = kernel.gamma * diameter;
+    if (kernel.map != coupling::k_gaussian_map || opening.width >= resolved_by * width) return std::nullopt;
     return Mistake{
         opening.where, fmt::format("{} = {:.6g}", opening.name, opening.width),
         fmt::format("It is {:.2g} kernel widths of rock of {:g} m; below {:g} the speed that rock feels there is off by more than "

@@ -6,6 +6,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/parameters/parameter.hpp"
+#include "solver/ports/settings.hpp"
 
 namespace cutterflow::cases {
 
@@ -26,7 +27,8 @@ struct Opening {
 };
 
 /// A kernel averages the flow over an opening that is not much wider, so that rock there feels a wrong speed: below 4 widths by more than a
-/// tenth (measured in the field of a disc sink). \param gamma  kernel.gamma \param diameter  of the largest rock [m]
-std::optional<Mistake> wide_kernel_warning(const Opening& opening, double gamma, double diameter);
+/// tenth (measured in the field of a disc sink). Maps
+/// without kernels have no warning. \param diameter  of the largest rock [m]
+std::optional<Mistake> wide_kernel_warning(const Opening& opening, const coupling::KernelSettings& kernel, double diameter);
 
 }  // namespace cutterflow::cases

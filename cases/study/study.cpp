@@ -622,15 +622,14 @@ bool is_dense(const ParameterValues& feed) {
 }
 
 void warn_of_wide_kernels(const ParameterValues& resolved, Rules& rules) {
-    if (resolved.text("kernel.map") != coupling::k_gaussian_map) return;
     double largest = 0.0;
     for (const ParameterValues& feed : resolved.tables("feed")) {
         if (has_size_law(feed)) largest = std::max(largest, feed.number("feed.size_max_m"));
         for (const ParameterValues& rock : feed.tables("feed.class")) largest = std::max(largest, rock.number("feed.class.diameter_m"));
     }
+    const coupling::KernelSettings kernel = k_kernel_section.read(resolved);
     for (const char* key : {"suction.mouth_radius_m", "suction.gap_m"})
-        if (const auto warning =
-                wide_kernel_warning({resolved.where(key), key, resolved.number(key)}, resolved.number("kernel.gamma"), largest))
+        if (const auto warning = wide_kernel_warning({resolved.where(key), key, resolved.number(key)}, kernel, largest))
             rules.add(*warning);
 }
 

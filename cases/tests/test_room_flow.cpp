@@ -194,6 +194,7 @@ TEST_F(RoomFlow, warns_of_what_a_run_may_be_asked_in_spite_of) {
     EXPECT_THAT(warnings_of(request(open + "[closures]\ndrag_modifier = 3\n")), HasSubstr("counts it twice"));
     EXPECT_THAT(warnings_of(request(open + "[closures]\nhindrance = \"none\"\n")), HasSubstr("the drag of a single rock is too small"));
     EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\n")), HasSubstr("2.5 kernel widths"));
+    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\nmap = \"centroid\"\n")), Not(HasSubstr("kernel widths")));
     const std::string bin =
         "[[solid]]\nname = \"bin\"\ngenerate = \"hopper\"\ncentre_m = [0.12, 0, 0.15]\ninner_radius_m = 0.05\nheight_m = 0.1\n"
         "wall_m = 0.02\norifice_radius_m = 0.0125\n";

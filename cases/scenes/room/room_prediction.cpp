@@ -13,6 +13,7 @@
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 #include "solver/physics/settling.hpp"
+#include "solver/ports/mapping_width.hpp"
 
 namespace cutterflow::cases {
 
@@ -76,7 +77,7 @@ double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     double step = scene.run.longest_step;
     if (flow > 0.0) step = std::min(step, k_room_max_courant * cell / flow);
     if (grains > 0.0 && !scene.grains.empty()) {
-        const double width = std::max(scene.kernel.gamma * smallest_diameter(scene), scene.kernel.min_width_in_cells * cell);
+        const double width = coupling::mapping_width(scene.kernel, smallest_diameter(scene), cell);
         step = std::min(step, k_travel_share * width / grains);
     }
     return step;
@@ -181,7 +182,7 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
                                 "Check the diameters"});
     }
     for (const Opening& opening : openings)
-        if (const auto warning = wide_kernel_warning(opening, scene.kernel.gamma, largest)) warnings.push_back(*warning);
+        if (const auto warning = wide_kernel_warning(opening, scene.kernel, largest)) warnings.push_back(*warning);
     return warnings;
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/base/error.hpp"
 #include "solver/physics/kernels.hpp"
+#include "solver/ports/mapping_width.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -136,7 +137,7 @@ void Mapping::lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vect
             stencils.first.push_back(stencils.cell.size());
             continue;
         }
-        const double narrowest = kernel_width(rocks.diameter[p], sizes_.smallest());
+        const double narrowest = mapping_width(kernel_, rocks.diameter[p], sizes_.smallest());
         visibility_.look_from(rocks.position[p], physics::k_kernel_reach * stencils.width[p], k_lattice_spacing * narrowest);
         add_entries(rocks, p, stencils, sums);
     }
@@ -155,7 +156,7 @@ void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::ve
         const SizeField::Surroundings mesh = sizes_.around(frames_, rocks.position[p], vicinity.sizes);
         points.push_back({mesh.nearest_zone, frames_.from_absolute(mesh.nearest_zone, rocks.position[p])});
         cell_size.push_back(mesh.size);
-        stencils.width.push_back(std::max(kernel_.cluster_size, mesh.size));
+        stencils.width.push_back(mapping_width(kernel_, rocks.diameter[p], mesh.size));
         stencils.zone.push_back(mesh.nearest_zone);
         stencils.shared.add(p, others);
     }
@@ -174,21 +175,16 @@ void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::ve
     stencils.sample.assign(stencils.cell.size(), 1.0);
 }
 
-/// sigma [m]
-double Mapping::kernel_width(double diameter, double cell_size) const {
-    return std::max(kernel_.gamma * diameter, kernel_.min_width_in_cells * cell_size);
-}
-
 /// Adds the kernel's width and the zone of a rock that is near this rank's cells. \return whether it is near
 bool Mapping::locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils) {
     const Vec3& place = rocks.position[rock];
     const auto is_near = [&](int rank, double width) { return boxes_.may_reach(rank, frames_, place, physics::k_kernel_reach * width); };
     const int me = communicator_.rank();
-    if (!is_near(me, kernel_width(rocks.diameter[rock], sizes_.largest()))) return false;
+    if (!is_near(me, mapping_width(kernel_, rocks.diameter[rock], sizes_.largest()))) return false;
     KnownVicinity& vicinity = vicinities_[rocks.id[rock]];
     vicinity.last_build = builds_;
     const SizeField::Surroundings mesh = sizes_.around(frames_, place, vicinity.sizes);
-    const double width = kernel_width(rocks.diameter[rock], mesh.size);
+    const double width = mapping_width(kernel_, rocks.diameter[rock], mesh.size);
     if (!is_near(me, width)) return false;
     std::vector<int> others;
     for (int rank = 0; rank < boxes_.size(); ++rank)
@@ -214,7 +210,7 @@ void Mapping::refuse_unmapped(const RockShapes& rocks, const Stencils& stencils,
     communicator_.sum(mapped);
     const auto p = static_cast<std::size_t>(std::find(mapped.begin(), mapped.end(), 0.0) - mapped.begin());
     SizeField::Vicinity vicinity;
-    const double width = kernel_width(rocks.diameter[p], sizes_.around(frames_, rocks.position[p], vicinity).size);
+    const double width = mapping_width(kernel_, rocks.diameter[p], sizes_.around(frames_, rocks.position[p], vicinity).size);
     throw no_cell_near(rocks, p, physics::k_kernel_reach * width);
 }
 

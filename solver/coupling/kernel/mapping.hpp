@@ -75,7 +75,6 @@ private:
     };
 
     void build_anew(const RockShapes& rocks, Stencils& stencils);
-    double kernel_width(double diameter, double cell_size) const;
     bool locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils);
     bool all_are_mapped(const Stencils& stencils, const std::vector<double>& sums) const;
     [[noreturn]] void refuse_unmapped(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
