@@ -203,21 +203,37 @@ private:
     void require_rest(std::size_t piece) const {
         const double end = pieces_[piece].end(), reached = std::stod(newest_checkpoint(piece_folder(piece)).filename().string());
         if (reached < end - 0.5 * scene_.bed_step) return;
+        require_all_came_in(piece);
         throw CheckFailure(
             {"", fmt::format("the grains of {} are not at rest after {:g} s", piece_folder(piece).string(), end),
              "A preparation ends with its mean kinetic energy, without spin, below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
              "Look at its pictures; give the step settle a larger longest_s, or the contacts friction and rolling friction"});
     }
 
-    /// A bed has all grains that were poured. Those without room are waited for: the piece would not be at rest.
-    void require_none_lost(std::size_t piece) const {
+    /// The last row of the account of rock of a piece.
+    double accounted(std::size_t piece, const char* column) const {
         std::vector<Mistake> mistakes;
-        const CsvTable account(piece_folder(piece) / "postProcessing/rock/0/account.csv", {"left_domain_count"},
-                               {"time_s", "placed_count", "placed_kg", "in_run_count", "in_run_kg", "removed_count", "removed_kg",
-                                "extracted_count", "extracted_kg", "left_domain_kg", "decided_count", "decided_kg"},
+        const CsvTable account(piece_folder(piece) / "postProcessing/rock/0/account.csv", {"left_domain_count", "placed_count"},
+                               {"time_s", "placed_kg", "in_run_count", "in_run_kg", "removed_count", "removed_kg", "extracted_count",
+                                "extracted_kg", "left_domain_kg", "decided_count", "decided_kg"},
                                mistakes);
         if (!mistakes.empty()) throw ToolError(mistakes);
-        const double left = account.at(account.rows() - 1, "left_domain_count");
+        return account.at(account.rows() - 1, column);
+    }
+
+    /// A grain whose place never gets free waits, and keeps the piece from its end.
+    void require_all_came_in(std::size_t piece) const {
+        std::size_t poured = 0;
+        for (std::size_t i = 0; i <= piece; ++i) poured += pieces_[i].grains.size();
+        const double waiting = static_cast<double>(poured) - accounted(piece, "placed_count");
+        if (waiting > 0.0)
+            throw CheckFailure({"", fmt::format("{} of the grains of {} found no room", waiting, piece_folder(piece).string()),
+                                "Grains begin where others are not", "Give the pour a higher region, or pour less"});
+    }
+
+    /// A bed has all grains that were poured.
+    void require_none_lost(std::size_t piece) const {
+        const double left = accounted(piece, "left_domain_count");
         if (left > 0.0)
             throw CheckFailure({"", fmt::format("{} of the grains of {} left the room", left, piece_folder(piece).string()),
                                 "A bed has all grains that are poured", "Close the sides of the room beside the pour"});

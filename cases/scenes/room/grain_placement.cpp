@@ -20,7 +20,9 @@ constexpr double k_falling_speed = 1.0;  // [m/s]
 constexpr double k_times_to_fall = 2.0;  // until the next batch
 constexpr int k_tries = 400;             // places tried for a grain before it waits for the next batch
 constexpr int k_most_batches = 10000;
-constexpr double k_gap = 1e-3;  // between grains that begin, over the diameter
+constexpr double k_gap = 1e-3;         // between grains that begin, over the diameter
+constexpr double k_loose_share = 0.5;  // of a bed beside walls a few grains apart; what has come down lies no higher
+constexpr double k_bumps = 2.0;        // of its surface, above the mean, over the largest grain
 
 double volume_of(double diameter) {
     return k_pi * diameter * diameter * diameter / 6.0;
@@ -147,14 +149,15 @@ public:
         const std::vector<double> diameters =
             step.count ? draw_diameters(grains, *step.count, random_) : draw_diameters(grains, step.mass, random_);
         const double bottom = bottom_of(step.region), top = bottom + height_of(step.region), area = area_of(step.region);
-        double level = std::min(bottom + lying_in(step.region) / area, top);
+        double lying = lying_in(step.region);
         std::size_t next = 0;
         for (int batch = 0; next < diameters.size() && batch < k_most_batches; ++batch) {
             const std::size_t before = next;
-            const double placed = place_batch(step, grains, diameters, next, level, top, area);
+            const double level = lying > 0.0 ? bottom + lying / area + k_bumps * grains.girth * grains.largest() : bottom;
+            const double placed = place_batch(step, grains, diameters, next, std::min(level, top), top, area);
             if (next == before) return refuse(step, diameters.size() - next, diameters.size());
-            deposits_.emplace_back(step.region, placed / k_packed_share);
-            level = std::min(level + placed / (k_packed_share * area), top);
+            deposits_.emplace_back(step.region, placed / k_loose_share);
+            lying += placed / k_loose_share;
             time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity.norm());
         }
     }
@@ -192,7 +195,7 @@ private:
         return std::nullopt;
     }
 
-    /// Bulk volume [m3] that earlier pours may have left in a region.
+    /// Bulk volume [m3] that earlier pours may have left in a region, at their loosest.
     double lying_in(const Region& region) const {
         double volume = 0.0;
         for (const auto& [other, bulk] : deposits_)
