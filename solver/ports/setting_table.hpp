@@ -47,4 +47,10 @@ std::vector<Mistake> setting_mistakes(const Settings& settings, const std::strin
     return mistakes;
 }
 
+/// As above, of settings that exist only with their section.
+template <class Settings>
+std::vector<Mistake> setting_mistakes(const std::optional<Settings>& settings, const std::string& section, const std::string& where) {
+    return settings ? setting_mistakes(*settings, section, where) : std::vector<Mistake>();
+}
+
 }  // namespace cutterflow::coupling

@@ -134,25 +134,25 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         check_without_medium(mistakes, settings);
     if (settings.has_rock) {
         if (settings.has_medium) {
-            mistakes.add(setting_mistakes(settings.kernel, "kernel", where));
-            mistakes.add(setting_mistakes(settings.closures, "closures", where));
+            visit_coupling_sections(settings,
+                                    [&](const char* key, const auto& section) { mistakes.add(setting_mistakes(section, key, where)); });
             check_map(mistakes, settings.kernel);
             check_hindrance(mistakes, settings.closures);
         }
-        if (settings.queue) mistakes.add(setting_mistakes(*settings.queue, "rock.queue", where));
+        mistakes.add(setting_mistakes(settings.queue, "rock.queue", where));
         if (settings.rock_feed.empty() && settings.rock_start.empty())
             mistakes.add("rock.feed is missing", "Rock enters through a feed file, or is there from the start on (rock.start)",
                          "Name a CSV file");
     }
-    if (settings.soil) mistakes.add(setting_mistakes(*settings.soil, "soil", where));
+    mistakes.add(setting_mistakes(settings.soil, "soil", where));
     if (settings.fates)
         check_fates(mistakes, *settings.fates);
     else if (settings.outflow)
         mistakes.add("section outflow without section fates", "Outflow is sampled along the contour of fates",
                      "Add fates or remove outflow");
-    if (settings.outflow) mistakes.add(setting_mistakes(*settings.outflow, "outflow", where));
+    mistakes.add(setting_mistakes(settings.outflow, "outflow", where));
     if (settings.velocity) check_velocity(mistakes, *settings.velocity);
-    if (settings.stop) mistakes.add(setting_mistakes(*settings.stop, "stop", where));
+    mistakes.add(setting_mistakes(settings.stop, "stop", where));
     if (settings.stop && !settings.has_rock)
         mistakes.add("section stop without section rock", "Only rock is undecided", "Remove it or add rock");
     if (settings.stop && settings.has_rock && !settings.fates)
@@ -161,7 +161,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
     if (!settings.has_rock) check_without_rock(mistakes, settings);
     if (!settings.operations.empty() && settings.fates)
         mistakes.add("section events with section fates", "Fates follow all rock of a cutter head", "Remove one of them");
-    if (settings.checkpoint) mistakes.add(setting_mistakes(*settings.checkpoint, "checkpoint", where));
+    mistakes.add(setting_mistakes(settings.checkpoint, "checkpoint", where));
     if (settings.record) check_record(mistakes, *settings.record, settings.has_rock, where);
     if (!settings.replay.empty()) check_replay(mistakes, settings);
     return mistakes.take();

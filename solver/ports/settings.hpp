@@ -184,6 +184,15 @@ struct CouplingSettings {
     std::filesystem::path replay;  ///< folder of a recording whose flow is played instead of solved; empty: none
 };
 
+/// Calls `visit(key, section)` with each section that says how rock and fluid act on each other. They count with rock in a medium. Each
+/// holds the rows of its struct's table and nothing else, so that the reader of couplingProperties and the checks need no line for it. A
+/// section may be std::optional. \param settings  CouplingSettings, const or not
+template <class Settings, class Visit>
+void visit_coupling_sections(Settings& settings, Visit visit) {
+    visit("kernel", settings.kernel);
+    visit("closures", settings.closures);
+}
+
 /// Every mistake of the settings (not of the files they name); `where` precedes each, as "constant/couplingProperties".
 std::vector<Mistake> check_settings(const CouplingSettings& settings, const FluidProperties& fluid, const std::string& where);
 

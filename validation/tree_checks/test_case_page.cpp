@@ -23,8 +23,11 @@ std::set<std::string> matches(const std::string& text, const std::regex& pattern
 TEST(CasePage, lists_the_keys_and_sections_that_the_reader_knows) {
     const std::string reader = content("solver/foam/dictionary/coupling_dictionary.cpp");
     const std::regex read_key(
-        "\\b(?:read|read_choice|section|sections|read_section|read_optional|read_list|read_sides)\\((?:file, |section, )?\"(\\w+)\"");
+        "\\b(?:read|read_choice|section|sections|read_section|read_optional|read_tabled|read_list|read_sides)\\((?:file, |section, "
+        ")?\"(\\w+)\"");
     std::set<std::string> known = matches(reader, read_key);
+    for (const std::string& section : matches(content("solver/ports/settings.hpp"), std::regex("\\bvisit\\(\"(\\w+)\"")))
+        known.insert(section);
     const std::regex row("\\b(?:number|closure|yes_or_no|ParameterRow)\\(\\s*\"(\\w+)\"");
     for (const std::string& key : matches(content("solver/ports/setting_table.cpp"), row)) known.insert(key);
     ASSERT_GT(known.size(), 40u) << "the scan found too few keys: it looks in the wrong place";

@@ -72,6 +72,17 @@ void read_settings(DictionarySection& section, Settings& settings) {
     }
 }
 
+/// Reads a section that holds the rows of its struct's table and nothing else.
+template <class Settings>
+void read_tabled(DictionarySection& parent, const std::string& key, Settings& settings) {
+    read_section(parent, key, k_optional, [&](DictionarySection& section) { read_settings(section, settings); });
+}
+
+template <class Settings>
+void read_tabled(DictionarySection& parent, const std::string& key, std::optional<Settings>& settings) {
+    read_optional(parent, key, settings, read_settings<Settings>);
+}
+
 /// \param materials  of walls
 void read_contact(DictionarySection& section, const std::set<std::string>& materials, coupling::ContactSettings& contact) {
     for (const char* former : {"friction", "restitution"})
@@ -163,7 +174,7 @@ void read_rock(DictionarySection& section, const std::filesystem::path& folder, 
     coupling::DemSettings dem;
     section.read("start", result.coupling.rock_start, folder, k_optional);
     section.read("feed", result.coupling.rock_feed, folder, result.coupling.rock_start.empty() ? k_required : k_optional);
-    read_optional(section, "queue", result.coupling.queue, read_settings<coupling::QueueSettings>);
+    read_tabled(section, "queue", result.coupling.queue);
     read_list(section, "walls", dem.walls, [&](DictionarySection& wall) { return read_wall(wall, folder); });
     if (const Foam::dictionary* shapes = section.section("shapes", k_optional)) {
         DictionarySection below = section.below(*shapes, "shapes");
@@ -351,9 +362,10 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
     coupling::CouplingSettings& settings = result.coupling;
     settings.has_medium = file.read_choice("medium", {"fluid", "none"}, k_optional) != "none";
     if (!settings.has_medium)
-        for (const char* key : {"kernel", "closures"})
+        coupling::visit_coupling_sections(settings, [&](const char* key, const auto&) {
             if (file.section(key, k_optional))
                 file.report(key, "with medium none", "Without a medium rock is neither mapped nor dragged", "Remove the section");
+        });
     read_section(file, "patches", k_optional, [&](DictionarySection& section) {
         section.read("outlet", settings.patches.outlet, k_optional);
         section.read("steel", settings.patches.steel, k_optional);
@@ -364,18 +376,17 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
         read_settings(section, soil);
     });
     read_section(file, "rock", k_optional, [&](DictionarySection& section) { read_rock(section, folder, result); });
-    read_section(file, "kernel", k_optional, [&](DictionarySection& section) { read_settings(section, settings.kernel); });
-    read_section(file, "closures", k_optional, [&](DictionarySection& section) { read_settings(section, settings.closures); });
+    coupling::visit_coupling_sections(settings, [&](const char* key, auto& section) { read_tabled(file, key, section); });
     read_optional(file, "fates", settings.fates,
                   [&](DictionarySection& section, coupling::FateSettings& fates) { read_fates(section, folder, fates); });
-    read_optional(file, "outflow", settings.outflow, read_settings<coupling::OutflowSettings>);
+    read_tabled(file, "outflow", settings.outflow);
     read_optional(file, "velocity", settings.velocity,
                   [&](DictionarySection& section, coupling::VelocitySettings& velocity) { read_velocity(section, folder, velocity); });
     read_section(file, "stop", k_optional, [&](DictionarySection& section) { read_stop(section, settings); });
     read_list(file, "events", settings.operations, read_operation);
     read_list(file, "gates", settings.gates, read_gate);
-    read_optional(file, "checkpoint", settings.checkpoint, read_settings<coupling::CheckpointSettings>);
-    read_optional(file, "record", settings.record, read_settings<coupling::RecordSettings>);
+    read_tabled(file, "checkpoint", settings.checkpoint);
+    read_tabled(file, "record", settings.record);
     read_section(file, "replay", k_optional,
                  [&](DictionarySection& section) { section.read("recording", settings.replay, folder, k_required); });
 }
