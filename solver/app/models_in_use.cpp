@@ -2,31 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "solver/coupling/coupling_methods.hpp"
+
 namespace cutterflow {
 namespace {
-
-coupling::ModelNote map_in_use(const coupling::KernelSettings& kernel) {
-    if (kernel.map == coupling::k_centroid_map) return {"mapping: a rock is in the cell of its centre", "kernel.map"};
-    if (kernel.map == coupling::k_cluster_map)
-        return {fmt::format("mapping: a rock is spread evenly over the cells of a cube of {:.4g} m", kernel.cluster_size), "kernel.map"};
-    return {fmt::format("mapping: Gaussian to the fluid, quadratic to the rock, width max({:.3g} d, {:.3g} dx)", kernel.gamma,
-                        kernel.min_width_in_cells),
-            "rock may be larger than cells; steel hides what lies behind it"};
-}
-
-void add_coupling_models(const coupling::CouplingSettings& settings, std::vector<coupling::ModelNote>& notes) {
-    notes.push_back(map_in_use(settings.kernel));
-    if (settings.replay.empty()) notes.push_back({"d(void fraction)/dt in the pressure equation", "rock displaces fluid"});
-    const coupling::ClosureSettings& closures = settings.closures;
-    notes.push_back({"drag: " + closures.drag + (closures.drag_modifier == 1.0 ? "" : fmt::format(" x {:.3g}", closures.drag_modifier)),
-                     "closures.drag"});
-    if (closures.hindrance != "none") notes.push_back({"hindrance: " + closures.hindrance, "neighbouring rock raises the drag"});
-    if (closures.added_mass > 0.0)
-        notes.push_back({fmt::format("added mass {:.3g}", closures.added_mass), "rock is only a few times denser than the fluid"});
-    if (closures.lift != "none") notes.push_back({"lift: " + closures.lift, "closures.lift"});
-    notes.push_back({"fluid acceleration force rho V Du/Dt", "the stress of the undisturbed flow acts on rock"});
-    if (!closures.viscous_force) notes.push_back({"less its viscous part", "closures.viscousForce no"});
-}
 
 void add_pair(const std::string& other, const coupling::PairSettings& pair, const std::string& rolling_law,
               std::vector<coupling::ModelNote>& notes) {
@@ -69,9 +48,8 @@ std::vector<coupling::ModelNote> no_flow_models() {
 }
 
 std::vector<coupling::ModelNote> rock_models(const foam::CouplingDictionary& dictionary) {
-    std::vector<coupling::ModelNote> notes;
-    if (!dictionary.coupling.has_rock) return notes;
-    if (dictionary.coupling.has_medium) add_coupling_models(dictionary.coupling, notes);
+    if (!dictionary.coupling.has_rock) return {};
+    std::vector<coupling::ModelNote> notes = coupling::coupling_method(dictionary.coupling).models(dictionary.coupling);
     add_contact_models(*dictionary.dem, notes);
     return notes;
 }

@@ -11,9 +11,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
-#include "solver/coupling/dry/free_rock.hpp"
-#include "solver/coupling/kernel/cell_groups.hpp"
-#include "solver/coupling/kernel/kernel_coupling.hpp"
+#include "solver/coupling/coupling_methods.hpp"
 #include "solver/observe/gate_crossings.hpp"
 
 namespace cutterflow::coupling {
@@ -104,14 +102,12 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         else
             production_.emplace(2.0 * k_pi / std::abs(rotor.speed), settings.stop->target_half_width);
     }
-    if (settings.has_rock && fluid.has_medium()) mistakes.add(map_mistakes(settings.kernel, fluid, communicator));
+    const CouplingMethod& method = coupling_method(settings);
+    if (settings.has_rock) mistakes.add(method.mesh_mistakes(settings, fluid, communicator));
     if (settings.velocity && mistakes.empty()) mistakes.gather([&] { velocity_.emplace(*settings.velocity, fluid); });
     mistakes.refuse();
     if (settings.has_rock) {
-        if (fluid.has_medium())
-            rock_ = std::make_unique<KernelCoupling>(settings, properties, fluid, *dem, communicator);
-        else
-            rock_ = std::make_unique<FreeRock>(fluid, *dem);
+        rock_ = method.make(settings, properties, fluid, *dem, communicator);
         if (fluid.feels_rock()) momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
     }
     if (settings.record && !fs::exists(case_folder_ / names::recording)) phases_ = std::make_unique<PhaseRecorder>(*settings.record, fluid);

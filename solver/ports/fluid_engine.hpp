@@ -100,9 +100,6 @@ class FluidEngine {
 public:
     virtual ~FluidEngine() = default;
 
-    /// False when there is no fluid at all: rock moves by weight and contacts alone, and of the engine only the clock is asked.
-    virtual bool has_medium() const { return true; }
-
     /// False when the flow is given and takes nothing from rock (one-way coupling): received() and loads() are then not asked for.
     virtual bool feels_rock() const { return true; }
 

@@ -11,7 +11,6 @@ public:
     /// \param longest_step  between looks at feed, pictures and checkpoints [s]
     NoFluid(const ClockTimes& times, double longest_step) : clock_(times, longest_step) {}
 
-    bool has_medium() const override { return false; }
     bool feels_rock() const override { return false; }
     Cells cells() const override { return {}; }
     Steel steel() const override { return {}; }

@@ -11,6 +11,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupled_run.hpp"
+#include "solver/coupling/coupling_methods.hpp"
 #include "solver/coupling/dry/no_fluid.hpp"
 #include "solver/observe/csv_recorder.hpp"
 #include "solver/ports/testing/fake_engines.hpp"
@@ -537,6 +538,25 @@ void expect_same_to_the_bit(CouplingSettings settings, const TemporaryFolder& fo
     EXPECT_NEAR(ledger.delivered, through.ledgers.back().delivered, 1e-15);
     EXPECT_NEAR(ledger.spilled_cutting, through.ledgers.back().spilled_cutting, 1e-15);
     for (const RockLedger& one : after.ledgers) EXPECT_LE(one.error(), 1e-12);
+}
+
+TEST(CouplingMethods, tell_their_models_and_without_a_medium_have_none) {
+    const auto models_of = [](const CouplingSettings& settings) {
+        std::string all;
+        for (const ModelNote& note : coupling_method(settings).models(settings)) all += note.name + "\n";
+        return all;
+    };
+    CouplingSettings settings;
+    settings.closures.drag = "gidaspow";
+    settings.closures.hindrance = "none";
+    const std::string models = models_of(settings);
+    EXPECT_NE(models.find("mapping: Gaussian"), std::string::npos) << models;
+    EXPECT_NE(models.find("drag: gidaspow"), std::string::npos) << models;
+    EXPECT_EQ(models.find("hindrance"), std::string::npos) << models;
+    settings.kernel.map = k_centroid_map;
+    EXPECT_EQ(models_of(settings).find("mapping: a rock is in the cell of its centre"), 0u) << models_of(settings);
+    settings.has_medium = false;
+    EXPECT_EQ(models_of(settings), "");
 }
 
 /// Rock without a medium: three rocks on their ways, one of which comes in between two pictures.
