@@ -40,12 +40,18 @@ struct Target {
     double value = 0.0, tolerance = 0.0;
 };
 
+void begin_or_resume(const fs::path& folder, const std::string& output, std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"-o", output});
+    if (fs::exists(folder / output)) arguments.emplace_back("--resume");
+    run_cutterflow(folder, arguments);
+}
+
 /// Pours with other seeds than those of the calibration.
 std::vector<Target> measured(const fs::path& folder, const Hidden& hidden) {
     write_file(folder / "hidden.toml", read_file(case_file("recovery/rig.toml")) + "seed = 1001\n");
-    run_cutterflow(folder, {"sweep", "hidden.toml", "--set", fmt::format("{}={}", k_friction, hidden.friction), "--set",
-                            fmt::format("{}={}", k_restitution, hidden.restitution), "--repeats", std::to_string(k_pours), "-o", "hidden",
-                            "--resume"});
+    begin_or_resume(folder, "hidden",
+                    {"sweep", "hidden.toml", "--set", fmt::format("{}={}", k_friction, hidden.friction), "--set",
+                     fmt::format("{}={}", k_restitution, hidden.restitution), "--repeats", std::to_string(k_pours)});
     std::vector<Target> targets{{"left"}, {"middle"}, {"rate"}};
     for (Target& target : targets) {
         std::vector<double> values;
@@ -74,7 +80,7 @@ nlohmann::json calibrate(const fs::path& folder, const std::vector<Target>& targ
         text += fmt::format("[[target]]\nmeasure = \"{}\"\nvalue = {}\ntolerance = {}\n", target.measure, target.value, target.tolerance);
     write_file(folder / "rig.toml", read_file(case_file("recovery/rig.toml")));
     write_file(folder / "calibration.toml", text);
-    run_cutterflow(folder, {"calibrate", "calibration.toml", "-o", "calibration", "--resume"});
+    begin_or_resume(folder, "calibration", {"calibrate", "calibration.toml"});
     return nlohmann::json::parse(read_file(folder / "calibration/calibration.json"));
 }
 
