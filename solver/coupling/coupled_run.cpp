@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <numeric>
 
@@ -47,6 +48,11 @@ private:
     double& seconds_;
     Clock::time_point start_;
 };
+
+/// Of this process since its start, user and system [s]. A wait for a core is not in it.
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 /// The head's contour, bins and azimuths are about the z axis.
 std::vector<Mistake> check_axis(const ZoneMotion& zone) {
@@ -116,6 +122,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     communicator.sum(gsl::span<double>(&cells, 1));
     run_cost_.cells = cells;
     run_cost_.ranks = communicator.size();
+    processor_start_ = processor_seconds();
     last_checkpoint_ = fluid.time();
     operations_ = BedOperations(settings.operations);
     stops_ = StopRules(settings.at_rest, settings.idle, fluid.time());
@@ -456,6 +463,8 @@ void CoupledRun::finish() {
         recorder_.warning(fluid_.time(), fmt::format("the flow is not recorded: the run ended before record.endTime = {:g} s",
                                                      settings_.record->end_time));
     report_velocity();
+    run_cost_.core = processor_seconds() - processor_start_;
+    communicator_.sum(gsl::span<double>(&run_cost_.core, 1));
     recorder_.finished(run_cost_);
     recorder_.flush();
 }

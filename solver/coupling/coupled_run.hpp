@@ -124,6 +124,7 @@ private:
     ExchangeBalance balance_;
     CostRow cost_;  // of the step under way
     RunCost run_cost_;
+    double processor_start_ = 0.0;  ///< processor time of this process when the run began [s]
     double last_checkpoint_ = 0.0;
 };
 

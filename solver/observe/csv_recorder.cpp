@@ -268,7 +268,7 @@ void CsvRecorder::finished(const RunCost& cost) {
     json["cells"] = static_cast<std::int64_t>(cost.cells);
     json["steps"] = cost.steps;
     json["wall_s"] = cost.wall;
-    json["core_s"] = cost.wall * cost.ranks;
+    json["core_s"] = cost.core;
     const double total = cost.totals.fluid + cost.totals.mesh_motion + cost.totals.mapping + cost.totals.dem + cost.totals.output;
     const auto share = [total](double part) { return total > 0.0 ? part / total : 0.0; };
     json["share"] = {{"fluid", share(cost.totals.fluid)},

@@ -179,6 +179,7 @@ struct RunCost {
     double cells = 0.0;
     int steps = 0;
     double wall = 0.0;  ///< [s]
+    double core = 0.0;  ///< processor time of all ranks, user and system [s]
     CostRow totals;
 };
 

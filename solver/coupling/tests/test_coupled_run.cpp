@@ -1,7 +1,9 @@
 // The coupled run with stand-ins for fluid and DEM: stages, records, stop rule, checkpoint, pure flow.
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -121,6 +123,21 @@ TEST(CoupledRun, ends_when_a_closed_domain_has_water_too_much) {
     rig.fluid.given_loads.domain_surplus = 1e-9;
     EXPECT_THROW(rig.run->step(), CheckFailure);
     EXPECT_EQ(recorder.balance_rows.back().domain_surplus, 1e-9) << "the row that tells why is written";
+}
+
+TEST(CoupledRun, counts_processor_time_and_no_waiting) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    rig.dem.leaves = [](const Vec3&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        return false;
+    };
+    for (int i = 0; i < 3; ++i) rig.run->step();
+    rig.run->finish();
+    EXPECT_GE(recorder.run_cost->wall, 0.4);
+    EXPECT_LE(recorder.run_cost->core, 0.5 * recorder.run_cost->wall);
+    EXPECT_GT(recorder.run_cost->core, 0.0);
 }
 
 TEST(CoupledRun, follows_rock_without_a_head) {
