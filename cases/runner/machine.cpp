@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <ctime>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/process/processor_time.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -65,12 +65,6 @@ void sweep(const LatticeMatrix& a, std::vector<double>& x, std::vector<double>& 
     for (std::size_t cell = 0; cell < x.size(); ++cell) x[cell] += 0.5 * (1.0 - product[cell]) / a.diagonal[cell];
 }
 
-double core_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 }  // namespace
 
 double machine_slowness() {
@@ -78,9 +72,9 @@ double machine_slowness() {
     std::vector<double> x(matrix.diagonal.size(), 1.0), product(x.size());
     std::vector<double> seconds;
     for (int i = 0; i < k_sweeps; ++i) {
-        const double begin = core_seconds();
+        const double begin = processor_seconds();
         sweep(matrix, x, product);
-        seconds.push_back(core_seconds() - begin);
+        seconds.push_back(processor_seconds() - begin);
     }
     std::nth_element(seconds.begin(), seconds.begin() + k_sweeps / 2, seconds.end());
     return 1e9 * seconds[k_sweeps / 2] / static_cast<double>(x.size()) / k_reference_ns_per_cell;

@@ -6,7 +6,6 @@
 ///     cutterSurface --template       prints every key with its help
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -16,6 +15,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/processor_time.hpp"
 #include "geometry/base/progress.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
 #include "solver/free_surface/output/surface_recorder.hpp"
@@ -110,10 +110,6 @@ void claim(const fs::path& folder, const std::string& scene, bool resume) {
     if (!resume) throw UserError(folder.string() + " holds a run already", "Nothing is overwritten", "Add --resume, or take a new folder");
 }
 
-double core_seconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 /// The next whole multiple of an interval after a time.
 double next_multiple(double time, double interval) {
     return (std::floor(time / interval * (1.0 + 1e-12) + 1e-9) + 1.0) * interval;
@@ -142,7 +138,7 @@ void run_scene(const Arguments& arguments) {
     while (run.time() < end * (1.0 - 1e-12)) {
         run.step(std::min({output_due, checkpoint_due, end}) - run.time());
         const SceneReading reading = read_gauges(run, scene.pipe);
-        recorder.step(run, reading, core_seconds());
+        recorder.step(run, reading, processor_seconds());
         if (run.last().enclosed_waters > most_enclosed) {
             most_enclosed = run.last().enclosed_waters;
             std::cout << "note: " << enclosed_note(most_enclosed, run.time()) << std::endl;
@@ -159,7 +155,7 @@ void run_scene(const Arguments& arguments) {
         progress.update(run.time() / end, fmt::format("{:.4f} of {:g} s", run.time(), end));
     }
     write_checkpoint(arguments.folder, run.state(), engine.get());
-    progress.finish(fmt::format("{:.1f} core s", core_seconds()));
+    progress.finish(fmt::format("{:.1f} core s", processor_seconds()));
 }
 
 }  // namespace

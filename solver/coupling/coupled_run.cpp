@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numeric>
 
@@ -10,6 +9,7 @@
 #include <gsl/assert>
 
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/process/processor_time.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupling_methods.hpp"
@@ -48,11 +48,6 @@ private:
     double& seconds_;
     Clock::time_point start_;
 };
-
-/// Of this process since its start, user and system [s]. A wait for a core is not in it.
-double processor_seconds() {
-    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 /// The head's contour, bins and azimuths are about the z axis.
 std::vector<Mistake> check_axis(const ZoneMotion& zone) {
