@@ -1,6 +1,7 @@
 /// \file Friction and restitution that nobody told are looked for by `cutterflow calibrate`, from a draw-down made with them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/statistics/sample.hpp"
 #include "validation/harness/program_run.hpp"
 #include "validation/harness/reference_table.hpp"
 #include "validation/harness/verification.hpp"
@@ -19,7 +21,6 @@ using namespace cutterflow::validation;
 namespace fs = std::filesystem;
 
 constexpr int k_pours = 3;
-constexpr double k_student = 4.303;         // 95 %, of three pours
 constexpr double k_least_tolerance = 0.01;  // of a target
 const char* const k_friction = "contact.gravel-gravel.friction";
 const char* const k_restitution = "contact.gravel-gravel.restitution";
@@ -59,11 +60,9 @@ std::vector<Target> measured(const fs::path& folder, const Hidden& hidden) {
             const fs::path file = run.path() / "report/measures.json";
             if (fs::exists(file)) values.push_back(nlohmann::json::parse(read_file(file)).at(target.measure).at("value"));
         }
-        double squares = 0.0;
-        for (const double value : values) target.value += value / static_cast<double>(values.size());
-        for (const double value : values) squares += (value - target.value) * (value - target.value);
-        const double n = static_cast<double>(values.size());
-        target.tolerance = std::max(k_student * std::sqrt(squares / (n - 1.0) / n), k_least_tolerance * target.value);
+        const Sample sample = sample_of(values);
+        target.value = sample.mean;
+        target.tolerance = std::max(half_interval(sample), k_least_tolerance * target.value);
     }
     return targets;
 }
@@ -84,12 +83,10 @@ nlohmann::json calibrate(const fs::path& folder, const std::vector<Target>& targ
     return nlohmann::json::parse(read_file(folder / "calibration/calibration.json"));
 }
 
-/// How far a value lies outside the interval of a parameter; an open end has no number and holds all.
+/// How far a value lies outside the interval of a parameter; no number, which fails, where there is no interval.
 double outside(const nlohmann::json& interval, double value) {
-    if (interval.is_null()) return 0.0;
-    const double below = interval.at(0).is_null() ? 0.0 : interval.at(0).get<double>() - value;
-    const double above = interval.at(1).is_null() ? 0.0 : value - interval.at(1).get<double>();
-    return std::max({0.0, below, above});
+    if (interval.is_null()) return std::numeric_limits<double>::quiet_NaN();
+    return std::max({0.0, interval.at(0).get<double>() - value, value - interval.at(1).get<double>()});
 }
 
 void run(Verification& verification) {
