@@ -31,6 +31,7 @@ constexpr int k_rims = 16;        // of a sphere
 constexpr int k_places_along_box = 16;
 constexpr int k_lines_of_gate = 16;  // along which solids are looked for in its way
 constexpr double k_gravity = 9.81;
+constexpr double k_most_cells = 5e6;  // of a tank, with k_bytes_per_cell 3 GB; also the bound of a room's mesh
 /// Core seconds of a step: of each cell of the tank, each particle with its part of the pressure, each cell of the squares or cubes around
 /// the bodies.
 struct StepCost {
@@ -167,9 +168,22 @@ private:
         return part;
     }
 
+    /// Of a tank's edge; a plane tank has one cell across.
+    double count_cells(const std::string& key) const { return std::max(4.0, std::round(values_.number(key) / cell())); }
+
+    /// Nothing in the tank is read when this throws: its counts would be as large.
+    void require_affordable_cells() const {
+        const double cells =
+            count_cells("domain.width_m") * (plane() ? 1.0 : count_cells("domain.length_m")) * count_cells("domain.height_m");
+        if (cells > k_most_cells)
+            throw UserError(
+                std::vector<Mistake>{{values_.where("domain.cell_m"), fmt::format("The tank has {:.3g} cells", cells),
+                                      fmt::format("It has at most {:g}", k_most_cells), "Make domain.cell_m larger, or the tank smaller"}});
+    }
+
     int whole_cells(const std::string& key) {
         const double length = values_.number(key);
-        const int cells = std::max(4, static_cast<int>(std::lround(length / cell())));
+        const int cells = static_cast<int>(count_cells(key));
         if (std::abs(cells * cell() - length) > 1e-6 * length)
             scene_.notes.push_back(fmt::format("{} = {:g} m is no whole number of cells: {:g} m is used", key, length, cells * cell()));
         return cells;
@@ -194,6 +208,7 @@ private:
         tank.cell = values_.number("domain.cell_m");
         tank.plane = values_.text("domain.dimensions") == "plane";
         tank.depth = values_.number("domain.length_m");
+        require_affordable_cells();
         tank.cells = {whole_cells("domain.width_m"), tank.plane ? 1 : whole_cells("domain.length_m"), whole_cells("domain.height_m")};
         if (!tank.plane) tank.depth = tank.cells[1] * tank.cell;
     }

@@ -55,7 +55,6 @@ hole_spacing_m = 0.02
     EXPECT_NEAR(scene.settings.tank.depth, 0.1, 1e-12);
 }
 
-/// A dam of 0.1 m x 0.1 m in a tank of 0.2 m x 0.2 m, a body in it: counts by hand, a step's cost that grows with each of them.
 TEST(SceneFile, has_the_solvers_bounds_of_friction) {
     const auto mistakes_with = [](const std::string& friction) {
         return mistakes_of(k_tank + k_fill + "[contact]\nfriction = " + friction);
@@ -67,6 +66,7 @@ TEST(SceneFile, has_the_solvers_bounds_of_friction) {
     EXPECT_EQ(coupling::check_settings(dem, "").size(), 1u);
 }
 
+/// A dam of 0.1 m x 0.1 m in a tank of 0.2 m x 0.2 m, a body in it: counts by hand, a step's cost that grows with each of them.
 TEST(SceneFile, predicts_steps_and_cost_from_what_the_scene_holds) {
     const auto predicted = [](const std::string& more) { return predict(parse_scene(k_tank + k_fill + more, "scene.toml")); };
     const ScenePrediction water = predicted("");
@@ -118,6 +118,18 @@ TEST(SceneFile, refuses_gates_whose_way_is_not_free) {
     EXPECT_THAT(mistakes_of(k_tank + k_fill + "[[solid]]\nkind = \"gate\"\n"), ::testing::HasSubstr("solid.speed_m_s is missing"));
     const std::string body = "[[bodies]]\ndiameter_m = 0.01\ncentre_x_m = 0.104\nlowest_m = 0.05\n";
     EXPECT_THAT(mistakes_of(k_tank + k_fill + gate("0.5") + body), ::testing::HasSubstr("stands in a solid"));
+}
+
+/// Such a tank would fill the memory; numbers beyond the range of int are counted as well.
+TEST(SceneFile, refuses_tanks_of_too_many_cells) {
+    const auto mistakes_with = [](const std::string& width, const std::string& more = {}) {
+        return mistakes_of(std::string(k_tank).replace(k_tank.find("0.2"), 3, width).insert(k_tank.find("cell_m"), more) + k_fill);
+    };
+    EXPECT_EQ(mistakes_with("25.0"), "");
+    EXPECT_THAT(mistakes_with("25.1"), ::testing::HasSubstr("The tank has 5.02e+06 cells"));
+    EXPECT_THAT(mistakes_with("1e300"), ::testing::HasSubstr("at most 5e+06"));
+    const std::string space = "dimensions = \"space\"\nlength_m = 0.2\n";
+    EXPECT_THAT(mistakes_with("0.2", space), ::testing::HasSubstr("The tank has 8e+06 cells"));
 }
 
 TEST(SceneFile, stacks_bodies_and_derives_the_gap) {
