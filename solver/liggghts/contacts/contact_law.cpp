@@ -66,6 +66,7 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
 
     const physics::Impact impact{contact.mass, contact.radius, contact.elastic.youngs, contact.impact_speed};
     const double width = std::sqrt(contact.radius * physics::hertz_largest_overlap(impact)) / k_springs;
+    const double slip_damping = std::min(damping, contact.most_slip_damping);
     SlipMemory now;
     now.contact_radius = contact_radius;
     Vec3 force = normal_force * contact.normal;
@@ -75,8 +76,8 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
         const double kept = std::min(1.0, covered_by(i, width, memory.contact_radius).length() / part.length());
         Vec3 stretch = kept * Vec3(memory.stretch[i]) + contact.slip_velocity * time_step;
         stretch -= contact.normal * contact.normal.dot(stretch);
-        force += spring_force(8.0 * contact.elastic.shear * part.length(), damping * part.length() / contact_radius, contact.slip_velocity,
-                              contact.friction * normal_force * pressure_share(part, contact_radius), stretch);
+        force += spring_force(8.0 * contact.elastic.shear * part.length(), slip_damping * part.length() / contact_radius,
+                              contact.slip_velocity, contact.friction * normal_force * pressure_share(part, contact_radius), stretch);
         std::copy_n(stretch.data(), 3, now.stretch[i]);
     }
     if (time_step > 0.0) memory = now;
@@ -98,7 +99,7 @@ Vec3 rolling_couple(RollingLaw law, const Contact& contact, const Rolling& rolli
     angle -= contact.normal * contact.normal.dot(angle);
     angle = turned(angle, contact.normal, rolling.twist * time_step) + spin * time_step;
     const double stiffness = 8.0 * contact.elastic.shear * now.contact_radius * contact.radius * contact.radius;
-    const double damping = 2.0 * k_rolling_damping * std::sqrt(rolling.inertia * stiffness);
+    const double damping = std::min(2.0 * k_rolling_damping * std::sqrt(rolling.inertia * stiffness), rolling.most_damping);
     const Vec3 couple = spring_force(stiffness, damping, spin, limit, angle);
     std::copy_n(angle.data(), 3, now.angle);
     if (time_step > 0.0) memory = now;

@@ -118,8 +118,8 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
 Rolling WallContacts::rolling_of(const WallTouch& touch) const {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     const Vec3 of_rock(atom.omega[touch.rock]), of_wall = touch.rotating ? context_.rotor_spin : Vec3(Vec3::Zero());
-    return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall),
-            context_.rolling_inertia(atom.rmass[touch.rock], atom.radius[touch.rock], atom.density[touch.rock])};
+    const double inertia = context_.rolling_inertia(atom.rmass[touch.rock], atom.radius[touch.rock], atom.density[touch.rock]);
+    return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall), inertia, resolved_roll_damping(inertia, lammps_->update->dt)};
 }
 
 /// \param roll  null when nothing resists rolling
@@ -146,6 +146,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     contact.damping_factor = record.damping_factor;
     contact.friction = law.settings.friction;
     contact.rolling_friction = law.settings.rolling_friction;
+    contact.most_slip_damping = resolved_slip_damping(contact.mass, lammps_->update->dt);
 
     const bool setting_up = lammps_->update->setupflag != 0;
     const double time_step = setting_up ? 0.0 : lammps_->update->dt;

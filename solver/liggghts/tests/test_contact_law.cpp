@@ -57,6 +57,23 @@ TEST(ContactLaw, the_elastic_force_is_that_of_hertz) {
     EXPECT_EQ(force.head<2>().norm(), 0.0);
 }
 
+/// Before anything is stretched the damper alone resists.
+TEST(ContactLaw, slip_is_damped_no_more_than_a_step_resolves) {
+    Contact contact = rock_on_steel();
+    contact.damping_factor = 2.0;
+    contact.friction = 1e6;
+    contact.slip_velocity = Vec3(0.1, 0, 0);
+    const auto resistance = [&] {
+        SlipMemory memory;
+        return -contact_force(contact, 0.0, memory).x() / contact.slip_velocity.x();
+    };
+    const double whole = contact.damping_factor * std::sqrt(contact.mass * 4.0 / 3.0 * contact.elastic.youngs * contact_radius_of(contact));
+    EXPECT_NEAR(resistance(), whole, 1e-9 * whole);
+    contact.most_slip_damping = resolved_slip_damping(contact.mass, 1e-4);
+    ASSERT_LT(contact.most_slip_damping, whole);
+    EXPECT_NEAR(resistance(), contact.mass / 2e-3, 1e-9 * whole);
+}
+
 TEST(ContactLaw, damping_resists_approach_and_separation_and_never_pulls) {
     Contact contact = rock_on_steel();
     contact.damping_factor = physics::hertz_damping_factor(0.3);
@@ -207,6 +224,9 @@ TEST(RollingFriction, is_damped_below_the_largest_couple_alone) {
     RollMemory none;
     const double damping = 0.6 * std::sqrt(slow.inertia * stiffness);
     EXPECT_NEAR(rolling_couple(RollingLaw::spring, contact, slow, force, 0.0, none).y(), -damping * 1e-3, 1e-9 * damping * 1e-3);
+    Rolling limited = slow;
+    limited.most_damping = 0.3 * damping;
+    EXPECT_NEAR(rolling_couple(RollingLaw::spring, contact, limited, force, 0.0, none).y(), -0.3e-3 * damping, 1e-9 * damping * 1e-3);
     RollMemory rolled;
     roll_by(2.0 * limit / stiffness, contact, rolled);
     EXPECT_NEAR(rolling_couple(RollingLaw::spring, contact, rolling_with(Vec3(0, 10, 0)), force, k_step, rolled).y(), -limit,

@@ -77,6 +77,7 @@ public:
         contact.damping_factor = record.damping_factor;
         contact.friction = context_.rock_rock.settings.friction;
         contact.rolling_friction = context_.rock_rock.settings.rolling_friction;
+        contact.most_slip_damping = cutterflow::liggghts::resolved_slip_damping(contact.mass, update->dt);
         const double time_step = keep ? update->dt : 0.0;
         const Vec3 force = context_.force(contact, time_step, record.slip);
         Vec3 couple = Vec3::Zero();
@@ -123,7 +124,8 @@ private:
         const double inertia_j = context_.rolling_inertia(pair.mj, pair.radj, atom->density[pair.j]);
         const double of_both = inertia_i * inertia_j / (inertia_i + inertia_j);
         const double inertia = is_frozen(pair.i) ? inertia_j : is_frozen(pair.j) ? inertia_i : of_both;
-        return {spin_i - spin_j, 0.5 * normal.dot(spin_i + spin_j), inertia};
+        return {spin_i - spin_j, 0.5 * normal.dot(spin_i + spin_j), inertia,
+                cutterflow::liggghts::resolved_roll_damping(inertia, update->dt)};
     }
 
     /// Harmonic mean of the diameters, mean of the densities: for equal rocks the rock's own, as on a wall.
