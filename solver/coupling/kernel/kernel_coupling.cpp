@@ -411,6 +411,8 @@ void KernelCoupling::check_ranges() {
     if (mapping_.had_hidden_rock())
         warn_once("hidden",
                   "a rock's centre lies inside the mesh's steel; it is mapped from the nearest cell (steel of mesh and walls differ)");
+    if (mapping_.had_cramped_rock())
+        warn_once("cramped", "a rock in a nook of the mesh sees too few cells to lie in; it also lies in cells behind the steel");
 }
 
 void KernelCoupling::check_range(const physics::Closure& closure, const physics::RockNumbers& numbers, int id) {

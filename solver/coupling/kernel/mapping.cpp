@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/kernels.hpp"
 #include "solver/ports/mapping_width.hpp"
 
@@ -35,9 +36,16 @@ CheckFailure no_cell_near(const RockShapes& rocks, std::size_t rock, double dist
                          "Rock must stay inside the mesh", "Let rock.domain end inside the mesh"});
 }
 
+// A rock that sees less than this many times the room that it needs also lies in cells behind steel.
+constexpr double k_ample = 2.0;
+
+/// Sums over a rock's cells, rock by rock in one array. Room is the cells' volume, which fades to 0 at the kernel's reach so that none
+/// appears with a jump.
+enum RockSum { deposit_sum, sample_sum, seen_room, hidden_room, k_sums };
+
 /// Whether a rock has cells, by the sums of w V and psi V over all ranks.
 bool is_mapped(const std::vector<double>& sums, std::size_t rock) {
-    return sums[2 * rock] > 0.0 && sums[2 * rock + 1] > 0.0;
+    return sums[k_sums * rock + deposit_sum] > 0.0 && sums[k_sums * rock + sample_sum] > 0.0;
 }
 
 }  // namespace
@@ -107,20 +115,22 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     stencils.clear();
     stencils.shared = SharedRocks(communicator_.rank());
     ++builds_;
-    std::vector<double> sums(2 * rocks.size(), 0.0);  // of w V and psi V, rock by rock
+    std::vector<double> sums(k_sums * rocks.size(), 0.0);
     if (groups_)
         lay_in_groups(rocks, stencils, sums);
     else
         lay_kernels(rocks, stencils, sums);
     forget_vicinities(stencils.shared.near().size());
-    stencils.shared.sum(sums, 2, communicator_);
+    stencils.shared.sum(sums, k_sums, communicator_);
+    std::vector<std::size_t> hidden;
     if (!all_are_mapped(stencils, sums)) {
-        replace_hidden(rocks, stencils, sums);
+        hidden = replace_hidden(rocks, stencils, sums);
         if (!all_are_mapped(stencils, sums)) refuse_unmapped(rocks, stencils, sums);
     }
+    if (!groups_) make_room_for_cramped(rocks, stencils, sums, hidden);
 
     for (const std::size_t p : stencils.shared.near()) {
-        const double deposit_scale = 1.0 / sums[2 * p], sample_scale = 1.0 / sums[2 * p + 1];
+        const double deposit_scale = 1.0 / sums[k_sums * p + deposit_sum], sample_scale = 1.0 / sums[k_sums * p + sample_sum];
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
             stencils.deposit[i] *= deposit_scale;
             stencils.sample[i] *= sample_scale;
@@ -137,10 +147,14 @@ void Mapping::lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vect
             stencils.first.push_back(stencils.cell.size());
             continue;
         }
-        const double narrowest = mapping_width(kernel_, rocks.diameter[p], sizes_.smallest());
-        visibility_.look_from(rocks.position[p], physics::k_kernel_reach * stencils.width[p], k_lattice_spacing * narrowest);
-        add_entries(rocks, p, stencils, sums);
+        look_from(rocks, p, stencils.width[p]);
+        add_entries(rocks, p, 0.0, stencils, sums);
     }
+}
+
+void Mapping::look_from(const RockShapes& rocks, std::size_t rock, double width) {
+    const double narrowest = mapping_width(kernel_, rocks.diameter[rock], sizes_.smallest());
+    visibility_.look_from(rocks.position[rock], physics::k_kernel_reach * width, k_lattice_spacing * narrowest);
 }
 
 /// The same with one group of cells per rock.
@@ -166,9 +180,9 @@ void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::ve
         if (nearest[p].distance > farthest) throw no_cell_near(rocks, p, farthest);
         for (const CellGroups::Member& member : groups_->members(nearest[p].group)) {
             stencils.cell.push_back(member.cell);
-            sums[2 * p] += cells().volumes[static_cast<std::size_t>(member.cell)];
+            sums[k_sums * p + deposit_sum] += cells().volumes[static_cast<std::size_t>(member.cell)];
         }
-        sums[2 * p + 1] = sums[2 * p];
+        sums[k_sums * p + sample_sum] = sums[k_sums * p + deposit_sum];
         stencils.first.push_back(stencils.cell.size());
     }
     stencils.deposit.assign(stencils.cell.size(), 1.0);
@@ -237,12 +251,12 @@ const NearbyCells& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, con
 }
 
 /// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's
-/// sums.
-void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums) {
+/// sums. \param through_steel  what a hidden cell counts of one in view
+void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
     const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
     const bool sees_all = visibility_.sees_all();
-    double deposit_sum = 0.0, sample_sum = 0.0;
+    double deposits = 0.0, samples = 0.0, seen = 0.0, behind = 0.0;
     const double reach2 = physics::k_kernel_reach2 * width * width;
     std::size_t entries = stencils.cell.size();
     for (Zone zone = 0; zone < frames_.zones(); ++zone) {
@@ -252,45 +266,44 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, Stencils& s
         for (const std::int32_t place : nearby.cells) {
             const double squared_distance = (trees_.centre(place) - here).squaredNorm();
             if (squared_distance >= reach2) continue;
-            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(place);
+            const double in_view = sees_all ? 1.0 : visibility_.visible_fraction(place);
+            const double volume = trees_.volume(place), room = (1.0 - squared_distance / reach2) * volume;
+            seen += in_view * room;
+            behind += (1.0 - in_view) * room;
+            const double visible = in_view + (1.0 - in_view) * through_steel;
             if (visible == 0.0) continue;
             const double q = squared_distance * inverse_width2;
             const double gaussian = physics::gaussian_weight(q);
             const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(q, gaussian, quadratic_share);
-            const double volume = trees_.volume(place);
             stencils.cell[entries] = trees_.number(place);
             stencils.deposit[entries] = deposit;
             stencils.sample[entries] = sample;
             ++entries;
-            deposit_sum += deposit * volume;
-            sample_sum += sample * volume;
+            deposits += deposit * volume;
+            samples += sample * volume;
         }
     }
     stencils.resize_entries(entries);
     stencils.first.push_back(stencils.cell.size());
-    sums[2 * rock] = deposit_sum;
-    sums[2 * rock + 1] = sample_sum;
+    sums[k_sums * rock + deposit_sum] = deposits;
+    sums[k_sums * rock + sample_sum] = samples;
+    sums[k_sums * rock + seen_room] = seen;
+    sums[k_sums * rock + hidden_room] = behind;
 }
 
-/// Rocks without a visible cell (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie inside the
-/// mesh's steel) are mapped from the centre of the nearest cell.
-void Mapping::replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
-    had_hidden_rock_ = true;
-    std::vector<std::size_t> hidden;
-    for (const std::size_t p : stencils.shared.near())
-        if (!is_mapped(sums, p)) hidden.push_back(p);
+/// Lays some of the rocks near this rank again. Collective. \param lay  adds the entries of one of them
+template <typename Lay>
+void Mapping::lay_again(const std::vector<std::size_t>& again, const Lay& lay, Stencils& stencils, std::vector<double>& sums) {
     Stencils replaced;
     replaced.shared = stencils.shared;
     replaced.first.push_back(0);
     replaced.width = stencils.width;
     replaced.zone = stencils.zone;
     std::vector<double> new_sums(sums.size(), 0.0);
-    auto next = hidden.begin();
-    for (std::size_t p = 0; p < rocks.size(); ++p) {
-        if (next != hidden.end() && *next == p) {
-            visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[p]),
-                                        physics::k_kernel_reach * 2.0 * stencils.width[p]);
-            add_entries(rocks, p, replaced, new_sums);
+    auto next = again.begin();
+    for (std::size_t p = 0; p < stencils.size(); ++p) {
+        if (next != again.end() && *next == p) {
+            lay(p, replaced, new_sums);
             ++next;
             continue;
         }
@@ -301,9 +314,55 @@ void Mapping::replace_hidden(const RockShapes& rocks, Stencils& stencils, std::v
         }
         replaced.first.push_back(replaced.cell.size());
     }
-    replaced.shared.sum(new_sums, 2, communicator_);
-    for (const std::size_t p : hidden) std::copy_n(&new_sums[2 * p], 2, &sums[2 * p]);
+    replaced.shared.sum(new_sums, k_sums, communicator_);
+    for (const std::size_t p : again) std::copy_n(&new_sums[k_sums * p], k_sums, &sums[k_sums * p]);
     stencils = std::move(replaced);
+}
+
+/// Rocks without a visible cell (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie inside the
+/// mesh's steel) are mapped from the centre of the nearest cell. \return those near this rank
+std::vector<std::size_t> Mapping::replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
+    had_hidden_rock_ = true;
+    std::vector<std::size_t> hidden;
+    for (const std::size_t p : stencils.shared.near())
+        if (!is_mapped(sums, p)) hidden.push_back(p);
+    const std::vector<double> width = stencils.width;
+    const auto lay = [&](std::size_t p, Stencils& replaced, std::vector<double>& new_sums) {
+        visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[p]), physics::k_kernel_reach * 2.0 * width[p]);
+        add_entries(rocks, p, 0.0, replaced, new_sums);
+    };
+    lay_again(hidden, lay, stencils, sums);
+    return hidden;
+}
+
+/// What a hidden cell counts for a rock: 0 when it sees k_ample times the room that holds it at kernel.maxSolidFraction, 1 when it sees
+/// nothing, between them in proportion.
+double Mapping::share_through_steel(double diameter, double seen) const {
+    const double ample = k_ample * sphere_volume(diameter) / kernel_.max_solid_fraction;
+    return std::max(0.0, 1.0 - seen / ample);
+}
+
+/// A rock in a nook of the mesh, where it sees too few cells to lie in, is laid over cells behind the steel as well. Otherwise no cell in
+/// its reach had room for it.
+void Mapping::make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
+                                    const std::vector<std::size_t>& hidden) {
+    std::vector<std::size_t> cramped;
+    const auto share = [&](std::size_t p) { return share_through_steel(rocks.diameter[p], sums[k_sums * p + seen_room]); };
+    for (const std::size_t p : stencils.shared.near())
+        if (sums[k_sums * p + hidden_room] > 0.0 && share(p) > 0.0) cramped.push_back(p);
+    auto all = static_cast<double>(cramped.size());
+    communicator_.sum(gsl::span<double>(&all, 1));
+    if (all == 0.0) return;
+    had_cramped_rock_ = true;
+    const std::vector<double> width = stencils.width;
+    const auto lay = [&](std::size_t p, Stencils& replaced, std::vector<double>& new_sums) {
+        if (std::binary_search(hidden.begin(), hidden.end(), p))
+            visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[p]), physics::k_kernel_reach * 2.0 * width[p]);
+        else
+            look_from(rocks, p, width[p]);
+        add_entries(rocks, p, share(p), replaced, new_sums);
+    };
+    lay_again(cramped, lay, stencils, sums);
 }
 
 void deposit(const Stencils& stencils, gsl::span<const double> amount, gsl::span<double> cell_values) {

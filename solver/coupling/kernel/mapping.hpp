@@ -61,6 +61,8 @@ public:
     const Cells& cells() const { return trees_.cells(); }
     /// Whether a rock (of all builds so far, on any rank) saw no cell and was mapped from the nearest cell's centre instead.
     bool had_hidden_rock() const { return had_hidden_rock_; }
+    /// Whether a rock saw so few cells that it was laid over cells behind steel as well.
+    bool had_cramped_rock() const { return had_cramped_rock_; }
     const Visibility& visibility() const { return visibility_; }
 
 private:
@@ -81,8 +83,14 @@ private:
     void forget_vicinities(std::size_t rocks);
     void lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
-    void add_entries(const RockShapes& rocks, std::size_t rock, Stencils& stencils, std::vector<double>& sums);
-    void replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
+    void look_from(const RockShapes& rocks, std::size_t rock, double width);
+    void add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums);
+    template <typename Lay>
+    void lay_again(const std::vector<std::size_t>& again, const Lay& lay, Stencils& stencils, std::vector<double>& sums);
+    std::vector<std::size_t> replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
+    double share_through_steel(double diameter, double seen) const;
+    void make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
+                               const std::vector<std::size_t>& hidden);
 
     std::vector<ZoneMotion> moving_;
     ZoneFrames frames_;
@@ -97,6 +105,7 @@ private:
     Kept last_;                         // unused once the mesh has turned
     bool has_turned_ = false;
     bool had_hidden_rock_ = false;
+    bool had_cramped_rock_ = false;
 
     /// Cells about a rock, found when it was near by.
     struct KnownVicinity {

@@ -284,6 +284,50 @@ TEST(RockInSteel, is_mapped_from_the_nearest_cell_on_its_side) {
     for (const std::int32_t c : s.cell) EXPECT_GT(bench.mesh.centres[static_cast<std::size_t>(c)][2], 0.003);
 }
 
+/// Six sheets around a box.
+void add_sheets_around(SyntheticMesh& mesh, const Vec3& low, const Vec3& high) {
+    const Vec3 size = high - low;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {0.0, 1.0}) {
+            const Vec3 a = size[(axis + 1) % 3] * Vec3::Unit((axis + 1) % 3), b = size[(axis + 2) % 3] * Vec3::Unit((axis + 2) % 3);
+            mesh.add_sheet(low + side * size[axis] * Vec3::Unit(axis), a, b, 4, 4, false);
+        }
+}
+
+/// Two cells of 6 mm wide, one high, `length` long.
+SyntheticMesh box_with_a_nook(double length) {
+    SyntheticMesh mesh = cube(0.12, 0.006);
+    add_sheets_around(mesh, Vec3(-0.06, 0.0, 0.0), Vec3(-0.06 + length, 0.012, 0.006));
+    return mesh;
+}
+
+TEST(CrampedRock, finds_room_behind_the_steel_of_a_nook) {
+    Bench bench(box_with_a_nook(0.012));                                    // 0.9e-6 m3
+    const TestRocks rocks = one_rock(Vec3(-0.0545, 0.006, 0.0035), 0.018);  // 3.1e-6 m3
+    Stencils stencils = bench.build(rocks);
+    EXPECT_TRUE(bench.mapping.had_cramped_rock());
+    Stencils* const all[] = {&stencils};
+    const auto f = redistribute(all, rocks.volumes(), bench.mesh.volumes, 0.7, bench.serial)[0];
+    EXPECT_LE(*std::max_element(f.begin(), f.end()), 0.7);
+    EXPECT_LE(bench.normalisation(stencils), 1e-12);
+}
+
+/// Towards the nook's end it sees less and less: what it lays behind the steel grows without a jump.
+TEST(CrampedRock, moves_in_a_nook_without_a_jump) {
+    Bench nook(box_with_a_nook(0.12)), open(cube(0.12, 0.006));
+    const Vec3 from(0.0, 0.006, 0.0035), to(-0.0545, 0.006, 0.0035);
+    const double d = 0.018, step = 0.02 * d;
+    const StepChange in_nook = change_along(nook, from, to, step, d), in_open = change_along(open, from, to, step, d);
+    EXPECT_TRUE(nook.mapping.had_cramped_rock());
+    EXPECT_LE(in_nook.moved, 2.0 * in_open.moved);
+}
+
+TEST(CrampedRock, is_no_rock_beside_steel_with_room_on_its_side) {
+    Bench bench(box_with_a_nook(0.012));
+    bench.build(one_rock(Vec3(-0.054, -0.0095, 0.006), 0.018));
+    EXPECT_FALSE(bench.mapping.had_cramped_rock());
+}
+
 /// Rotor and stator of an annulus with cells that differ in size across the interface at r = 0.2.
 SyntheticMesh annulus() {
     SyntheticMesh mesh;
@@ -380,9 +424,12 @@ TEST(Ranks, share_the_cells_without_a_trace) {
         SyntheticMesh mesh = annulus();
         mesh.add_sheet(Vec3(0.06, 0, -0.2), Vec3(0.135, 0, 0), Vec3(0, 0, 0.4), 20, 40, true);
         mesh.add_sheet(Vec3(0.21, 0.02, -0.2), Vec3(0.1, 0.02, 0), Vec3(0, 0, 0.4), 20, 40, false);
+        // A nook that the ranks share, with a rock that fills it.
+        add_sheets_around(mesh, Vec3(-0.17, 0.004, -0.01), Vec3(-0.15, 0.016, 0.01));
         return mesh;
     }();
     TestRocks rocks;
+    rocks.add(Vec3(-0.16, 0.0098, 0.0), 0.02);
     for (int i = 0; i < 12; ++i) rocks.add(Vec3(0.12 + 0.011 * i, 0.013 + 0.001 * i, -0.05 + 0.009 * i), i % 3 == 0 ? 0.03 : 0.02);
     const double angle = 0.11;
     SerialCommunicator serial;
@@ -390,6 +437,7 @@ TEST(Ranks, share_the_cells_without_a_trace) {
     one.set_time(angle);
     std::vector<double> expected(whole.size(), 0.0);
     const Stencils stencils = stencils_of(one, rocks);
+    EXPECT_TRUE(one.had_cramped_rock());
     deposit(stencils, rocks.volumes(), expected);
     std::vector<double> expected_sample(rocks.id.size(), 0.0);
     for (std::size_t p = 0; p < rocks.id.size(); ++p)
