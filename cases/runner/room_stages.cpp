@@ -256,6 +256,15 @@ private:
         return last + 1;
     }
 
+    static nlohmann::json turn_json(const coupling::WallTurn& turn) {
+        const Vec3 &origin = turn.axis.origin, &direction = turn.axis.direction;
+        return {{"origin_m", {origin.x(), origin.y(), origin.z()}},
+                {"axis", {direction.x(), direction.y(), direction.z()}},
+                {"speed_rad_s", turn.speed},
+                {"from_s", turn.begin},
+                {"to_s", turn.end}};
+    }
+
     nlohmann::json room_json() const {
         std::size_t poured = 0;
         double mass = 0.0;
@@ -271,6 +280,7 @@ private:
                 one["travel"] = {{"velocity_m_s", {solid.travel->velocity.x(), solid.travel->velocity.y(), solid.travel->velocity.z()}},
                                  {"from_s", solid.travel->begin},
                                  {"to_s", solid.travel->end}};
+            if (solid.turn) one["turn"] = turn_json(*solid.turn);
             if (solid.removed_at) one["removed_at_s"] = *solid.removed_at;
             solids.push_back(one);
         }

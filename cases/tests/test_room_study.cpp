@@ -90,7 +90,7 @@ TEST_F(RoomStudy, every_example_reads) {
         EXPECT_NO_THROW(read_room(entry.path())) << entry.path();
         ++studies;
     }
-    EXPECT_EQ(studies, 14);
+    EXPECT_EQ(studies, 15);
 }
 
 /// Grains of a pour lie in its region as a whole, clear of each other and of the solids; batches come when earlier ones have fallen.
@@ -235,6 +235,17 @@ TEST_F(RoomStudy, fed_grains_come_at_their_rate) {
     EXPECT_NEAR(half, 0.025, 2e-4);
 }
 
+TEST_F(RoomStudy, solids_turn_about_an_axis_of_their_own) {
+    const std::string turn = "turn_rpm = -30\nturn_axis = [0, 3, 4]\nturn_origin_m = [0, 0.01, 0.08]";
+    const RoomScene scene = read_room(write(changed("velocity_m_s = [0, 0, 0.03]", turn)));
+    ASSERT_TRUE(scene.solids[1].turn);
+    EXPECT_FALSE(scene.solids[1].travel);
+    EXPECT_NEAR(scene.solids[1].turn->speed, -k_pi, 1e-12);
+    EXPECT_NEAR((scene.solids[1].turn->axis.direction - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-12);
+    EXPECT_EQ(scene.solids[1].turn->axis.origin, Vec3(0, 0.01, 0.08));
+    EXPECT_EQ(scene.solids[1].turn->end, 4.0);
+}
+
 TEST_F(RoomStudy, bed_is_named_by_what_makes_it) {
     const auto name_of = [&](const std::string& text) {
         const RoomRequest request = read_room_request(write(text));
@@ -329,6 +340,9 @@ INSTANTIATE_TEST_SUITE_P(
             "An opening below 3 diameters"},
         Bad{"name = \"tube\"\n", "name = \"disc\"\n", "is given twice"}, Bad{"from_s = 0.0\n", "", "the motion of tube is not complete"},
         Bad{"to_s = 4.0\n", "to_s = 0.0\n", "It is after from_s"},
+        Bad{"velocity_m_s", "turn_rpm = 5\nvelocity_m_s", "A solid travels or turns"},
+        Bad{"velocity_m_s = [0, 0, 0.03]", "turn_rpm = 5", "the motion of tube is not complete"},
+        Bad{"velocity_m_s = [0, 0, 0.03]", "turn_rpm = 5\nturn_axis = [0, 0, 0]\nturn_origin_m = [0, 0, 0]", "It is a direction"},
         Bad{"[[contact]]\npair = [\"glass\", \"steel\"]", "[[contact]]\npair = [\"glass\", \"steeel\"]", "Did you mean steel"},
         Bad{"pair = [\"glass\", \"steel\"]", "pair = [\"glass\", \"glass\"]", "[[contact]] of glass and steel is missing"},
         Bad{"pair = [\"glass\", \"steel\"]", "pair = [\"wood\", \"steel\"]", "One of the two is the grains' material"},

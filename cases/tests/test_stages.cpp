@@ -138,6 +138,7 @@ TEST(StageInputs, of_a_room_belong_to_the_stage_that_every_row_names) {
                                                       {"solid.inner_radius_m", "geometry"},
                                                       {"solid.material", "bed"},
                                                       {"solid.velocity_m_s", "case"},
+                                                      {"solid.turn_rpm", "case"},
                                                       {"boundary.flow", "mesh"},
                                                       {"boundary.grains", "bed"},
                                                       {"contact.friction", "bed"},

@@ -43,6 +43,7 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
       may_be_open_(given.material == coupling::k_soil),
       removed_at_(given.removed_at),
       travel_(given.travel),
+      turn_(given.turn),
       surface_velocity_(given.surface_velocity),
       rotor_(rotor) {}
 
@@ -50,10 +51,12 @@ WallPose SteelWall::pose(double time) const {
     WallPose pose;
     pose.way = travel_.way(time);
     pose.travel = travel_.velocity_at(time);
-    if (!rotating_) return pose;
-    pose.turn = Eigen::AngleAxisd(rotor_.angle(time), rotor_.axis.direction).toRotationMatrix();
-    pose.origin = rotor_.axis.origin;
-    pose.spin = rotor_.speed * rotor_.axis.direction;
+    if (!rotating_ && turn_.speed == 0.0) return pose;
+    const RotationAxis& axis = rotating_ ? rotor_.axis : turn_.axis;
+    const double angle = rotating_ ? rotor_.angle(time) : turn_.angle(time);
+    pose.turn = Eigen::AngleAxisd(angle, axis.direction).toRotationMatrix();
+    pose.origin = axis.origin;
+    pose.spin = rotating_ ? Vec3(rotor_.speed * axis.direction) : turn_.spin_at(time);
     return pose;
 }
 
@@ -78,6 +81,7 @@ void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallConta
             touch.rock = static_cast<int>(rock);
             touch.body = body_;
             touch.rotating = rotating_;
+            touch.wall_spin = now.spin;
             touch.normal = now.turn * (centre - point.place).normalized();
             touch.overlap = radius - point.distance;
             touch.wall_velocity = now.velocity_at(position - point.distance * touch.normal) + surface_velocity_ -

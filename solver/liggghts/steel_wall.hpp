@@ -36,7 +36,7 @@ struct SteelPoint {
 /// that point too and comes nearer. So the distance to the surface has a minimum there, and no seam of a plane counts.
 std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius);
 
-/// A wall given as STL. It turns with the rotor, travels or stands; the rocks are taken into its frame, so that its
+/// A wall given as STL. It turns with the rotor or by itself, travels or stands; the rocks are taken into its frame, so that its
 /// triangles are never moved and are sorted once.
 class SteelWall {
 public:
@@ -73,6 +73,7 @@ private:
     bool may_be_open_;
     double removed_at_;
     coupling::WallTravel travel_;
+    coupling::WallTurn turn_;
     Vec3 surface_velocity_;
     coupling::ZoneMotion rotor_;
     std::vector<Neighbourhood> neighbourhoods_;  // of the rocks, in LIGGGHTS' order

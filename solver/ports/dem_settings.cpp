@@ -41,6 +41,15 @@ void check_walls(Mistakes& mistakes, const DemSettings& settings) {
         mistakes.require(travel.velocity.allFinite() && travel.begin <= travel.end,
                          fmt::format("{}.travel: from {} to {}", key, travel.begin, travel.end),
                          "A wall travels from a time to a later one", k_correct);
+        const WallTurn& turn = wall.turn;
+        mistakes.require(std::isfinite(turn.speed) && turn.axis.origin.allFinite() && turn.begin <= turn.end,
+                         fmt::format("{}.turn: {} rad/s from {} to {}", key, turn.speed, turn.begin, turn.end),
+                         "A wall turns from a time to a later one", k_correct);
+        mistakes.require(std::abs(turn.axis.direction.norm() - 1.0) < 1e-9, fmt::format("{}.turn.axis", key), "It must be of length 1",
+                         k_correct);
+        mistakes.require(turn.speed == 0.0 || (!wall.rotating && travel.velocity.norm() == 0.0),
+                         fmt::format("{} turns by itself and {}", key, wall.rotating ? "with the moving zone" : "travels"),
+                         "A wall moves in one way", "Remove one of them");
     }
     for (const char* side : k_domain_sides)
         mistakes.require(names.count(side) == 0, fmt::format("rock.walls.{} is called as a side of the domain", side),

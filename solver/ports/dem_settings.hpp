@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/vec3.hpp"
 #include "solver/ports/settings.hpp"
 
@@ -99,14 +100,24 @@ struct WallTravel {
     Vec3 velocity_at(double time) const { return time > begin && time <= end ? velocity : Vec3(Vec3::Zero()); }
 };
 
-/// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels is given where
-/// it stands at first. Its material says which pair its contacts with rock follow. A wall whose surface runs, as a belt's, is at rest but
-/// for the velocity along it.
+/// Constant rotation of a wall about an axis of its own from one time to another; before and after it stands.
+struct WallTurn {
+    RotationAxis axis;
+    double speed = 0.0;             ///< [rad/s], right-handed about the axis; 0: it does not turn
+    double begin = 0.0, end = 0.0;  ///< [s]
+    double angle(double time) const { return speed * std::clamp(time - begin, 0.0, end - begin); }
+    Vec3 spin_at(double time) const { return time > begin && time <= end ? Vec3(speed * axis.direction) : Vec3(Vec3::Zero()); }
+};
+
+/// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels, or turns by
+/// itself, is given where it stands at first. Its material says which pair its contacts with rock follow. A wall whose surface runs, as a
+/// belt's, is at rest but for the velocity along it.
 struct WallSettings {
     std::string name;
     std::filesystem::path file;
     bool rotating = false;
     WallTravel travel{};
+    WallTurn turn{};
     std::string material = k_steel;
     double removed_at = std::numeric_limits<double>::infinity();  ///< from then on it exerts nothing [s]
     Vec3 surface_velocity = Vec3::Zero();                         ///< of which the part along the surface counts [m/s]

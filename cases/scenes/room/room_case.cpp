@@ -90,6 +90,13 @@ FoamValue wall_list(const RoomScene& scene, const std::string& to_run, bool move
             wall.add(
                 "travel",
                 FoamDictionary().add("velocity", solid.travel->velocity).add("from", solid.travel->begin).add("to", solid.travel->end));
+        if (moves && solid.turn)
+            wall.add("turn", FoamDictionary()
+                                 .add("origin", solid.turn->axis.origin)
+                                 .add("axis", solid.turn->axis.direction)
+                                 .add("speed", solid.turn->speed)
+                                 .add("from", solid.turn->begin)
+                                 .add("to", solid.turn->end));
         if (moves && solid.removed_at) wall.add("removedAt", *solid.removed_at);
         walls.emplace_back(wall);
     }

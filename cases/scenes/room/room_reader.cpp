@@ -464,25 +464,49 @@ private:
             solid.removed_at = values.number("solid.removed_at_s");
             refuse_in_medium(solid, where, "is taken away");
         }
-        read_travel(values, solid);
+        read_motion(values, solid);
         if (!read_surface(values, solid)) return;
         require_inside(solid, where);
         scene_.solids.push_back(std::move(solid));
     }
 
-    void read_travel(const ParameterValues& values, RoomSolid& solid) {
-        const char* const keys[] = {"solid.velocity_m_s", "solid.from_s", "solid.to_s"};
-        const auto given = std::count_if(std::begin(keys), std::end(keys), [&](const char* key) { return values.has(key); });
-        if (given == 0) return;
+    /// How many of these keys are given.
+    static int given(const ParameterValues& values, std::initializer_list<const char*> keys) {
+        return static_cast<int>(std::count_if(keys.begin(), keys.end(), [&](const char* key) { return values.has(key); }));
+    }
+
+    void read_motion(const ParameterValues& values, RoomSolid& solid) {
+        const bool travels = values.has("solid.velocity_m_s");
+        const int of_turn = given(values, {"solid.turn_rpm", "solid.turn_axis", "solid.turn_origin_m"});
+        const int times = given(values, {"solid.from_s", "solid.to_s"});
+        if (!travels && of_turn + times == 0) return;
         const std::string where = values.where("solid.name");
-        if (given < 3)
-            return refuse(where, fmt::format("the motion of {} is not complete", solid.name),
-                          "A solid moves with velocity_m_s from from_s to to_s", "Give all three");
-        solid.travel = coupling::WallTravel{vec3_of(values, keys[0]), values.number(keys[1]), values.number(keys[2])};
-        if (solid.travel->begin >= solid.travel->end)
-            refuse(values.where(keys[2]), fmt::format("solid.to_s = {:g} of {}", solid.travel->end, solid.name),
-                   fmt::format("It is after from_s = {:g}", solid.travel->begin), "Correct one of them");
+        if (travels && of_turn > 0)
+            return refuse(where, fmt::format("{} has velocity_m_s and keys of a turn", solid.name), "A solid travels or turns",
+                          "Remove one of them");
+        if (times < 2 || (!travels && of_turn < 3))
+            return refuse(
+                where, fmt::format("the motion of {} is not complete", solid.name),
+                "A solid travels with velocity_m_s, or turns with turn_rpm about turn_axis through turn_origin_m, from from_s to to_s",
+                "Give all of them");
+        const double begin = values.number("solid.from_s"), end = values.number("solid.to_s");
+        if (begin >= end)
+            refuse(values.where("solid.to_s"), fmt::format("solid.to_s = {:g} of {}", end, solid.name),
+                   fmt::format("It is after from_s = {:g}", begin), "Correct one of them");
+        if (travels)
+            solid.travel = coupling::WallTravel{vec3_of(values, "solid.velocity_m_s"), begin, end};
+        else
+            read_turn(values, begin, end, solid);
         refuse_in_medium(solid, where, "moves");
+    }
+
+    void read_turn(const ParameterValues& values, double begin, double end, RoomSolid& solid) {
+        const Vec3 axis = vec3_of(values, "solid.turn_axis");
+        if (axis.norm() == 0.0)
+            return refuse(values.where("solid.turn_axis"), fmt::format("solid.turn_axis of {} has no length", solid.name),
+                          "It is a direction", "Give one that is not 0");
+        solid.turn = coupling::WallTurn{
+            {vec3_of(values, "solid.turn_origin_m"), axis.normalized()}, values.number("solid.turn_rpm") * k_pi / 30.0, begin, end};
     }
 
     void refuse_in_medium(const RoomSolid& solid, const std::string& where, const char* what) {

@@ -65,6 +65,7 @@ struct RoomSolid {
     bool felt_by_fluid = true;          ///< false: grains alone feel it
     std::string material;
     std::optional<coupling::WallTravel> travel;
+    std::optional<coupling::WallTurn> turn;
     std::optional<double> removed_at;  ///< [s]; negative: it is there for the preparation alone
     std::optional<Bore> bore;
     double thinnest = 0.0;  ///< its thinnest part, for the mesh [m]; 0: not known, as of a file

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
@@ -98,6 +99,9 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
         if (solid.contains("travel"))
             text += fmt::format("; moves from {:g} to {:g} s", solid.at("travel").at("from_s").get<double>(),
                                 solid.at("travel").at("to_s").get<double>());
+        if (solid.contains("turn"))
+            text += fmt::format("; turns at {:.4g} rpm from {:g} to {:g} s", solid.at("turn").at("speed_rad_s").get<double>() * 30.0 / k_pi,
+                                solid.at("turn").at("from_s").get<double>(), solid.at("turn").at("to_s").get<double>());
         if (solid.contains("removed_at_s")) text += fmt::format("; taken away at {:g} s", solid.at("removed_at_s").get<double>());
         rows.push_back({html::escape(solid.at("name").get<std::string>()), text});
     }

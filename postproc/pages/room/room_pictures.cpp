@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "geometry/base/axis_frame.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/palette.hpp"
 #include "postproc/draw/rendering.hpp"
@@ -22,19 +23,33 @@ Vec3 vec3_in(const nlohmann::json& list) {
     return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
 }
 
+/// Time [s] for which a motion has lasted.
+double lasted(const nlohmann::json& motion, double time) {
+    const double begin = motion.at("from_s").get<double>(), end = motion.at("to_s").get<double>();
+    return std::clamp(time - begin, 0.0, end - begin);
+}
+
+/// Where a point of a solid is at a time.
+Vec3 moved(const nlohmann::json& solid, double time, const Vec3& point) {
+    if (solid.contains("travel")) {
+        const nlohmann::json& travel = solid.at("travel");
+        return point + vec3_in(travel.at("velocity_m_s")) * lasted(travel, time);
+    }
+    if (solid.contains("turn")) {
+        const nlohmann::json& turn = solid.at("turn");
+        return rotate_about({vec3_in(turn.at("origin_m")), vec3_in(turn.at("axis"))},
+                            turn.at("speed_rad_s").get<double>() * lasted(turn, time), point);
+    }
+    return point;
+}
+
 /// The solids as they stand at a time.
 TriangleSurface solids_at(const nlohmann::json& room, const std::filesystem::path& run, double time) {
     TriangleSurface all;
     for (const nlohmann::json& solid : room.at("solids")) {
         if (solid.contains("removed_at_s") && time >= solid.at("removed_at_s").get<double>()) continue;
-        Vec3 way = Vec3::Zero();
-        if (solid.contains("travel")) {
-            const nlohmann::json& travel = solid.at("travel");
-            const double begin = travel.at("from_s").get<double>(), end = travel.at("to_s").get<double>();
-            way = vec3_in(travel.at("velocity_m_s")) * std::clamp(time - begin, 0.0, end - begin);
-        }
         for (Triangle triangle : read_binary_stl(run / solid.at("file").get<std::string>())) {
-            for (Vec3& corner : triangle) corner += way;
+            for (Vec3& corner : triangle) corner = moved(solid, time, corner);
             all.push_back(triangle);
         }
     }

@@ -113,6 +113,14 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
         travel.read("from", wall.travel.begin, k_required);
         travel.read("to", wall.travel.end, k_required);
     });
+    read_section(section, "turn", k_optional, [&](DictionarySection& turn) {
+        turn.read("origin", wall.turn.axis.origin, k_required);
+        turn.read("axis", wall.turn.axis.direction, k_required);
+        turn.read("speed", wall.turn.speed, k_required);
+        turn.read("from", wall.turn.begin, k_required);
+        turn.read("to", wall.turn.end, k_required);
+        if (wall.turn.axis.direction.norm() > 0.0) wall.turn.axis.direction.normalize();
+    });
     section.read("removedAt", wall.removed_at, k_optional);
     section.read("surfaceVelocity", wall.surface_velocity, k_optional);
     return wall;

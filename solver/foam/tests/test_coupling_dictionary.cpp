@@ -351,7 +351,7 @@ rock
     walls
     (
         { name tube; file "tube.stl"; material perspex; travel { velocity (0 0 0.1); from 0.5; to 2; } removedAt 3; }
-        { name plate; file "plate.stl"; }
+        { name plate; file "plate.stl"; turn { origin (0 0 1); axis (0 2 0); speed -3; from 0; to 4; } }
     );
     domain { type box; lower (0 0 0); upper (1 1 1); walls (xMin xMax zMin); frictionless (xMin xMax); material glass; }
 }
@@ -366,6 +366,11 @@ TEST(CouplingDictionary, ReadsMaterialsByNameAndWallsThatTravelAndGo) {
     EXPECT_EQ(dem.walls[0].travel.end, 2.0);
     EXPECT_EQ(dem.walls[0].removed_at, 3.0);
     EXPECT_FALSE(dem.walls[0].rotating);
+    EXPECT_EQ(dem.walls[0].turn.speed, 0.0);
+    EXPECT_EQ(dem.walls[1].turn.axis.origin, Vec3(0, 0, 1));
+    EXPECT_EQ(dem.walls[1].turn.axis.direction, Vec3::UnitY());
+    EXPECT_EQ(dem.walls[1].turn.angle(9.0), -12.0);
+    EXPECT_EQ(dem.walls[1].turn.spin_at(9.0), Vec3(Vec3::Zero()));
     EXPECT_EQ(dem.walls[1].material, "steel");
     EXPECT_FALSE(std::isfinite(dem.walls[1].removed_at));
     expect_same(*dem.contact.pair_on("perspex"), {0.2, 0.8, 0.02});

@@ -44,7 +44,6 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const coup
       fluid(settings.fluid),
       added_mass(settings.added_mass),
       axis(rotor.axis),
-      rotor_spin(rotor.speed * rotor.axis.direction),
       rock_rock(law_of(settings.contact.rock_rock, settings.contact, settings.contact.poisson_rock)),
       rock_on_body(laws_on_bodies(settings)),
       rolling_law(settings.contact.rolling_law == "constant" ? RollingLaw::constant : RollingLaw::spring),

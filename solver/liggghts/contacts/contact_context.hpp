@@ -61,7 +61,6 @@ struct ContactContext {
     coupling::FluidProperties fluid;
     double added_mass = 0.0;
     RotationAxis axis;
-    Vec3 rotor_spin = Vec3::Zero();  ///< of rotating steel [rad/s]
     PairLaw rock_rock;
     std::vector<PairLaw> rock_on_body;  ///< by the number of the body: walls in the order of the settings, then sides that are walls
     RollingLaw rolling_law = RollingLaw::spring;

@@ -117,7 +117,7 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
 
 Rolling WallContacts::rolling_of(const WallTouch& touch) const {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
-    const Vec3 of_rock(atom.omega[touch.rock]), of_wall = touch.rotating ? context_.rotor_spin : Vec3(Vec3::Zero());
+    const Vec3 of_rock(atom.omega[touch.rock]), of_wall = touch.wall_spin;
     const double inertia = context_.rolling_inertia(atom.rmass[touch.rock], atom.radius[touch.rock], atom.density[touch.rock]);
     return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall), inertia, resolved_roll_damping(inertia, lammps_->update->dt)};
 }

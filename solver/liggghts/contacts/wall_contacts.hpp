@@ -11,10 +11,11 @@ namespace cutterflow::liggghts {
 struct WallTouch {
     int rock = 0;  ///< LIGGGHTS' number on this rank
     int body = 0;
-    bool rotating = false;
+    bool rotating = false;              ///< with the rotor, whose torque it adds to
     Vec3 normal = Vec3::Zero();         ///< unit, from the touched point to the rock's centre
     double overlap = 0.0;               ///< [m]
     Vec3 wall_velocity = Vec3::Zero();  ///< of the steel at the touched point [m/s]
+    Vec3 wall_spin = Vec3::Zero();      ///< [rad/s]
 };
 
 /// A contact of a rock with a body, kept from step to step in a row of LIGGGHTS' property per rock.

@@ -58,6 +58,30 @@ TEST(TurningWalls, a_turntable_leads_a_rolling_rock_in_its_circle) {
     EXPECT_LT(highest - lowest, 1e-8) << "a seam lifts the rock";
 }
 
+// A wall that turns by itself is met as one that turns with a rotor, until it stops.
+TEST(TurningWalls, a_wall_of_its_own_turns_as_the_rotor_and_stops) {
+    const double speed = 8.0;
+    const Vec3 centre(0.03, -0.02, 0.0);
+    coupling::ZoneMotion rotor = turning(speed);
+    rotor.axis.origin = centre;
+    coupling::DemSettings of_rotor = dry(sheet(Vec3(-0.25, -0.25, 0), Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), 20, 20), 0.8, 9.81);
+    of_rotor.contact.rock_steel.rolling_friction = 0.2;
+    coupling::DemSettings by_itself = of_rotor;
+    by_itself.walls[0].rotating = false;
+    by_itself.walls[0].turn = {{centre, Vec3::UnitZ()}, speed, 0.0, 0.2};
+    LiggghtsEngine with_rotor(of_rotor, {rotor}, MPI_COMM_WORLD), alone(by_itself, no_zones(), MPI_COMM_WORLD);
+    EXPECT_EQ(alone.walls_change_until(), 0.2);
+    for (LiggghtsEngine* engine : {&with_rotor, &alone}) {
+        ASSERT_EQ(engine->insert(one_rock(Vec3(0.05, 0.02, k_radius + 1e-9), Vec3::Zero(), 2.0 * k_radius)).size(), 1u);
+        for (int call = 0; call < 100; ++call) engine->advance(2e-3, no_force);
+    }
+    EXPECT_EQ(with_rotor.rocks().position[0], alone.rocks().position[0]);
+    EXPECT_EQ(with_rotor.rocks().angular_velocity[0], alone.rocks().angular_velocity[0]);
+    EXPECT_GT(alone.rocks().velocity[0].norm(), 0.1);
+    for (int call = 0; call < 400; ++call) alone.advance(2e-3, no_force);
+    EXPECT_LT(alone.rocks().velocity[0].norm(), 1e-6) << "rolling friction of the table that stands";
+}
+
 // Without friction a radial blade pushes a rock outwards as x = x0 cosh(omega t); its torque pays for the rock's energy.
 TEST(TurningWalls, a_blade_throws_a_rock_outwards_and_pays_for_it) {
     const double speed = 6.0, r0 = 0.08;
