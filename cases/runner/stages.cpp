@@ -68,7 +68,12 @@ public:
     void require_results_are_safe(std::size_t first) const {
         for (std::size_t i = 0; i <= first && i < stages_.size(); ++i) {
             const StageRecord* record = manifest_.find(stages_[i].name);
-            if (record == nullptr || record->inputs == stages_[i].inputs || !has_results_from(i)) continue;
+            if (!has_results_from(i)) continue;
+            if (record == nullptr)
+                throw UserError(fmt::format("{} contains results of another kind of study, which has no stage {}",
+                                            directory_.path().string(), stages_[i].name),
+                                "Results are never overwritten", "Use another directory with -o");
+            if (record->inputs == stages_[i].inputs) continue;
             throw UserError(fmt::format("{} contains results of another study: {}", directory_.path().string(),
                                         fmt::join(changed_inputs(record->inputs, stages_[i].inputs), ", ")),
                             "Results are never overwritten", "Use another directory for the changed study with -o, or undo the change");

@@ -90,6 +90,18 @@ TEST_F(Stages, are_done_once_and_in_order) {
     EXPECT_EQ(manifest.find("run")->finished.size(), 20u);
 }
 
+/// A kind without the first stages has results, whose stage `run` has the same name.
+TEST_F(Stages, of_another_kind_do_not_overwrite_results) {
+    {
+        const RunDirectory directory(folder_);
+        Manifest manifest(directory.file("manifest.json"));
+        run_stages(directory, manifest, {stage("start"), stage("run", {}, true)}, "run", false, [](const Stage&, StageEvent, double) {});
+    }
+    done_.clear();
+    for (const bool resume : {false, true}) expect_contains(refusal(resume), "results of another kind of study, which has no stage a");
+    EXPECT_EQ(read_file(folder_ / "run.txt"), "of run");
+}
+
 TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row_names) {
     const fs::path folder = fs::temp_directory_path();
     const std::string surface = fmt::format("cutterflow_stage_inputs_{}.stl", ::getpid());
