@@ -8,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/run_files.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
@@ -71,6 +72,24 @@ void require_same_quantities(const SettingResults& first, const std::vector<RunQ
                         "Give them the same [[measure]] tables: cutterflow measure makes them anew");
 }
 
+/// A run is no repeat of itself, and a copy of it is none: repeats differ by their seed.
+void require_different(const std::vector<fs::path>& runs) {
+    std::vector<Mistake> mistakes;
+    const auto seen = [](const fs::path& a, const fs::path& b) {
+        if (fs::exists(a) && fs::exists(b) && fs::equivalent(a, b)) return true;
+        const fs::path first = a / names::manifest, second = b / names::manifest;
+        return fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // it has the times of its stages
+    };
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const auto here = runs.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto other = std::find_if(runs.begin(), here, [&](const fs::path& run) { return seen(run, *here); });
+        if (other != here)
+            mistakes.push_back({"", fmt::format("{} is the same run as {}", here->string(), other->string()),
+                                "Repeats of a setting differ by seed, as `cutterflow sweep --repeats` makes them", "Name each run once"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 }  // namespace
 
 RepeatMean repeat_mean(const std::vector<double>& values) {
@@ -88,6 +107,7 @@ std::string verdict_of(const RepeatMean& difference) {
 
 std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
                                              const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
+    require_different(runs);
     std::vector<SettingResults> settings;
     for (const fs::path& run : runs) {
         const std::vector<RunQuantity> quantities = quantities_of(run);
