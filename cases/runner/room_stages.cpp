@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cases/runner/run_progress.hpp"
+#include "cases/runner/table_inputs.hpp"
 #include "cases/scenes/room/room_case.hpp"
 #include "cases/scenes/room/room_mesh.hpp"
 #include "geometry/base/axis_frame.hpp"
@@ -15,7 +16,6 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
-#include "geometry/base/parameters/parameter_words.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "meshing/dictionary/foam_command.hpp"
@@ -30,35 +30,8 @@ namespace fs = std::filesystem;
 using Say = std::function<void(const std::string&)>;
 using namespace room_stage;
 
-/// What a table of an array is called in messages: its name, its pair, or its number.
-std::string member_name(const ParameterValues& member, const std::string& array, std::size_t number) {
-    if (member.has(array + ".name")) return member.text(array + ".name");
-    if (member.has(array + ".pair")) return member.texts(array + ".pair")[0] + "-" + member.texts(array + ".pair")[1];
-    return std::to_string(number);
-}
-
-/// Adds the values that belong to `stage`. \param prefix  of the names, in the place of `array`
-void add_inputs(const ParameterValues& values, const std::string& array, const std::string& prefix, const std::string& stage,
-                std::map<std::string, std::string>& inputs) {
-    const ParameterTable& table = room_table();
-    for (const Parameter& parameter : table) {
-        if (parameter_words::enclosing_array(table, parameter.key) != array || !values.has(parameter.key) || parameter.stage != stage)
-            continue;
-        const std::string name = prefix + parameter.key.substr(array.size());
-        inputs[name] =
-            parameter.kind == ParameterKind::path ? sha256_of_file(values.text(parameter.key)) : toml_text(*values.find(parameter.key));
-    }
-    for (const std::string& inner : repeated_sections(table, array)) {
-        std::size_t number = 0;
-        for (const ParameterValues& member : values.tables(inner))
-            add_inputs(member, inner, prefix + inner.substr(array.size()) + "." + member_name(member, inner, ++number), stage, inputs);
-    }
-}
-
 std::map<std::string, std::string> inputs_of(const ParameterValues& values, const std::string& stage) {
-    std::map<std::string, std::string> inputs;
-    add_inputs(values, "", "", stage, inputs);
-    return inputs;
+    return table_inputs(room_table(), values, [&](const Parameter& parameter) { return parameter.stage == stage; });
 }
 
 void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
@@ -284,6 +257,8 @@ private:
             if (solid.removed_at) one["removed_at_s"] = *solid.removed_at;
             solids.push_back(one);
         }
+        nlohmann::json gates = nlohmann::json::array();
+        for (const RoomGate& gate : scene_.gates) gates.push_back(gate.name);
         nlohmann::json grains = nlohmann::json::array();
         for (const RoomGrains& kind : scene_.grains)
             grains.push_back(
@@ -297,6 +272,7 @@ private:
             {"seed", scene_.run.seed},
             {"bed", pieces_.empty() ? nlohmann::json()
                                     : nlohmann::json{{"name", bed_}, {"poured", poured}, {"poured_kg", mass}, {"parts", pieces_.size()}}},
+            {"gates", gates},
             {"grains", grains},
             {"solids", solids}};
     }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cases/runner/run_progress.hpp"
+#include "cases/runner/table_inputs.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -45,8 +46,8 @@ std::vector<Stage> surface_stages(const RunDirectory& directory, const fs::path&
                                   const fs::path& solver) {
     const SurfaceInputs inputs = surface_inputs(study_file);
     const std::map<std::string, std::string> none;
-    std::map<std::string, std::string> of_case{{"study", read_file(study_file)}};
-    for (const auto& [name, file] : inputs.copies) of_case[file.string()] = sha256_of_file(file);
+    const std::map<std::string, std::string> of_case =
+        table_inputs(surface_study_table(), read_placed_surface_study(study_file), [](const Parameter&) { return true; });
     return {{"case", of_case, {}, false, [&directory, inputs, check](bool) { return write_case(directory, inputs, check); }},
             {"run", none, {}, true, [&directory, solver](bool resume) { return run_solver(directory, solver, resume); }},
             {"report", none, {}, false, [&directory](bool) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cases/runner/surface_stages.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "cases/scenes/study_kind.hpp"
 #include "cases/sweep/surface_sweep.hpp"
@@ -128,9 +129,9 @@ TEST_F(SurfaceStudy, check_tells_of_water_without_a_surface) {
     EXPECT_THAT(to_text(check), HasSubstr("closed waters without a surface from 0 s on: 1"));
 }
 
-TEST_F(SurfaceStudy, refuses_what_the_memory_does_not_hold) {
+TEST_F(SurfaceStudy, refuses_what_no_memory_holds) {
     const std::string text = replaced(surface_study_template("dam"), "cell_m = 0.001 ", "cell_m = 0.0000001 ");
-    EXPECT_THAT(mistakes_of(write("dam.toml", text)), HasSubstr("GB of memory"));
+    EXPECT_THAT(mistakes_of(write("dam.toml", text)), HasSubstr("at most 5e+06"));
 }
 
 TEST_F(SurfaceStudy, sweep_sets_the_tables_that_give_a_key_and_pairs_the_seeds) {
@@ -167,6 +168,41 @@ TEST_F(SurfaceStudy, sweep_names_wrong_keys_and_values) {
                 HasSubstr("a number"));
     EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"contact.gap_m=0.00001"}, "params"), 1); }),
                 HasSubstr("quarter of a cell"));
+}
+
+/// So that a run goes on after a comment was written, and a message names the key that was changed.
+TEST_F(SurfaceStudy, inputs_of_its_case_are_the_values) {
+    const RunDirectory directory(folder_ / "run");
+    const auto inputs = [&](const std::string& text) {
+        const fs::path study = write("dam.toml", text);
+        return surface_stages(directory, study, check_surface_study(study), "solver").front().inputs;
+    };
+    const std::string text = surface_study_template("dam");
+    const auto before = inputs(text);
+    EXPECT_EQ(inputs("# a comment\n" + text), before);
+    EXPECT_EQ(before.at("name"), "\"dam\"");
+    EXPECT_EQ(before.count("bodies.1.diameter_m"), 1u);
+    auto after = inputs(std::string(text).replace(text.find("\"dam\""), 5, "\"lake\""));
+    EXPECT_NE(after.at("name"), before.at("name"));
+    after["name"] = before.at("name");
+    EXPECT_EQ(after, before);
+}
+
+TEST_F(SurfaceStudy, comparison_takes_no_run_twice_and_no_copy) {
+    const auto run = [&](const std::string& name, const std::string& manifest) {
+        fs::create_directories(folder_ / name);
+        write_file(folder_ / name / "manifest.json", manifest);
+        return folder_ / name;
+    };
+    const fs::path first = run("a_repeat1", "{\"finished\": \"12:00\"}"), second = run("a_repeat2", "{\"finished\": \"12:05\"}");
+    const fs::path copy = run("b", "{\"finished\": \"12:00\"}");
+    const auto compared = [](const std::vector<fs::path>& runs) {
+        return postproc::compare_settings(runs, [](const fs::path&) { return std::vector<postproc::RunQuantity>{{"q", "q", "-", 1.0}}; });
+    };
+    EXPECT_EQ(compared({first, second}).size(), 1u);
+    EXPECT_THROW(compared({first, second, first}), UserError);
+    EXPECT_THROW(compared({first, folder_ / "a_repeat2/../a_repeat1"}), UserError);
+    EXPECT_THROW(compared({first, copy}), UserError);
 }
 
 TEST(RepeatMean, has_students_interval_and_none_for_what_never_came) {

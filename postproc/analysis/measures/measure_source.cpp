@@ -9,6 +9,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 
 namespace cutterflow::postproc {
 
@@ -109,7 +110,19 @@ double MeasureSource::end() const {
     return cost.empty() ? 0.0 : cost.number("time_s").back();
 }
 
+/// A gate that nothing crossed has no rows; a room's file names all that it has.
+void MeasureSource::require_gate(const std::string& gate) const {
+    const fs::path room = directory_ / "room.json";
+    if (!fs::exists(room)) return;
+    const nlohmann::json gates = read_json_document(room, {}, k_run_again).value("gates", nlohmann::json());
+    if (!gates.is_array()) return;  // of an older version
+    if (std::find(gates.begin(), gates.end(), gate) != gates.end()) return;
+    throw UserError({{directory_.string(), fmt::format("the run has no gate {}", gate), fmt::format("Its gates are {}", gates.dump()),
+                      "Name one of them"}});
+}
+
 PassedMass MeasureSource::through_gate(const std::string& gate) const {
+    require_gate(gate);
     const Table rows = joined_with(directory_, "rock", "gates.csv", {{"time_s", "direction", "mass_kg"}, {"gate"}, {}, k_run_again});
     PassedMass passed;
     for (std::size_t n = 0; n < rows.rows(); ++n) {

@@ -31,7 +31,8 @@ public:
     /// \throws UserError  when the picture cannot be read, or lacks the grains' density (written by an earlier version)
     const Grains& grains(std::size_t picture) const;
 
-    /// Mass through a gate along its normal less that against it. \throws UserError  when the run recorded no gates
+    /// Mass through a gate along its normal less that against it. \throws UserError  when the run recorded no gates, or has none of this
+    /// name
     PassedMass through_gate(const std::string& gate) const;
     /// Mass that has left a region since the first picture.
     PassedMass out_of_region(const Region& region) const;
@@ -46,6 +47,7 @@ public:
 
 private:
     double end() const;
+    void require_gate(const std::string& gate) const;
 
     std::filesystem::path directory_;
     mutable std::vector<double> times_;

@@ -92,6 +92,15 @@ TEST_F(MeasuredRun, counts_what_passes_a_gate_once_through_a_restart) {
     EXPECT_EQ(measure_figures(results).size(), 6U);
 }
 
+TEST_F(MeasuredRun, refuses_a_gate_that_a_room_does_not_have) {
+    crossings();
+    write("room.json", R"({"gates": ["outlet", "never"]})");
+    write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "never"}])");
+    EXPECT_EQ(write_measures(run_)["a"]["value"], 0.0);
+    write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "nevr"}])");
+    EXPECT_THROW(write_measures(run_), UserError);
+}
+
 TEST_F(MeasuredRun, makes_one_measure_anew_and_keeps_the_others) {
     crossings();
     write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "outlet"}, {"name": "b", "what": "passed_mass", "gate": "other"}])");
