@@ -96,10 +96,21 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
             mistakes.push_back({"", fmt::format("--set {}: there is no such key", axis.key), fmt::format("{} lists them", params),
                                 nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest)});
         }
+        if (std::any_of(axes.begin(), axes.end(), [&](const KeyAxis& other) { return other.key == axis.key; }))
+            mistakes.push_back({"", fmt::format("--set {} is given twice", axis.key), "A key has one list of values", "Put all into one"});
+        for (std::size_t i = 0; i < axis.values.size(); ++i)
+            if (std::count(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(i), axis.values[i]) == 1)
+                mistakes.push_back({"", fmt::format("--set {} has {} twice", axis.key, axis.values[i]), "Every point is another one",
+                                    "Give each value once"});
         axes.push_back(axis);
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return axes;
+}
+
+void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, int repeats) {
+    if (repeats > 1 && std::any_of(axes.begin(), axes.end(), [&](const KeyAxis& axis) { return axis.key == seed; }))
+        throw UserError(fmt::format("--set {} beside --repeats", seed), "Repeats count the seed up from the study's", "Remove one of them");
 }
 
 std::optional<KeyPath> find_key(const ParameterTable& table, const std::string& text) {

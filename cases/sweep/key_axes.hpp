@@ -19,6 +19,9 @@ struct KeyAxis {
 /// \throws UserError  with every word that is no key of the table with values
 std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std::string>& words, const std::string& params);
 
+/// \throws UserError  when an axis varies the seed that repeats count up
+void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, int repeats);
+
 /// A key of a study, perhaps of one table of an array of tables alone: `contact.gravel-steel.friction` is `friction` of the table
 /// [[contact]] with pair = ["gravel", "steel"], `solid.tube.material` that of the table [[solid]] with name = "tube".
 struct KeyPath {

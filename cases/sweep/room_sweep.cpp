@@ -34,6 +34,7 @@ void forget_single_beds(std::vector<SweepPoint>& points) {
 std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats) {
     const ParameterTable& table = room_table();
     const ParameterValues values = read_placed_room(study);  // the points lie in other folders
+    require_free_seed(axes, k_seed, repeats);
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;
     for (const KeySetting& setting : key_settings(table, values, axes)) {

@@ -16,6 +16,7 @@ constexpr const char* k_seed = "bodies.seed";
 std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats) {
     const ParameterTable& table = surface_study_table();
     const ParameterValues values = read_placed_surface_study(study);  // the points lie in other folders
+    require_free_seed(axes, k_seed, repeats);
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;
     for (const KeySetting& setting : key_settings(table, values, axes)) {

@@ -288,6 +288,10 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     EXPECT_THAT(text_of("contact.glass-wood.friction=1"), HasSubstr("no table [[contact]] is called glass-wood"));
     EXPECT_THAT(text_of("solid.tube.velocity_m_s=1"), HasSubstr("in brackets"));
     EXPECT_THAT(text_of("contact.glass-glass.frictoin=1"), HasSubstr("there is no such key"));
+    EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.1"), HasSubstr("friction has 0.1 twice"));
+    EXPECT_THROW(axes({"run.end_s=1", "run.end_s=2"}), UserError);
+    EXPECT_NO_THROW(room_sweep_points(study, axes({"run.seed=1,2"}), 1));
+    EXPECT_THROW(room_sweep_points(study, axes({"run.seed=1,2"}), 2), UserError);
 }
 
 TEST_F(RoomStudy, names_mistakes_of_all_sections_at_once) {
@@ -350,6 +354,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"uniform_by_number = [0.0038, 0.0042]", "uniform_by_number = [0.0042, 0.0038]", "The smaller diameter comes first"},
         Bad{"diameter_m = { uniform_by_number = [0.0038, 0.0042] }\n", "", "have no diameter"},
         Bad{"grains = \"beads\"", "grains = \"bead\"", "Did you mean beads"}, Bad{"depth_m = 0.06", "depth_m = 0.13", "Their region holds"},
+        Bad{"depth_m = 0.06", "count = 12.5", "prepare.count"},
+        Bad{k_end,
+            "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 1e8\n"
+            "region = { box = { lower_m = [-0.01, -0.01, 0.1], upper_m = [0.01, 0.01, 0.15] } }\n\n[run]\n",
+            "A feed has at most 1e+06"},
         Bad{"depth_m = 0.06", "depth_m = 0.06\ncount = 10", "a pour with 2 of depth_m, mass_kg and count"},
         Bad{"radius_m = 0.02 } }", "radius_m = 0.0018 } }", "find no place in the region of their pour"},
         Bad{"[[prepare]]\ndo = \"pour\"", "[[prepare]]\ndo = \"settle\"\n\n[[prepare]]\ndo = \"pour\"", "before anything is poured"},

@@ -33,6 +33,7 @@ constexpr double k_tolerance = 1e-9;         // [m]
 constexpr double k_narrowest_opening = 3.0;  // largest diameters; a narrower one is plugged by an arch
 constexpr double k_longest_settling = 20.0;  // [s]
 constexpr double k_look_per_fall = 0.1;      // longest step over sqrt(d/g)
+constexpr double k_most_fed = 1e6;           // grains
 constexpr double k_pictures = 50.0, k_checkpoints = 5.0;
 constexpr double k_water_density = 1000.0, k_water_viscosity = 1e-6;
 constexpr double k_air_density = 1.2, k_air_viscosity = 1.5e-5;
@@ -899,8 +900,8 @@ private:
         if (depth) pour.mass = grains->density * k_packed_share * area_of(*region) * values.number("prepare.depth_m");
         if (mass) pour.mass = values.number("prepare.mass_kg");
         if (count) {
-            pour.count = static_cast<std::size_t>(values.number("prepare.count"));
-            pour.mass = values.number("prepare.count") * grains->density * grains->mean_volume();
+            pour.count = static_cast<std::size_t>(values.integer("prepare.count"));
+            pour.mass = static_cast<double>(*pour.count) * grains->density * grains->mean_volume();
         }
         const double bulk = pour.mass / (grains->density * k_packed_share), place = area_of(*region) * height_of(*region);
         if (bulk > place)
@@ -957,7 +958,12 @@ private:
         }
         const RoomGrains* grains = grains_of(values, "event.grains", where);
         const std::optional<Region> place = region_for_grains(region, where);
-        if (grains != nullptr && place) scene_.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place});
+        if (grains == nullptr || !place) return;
+        const double fed = *rate * (*to - *from) / (grains->density * grains->mean_volume());
+        if (fed > k_most_fed)
+            return refuse(values.where("event.rate_kg_s"), fmt::format("a feed of {:.3g} grains", fed),
+                          fmt::format("A feed has at most {:g}", k_most_fed), "Feed less, or larger grains");
+        scene_.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place});
     }
 
     void require_in_run(double at, const char* key, const ParameterValues& values) {
@@ -1033,10 +1039,16 @@ private:
             return refuse(where, "run.stop has only one of measure and idle_s", "Nothing passes the gate of a measure for a time",
                           "Give both");
         const std::string name = gate_of(values_.text("run.stop.measure"));
+        if (name.empty() && has_measure(values_.text("run.stop.measure")) && !mistakes_.empty()) return;  // its gate was not read
         if (name.empty())
             return refuse(where, fmt::format("run.stop.measure = \"{}\"", values_.text("run.stop.measure")),
                           "It names a measure with a gate", "Correct it");
         scene_.run.stop = StopWhenIdle{name, values_.number("run.stop.idle_s")};
+    }
+
+    bool has_measure(const std::string& name) const {
+        const auto& measures = values_.tables("measure");
+        return std::any_of(measures.begin(), measures.end(), [&](const auto& one) { return one.text("measure.name") == name; });
     }
 
     /// The gate of a measure: its own, or the one that it names; empty without one.

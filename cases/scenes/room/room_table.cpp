@@ -256,7 +256,7 @@ ParameterTable prepare_rows() {
         text("prepare.grains", "What is poured.").optional().repeated(),
         length("prepare.depth_m", "Depth of the poured bed; give this, mass_kg or count.").optional().repeated(),
         number("prepare.mass_kg", "kg", "Poured mass.").above(0.0).at_most(1e9).optional().repeated(),
-        number("prepare.count", "-", "Poured grains.").at_least(1.0).at_most(1e8).optional().repeated(),
+        Row("prepare.count", ParameterKind::integer, "-", "Poured grains.").at_least(1.0).at_most(1e8).optional().repeated(),
         duration("prepare.longest_s", "By when grains must have come to rest.").derived("20 s").repeated(),
         level("prepare.above_m", "Trim and freeze: what lies above this level.").optional().repeated(),
         level("prepare.below_m", "Trim and freeze: what lies below this level.").optional().repeated(),
