@@ -19,6 +19,7 @@ namespace cutterflow::geometry {
 namespace {
 
 constexpr double k_feature_angle_deg = 35.0;
+constexpr double k_most_triangles = 2e6;  // the parts are united exactly, at half the edge length
 /// The parts are triangulated finer than the result, so that remeshing keeps the chords of the result only.
 constexpr double k_part_refinement = 0.5;
 /// Shortest edge along the lines where the parts meet, as a share of the result's edges, in the order in which they are tried.
@@ -342,6 +343,7 @@ std::vector<TriangleSurface> crown_picks(const CrownParameters& p) {
 TriangleSurface united_crown_parts(const CrownParameters& p) {
     require_consistent(p);
     const double part_edge = k_part_refinement * p.edge_length;
+    require_few_triangles(4.0 * k_pi * p.ring_radius * p.ring_radius, p.edge_length, k_most_triangles);
     ExactSolid head(crown_hub(p, part_edge));
     if (p.shaft_radius > 0.0) head.unite(ExactSolid(crown_shaft(p, part_edge)));
     const TriangleSurface blade = crown_blade(p);

@@ -16,6 +16,7 @@ namespace cutterflow::geometry {
 namespace {
 
 constexpr double k_feature_angle_deg = 35.0;
+constexpr double k_most_triangles = 2e6;
 /// Around a circle: the polygon's area is then within 0.3 % of the circle's.
 constexpr std::size_t k_least_segments = 48;
 
@@ -111,6 +112,7 @@ TriangleSurface StationarySteel::solid() const {
 StationarySteel generate_stationary_steel(const StationarySteelParameters& p) {
     require_consistent(p);
     const double edge = p.edge_length;
+    require_few_triangles(2.0 * k_pi * p.plate_radius * (p.plate_radius + p.pipe_top - p.gap), edge, k_most_triangles);
     const Vec3 centre = mouth_centre(p.mouth);
     const Circle rim = circle(Vec3::Zero(), p.plate_radius, edge);
     const Circle bore = circle(centre, p.mouth.radius, edge);

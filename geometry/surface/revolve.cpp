@@ -4,7 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
 
 namespace cutterflow::geometry {
 namespace {
@@ -46,6 +49,13 @@ void add_band(TriangleSurface& surface, const std::vector<std::uint32_t>& from, 
 }
 
 }  // namespace
+
+void require_few_triangles(double area, double edge_length, double most) {
+    const double triangles = 2.0 * area / (edge_length * edge_length);
+    if (triangles > most)
+        throw UserError(fmt::format("edges of {:g} m divide the surface into {:.3g} triangles", edge_length, triangles),
+                        fmt::format("It has at most {:g}", most), "Give a longer edge");
+}
 
 std::size_t circle_segments(double radius, double edge_length) {
     return 4 * std::max<std::size_t>(4, static_cast<std::size_t>(std::ceil(2.0 * k_pi * radius / edge_length / 4.0)));

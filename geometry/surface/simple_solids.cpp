@@ -16,7 +16,8 @@ namespace cutterflow::geometry {
 namespace {
 
 constexpr std::size_t k_least_segments = 64;
-constexpr double k_undivided = 1e6;  // [m]: sides stay whole
+constexpr double k_undivided = 1e6;       // [m]: sides stay whole
+constexpr double k_most_triangles = 1e7;  // what an STL file that is read may have
 
 struct NamedSize {
     const char* name;
@@ -37,7 +38,13 @@ void require_sizes(const std::vector<NamedSize>& sizes) {
 
 TriangleSurface revolved(const std::vector<MeridianPoint>& section, double edge_length) {
     double radius = 0.0;
-    for (const MeridianPoint& point : section) radius = std::max(radius, point.r);
+    double way = 0.0;
+    for (std::size_t i = 0; i < section.size(); ++i) {
+        const MeridianPoint &point = section[i], &next = section[(i + 1) % section.size()];
+        radius = std::max(radius, point.r);
+        way += std::hypot(next.r - point.r, next.z - point.z);
+    }
+    require_few_triangles(2.0 * k_pi * radius * way, edge_length, k_most_triangles);
     return solid_of_revolution(section, std::max(k_least_segments, circle_segments(radius, edge_length)), edge_length);
 }
 
@@ -90,6 +97,7 @@ TriangleSurface generate_funnel(const FunnelParameters& p) {
 
 TriangleSurface generate_box(const Vec3& size, double edge_length) {
     require_sizes({{"length along x", size.x()}, {"length along y", size.y()}, {"length along z", size.z()}, {"edge length", edge_length}});
+    require_few_triangles(2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x()), edge_length, k_most_triangles);
     TriangleSurface box;
     const Vec3 x(size.x(), 0.0, 0.0), y(0.0, size.y(), 0.0), z(0.0, 0.0, size.z());
     add_side(box, Vec3::Zero(), y, x, edge_length);

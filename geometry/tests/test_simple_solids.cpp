@@ -85,6 +85,12 @@ TEST(SimpleSolids, bins_dishes_and_slotted_boxes_have_the_volume_of_their_parts)
     EXPECT_THROW(generate_slotted_box({{0.8, 0.15, 0.9}, 0.03, 0.8}), UserError);
 }
 
+TEST(SimpleSolids, edges_that_make_too_many_triangles_are_refused) {
+    EXPECT_THROW(generate_box({0.03, 0.02, 0.02}, 1e-7), UserError);
+    EXPECT_THROW(generate_pipe({0.1, 0.01, 1.0, 1e-5}), UserError);
+    EXPECT_NO_THROW(generate_box({0.03, 0.02, 0.02}, 1e-3));
+}
+
 TEST(SimpleSolids, every_size_without_meaning_is_named) {
     try {
         generate_funnel({0.3, -0.05, 0.0, 0.0, 0.02, 0.02});

@@ -31,7 +31,8 @@ constexpr int k_rims = 16;        // of a sphere
 constexpr int k_places_along_box = 16;
 constexpr int k_lines_of_gate = 16;  // along which solids are looked for in its way
 constexpr double k_gravity = 9.81;
-constexpr double k_most_cells = 5e6;  // of a tank, with k_bytes_per_cell 3 GB; also the bound of a room's mesh
+constexpr double k_most_bodies = 2e4;  // of a stack; 33 to 1,000 are usual
+constexpr double k_most_cells = 5e6;   // of a tank, with k_bytes_per_cell 3 GB; also the bound of a room's mesh
 /// Core seconds of a step: of each cell of the tank, each particle with its part of the pressure, each cell of the squares or cubes around
 /// the bodies.
 struct StepCost {
@@ -502,6 +503,12 @@ private:
         std::vector<ListedBody> stack;
         const double diameter = bodies.number("bodies.diameter_m"), spacing = diameter + bodies.number("bodies.clearance_m");
         const auto widest = bodies.integer("bodies.widest"), rows = bodies.integer("bodies.rows");
+        const double all = static_cast<double>(bodies.integer("bodies.layers")) * static_cast<double>(widest) * static_cast<double>(rows);
+        if (all > k_most_bodies) {
+            refuse(bodies.where("bodies.layers"), fmt::format("a stack of {:g} bodies", all),
+                   fmt::format("A stack has at most {:g}", k_most_bodies), "Make it smaller");
+            return {};
+        }
         const double centre_y = bodies.has("bodies.centre_y_m") ? bodies.number("bodies.centre_y_m") : 0.5 * scene_.settings.tank.depth;
         for (std::int64_t layer = 0; layer < bodies.integer("bodies.layers"); ++layer) {
             const auto count = std::max<std::int64_t>(1, layer % 2 == 0 ? widest : widest - 1);

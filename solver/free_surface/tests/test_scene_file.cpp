@@ -132,6 +132,13 @@ TEST(SceneFile, refuses_tanks_of_too_many_cells) {
     EXPECT_THAT(mistakes_with("0.2", space), ::testing::HasSubstr("The tank has 8e+06 cells"));
 }
 
+TEST(SceneFile, refuses_stacks_of_too_many_bodies) {
+    EXPECT_THAT(mistakes_of(k_tank + k_fill +
+                            "[[bodies]]\ndiameter_m = 0.01\nlayers = 1000000000\nwidest = 6\ncentre_x_m = 0.1\n"
+                            "lowest_m = 0.11\n"),
+                ::testing::HasSubstr("a stack of 6e+09 bodies"));
+}
+
 TEST(SceneFile, stacks_bodies_and_derives_the_gap) {
     const Scene scene = parse_scene(
         k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\nlayers = 6\nwidest = 6\ncentre_x_m = 0.1\nlowest_m = 0.11\nclearance_m = 0.001\n",
