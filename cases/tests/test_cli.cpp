@@ -219,6 +219,20 @@ TEST_F(Cli, new_study_is_commented_complete_and_never_overwrites) {
     expect_refused(call({"new", "mine.toml/other.toml"}), 2, "cannot");
 }
 
+/// To follow what a cutter's reader says would take such a study apart.
+TEST_F(Cli, tells_of_which_kind_a_study_may_be_that_names_none) {
+    for (const auto& [kind, line] :
+         std::map<std::string, std::string>{{"room", "[scene]\nkind = \"room\"\n"}, {"free_surface", "kind = \"free_surface\"\n"}}) {
+        EXPECT_EQ(call({"new", kind + ".toml", "--kind", kind}).code, 0);
+        std::string text = read_file(folder_ / (kind + ".toml"));
+        ASSERT_NE(text.find(line), std::string::npos);
+        write_file(folder_ / "none.toml", text.replace(text.find(line), line.size(), ""));
+        expect_refused(call({"check", "none.toml"}), 2, "this one reads as one of kind " + kind);
+    }
+    write_file(folder_ / "empty.toml", "");
+    expect_refused(call({"check", "empty.toml"}), 2, "cutter.file is missing");
+}
+
 TEST_F(Cli, params_lists_every_key) {
     const Outcome text = call({"params"});
     expect_contains(text.text, "speed_rpm");

@@ -355,6 +355,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"diameter_m = { uniform_by_number = [0.0038, 0.0042] }\n", "", "have no diameter"},
         Bad{"grains = \"beads\"", "grains = \"bead\"", "Did you mean beads"}, Bad{"depth_m = 0.06", "depth_m = 0.13", "Their region holds"},
         Bad{"depth_m = 0.06", "count = 12.5", "prepare.count"},
+        Bad{k_end, "[run]\nwrite_interval_s = 1e-12\n", "A run has at most 10000 of them"},
         Bad{k_end,
             "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 1e8\n"
             "region = { box = { lower_m = [-0.01, -0.01, 0.1], upper_m = [0.01, 0.01, 0.15] } }\n\n[run]\n",

@@ -31,6 +31,7 @@ constexpr int k_rims = 16;        // of a sphere
 constexpr int k_places_along_box = 16;
 constexpr int k_lines_of_gate = 16;  // along which solids are looked for in its way
 constexpr double k_gravity = 9.81;
+constexpr double k_most_outputs = 1e4;
 constexpr double k_most_bodies = 2e4;  // of a stack; 33 to 1,000 are usual
 constexpr double k_most_cells = 5e6;   // of a tank, with k_bytes_per_cell 3 GB; also the bound of a room's mesh
 /// Core seconds of a step: of each cell of the tank, each particle with its part of the pressure, each cell of the squares or cubes around
@@ -361,6 +362,10 @@ private:
             refuse(solid.where("solid.hole_spacing_m"), fmt::format("solid.hole_spacing_m = {:g} m", spacing),
                    fmt::format("Between holes of {:g} m there is at least a cell of wall", hole),
                    fmt::format("Use {:g} m or more", hole + cell()));
+        if (axis - half - wall < -k_tolerance || axis + half + wall > width() + k_tolerance)
+            refuse(solid.where("solid.axis_x_m"),
+                   fmt::format("A pipe from {:g} to {:g} m leaves the domain", axis - half - wall, axis + half + wall),
+                   fmt::format("The domain reaches to {:g} m", width()), "Move the pipe");
         if (!mistakes_.empty()) return;
         for (const double side : {-1.0, 1.0}) {
             const double near = axis + side * half, far = axis + side * (half + wall);
@@ -675,6 +680,10 @@ private:
         if (scene_.write_interval > scene_.end)
             refuse(values_.where("run.write_interval_s"), fmt::format("run.write_interval_s = {:g} s", scene_.write_interval),
                    fmt::format("It must not exceed run.end_s = {:g} s", scene_.end), "Write more often");
+        for (const char* key : {"run.write_interval_s", "run.checkpoint_interval_s"})
+            if (values_.number(key) < scene_.end / k_most_outputs)
+                refuse(values_.where(key), fmt::format("{} = {:g} s in a run of {:g} s", key, values_.number(key), scene_.end),
+                       fmt::format("A run has at most {:g} of them", k_most_outputs), "Write less often");
     }
 
     const ParameterValues& values_;

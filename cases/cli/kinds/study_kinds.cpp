@@ -6,6 +6,8 @@
 #include "cases/cli/kinds/study_kind.hpp"
 #include "cases/scenes/study_kind.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 
 namespace cutterflow::cli {
 
@@ -25,9 +27,40 @@ const StudyKind& kind_named(const std::string& name) {
     return *std::find_if(kinds.begin(), kinds.end(), [&](const StudyKind& kind) { return name == kind.name; });
 }
 
+namespace {
+
+/// How much is wrong with a text when it is read as a study of that kind; nothing when it is no TOML, of which the reader tells.
+std::size_t mistakes_as(const StudyKind& kind, const std::string& toml) {
+    try {
+        return parse_with_mistakes(kind.table(), toml, "").mistakes.size();
+    } catch (const UserError&) {
+        return 0;
+    }
+}
+
+/// \throws UserError  when a file that names no kind reads much better as one of another kind than as a cutter's
+void require_cutter(const std::filesystem::path& file) {
+    if (!std::filesystem::is_regular_file(file)) return;
+    const std::string toml = read_file(file);
+    const auto& kinds = study_kinds();
+    const StudyKind& nearest = *std::min_element(
+        kinds.begin(), kinds.end(), [&](const StudyKind& a, const StudyKind& b) { return mistakes_as(a, toml) < mistakes_as(b, toml); });
+    if (2 * mistakes_as(nearest, toml) >= mistakes_as(kinds.front(), toml)) return;
+    const ParameterTable& table = nearest.table();
+    const bool on_top = std::any_of(table.begin(), table.end(), [](const Parameter& parameter) { return parameter.key == "kind"; });
+    throw UserError({{file.string(), "the study names no kind",
+                      fmt::format("One without a kind is a cutter's; this one reads as one of kind {}", nearest.name),
+                      fmt::format("Write {}kind = \"{}\"", on_top ? "at its top " : "[scene] and below it ", nearest.name)}});
+}
+
+}  // namespace
+
 const StudyKind& kind_of_study(const std::filesystem::path& file) {
     const std::string name = cases::kind_named_in(file);
-    if (name.empty()) return study_kinds().front();
+    if (name.empty()) {
+        require_cutter(file);
+        return study_kinds().front();
+    }
     const std::vector<std::string> names = kind_names();
     if (std::find(names.begin(), names.end(), name) != names.end()) return kind_named(name);
     const std::string nearest = nearest_word(name, names);

@@ -33,7 +33,8 @@ constexpr double k_tolerance = 1e-9;         // [m]
 constexpr double k_narrowest_opening = 3.0;  // largest diameters; a narrower one is plugged by an arch
 constexpr double k_longest_settling = 20.0;  // [s]
 constexpr double k_look_per_fall = 0.1;      // longest step over sqrt(d/g)
-constexpr double k_most_fed = 1e6;           // grains
+constexpr double k_most_outputs = 1e4;
+constexpr double k_most_fed = 1e6;  // grains
 constexpr double k_pictures = 50.0, k_checkpoints = 5.0;
 constexpr double k_water_density = 1000.0, k_water_viscosity = 1e-6;
 constexpr double k_air_density = 1.2, k_air_viscosity = 1.5e-5;
@@ -1020,6 +1021,10 @@ private:
             if (values_.has(key) && values_.number(key) > run.end)
                 refuse(values_.where(key), fmt::format("{} = {:g}", key, values_.number(key)),
                        fmt::format("The run ends at {:g} s", run.end), "Correct one of them");
+        for (const char* key : {"run.write_interval_s", "run.checkpoint_interval_s"})
+            if (values_.has(key) && values_.number(key) < run.end / k_most_outputs)
+                refuse(values_.where(key), fmt::format("{} = {:g} in a run of {:g} s", key, values_.number(key), run.end),
+                       fmt::format("A run has at most {:g} of them", k_most_outputs), "Write less often");
         const double fall =
             scene_.grains.empty() || scene_.gravity.norm() == 0.0 ? 1.0 : std::sqrt(smallest_diameter() / scene_.gravity.norm());
         scene_.bed_step = number_or(values_, "dem.longest_step_s", k_look_per_fall * fall);

@@ -132,6 +132,13 @@ TEST(SceneFile, refuses_tanks_of_too_many_cells) {
     EXPECT_THAT(mistakes_with("0.2", space), ::testing::HasSubstr("The tank has 8e+06 cells"));
 }
 
+TEST(SceneFile, refuses_pipes_outside_and_a_flood_of_pictures) {
+    const std::string pipe = "[[solid]]\nkind = \"pipe\"\ninner_width_m = 0.06\nwall_m = 0.002\nbottom_m = 0.04\ntop_m = 0.15\naxis_x_m = ";
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + pipe + "0.1\n"), "");
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + pipe + "0.5\n"), ::testing::HasSubstr("A pipe from 0.468 to 0.532 m leaves the domain"));
+    EXPECT_THAT(mistakes_of(k_tank + "write_interval_s = 1e-12\n" + k_fill), ::testing::HasSubstr("at most 10000 of them"));
+}
+
 TEST(SceneFile, refuses_stacks_of_too_many_bodies) {
     EXPECT_THAT(mistakes_of(k_tank + k_fill +
                             "[[bodies]]\ndiameter_m = 0.01\nlayers = 1000000000\nwidest = 6\ncentre_x_m = 0.1\n"
