@@ -1,6 +1,7 @@
 #include "solver/coupling/kernel/mapping.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -123,11 +124,13 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     forget_vicinities(stencils.shared.near().size());
     stencils.shared.sum(sums, k_sums, communicator_);
     std::vector<std::size_t> hidden;
-    if (!all_are_mapped(stencils, sums)) {
+    Outlook outlook = outlook_of(rocks, stencils, sums);
+    if (!outlook.all_are_mapped) {
         hidden = replace_hidden(rocks, stencils, sums);
-        if (!all_are_mapped(stencils, sums)) refuse_unmapped(rocks, stencils, sums);
+        outlook = outlook_of(rocks, stencils, sums);
+        if (!outlook.all_are_mapped) refuse_unmapped(rocks, stencils, sums);
     }
-    if (!groups_) make_room_for_cramped(rocks, stencils, sums, hidden);
+    if (outlook.some_are_cramped) make_room_for_cramped(rocks, stencils, sums, hidden);
 
     for (const std::size_t p : stencils.shared.near()) {
         const double deposit_scale = 1.0 / sums[k_sums * p + deposit_sum], sample_scale = 1.0 / sums[k_sums * p + sample_sum];
@@ -209,12 +212,14 @@ bool Mapping::locate(const RockShapes& rocks, std::size_t rock, Stencils& stenci
     return true;
 }
 
-/// Whether every rock has cells, on any rank.
-bool Mapping::all_are_mapped(const Stencils& stencils, const std::vector<double>& sums) const {
+/// Of the rocks of all ranks. Collective
+Mapping::Outlook Mapping::outlook_of(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const {
     const std::vector<std::size_t>& led = stencils.shared.led();
-    auto mapped = static_cast<double>(std::count_if(led.begin(), led.end(), [&](std::size_t p) { return is_mapped(sums, p); }));
-    communicator_.sum(gsl::span<double>(&mapped, 1));
-    return mapped == static_cast<double>(stencils.size());
+    const auto count = [&](const auto& holds) { return static_cast<double>(std::count_if(led.begin(), led.end(), holds)); };
+    std::array<double, 2> counts{count([&](std::size_t p) { return is_mapped(sums, p); }),
+                                 count([&](std::size_t p) { return is_cramped(rocks, sums, p); })};
+    communicator_.sum(counts);
+    return {counts[0] == static_cast<double>(stencils.size()), counts[1] > 0.0};
 }
 
 /// \throws CheckFailure  that names the first rock without cells. Collective
@@ -291,6 +296,10 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double thro
     sums[k_sums * rock + hidden_room] = behind;
 }
 
+void Mapping::look_from_nearest_cell(const RockShapes& rocks, std::size_t rock, double width) {
+    visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[rock]), physics::k_kernel_reach * 2.0 * width);
+}
+
 /// Lays some of the rocks near this rank again. Collective. \param lay  adds the entries of one of them
 template <typename Lay>
 void Mapping::lay_again(const std::vector<std::size_t>& again, const Lay& lay, Stencils& stencils, std::vector<double>& sums) {
@@ -326,9 +335,8 @@ std::vector<std::size_t> Mapping::replace_hidden(const RockShapes& rocks, Stenci
     std::vector<std::size_t> hidden;
     for (const std::size_t p : stencils.shared.near())
         if (!is_mapped(sums, p)) hidden.push_back(p);
-    const std::vector<double> width = stencils.width;
     const auto lay = [&](std::size_t p, Stencils& replaced, std::vector<double>& new_sums) {
-        visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[p]), physics::k_kernel_reach * 2.0 * width[p]);
+        look_from_nearest_cell(rocks, p, replaced.width[p]);
         add_entries(rocks, p, 0.0, replaced, new_sums);
     };
     lay_again(hidden, lay, stencils, sums);
@@ -342,25 +350,24 @@ double Mapping::share_through_steel(double diameter, double seen) const {
     return std::max(0.0, 1.0 - seen / ample);
 }
 
+bool Mapping::is_cramped(const RockShapes& rocks, const std::vector<double>& sums, std::size_t rock) const {
+    return sums[k_sums * rock + hidden_room] > 0.0 && share_through_steel(rocks.diameter[rock], sums[k_sums * rock + seen_room]) > 0.0;
+}
+
 /// A rock in a nook of the mesh, where it sees too few cells to lie in, is laid over cells behind the steel as well. Otherwise no cell in
 /// its reach had room for it.
 void Mapping::make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
                                     const std::vector<std::size_t>& hidden) {
-    std::vector<std::size_t> cramped;
-    const auto share = [&](std::size_t p) { return share_through_steel(rocks.diameter[p], sums[k_sums * p + seen_room]); };
-    for (const std::size_t p : stencils.shared.near())
-        if (sums[k_sums * p + hidden_room] > 0.0 && share(p) > 0.0) cramped.push_back(p);
-    auto all = static_cast<double>(cramped.size());
-    communicator_.sum(gsl::span<double>(&all, 1));
-    if (all == 0.0) return;
     had_cramped_rock_ = true;
-    const std::vector<double> width = stencils.width;
+    std::vector<std::size_t> cramped;
+    for (const std::size_t p : stencils.shared.near())
+        if (is_cramped(rocks, sums, p)) cramped.push_back(p);
     const auto lay = [&](std::size_t p, Stencils& replaced, std::vector<double>& new_sums) {
         if (std::binary_search(hidden.begin(), hidden.end(), p))
-            visibility_.look_from_point(sizes_.nearest_centre(frames_, rocks.position[p]), physics::k_kernel_reach * 2.0 * width[p]);
+            look_from_nearest_cell(rocks, p, replaced.width[p]);
         else
-            look_from(rocks, p, width[p]);
-        add_entries(rocks, p, share(p), replaced, new_sums);
+            look_from(rocks, p, replaced.width[p]);
+        add_entries(rocks, p, share_through_steel(rocks.diameter[p], sums[k_sums * p + seen_room]), replaced, new_sums);
     };
     lay_again(cramped, lay, stencils, sums);
 }

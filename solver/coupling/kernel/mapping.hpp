@@ -78,17 +78,22 @@ private:
 
     void build_anew(const RockShapes& rocks, Stencils& stencils);
     bool locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils);
-    bool all_are_mapped(const Stencils& stencils, const std::vector<double>& sums) const;
+    struct Outlook {
+        bool all_are_mapped, some_are_cramped;
+    };
+    Outlook outlook_of(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
     [[noreturn]] void refuse_unmapped(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
     void forget_vicinities(std::size_t rocks);
     void lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void look_from(const RockShapes& rocks, std::size_t rock, double width);
+    void look_from_nearest_cell(const RockShapes& rocks, std::size_t rock, double width);
     void add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums);
     template <typename Lay>
     void lay_again(const std::vector<std::size_t>& again, const Lay& lay, Stencils& stencils, std::vector<double>& sums);
     std::vector<std::size_t> replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     double share_through_steel(double diameter, double seen) const;
+    bool is_cramped(const RockShapes& rocks, const std::vector<double>& sums, std::size_t rock) const;
     void make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
                                const std::vector<std::size_t>& hidden);
 
