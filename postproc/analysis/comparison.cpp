@@ -14,6 +14,7 @@
 #include "geometry/base/statistics/sample.hpp"
 #include "postproc/analysis/best_speed.hpp"
 #include "postproc/analysis/not_modelled.hpp"
+#include "postproc/analysis/settings/distinct_runs.hpp"
 #include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
@@ -468,21 +469,14 @@ void require_one_kind_of_feed(const std::vector<ComparedRun>& runs) {
         "Spillage of a batch and of a steady feed are not the same quantity", "Compare runs of one feed.kind");
 }
 
-/// A run is no repeat of itself, by whatever path it comes, and no copy of it is.
 void require_different(const std::vector<ComparedRun>& runs) {
-    std::vector<Mistake> mistakes;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        const RunData& run = runs[i].run;
-        const auto other = std::find_if(runs.begin(), runs.begin() + static_cast<std::ptrdiff_t>(i), [&](const ComparedRun& r) {
-            return std::filesystem::equivalent(r.run.directory, run.directory) ||
-                   (!run.release.empty() && r.run.setting == run.setting && r.run.release == run.release);
-        });
-        if (other == runs.begin() + static_cast<std::ptrdiff_t>(i)) continue;
-        mistakes.push_back({"", fmt::format("{} is the same run as {}", run.directory.string(), other->run.directory.string()),
-                            "Repeats of a setting differ by seed or time of release, as `cutterflow sweep --repeats` makes them",
-                            "Name each run once"});
-    }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    std::vector<std::filesystem::path> directories;
+    for (const ComparedRun& compared : runs) directories.push_back(compared.run.directory);
+    const auto have_one_release = [&](std::size_t a, std::size_t b) {
+        const RunData &first = runs[a].run, &second = runs[b].run;
+        return !second.release.empty() && first.setting == second.setting && first.release == second.release;
+    };
+    require_distinct(directories, have_one_release, "seed or time of release");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/statistics/sample.hpp"
+#include "postproc/analysis/settings/distinct_runs.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
 
@@ -72,22 +73,12 @@ void require_same_quantities(const SettingResults& first, const std::vector<RunQ
                         "Give them the same [[measure]] tables: cutterflow measure makes them anew");
 }
 
-/// A run is no repeat of itself, and a copy of it is none: repeats differ by their seed.
 void require_different(const std::vector<fs::path>& runs) {
-    std::vector<Mistake> mistakes;
-    const auto seen = [](const fs::path& a, const fs::path& b) {
-        if (fs::exists(a) && fs::exists(b) && fs::equivalent(a, b)) return true;
-        const fs::path first = a / names::manifest, second = b / names::manifest;
+    const auto have_one_manifest = [&](std::size_t a, std::size_t b) {
+        const fs::path first = runs[a] / names::manifest, second = runs[b] / names::manifest;
         return fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // it has the times of its stages
     };
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        const auto here = runs.begin() + static_cast<std::ptrdiff_t>(i);
-        const auto other = std::find_if(runs.begin(), here, [&](const fs::path& run) { return seen(run, *here); });
-        if (other != here)
-            mistakes.push_back({"", fmt::format("{} is the same run as {}", here->string(), other->string()),
-                                "Repeats of a setting differ by seed, as `cutterflow sweep --repeats` makes them", "Name each run once"});
-    }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    require_distinct(runs, have_one_manifest, "seed");
 }
 
 }  // namespace
