@@ -43,9 +43,11 @@ void require_cutter(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file)) return;
     const std::string toml = read_file(file);
     const auto& kinds = study_kinds();
-    const StudyKind& nearest = *std::min_element(
-        kinds.begin(), kinds.end(), [&](const StudyKind& a, const StudyKind& b) { return mistakes_as(a, toml) < mistakes_as(b, toml); });
-    if (2 * mistakes_as(nearest, toml) >= mistakes_as(kinds.front(), toml)) return;
+    std::vector<std::size_t> mistakes;
+    for (const StudyKind& kind : kinds) mistakes.push_back(mistakes_as(kind, toml));
+    const auto fewest = std::min_element(mistakes.begin(), mistakes.end());
+    if (2 * *fewest >= mistakes.front()) return;
+    const StudyKind& nearest = kinds[static_cast<std::size_t>(fewest - mistakes.begin())];
     const ParameterTable& table = nearest.table();
     const bool on_top = std::any_of(table.begin(), table.end(), [](const Parameter& parameter) { return parameter.key == "kind"; });
     throw UserError({{file.string(), "the study names no kind",

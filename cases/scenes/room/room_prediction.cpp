@@ -126,7 +126,7 @@ std::vector<std::string> models_of(const RoomScene& scene) {
     for (const RoomSolid& solid : scene.solids) {
         if (solid.travel) on.push_back(fmt::format("{} moves from {:g} to {:g} s", solid.name, solid.travel->begin, solid.travel->end));
         if (solid.turn)
-            on.push_back(fmt::format("{} turns at {:g} rpm from {:g} to {:g} s", solid.name, solid.turn->speed * 30.0 / k_pi,
+            on.push_back(fmt::format("{} turns at {:g} rpm from {:g} to {:g} s", solid.name, solid.turn->speed / rpm_to_rad_s(1.0),
                                      solid.turn->begin, solid.turn->end));
         if (solid.removed_at) on.push_back(fmt::format("{} is taken away at {:g} s", solid.name, *solid.removed_at));
     }

@@ -508,7 +508,7 @@ private:
             return refuse(values.where("solid.turn_axis"), fmt::format("solid.turn_axis of {} has no length", solid.name),
                           "It is a direction", "Give one that is not 0");
         solid.turn = coupling::WallTurn{
-            {vec3_of(values, "solid.turn_origin_m"), axis.normalized()}, values.number("solid.turn_rpm") * k_pi / 30.0, begin, end};
+            {vec3_of(values, "solid.turn_origin_m"), axis.normalized()}, rpm_to_rad_s(values.number("solid.turn_rpm")), begin, end};
     }
 
     void refuse_in_medium(const RoomSolid& solid, const std::string& where, const char* what) {

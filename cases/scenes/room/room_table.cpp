@@ -145,13 +145,7 @@ ParameterTable solid_rows() {
             .optional()
             .repeated()
             .stage(k_case),
-        Row("solid.turn_origin_m", ParameterKind::numbers, "m", "A point on the axis of turn_rpm.")
-            .of_length(3)
-            .at_least(-1e6)
-            .at_most(1e6)
-            .optional()
-            .repeated()
-            .stage(k_case),
+        point("solid.turn_origin_m", "A point on the axis of turn_rpm.").optional().repeated().stage(k_case),
         time("solid.from_s", "When it begins to move.").optional().repeated().stage(k_case),
         time("solid.to_s", "When it stops.").optional().repeated().stage(k_case),
         time("solid.removed_at_s", "When it is taken away; 0: it is there for the preparation alone.").optional().repeated().stage(k_case),

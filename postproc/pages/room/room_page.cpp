@@ -100,7 +100,8 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
             text += fmt::format("; moves from {:g} to {:g} s", solid.at("travel").at("from_s").get<double>(),
                                 solid.at("travel").at("to_s").get<double>());
         if (solid.contains("turn"))
-            text += fmt::format("; turns at {:.4g} rpm from {:g} to {:g} s", solid.at("turn").at("speed_rad_s").get<double>() * 30.0 / k_pi,
+            text += fmt::format("; turns at {:.4g} rpm from {:g} to {:g} s",
+                                solid.at("turn").at("speed_rad_s").get<double>() / rpm_to_rad_s(1.0),
                                 solid.at("turn").at("from_s").get<double>(), solid.at("turn").at("to_s").get<double>());
         if (solid.contains("removed_at_s")) text += fmt::format("; taken away at {:g} s", solid.at("removed_at_s").get<double>());
         rows.push_back({html::escape(solid.at("name").get<std::string>()), text});
