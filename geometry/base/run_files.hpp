@@ -13,6 +13,7 @@ inline constexpr const char* rock_feed = "constant/rockFeed.csv";
 inline constexpr const char* coupling_properties = "constant/couplingProperties";
 inline constexpr const char* sample_points = "constant/samples";  ///< folder of <set>.csv, points at which velocity is averaged
 inline constexpr const char* checkpoints = "checkpoints";
+inline constexpr const char* dem_state = "dem.json";   ///< of a checkpoint: what the DEM adds to its restart file
 inline constexpr const char* recording = "recording";  ///< folder of the flow by rotor phase
 inline constexpr const char* results_json = "report/results.json";
 inline constexpr const char* report_page = "report/index.html";

@@ -1,6 +1,7 @@
 #include "solver/liggghts/liggghts_engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -27,6 +28,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/json_document.hpp"
+#include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/liggghts/clump_state.hpp"
 #include "solver/liggghts/contacts/contact_registration.hpp"
@@ -52,15 +54,19 @@ constexpr double k_clump_margin = 0.5;        // the same with clumps, half of i
 constexpr double k_most_bins = 1e5;           // of little rock: LIGGGHTS clears all bins at each rebuild
 constexpr double k_bins_per_rock = 10.0;      // of much rock, however little of the domain it fills
 constexpr const char* k_restart_file = "dem.restart";
-constexpr const char* k_state_file = "dem.json";
 constexpr const char* k_rolling_history = "rolling_history";
 constexpr const char* k_walls = "walls";
 constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
 constexpr const char* k_clumps = "clumps";
 constexpr const char* k_motion = "rock_motion";
+constexpr const char* k_pressed = "pressed_m";  // of a wall in a checkpoint
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_wall_rolling = "wall_rolling";
 constexpr const char* k_contact_forces = "contact_forces";
+
+std::array<double, 3> as_list(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
 
 /// Smallest upright box around a domain.
 commands::SimulationBox bounds(const coupling::DomainSettings& domain) {
@@ -146,6 +152,7 @@ private:
     void delete_rocks(const std::vector<int>& sorted_ids);
     void after_change_of_rocks();
     std::vector<std::string> body_names() const;
+    Vec3 pressed(std::size_t body) const;
     nlohmann::json read_state_file(const std::filesystem::path& folder) const;
     void read_rocks(const std::filesystem::path& folder, const nlohmann::json& state);
     void adopt_wall_contacts(const std::vector<std::string>& names_before);
@@ -575,6 +582,8 @@ double LiggghtsEngine::Implementation::walls_change_until() const {
         if (wall.turn.speed != 0.0) last = std::max(last, wall.turn.end);
         if (std::isfinite(wall.removed_at)) last = std::max(last, wall.removed_at);
     }
+    if (!std::all_of(walls_.begin(), walls_.end(), [](const SteelWall& wall) { return wall.is_borne(); }))
+        return std::numeric_limits<double>::infinity();
     return last;
 }
 
@@ -608,7 +617,8 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     done.cutter_torque = sum(motion_->angular_impulse()) / duration;
     const std::vector<Vec3> wall_impulse = sum(motion_->wall_impulse());
     const std::vector<std::string> bodies = body_names();
-    for (std::size_t body = 0; body < bodies.size(); ++body) done.wall_force.push_back({bodies[body], wall_impulse[body] / duration});
+    for (std::size_t body = 0; body < bodies.size(); ++body)
+        done.wall_force.push_back({bodies[body], wall_impulse[body] / duration, pressed(body)});
     done.contacts = static_cast<int>(std::lround(sum(context_.tally.contacts)));
     done.max_overlap_ratio = context_.tally.overlap_ratio;
     MPI_Allreduce(MPI_IN_PLACE, &done.max_overlap_ratio, 1, MPI_DOUBLE, MPI_MAX, communicator_);
@@ -644,16 +654,21 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     nlohmann::json bodies = nlohmann::json::array();
     const std::vector<std::string> names = body_names();
     for (std::size_t body = 0; body < names.size(); ++body)
-        bodies.push_back({{"name", names[body]}, {"force_n", {forces[body].x(), forces[body].y(), forces[body].z()}}});
+        bodies.push_back({{"name", names[body]}, {"force_n", as_list(forces[body])}, {k_pressed, as_list(pressed(body))}});
     if (is_first_rank()) {
-        std::ofstream stream(folder / k_state_file);
+        std::ofstream stream(folder / names::dem_state);
         const bool rolling = context_.rock_rock.resists_rolling();
         nlohmann::json state{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}, {k_walls, bodies}};
         if (context_.has_clumps) state[k_clumps] = clump_state(settings_.shapes, bodies_);
         stream << state.dump(2) << '\n';
-        if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / k_state_file).string()));
+        if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / names::dem_state).string()));
     }
     MPI_Barrier(communicator_);
+}
+
+/// Of a body in the order of body_names(); sides stay where they are.
+Vec3 LiggghtsEngine::Implementation::pressed(std::size_t body) const {
+    return body < walls_.size() ? walls_[body].pressed() : Vec3(Vec3::Zero());
 }
 
 /// Walls in the order of the settings, then the sides that are walls.
@@ -666,25 +681,26 @@ std::vector<std::string> LiggghtsEngine::Implementation::body_names() const {
 }
 
 nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesystem::path& folder) const {
-    const nlohmann::json state = read_json_document(folder / k_state_file,
+    const nlohmann::json state = read_json_document(folder / names::dem_state,
                                                     {{"time_s", JsonKind::number, true},
                                                      {"torque_n_m", JsonKind::number, true},
                                                      {k_rolling_history, JsonKind::truth, false},
                                                      {"walls/*/name", JsonKind::text, false},
                                                      {"walls/*/force_n/*", JsonKind::number, false},
+                                                     {"walls/*/pressed_m/*", JsonKind::number, false},
                                                      {k_clumps, JsonKind::object, false},
                                                      {"clumps/shapes/*/name", JsonKind::text, false}},
                                                     k_remedy);
     const bool written_with = state.value(k_rolling_history, false), rolling = context_.rock_rock.resists_rolling();
     if (written_with != rolling)
-        throw UserError({{(folder / k_state_file).string(),
+        throw UserError({{(folder / names::dem_state).string(),
                           fmt::format("the checkpoint was written {} rolling friction of rock on rock", written_with ? "with" : "without"),
                           fmt::format("This run has it {}; what contacts remember differs", rolling ? "above 0" : "0"),
                           "Resume with the settings of the checkpoint, or start anew"}});
     if (!std::filesystem::is_regular_file(folder / k_restart_file))
         throw UserError(
             {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", k_remedy}});
-    require_same_clumps(settings_.shapes, state.value(k_clumps, nlohmann::json::object()), (folder / k_state_file).string());
+    require_same_clumps(settings_.shapes, state.value(k_clumps, nlohmann::json::object()), (folder / names::dem_state).string());
     return state;
 }
 
@@ -718,9 +734,11 @@ void LiggghtsEngine::Implementation::read_rocks(const std::filesystem::path& fol
     for (const nlohmann::json& body : bodies) {
         names_before.push_back(body.at("name"));
         const auto found = std::find(names.begin(), names.end(), names_before.back());
-        const std::vector<double> force = body.at("force_n");
-        if (found != names.end() && force.size() == 3 && is_first_rank())
-            forces_on_bodies_[static_cast<std::size_t>(found - names.begin())] = Vec3(force.data());
+        if (found == names.end()) continue;
+        const auto now = static_cast<std::size_t>(found - names.begin());
+        const std::vector<double> force = body.at("force_n"), way = body.value(k_pressed, std::vector<double>{});
+        if (force.size() == 3 && is_first_rank()) forces_on_bodies_[now] = Vec3(force.data());
+        if (way.size() == 3 && now < walls_.size()) walls_[now].set_pressed(Vec3(way.data()));
     }
     set_up_needed_ = true;
     command("clear");

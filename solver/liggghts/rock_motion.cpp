@@ -73,6 +73,16 @@ void RockMotion::add_impulses_of_walls() {
         wall_impulse_[body] += 0.5 * update->dt * context_.tally.force_on_body[body];
 }
 
+/// By the forces of all ranks on each wall that presses.
+void RockMotion::press_walls() {
+    for (std::size_t body = 0; body < walls_.size(); ++body) {
+        if (!walls_[body].presses()) continue;
+        Vec3 of_all_ranks = context_.tally.force_on_body[body];
+        MPI_Allreduce(MPI_IN_PLACE, of_all_ranks.data(), 3, MPI_DOUBLE, MPI_SUM, world);
+        walls_[body].press(of_all_ranks, update->dt);
+    }
+}
+
 Vec3 RockMotion::spin_acceleration(int rock) const {
     return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
 }
@@ -100,6 +110,7 @@ void RockMotion::initial_integrate(int) {
         spin += step * state.spin_acceleration;
     }
     add_impulses_of_walls();
+    press_walls();
     context_.time += step;
 }
 

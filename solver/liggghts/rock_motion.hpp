@@ -69,6 +69,7 @@ private:
     Vec3 acceleration(int rock) const;
     void add_impulses(int rock);
     void add_impulses_of_walls();
+    void press_walls();
     Vec3 spin_acceleration(int rock) const;
 
     ContactContext& context_;

@@ -44,13 +44,16 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
       removed_at_(given.removed_at),
       travel_(given.travel),
       turn_(given.turn),
+      press_(given.press),
+      press_speed_(press_ ? press_->largest_speed : 0.0),
       surface_velocity_(given.surface_velocity),
       rotor_(rotor) {}
 
 WallPose SteelWall::pose(double time) const {
     WallPose pose;
-    pose.way = travel_.way(time);
+    pose.way = travel_.way(time) + pressed_;
     pose.travel = travel_.velocity_at(time);
+    if (press_) pose.travel += press_speed_ * press_->direction;
     if (!rotating_ && turn_.speed == 0.0) return pose;
     const RotationAxis& axis = rotating_ ? rotor_.axis : turn_.axis;
     const double angle = rotating_ ? rotor_.angle(time) : turn_.angle(time);
@@ -58,6 +61,11 @@ WallPose SteelWall::pose(double time) const {
     pose.origin = axis.origin;
     pose.spin = rotating_ ? Vec3(rotor_.speed * axis.direction) : turn_.spin_at(time);
     return pose;
+}
+
+void SteelWall::press(const Vec3& force, double step) {
+    press_speed_ = press_->speed(-force.dot(press_->direction));
+    pressed_ += step * press_speed_ * press_->direction;
 }
 
 const std::vector<Triangle>& SteelWall::near(Neighbourhood& last, const Vec3& centre, double radius) const {

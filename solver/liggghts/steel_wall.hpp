@@ -1,5 +1,6 @@
 #pragma once
 /// \file Walls of triangles. Each stands still in a frame of its own, in which the rocks that touch it are sought.
+#include <cmath>
 #include <vector>
 
 #include "geometry/base/axis_frame.hpp"
@@ -52,11 +53,21 @@ public:
     const WallSurface& surface() const { return surface_; }
     WallPose pose(double time) const;
 
+    /// Moves a wall that presses for one step of `step` [s]. \param force  of all rock on it [N]
+    void press(const Vec3& force, double step);
+    bool presses() const { return press_.has_value(); }
+    /// Whether rock bears all but 1 % of what presses on it.
+    bool is_borne() const { return !press_ || std::abs(press_speed_) <= k_borne * press_->largest_speed; }
+    /// Way that it was pressed from where its file has it [m].
+    const Vec3& pressed() const { return pressed_; }
+    void set_pressed(const Vec3& way) { pressed_ = way; }
+
     /// Hands the touches of this rank's rocks at `time` [s] to `contacts`.
     void find_touches(const LAMMPS_NS::Atom& atom, double time, WallContacts& contacts);
 
 private:
     static constexpr double k_rounding = 1e-12;  // of times that are sums of steps
+    static constexpr double k_borne = 0.01;      // share of the force that may be missing
 
     /// All triangles nearer to `centre` than `reach`, in the wall's frame.
     struct Neighbourhood {
@@ -74,6 +85,9 @@ private:
     double removed_at_;
     coupling::WallTravel travel_;
     coupling::WallTurn turn_;
+    std::optional<coupling::WallPress> press_;
+    double press_speed_ = 0.0;  // along the press [m/s]
+    Vec3 pressed_ = Vec3::Zero();
     Vec3 surface_velocity_;
     coupling::ZoneMotion rotor_;
     std::vector<Neighbourhood> neighbourhoods_;  // of the rocks, in LIGGGHTS' order

@@ -63,7 +63,7 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     std::string whereabouts = "time_s,placed_count,placed_kg";
     for (const char* where : k_whereabouts) whereabouts += fmt::format(",{0}_count,{0}_kg", where);
     account_ = open(k_rock, "account.csv", whereabouts);
-    walls_ = open(k_rock, "walls.csv", "time_s,wall,force_x_n,force_y_n,force_z_n");
+    walls_ = open(k_rock, "walls.csv", "time_s,wall,force_x_n,force_y_n,force_z_n,pressed_x_m,pressed_y_m,pressed_z_m");
     if (!settings.gates.empty())
         gates_ = open(k_rock, "gates.csv", "time_s,gate,id,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,diameter_m,mass_kg");
     if (std::any_of(settings.operations.begin(), settings.operations.end(),
@@ -148,7 +148,8 @@ void CsvRecorder::extraction(const ExtractionRow& row) {
 
 void CsvRecorder::walls(double time, gsl::span<const WallForce> forces) {
     for (const WallForce& wall : forces)
-        fmt::print(walls_, "{:.9g},{},{:.9g},{:.9g},{:.9g}\n", time, wall.wall, wall.force[0], wall.force[1], wall.force[2]);
+        fmt::print(walls_, "{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", time, wall.wall, wall.force[0], wall.force[1],
+                   wall.force[2], wall.pressed[0], wall.pressed[1], wall.pressed[2]);
 }
 
 void CsvRecorder::fates(double time, const FateTotals& totals) {

@@ -77,6 +77,7 @@ using HydrodynamicForce = std::function<Vec3(std::size_t index, const Vec3& velo
 struct WallForce {
     std::string wall;  ///< a name of the settings, or a side of the domain
     Vec3 force = Vec3::Zero();
+    Vec3 pressed = Vec3::Zero();  ///< way [m] that it was pressed from its place, at the call's end
 };
 
 /// What one call of advance did.
@@ -119,7 +120,7 @@ public:
     virtual void freeze(gsl::span<const int>) { throw std::logic_error("this DEM does not hold rock"); }
     virtual void thaw(gsl::span<const int>) { throw std::logic_error("this DEM does not hold rock"); }
 
-    /// Last time [s] at which a wall stops or is taken out; 0 when all stand.
+    /// Last time [s] at which a wall stops or is taken out; 0 when all stand. Infinite while rock does not bear what presses on it to 1 %.
     virtual double walls_change_until() const { return 0.0; }
 
     /// Advances by `duration` [s] in a whole number of equal steps, at most largest_time_step() long; the rotor turns along.

@@ -30,6 +30,16 @@ void check_material(Mistakes& mistakes, const ContactSettings& contact, const st
                  fmt::format("Add {} {{ friction ...; restitution ...; rollingFriction ...; }} to pairs", pair));
 }
 
+void check_press(Mistakes& mistakes, const std::string& key, const WallSettings& wall) {
+    if (!wall.press) return;
+    mistakes.positive(key + ".press.force", wall.press->force);
+    mistakes.positive(key + ".press.speed", wall.press->largest_speed);
+    mistakes.require(std::abs(wall.press->direction.norm() - 1.0) < 1e-9, key + ".press.direction: its length",
+                     wall.press->direction.norm(), "It must be 1", k_correct);
+    mistakes.require(!wall.rotating && wall.turn.speed == 0.0 && wall.travel.velocity.norm() == 0.0, key + " presses and moves by itself",
+                     "A wall moves in one way", "Remove one of them");
+}
+
 void check_walls(Mistakes& mistakes, const DemSettings& settings) {
     std::set<std::string> names;
     for (const WallSettings& wall : settings.walls) {
@@ -50,6 +60,7 @@ void check_walls(Mistakes& mistakes, const DemSettings& settings) {
         mistakes.require(turn.speed == 0.0 || (!wall.rotating && travel.velocity.norm() == 0.0),
                          fmt::format("{} turns by itself and {}", key, wall.rotating ? "with the moving zone" : "travels"),
                          "A wall moves in one way", "Remove one of them");
+        check_press(mistakes, key, wall);
     }
     for (const char* side : k_domain_sides)
         mistakes.require(names.count(side) == 0, fmt::format("rock.walls.{} is called as a side of the domain", side),

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -109,6 +110,17 @@ struct WallTurn {
     Vec3 spin_at(double time) const { return time > begin && time <= end ? Vec3(speed * axis.direction) : Vec3(Vec3::Zero()); }
 };
 
+/// A wall that rock holds up: it moves along `direction` with the speed v_max (1 - N/F), within +-v_max, where N is rock's force against
+/// that direction, and so comes to bear F. It is a weightless plate with a damper of F/v_max.
+struct WallPress {
+    Vec3 direction = -Vec3::UnitZ();  ///< of length 1
+    double force = 0.0;               ///< F [N]
+    double largest_speed = 0.0;       ///< v_max [m/s]
+
+    /// \param reaction  N [N]
+    double speed(double reaction) const { return largest_speed * std::clamp(1.0 - reaction / force, -1.0, 1.0); }
+};
+
 /// A wall given as STL [m, run frame]. A rotating one turns with the moving zone and is given at angle 0; one that travels, or turns by
 /// itself, is given where it stands at first. Its material says which pair its contacts with rock follow. A wall whose surface runs, as a
 /// belt's, is at rest but for the velocity along it.
@@ -118,6 +130,7 @@ struct WallSettings {
     bool rotating = false;
     WallTravel travel{};
     WallTurn turn{};
+    std::optional<WallPress> press{};
     std::string material = k_steel;
     double removed_at = std::numeric_limits<double>::infinity();  ///< from then on it exerts nothing [s]
     Vec3 surface_velocity = Vec3::Zero();                         ///< of which the part along the surface counts [m/s]

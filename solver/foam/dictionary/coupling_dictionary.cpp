@@ -121,6 +121,13 @@ coupling::WallSettings read_wall(DictionarySection& section, const std::filesyst
         turn.read("to", wall.turn.end, k_required);
         if (wall.turn.axis.direction.norm() > 0.0) wall.turn.axis.direction.normalize();
     });
+    read_section(section, "press", k_optional, [&](DictionarySection& press) {
+        wall.press.emplace();
+        press.read("direction", wall.press->direction, k_required);
+        press.read("force", wall.press->force, k_required);
+        press.read("speed", wall.press->largest_speed, k_required);
+        if (wall.press->direction.norm() > 0.0) wall.press->direction.normalize();
+    });
     section.read("removedAt", wall.removed_at, k_optional);
     section.read("surfaceVelocity", wall.surface_velocity, k_optional);
     return wall;

@@ -352,6 +352,7 @@ rock
     (
         { name tube; file "tube.stl"; material perspex; travel { velocity (0 0 0.1); from 0.5; to 2; } removedAt 3; }
         { name plate; file "plate.stl"; turn { origin (0 0 1); axis (0 2 0); speed -3; from 0; to 4; } }
+        { name lid; file "lid.stl"; press { direction (0 0 -2); force 8; speed 0.05; } }
     );
     domain { type box; lower (0 0 0); upper (1 1 1); walls (xMin xMax zMin); frictionless (xMin xMax); material glass; }
 }
@@ -359,7 +360,7 @@ rock
 
 TEST(CouplingDictionary, ReadsMaterialsByNameAndWallsThatTravelAndGo) {
     const coupling::DemSettings dem = *read("dictionary_room", k_room).dem;
-    ASSERT_EQ(dem.walls.size(), 2u);
+    ASSERT_EQ(dem.walls.size(), 3u);
     EXPECT_EQ(dem.walls[0].material, "perspex");
     EXPECT_EQ(dem.walls[0].travel.velocity, Vec3(0, 0, 0.1));
     EXPECT_EQ(dem.walls[0].travel.begin, 0.5);
@@ -370,6 +371,11 @@ TEST(CouplingDictionary, ReadsMaterialsByNameAndWallsThatTravelAndGo) {
     EXPECT_EQ(dem.walls[1].turn.axis.origin, Vec3(0, 0, 1));
     EXPECT_EQ(dem.walls[1].turn.axis.direction, Vec3::UnitY());
     EXPECT_EQ(dem.walls[1].turn.angle(9.0), -12.0);
+    EXPECT_FALSE(dem.walls[1].press);
+    ASSERT_TRUE(dem.walls[2].press);
+    EXPECT_EQ(dem.walls[2].press->direction, Vec3(-Vec3::UnitZ()));
+    EXPECT_EQ(dem.walls[2].press->force, 8.0);
+    EXPECT_EQ(dem.walls[2].press->largest_speed, 0.05);
     EXPECT_EQ(dem.walls[1].turn.spin_at(9.0), Vec3(Vec3::Zero()));
     EXPECT_EQ(dem.walls[1].material, "steel");
     EXPECT_FALSE(std::isfinite(dem.walls[1].removed_at));
