@@ -29,14 +29,14 @@ void require_known_command(const CLI::App& app, const std::string& word) {
                     nearest.empty() ? "See cutterflow --help" : fmt::format("Did you mean {}?", nearest));
 }
 
-/// The command whose words were being read, or the program itself.
+/// The innermost command whose words were being read ("box" of "generate-solid box"), or the program itself.
 CLI::App& command_of(CLI::App& app) {
     const std::vector<CLI::App*> commands = app.get_subcommands();
-    return commands.empty() ? app : *commands.front();
+    return commands.empty() ? app : command_of(*commands.front());
 }
 
 std::string name_of(const CLI::App& command) {
-    return command.get_parent() == nullptr ? command.get_name() : command.get_parent()->get_name() + " " + command.get_name();
+    return command.get_parent() == nullptr ? command.get_name() : name_of(*command.get_parent()) + " " + command.get_name();
 }
 
 /// Words that belong to no option.
@@ -88,7 +88,7 @@ UserError refusal(const CLI::ParseError& error, CLI::App& app) {
     if (mistakes.empty() || dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) texts.emplace_back(error.what());
     add_wrong_values(command, texts);
     std::string usage = name_of(command);
-    if (command.get_parent() == nullptr) usage += " COMMAND";
+    if (!command.get_subcommands({}).empty()) usage += " COMMAND";
     for (const CLI::Option* option : command.get_options({}))
         if (option->get_positional()) usage += fmt::format(option->get_required() ? " {}" : " [{}]", option->get_name());
     for (const std::string& text : texts)

@@ -435,6 +435,22 @@ TEST_F(Cli, generate_solid_writes_solids_of_known_volume_and_inspect_shows_them_
     expect_refused(call({"check", "study.toml"}), 2, "box.stl: ");
 }
 
+TEST_F(Cli, names_all_missing_and_wrong_options_of_a_solid_at_once) {
+    const std::map<std::string, std::vector<std::string>> options{
+        {"box", {"--x-m", "--y-m", "--z-m"}},
+        {"pipe", {"--inner-radius-m", "--wall-m", "--length-m"}},
+        {"funnel", {"--inlet-radius-m", "--outlet-radius-m", "--height-m", "--wall-m"}},
+        {"backplate",
+         {"--radius-m", "--thickness-m", "--gap-m", "--mouth-radius-m", "--mouth-offset-m", "--pipe-wall-m", "--pipe-length-m"}}};
+    for (const auto& [solid, names] : options) {
+        const Outcome outcome = call({"generate-solid", solid, "--edge-m", "fine", "--colour", "red"});
+        expect_refused(outcome, 2, "cutterflow generate-solid " + solid + " has no option --colour");
+        for (const std::string& name : names) expect_contains(outcome.text, name + " is required");
+        for (const char* part : {"--output is required", "fine", "See cutterflow generate-solid "}) expect_contains(outcome.text, part);
+    }
+    expect_refused(call({"generate-solid"}), 2, "The command is written as: cutterflow generate-solid COMMAND");
+}
+
 TEST_F(Cli, refuses_millimetres_taken_as_metres_and_tells_them_when_not_said) {
     geometry::write_stl(scaled(crown(), 1000.0), folder_ / "cutter.stl");
     expect_refused(call({"check", study("", "cutter.stl")}), 0, "mm");
