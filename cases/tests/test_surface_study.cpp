@@ -23,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -203,6 +204,24 @@ TEST_F(SurfaceStudy, comparison_takes_no_run_twice_and_no_copy) {
     EXPECT_THROW(compared({first, second, first}), UserError);
     EXPECT_THROW(compared({first, folder_ / "a_repeat2/../a_repeat1"}), UserError);
     EXPECT_THROW(compared({first, copy}), UserError);
+}
+
+TEST_F(SurfaceStudy, comparison_names_every_run_that_is_not_there_and_every_one_that_measures_something_else) {
+    const auto told = [](const std::vector<fs::path>& runs, const std::function<std::string(const fs::path&)>& key) {
+        std::vector<std::string> whats;
+        try {
+            postproc::compare_settings(runs, [&](const fs::path& run) {
+                return std::vector<postproc::RunQuantity>{{key(run), "q", "-", 1.0}};
+            });
+        } catch (const UserError& error) {
+            for (const Mistake& mistake : error.mistakes()) whats.push_back(mistake.what);
+        }
+        return whats;
+    };
+    const auto missing = [](const fs::path& run) -> std::string { throw UserError(run.string() + " is no run", "", ""); };
+    EXPECT_THAT(told({"a", "b"}, missing), ElementsAre("a is no run", "b is no run"));
+    EXPECT_THAT(told({"a", "b", "c"}, [](const fs::path& run) { return run == "a" ? "force" : "mass"; }),
+                ElementsAre("b measures something else than a", "c measures something else than a"));
 }
 
 TEST(RepeatMean, has_students_interval_and_none_for_what_never_came) {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "postproc/analysis/settings/distinct_runs.hpp"
@@ -64,21 +64,30 @@ nlohmann::json json_of(const RepeatMean& value) {
     return {{"mean", number(value.mean)}, {"half_width", number(value.half)}};
 }
 
-void require_same_quantities(const SettingResults& first, const std::vector<RunQuantity>& quantities, const fs::path& run) {
-    const bool same = std::equal(first.quantities.begin(), first.quantities.end(), quantities.begin(), quantities.end(),
-                                 [](const SettingQuantity& a, const RunQuantity& b) { return a.key == b.key; });
-    if (!same)
-        throw UserError(fmt::format("{} measures something else than {}", run.string(), first.name),
-                        "Runs beside each other have the same measures",
-                        "Give them the same [[measure]] tables: cutterflow measure makes them anew");
-}
-
 void require_different(const std::vector<fs::path>& runs) {
     const auto have_one_manifest = [&](std::size_t a, std::size_t b) {
         const fs::path first = runs[a] / names::manifest, second = runs[b] / names::manifest;
         return fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // it has the times of its stages
     };
     require_distinct(runs, have_one_manifest, "seed");
+}
+
+/// Of every run, the same ones. \throws UserError  with the mistakes of all runs
+std::vector<std::vector<RunQuantity>> quantities_of_all(const std::vector<fs::path>& runs,
+                                                        const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
+    Mistakes mistakes;
+    mistakes.gather([&] { require_different(runs); });
+    std::vector<std::vector<RunQuantity>> all(runs.size());
+    for (std::size_t n = 0; n < runs.size(); ++n) mistakes.gather([&] { all[n] = quantities_of(runs[n]); });
+    mistakes.refuse();
+    const auto same = [](const RunQuantity& a, const RunQuantity& b) { return a.key == b.key; };
+    for (std::size_t n = 1; n < runs.size(); ++n)
+        mistakes.require(std::equal(all[0].begin(), all[0].end(), all[n].begin(), all[n].end(), same),
+                         fmt::format("{} measures something else than {}", runs[n].string(), setting_of(runs.front()).first),
+                         "Runs beside each other have the same measures",
+                         "Give them the same [[measure]] tables: cutterflow measure makes them anew");
+    mistakes.refuse();
+    return all;
 }
 
 }  // namespace
@@ -98,11 +107,11 @@ std::string verdict_of(const RepeatMean& difference) {
 
 std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
                                              const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
-    require_different(runs);
+    const std::vector<std::vector<RunQuantity>> of_runs = quantities_of_all(runs, quantities_of);
     std::vector<SettingResults> settings;
-    for (const fs::path& run : runs) {
-        const std::vector<RunQuantity> quantities = quantities_of(run);
-        const auto [name, repeat] = setting_of(run);
+    for (std::size_t n = 0; n < runs.size(); ++n) {
+        const std::vector<RunQuantity>& quantities = of_runs[n];
+        const auto [name, repeat] = setting_of(runs[n]);
         auto setting = std::find_if(settings.begin(), settings.end(), [&, &wanted = name](const auto& one) { return one.name == wanted; });
         if (setting == settings.end()) {
             settings.push_back({name, {}, {}});
@@ -110,7 +119,6 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
             for (const RunQuantity& one : quantities)
                 setting->quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}});
         }
-        require_same_quantities(settings.front(), quantities, run);
         setting->repeats.push_back(repeat);
         for (std::size_t q = 0; q < quantities.size(); ++q) setting->quantities[q].each.push_back(quantities[q].value);
     }
