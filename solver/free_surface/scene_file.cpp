@@ -45,6 +45,9 @@ constexpr StepCost k_plane_cost{3.0e-8, 3.1e-7, 1.0e-6};
 constexpr StepCost k_space_cost{5.2e-8, 4.9e-7, 7.5e-6};
 constexpr double k_bytes_per_particle = 100.0, k_bytes_per_cell = 600.0, k_bytes_of_program = 5e7;
 constexpr const char* k_reference = "Chen2019";
+// The bounds of cutters and rooms.
+constexpr double k_densest_water = 2e4, k_densest_body = 3e4;  // [kg/m3]
+constexpr double k_most_viscous = 1.0;                         // [m2/s]
 
 Parameter number(const std::string& key, const std::string& unit, std::optional<double> value, double minimum, const std::string& help) {
     Parameter parameter;
@@ -728,8 +731,9 @@ const ParameterTable& scene_table() {
         keys.push_back(choice("domain.dimensions", "plane", {"plane", "space"}, "A plane scene, or one in space with cells across."));
         keys.push_back(positive("domain.length_m", "m", 0.1, "Length of the tank across, along y, and of its cylinders."));
         keys.push_back(positive("domain.cell_m", "m", {}, "Edge of a cell; a body needs at least 5, better 10 across."));
-        keys.push_back(positive("water.density_kg_m3", "kg/m3", 1000.0, "Density of the water."));
-        keys.push_back(number("water.kinematic_viscosity_m2_s", "m2/s", 1e-6, 0.0, "Kinematic viscosity of the water."));
+        keys.push_back(bounded(positive("water.density_kg_m3", "kg/m3", 1000.0, "Density of the water."), k_densest_water));
+        keys.push_back(
+            bounded(number("water.kinematic_viscosity_m2_s", "m2/s", 1e-6, 0.0, "Kinematic viscosity of the water."), k_most_viscous));
         for (const char* key : {"from_x_m", "from_z_m", "to_x_m", "to_z_m"})
             keys.push_back(
                 number(std::string("fill.") + key, "m", {}, 0.0, "Corner of a box of water at rest; solids in it are left out."));
@@ -766,7 +770,7 @@ const ParameterTable& scene_table() {
         keys.push_back(derived(positive("solid.wall_length_m", "m", {}, "Length of a funnel's walls."), "a funnel needs it"));
         keys.push_back(choice("bodies.shape", "cylinder", {"cylinder", "sphere"}, "Cylinders across the tank; spheres in space alone."));
         keys.push_back(positive("bodies.diameter_m", "m", {}, "Diameter of the bodies."));
-        keys.push_back(positive("bodies.density_kg_m3", "kg/m3", 2700.0, "Density of the bodies."));
+        keys.push_back(bounded(positive("bodies.density_kg_m3", "kg/m3", 2700.0, "Density of the bodies."), k_densest_body));
         keys.push_back(file_name("bodies.file",
                                  "CSV file with the places of their centres: x_m,z_m and, if wanted, vx_m_s,vz_m_s,spin_rad_s,id,"
                                  " of spheres also y_m and vy_m_s;"

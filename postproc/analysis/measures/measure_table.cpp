@@ -349,7 +349,7 @@ std::vector<MeasureKind> make_table() {
                      "Mean of the pressure at a place less that at another, without the weight of the fluid: its dynamic part.",
                      joined({{shaped(MeasureShape::point, ParameterRow("upstream_m", k_number, "m", "The first place.")),
                               shaped(MeasureShape::point, ParameterRow("downstream_m", k_number, "m", "The other place.")),
-                              single(ParameterRow("density_kg_m3", k_number, "kg/m3", "Density of the fluid.").above(0))},
+                              single(ParameterRow("density_kg_m3", k_number, "kg/m3", "Density of the fluid.").above(0).at_most(2e4))},
                              window()}),
                      pressure_rules});
     return table;

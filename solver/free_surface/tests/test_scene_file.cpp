@@ -55,6 +55,14 @@ hole_spacing_m = 0.02
     EXPECT_NEAR(scene.settings.tank.depth, 0.1, 1e-12);
 }
 
+TEST(SceneFile, bounds_densities_and_viscosity) {
+    const std::string mistakes = mistakes_of(k_tank + k_fill +
+                                             "[water]\ndensity_kg_m3 = 1e300\nkinematic_viscosity_m2_s = 1e300\n"
+                                             "[[bodies]]\ndiameter_m = 0.01\ndensity_kg_m3 = 1e300\n");
+    for (const char* key : {"water.density_kg_m3", "water.kinematic_viscosity_m2_s", "bodies.density_kg_m3"})
+        EXPECT_THAT(mistakes, ::testing::HasSubstr(std::string(key) + " = 1e+300 is too high"));
+}
+
 TEST(SceneFile, has_the_solvers_bounds_of_friction) {
     const auto mistakes_with = [](const std::string& friction) {
         return mistakes_of(k_tank + k_fill + "[contact]\nfriction = " + friction);
