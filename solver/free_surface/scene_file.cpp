@@ -10,6 +10,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/parameters/parameter_words.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/soundness.hpp"
 #include "solver/free_surface/body_list.hpp"
@@ -47,6 +48,30 @@ constexpr double k_bytes_per_particle = 100.0, k_bytes_per_cell = 600.0, k_bytes
 constexpr const char* k_reference = "Chen2019";
 // The bounds of cutters and rooms.
 constexpr double k_densest_water = 2e4, k_densest_body = 3e4;  // [kg/m3]
+constexpr const char* k_reference = "Chen2019";
+
+/// A word of `solid.kind` and the keys of [[solid]] that it has.
+struct SolidKind {
+    const char* name;
+    std::vector<std::string> keys;
+};
+
+const std::vector<SolidKind>& solid_kinds() {
+    static const std::vector<SolidKind> kinds{
+        {"box", {"from_x_m", "from_z_m", "to_x_m", "to_z_m", "from_y_m", "to_y_m"}},
+        {"plate", {"from_x_m", "from_z_m", "to_x_m", "to_z_m", "wall_m"}},
+        {"pipe", {"axis_x_m", "inner_width_m", "wall_m", "bottom_m", "top_m", "hole_m", "hole_spacing_m"}},
+        {"funnel", {"axis_x_m", "inner_width_m", "wall_m", "bottom_m", "wall_length_m", "angle_deg"}},
+        {"gate", {"axis_x_m", "wall_m", "bottom_m", "top_m", "speed_m_s", "start_s"}},
+        {"surface", {"file"}}};
+    return kinds;
+}
+
+std::vector<std::string> solid_kind_names() {
+    std::vector<std::string> names;
+    for (const SolidKind& kind : solid_kinds()) names.emplace_back(kind.name);
+    return names;
+}
 constexpr double k_most_viscous = 1.0;                         // [m2/s]
 
 Parameter number(const std::string& key, const std::string& unit, std::optional<double> value, double minimum, const std::string& help) {
@@ -262,13 +287,30 @@ private:
     void add_box(double from_x, double from_z, double to_x, double to_z) {
         scene_.settings.solids.emplace_back(SolidBox{Vec3(from_x, -k_far, from_z), Vec3(to_x, k_far, to_z)});
     }
+    /// Keys of other kinds. A study that is written out in full has their defaults.
+    void refuse_other_keys(const ParameterValues& solid) {
+        const std::string& kind = solid.text("solid.kind");
+        const auto is_kind = [&](const SolidKind& one) { return kind == one.name; };
+        const std::vector<std::string>& keys = std::find_if(solid_kinds().begin(), solid_kinds().end(), is_kind)->keys;
+        for (const Parameter& row : scene_table()) {
+            const ParameterValue* value = solid.find(row.key);
+            const auto is_it = [&](const std::string& key) { return row.key == "solid." + key; };
+            if (is_it("kind") || value == nullptr || *value == row.default_value || std::any_of(keys.begin(), keys.end(), is_it)) continue;
+            refuse(solid.where(row.key), fmt::format("{} = {} for a {}", row.key, toml_text(*value), kind),
+                   fmt::format("A {} has {}", kind, parameter_words::join(keys, ", ")), "Remove it");
+        }
+    }
+
+    void require_top_above_bottom(const ParameterValues& solid, double bottom, double top) {
+        if (top <= bottom)
+            refuse(solid.where("solid.top_m"), fmt::format("solid.top_m = {:g} m lies below solid.bottom_m = {:g} m", top, bottom),
+                   "The top is above", "Exchange them");
+    }
+
 
     void read_solid(const ParameterValues& solid) {
         const std::string& kind = solid.text("solid.kind");
-        if (kind != "box")
-            for (const char* key : {"solid.from_y_m", "solid.to_y_m"})
-                if (solid.has(key))
-                    refuse(solid.where(key), fmt::format("{} for a {}", key, kind), "Only a box ends across", "Remove it, or use a box");
+        refuse_other_keys(solid);
         if (kind == "box") {
             const Interval y = across(solid, "solid.from_y_m", "solid.to_y_m");
             const Vec3 from(required(solid, "solid.from_x_m"), y.from, required(solid, "solid.from_z_m"));
@@ -740,7 +782,7 @@ const ParameterTable& scene_table() {
         for (const char* key : {"from_y_m", "to_y_m"})
             keys.push_back(derived(number(std::string("fill.") + key, "m", {}, 0.0, "Where a box of water in space ends across."),
                                    "the whole tank across"));
-        keys.push_back(choice("solid.kind", {}, {"box", "plate", "pipe", "funnel", "gate", "surface"}, "What stands in the tank."));
+        keys.push_back(choice("solid.kind", {}, solid_kind_names(), "What stands in the tank."));
         keys.push_back(file_name("solid.file",
                                  "STL, OBJ or PLY file of a closed surface in a scene in space, in metres and in the scene's coordinates;"
                                  " relative to the study file.",

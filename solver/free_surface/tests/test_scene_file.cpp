@@ -55,6 +55,16 @@ hole_spacing_m = 0.02
     EXPECT_NEAR(scene.settings.tank.depth, 0.1, 1e-12);
 }
 
+TEST(SceneFile, refuses_keys_of_another_kind_of_solid_by_name) {
+    const std::string box = "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.1\nfrom_z_m = 0\nto_x_m = 0.2\nto_z_m = 0.1\n";
+    const std::string mistakes = mistakes_of(k_tank + k_fill + box + "top_m = 0.3\nhole_m = 0.01\nfile = \"a.stl\"\n");
+    for (const char* part : {"solid.top_m = 0.3 for a box. A box has from_x_m, from_z_m, to_x_m, to_z_m, from_y_m, to_y_m. Remove it",
+                             "solid.hole_m = 0.01 for a box", "solid.file = \"a.stl\" for a box", "scene.toml:"})
+        EXPECT_THAT(mistakes, ::testing::HasSubstr(part));
+    EXPECT_EQ(mistakes_of(k_tank + box + k_fill), mistakes_of(k_tank + box + "hole_m = 0\nstart_s = 0\nangle_deg = 45\n" + k_fill))
+        << "a study that is written out in full has all defaults";
+}
+
 TEST(SceneFile, bounds_densities_and_viscosity) {
     const std::string mistakes = mistakes_of(k_tank + k_fill +
                                              "[water]\ndensity_kg_m3 = 1e300\nkinematic_viscosity_m2_s = 1e300\n"
