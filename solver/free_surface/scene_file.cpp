@@ -45,9 +45,9 @@ constexpr StepCost k_plane_cost{3.0e-8, 3.1e-7, 1.0e-6};
 // and of 19,200 to 38,400 cells with 36,864 to 129,648 particles and 0 to 4 spheres of eight cells.
 constexpr StepCost k_space_cost{5.2e-8, 4.9e-7, 7.5e-6};
 constexpr double k_bytes_per_particle = 100.0, k_bytes_per_cell = 600.0, k_bytes_of_program = 5e7;
-constexpr const char* k_reference = "Chen2019";
 // The bounds of cutters and rooms.
 constexpr double k_densest_water = 2e4, k_densest_body = 3e4;  // [kg/m3]
+constexpr double k_most_viscous = 1.0;                         // [m2/s]
 constexpr const char* k_reference = "Chen2019";
 
 /// A word of `solid.kind` and the keys of [[solid]] that it has.
@@ -72,7 +72,6 @@ std::vector<std::string> solid_kind_names() {
     for (const SolidKind& kind : solid_kinds()) names.emplace_back(kind.name);
     return names;
 }
-constexpr double k_most_viscous = 1.0;                         // [m2/s]
 
 Parameter number(const std::string& key, const std::string& unit, std::optional<double> value, double minimum, const std::string& help) {
     Parameter parameter;
@@ -287,6 +286,7 @@ private:
     void add_box(double from_x, double from_z, double to_x, double to_z) {
         scene_.settings.solids.emplace_back(SolidBox{Vec3(from_x, -k_far, from_z), Vec3(to_x, k_far, to_z)});
     }
+
     /// Keys of other kinds. A study that is written out in full has their defaults.
     void refuse_other_keys(const ParameterValues& solid) {
         const std::string& kind = solid.text("solid.kind");
@@ -306,7 +306,6 @@ private:
             refuse(solid.where("solid.top_m"), fmt::format("solid.top_m = {:g} m lies below solid.bottom_m = {:g} m", top, bottom),
                    "The top is above", "Exchange them");
     }
-
 
     void read_solid(const ParameterValues& solid) {
         const std::string& kind = solid.text("solid.kind");
@@ -400,7 +399,7 @@ private:
         if (hole > 0.0 && hole < (1.0 - 1e-6) * cell())
             refuse(solid.where("solid.hole_m"), fmt::format("solid.hole_m = {:g} m", hole),
                    fmt::format("A hole narrower than a cell ({:g} m) would close", cell()), fmt::format("Use cells of {:g} m", hole));
-        if (top <= bottom) refuse(solid.where("solid.top_m"), "solid.top_m lies below solid.bottom_m", "The top is above", "Exchange them");
+        require_top_above_bottom(solid, bottom, top);
         if (!scene_.pipe) scene_.pipe = PipeGauge{axis, 2.0 * half, wall, bottom, top};
         const double spacing = hole > 0.0 ? required(solid, "solid.hole_spacing_m") : k_far;
         if (spacing < hole + (1.0 - 1e-6) * cell())
@@ -439,7 +438,7 @@ private:
         wall_of(solid);
         const double bottom = required(solid, "solid.bottom_m"), top = required(solid, "solid.top_m");
         const double speed = required(solid, "solid.speed_m_s"), start = solid.number("solid.start_s");
-        if (top <= bottom) refuse(solid.where("solid.top_m"), "solid.top_m lies below solid.bottom_m", "The top is above", "Exchange them");
+        require_top_above_bottom(solid, bottom, top);
         if (mistakes_.size() > before) return;
         const Interval across = thickness_of_gate(solid);
         if (across.from < 0.0 || across.to > width() || bottom >= height())

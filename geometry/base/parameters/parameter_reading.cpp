@@ -43,7 +43,7 @@ std::string toml_of(const toml::node& node) {
     std::vector<std::string> parts;
     if (const toml::array* array = node.as_array()) {
         for (const toml::node& item : *array) parts.push_back(toml_of(item));
-        return fmt::format("[ {} ]", fmt::join(parts, ", "));
+        return fmt::format("[{}]", fmt::join(parts, ", "));
     }
     if (const toml::table* table = node.as_table()) {
         for (auto&& [key, value] : *table) parts.push_back(fmt::format("{} = {}", std::string_view(key.str()), toml_of(value)));
@@ -242,6 +242,13 @@ private:
         return fmt::format("The keys of {} are {}", section, join(known, ", "));
     }
 
+    /// Where a missing key is to be written.
+    std::string place_of(const Parameter& parameter) const {
+        if (parameter.repeated) return fmt::format("to [[{}]]", enclosing_array(table_, parameter.key));
+        const std::string section = section_of(parameter.key);
+        return section.empty() ? "at the top of the file" : fmt::format("to [{}]", section);
+    }
+
     /// Defaults and missing keys of one place: the file outside its arrays of tables (section ""), or one table of an array.
     void fill_in(ParameterValues& values, const std::string& repeated_section, const std::string& place) {
         for (const Parameter& parameter : table_) {
@@ -252,8 +259,7 @@ private:
                 values.set(parameter.key, *parameter.default_value);
             } else if (!parameter.optional) {
                 add(place, fmt::format("{} is missing", parameter.key), "It is required and has no default: " + parameter.help,
-                    fmt::format("Add {} ({}) to [{}]", name_of(parameter.key), kind_with_unit(parameter),
-                                parameter.repeated ? "[" + repeated_section + "]" : section_of(parameter.key)));
+                    fmt::format("Add {} ({}) {}", name_of(parameter.key), kind_with_unit(parameter), place_of(parameter)));
             }
         }
     }

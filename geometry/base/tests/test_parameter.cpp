@@ -93,8 +93,21 @@ TEST(ParameterFile, with_stray_brackets_is_refused_as_no_toml) {
 
 /// toml++ formats these with an undefined conversion, which UndefinedBehaviorSanitizer reports.
 TEST(Parameter, that_is_an_array_or_a_table_is_shown_on_one_line) {
-    expect_contains(only_mistake_in("rotor.speed_rpm = [0.0625, inf, [1e-300]]\n"), "[ 0.0625, inf, [ 1e-300 ] ]");
-    expect_contains(only_mistake_in("rotor.speed_rpm = [{a = 0.0625}]\n"), "[ { a = 0.0625 } ]");
+    expect_contains(only_mistake_in("rotor.speed_rpm = [0.0625, inf, [1e-300]]\n"), "rotor.speed_rpm = [0.0625, inf, [1e-300]] has");
+    expect_contains(only_mistake_in("rotor.speed_rpm = [{a = 0.0625}]\n"), "[{ a = 0.0625 }]");
+}
+
+TEST(Parameter, that_is_missing_is_told_where_it_belongs) {
+    const auto remedy = [](const std::string& key) {
+        try {
+            parse_parameters({make(key, ParameterKind::integer)}, "", "study.toml");
+        } catch (const UserError& error) {
+            return error.mistakes().front().remedy;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(remedy("count"), "Add count (a whole number) at the top of the file");
+    EXPECT_EQ(remedy("feed.count"), "Add count (a whole number) to [feed]");
 }
 
 TEST(Parameter, reads_every_kind_and_fills_in_defaults) {

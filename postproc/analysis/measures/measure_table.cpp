@@ -207,7 +207,8 @@ std::vector<Mistake> spectrum_rules(const json& measure) {
 std::vector<Mistake> pressure_rules(const json& measure) {
     std::vector<Mistake> mistakes = window_rules(measure);
     if (measure["upstream_m"] == measure["downstream_m"])
-        mistakes.push_back(mistake("upstream_m and downstream_m are the same place", "The drop is between two places", "Move one of them"));
+        mistakes.push_back(mistake(fmt::format("upstream_m and downstream_m are the same place, {}", measure["upstream_m"].dump()),
+                                   "The drop is between two places", "Move one of them"));
     return mistakes;
 }
 
@@ -427,8 +428,8 @@ void check_form(const json& value, const Form& form, const std::string& place, s
         }
     }
     if (std::string(form.name) == "cylinder" && value["from_m"] == value["to_m"])
-        mistakes.push_back(
-            mistake(fmt::format("{}.from_m and to_m are the same place", place), "They are the ends of the axis", "Move one of them"));
+        mistakes.push_back(mistake(fmt::format("{}.from_m and to_m are the same place, {}", place, value["from_m"].dump()),
+                                   "They are the ends of the axis", "Move one of them"));
 }
 
 std::string names_of(const std::vector<Form>& forms) {

@@ -65,6 +65,12 @@ TEST(SceneFile, refuses_keys_of_another_kind_of_solid_by_name) {
         << "a study that is written out in full has all defaults";
 }
 
+TEST(SceneFile, says_both_ends_of_a_gate_that_is_upside_down) {
+    EXPECT_THAT(mistakes_of(k_tank + k_fill +
+                            "[[solid]]\nkind = \"gate\"\naxis_x_m = 0.1\nwall_m = 0.004\nbottom_m = 0.1\ntop_m = 0.05\nspeed_m_s = 1\n"),
+                ::testing::HasSubstr("solid.top_m = 0.05 m lies below solid.bottom_m = 0.1 m"));
+}
+
 TEST(SceneFile, bounds_densities_and_viscosity) {
     const std::string mistakes = mistakes_of(k_tank + k_fill +
                                              "[water]\ndensity_kg_m3 = 1e300\nkinematic_viscosity_m2_s = 1e300\n"
