@@ -313,6 +313,43 @@ TEST_F(RoomStudy, names_mistakes_of_all_sections_at_once) {
     EXPECT_THAT(more, HasSubstr("a region outside the room"));
 }
 
+TEST_F(RoomStudy, measures_are_checked_each_by_itself_and_all_in_their_room) {
+    const std::string mistakes = mistakes_of(room_template("heap") + R"(
+[[measure]]
+name = "a"
+what = "angel"
+[[measure]]
+name = "b"
+what = "profile_error"
+against = "gone.csv"
+[[measure]]
+name = "b"
+what = "pressure_drop"
+upstream_m = [0, 0, 0.01]
+downstream_m = [0, 0, 9]
+density_kg_m3 = 1
+[[measure]]
+name = "door"
+what = "passed_mass"
+gate = { disc_m = [0, 0, 0.1], radius_m = -1 }
+[[measure]]
+name = "c"
+what = "rate"
+gate = "door"
+)");
+    for (const char* part : {"what = \"angel\"", "measure.name = \"b\" is given twice", "gate.radius_m = -1",
+                             "measure.downstream_m = (0, 0, 9) of b lies outside the room"})
+        EXPECT_THAT(mistakes, HasSubstr(part));
+    EXPECT_THAT(mistakes, HasSubstr("there is no file " + (folder_ / "gone.csv").string()));
+    EXPECT_THAT(mistakes, Not(HasSubstr("measure.gate = \"door\""))) << "its own mistake is told";
+    EXPECT_THAT(mistakes, Not(HasSubstr("measure.upstream_m")));
+}
+
+TEST_F(RoomStudy, gates_may_lie_on_a_side_of_the_room) {
+    const std::string gate = "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = { disc_m = [0, 0, 0], radius_m = 0.01 }\n\n";
+    EXPECT_EQ(mistakes_of(changed("[run]\n", gate + "[run]\n")), "");
+}
+
 struct Bad {
     const char *from, *to, *what;
 };
@@ -376,6 +413,13 @@ INSTANTIATE_TEST_SUITE_P(
             "density_kg_m3 = 1\n\n[run]\n",
             "in a room without a medium"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"wall_force\"\nwall = \"lid\"\n\n[run]\n", "measure.wall = \"lid\""},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = { disc_m = [0, 0, 9], radius_m = 0.1 }\n\n[run]\n",
+            "measure.gate.disc_m = (0, 0, 9) of x lies outside the room. The room reaches from"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"rate\"\ngate = { lower_m = [1, 1, 0], upper_m = [2, 2, 0] }\n\n[run]\n",
+            "measure.gate.lower_m = (1, 1, 0) of x lies outside the room"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"mass_in\"\nregion = { sphere = { centre_m = [0, 0, 9], radius_m = 1 } }\n\n[run]\n",
+            "measure.x is about a region outside the room"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angle\"\nat_s = 9\n\n[run]\n", "measure.at_s = 9. The run ends at 4 s"},
         Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }", "It names a measure with a gate"},
         Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},
         Bad{k_dry, "medium = \"none\"\ncell_m = 0.01\n", "Without a medium there are neither flow nor mesh"},

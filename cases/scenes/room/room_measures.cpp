@@ -58,22 +58,6 @@ nlohmann::json json_of(const ParameterValue& value) {
     return std::visit([](const auto& held) { return nlohmann::json(held); }, value);
 }
 
-nlohmann::json measure_json(const ParameterValues& values) {
-    nlohmann::json measure = nlohmann::json::object();
-    for (const Parameter& row : measure_rows()) {
-        const ParameterValue* value = values.find(row.key);
-        if (value == nullptr) continue;
-        nlohmann::json* place = &measure;
-        std::string rest = row.key.substr(std::string(k_array).size() + 1);
-        for (std::size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
-            place = &(*place)[rest.substr(0, dot)];
-            rest.erase(0, dot + 1);
-        }
-        (*place)[rest] = json_of(*value);
-    }
-    return measure;
-}
-
 Vec3 vec3_in(const nlohmann::json& list) {
     return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
 }
@@ -92,23 +76,24 @@ ParameterTable measure_rows() {
     return rows;
 }
 
-nlohmann::json measures_json(const ParameterValues& values) {
-    nlohmann::json measures = nlohmann::json::array();
-    for (const ParameterValues& table : values.tables(k_array)) measures.push_back(measure_json(table));
-    return measures;
+nlohmann::json measure_json(const ParameterValues& table) {
+    nlohmann::json measure = nlohmann::json::object();
+    for (const Parameter& row : measure_rows()) {
+        const ParameterValue* value = table.find(row.key);
+        if (value == nullptr) continue;
+        nlohmann::json* place = &measure;
+        std::string rest = row.key.substr(std::string(k_array).size() + 1);
+        for (std::size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
+            place = &(*place)[rest.substr(0, dot)];
+            rest.erase(0, dot + 1);
+        }
+        (*place)[rest] = json_of(*value);
+    }
+    return measure;
 }
 
-std::vector<Mistake> measure_mistakes(const ParameterValues& values) {
-    const nlohmann::json all = measures_json(values);
-    std::vector<Mistake> mistakes;
-    // One at a time, for their places; then together, for names given twice.
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (Mistake& mistake : postproc::check_measures(nlohmann::json::array({all[i]}))) {
-            mistake.where = values.tables(k_array)[i].where("measure.name");
-            mistakes.push_back(std::move(mistake));
-        }
-    if (!mistakes.empty() || all.empty()) return mistakes;
-    return postproc::check_measures(all, values.tables(k_array).front().where("measure.name"));
+std::vector<Mistake> measure_mistakes(const ParameterValues& table) {
+    return postproc::check_measures(nlohmann::json::array({measure_json(table)}), table.where("measure.name"));
 }
 
 std::vector<RoomGate> gates_of(const nlohmann::json& measures) {

@@ -13,11 +13,11 @@ namespace cutterflow::cases {
 /// Rows of all keys that some kind of measure has. Bounds and choices differ between kinds; check_measures knows them.
 ParameterTable measure_rows();
 
-/// The tables as measures.json has them.
-nlohmann::json measures_json(const ParameterValues& values);
+/// A table as measures.json has it.
+nlohmann::json measure_json(const ParameterValues& table);
 
-/// Every mistake of the tables, with the place of the table that it is in.
-std::vector<Mistake> measure_mistakes(const ParameterValues& values);
+/// Every mistake of a table by itself, with its place.
+std::vector<Mistake> measure_mistakes(const ParameterValues& table);
 
 /// Gates that measures place themselves.
 std::vector<RoomGate> gates_of(const nlohmann::json& measures);

@@ -268,8 +268,11 @@ private:
 
     void require_in_room(const Region& region, const std::string& what, const std::string& where) {
         if (!meets_room(region))
-            refuse(where, fmt::format("{} is about a region outside the room", what),
-                   fmt::format("The room reaches from {} to {} m", text_of(scene_.lower()), text_of(scene_.upper())), "Correct the region");
+            refuse(where, fmt::format("{} is about a region outside the room", what), room_rule(), "Correct the region");
+    }
+
+    std::string room_rule() const {
+        return fmt::format("The room reaches from {} to {} m", text_of(scene_.lower()), text_of(scene_.upper()));
     }
 
     // ----------------------------------------------------------- materials
@@ -967,37 +970,86 @@ private:
         scene_.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place});
     }
 
+    /// A stop rule may end the run earlier, none later.
     void require_in_run(double at, const char* key, const ParameterValues& values) {
-        if (at > scene_.run.end)
-            refuse(values.where(key), fmt::format("{} = {:g}", key, at), fmt::format("The run ends at {:g} s", scene_.run.end),
-                   "Correct one of them");
+        const double end = values_.number("run.end_s");
+        if (at > end)
+            refuse(values.where(key), fmt::format("{} = {:g}", key, at), fmt::format("The run ends at {:g} s", end), "Correct one of them");
     }
 
     // ----------------------------------------------------------------- run
 
+    /// The rules of every table by itself, then those of the sound ones in their room.
     void read_measures() {
-        const std::vector<Mistake> mistakes = measure_mistakes(values_);
-        mistakes_.add(mistakes);
-        if (!mistakes.empty()) return;
-        scene_.measures = measures_json(values_);
-        scene_.gates = gates_of(scene_.measures);
+        std::set<std::string> names;
+        std::vector<const ParameterValues*> sound;
+        scene_.measures = nlohmann::json::array();
         for (const ParameterValues& measure : values_.tables("measure")) {
-            const std::string where = measure.where("measure.name");
-            if (measure.text("measure.what") == "pressure_drop" && !scene_.medium.present())
-                refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
-                       "Remove the measure, or choose a room.medium");
-            if (measure.has("measure.against") && !fs::is_regular_file(folder_ / measure.text("measure.against")))
-                refuse(measure.where("measure.against"), fmt::format("there is no file {}", measure.text("measure.against")),
-                       "It is a CSV file of a profile", "Check the path");
-            if (find_gate(measure.text("measure.name")) != nullptr) require_name(measure.text("measure.name"), "measure.name", where);
-            if (measure.has("measure.gate") && find_gate(measure.text("measure.gate")) == nullptr)
-                refuse(measure.where("measure.gate"), fmt::format("measure.gate = \"{}\"", measure.text("measure.gate")),
-                       "It names a measure that places a gate, or places one itself",
-                       "Correct it, or write gate = { disc_m = [x, y, z], radius_m = r }");
-            if (measure.has("measure.wall") && !is_wall(measure.text("measure.wall")))
-                refuse(measure.where("measure.wall"), fmt::format("measure.wall = \"{}\"", measure.text("measure.wall")),
-                       "It names a solid, or a side of the room that is a wall", "Correct it");
+            const std::string &name = measure.text("measure.name"), where = measure.where("measure.name");
+            if (!names.insert(name).second)
+                refuse(where, fmt::format("measure.name = \"{}\" is given twice", name), "Every measure has a name of its own",
+                       "Change one");
+            const std::vector<Mistake> mistakes = measure_mistakes(measure);
+            mistakes_.add(mistakes);
+            if (!mistakes.empty()) {
+                wrong_measures_.insert(name);
+                continue;
+            }
+            sound.push_back(&measure);
+            scene_.measures.push_back(measure_json(measure));
         }
+        scene_.gates = gates_of(scene_.measures);
+        for (const ParameterValues* measure : sound) check_measure(*measure);
+    }
+
+    void check_measure(const ParameterValues& measure) {
+        const std::string &name = measure.text("measure.name"), where = measure.where("measure.name");
+        if (measure.text("measure.what") == "pressure_drop" && !scene_.medium.present())
+            refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
+                   "Remove the measure, or choose a room.medium");
+        if (measure.has("measure.against") && !fs::is_regular_file(folder_ / measure.text("measure.against")))
+            refuse(measure.where("measure.against"),
+                   fmt::format("measure.against: there is no file {}", (folder_ / measure.text("measure.against")).string()),
+                   "It is a CSV file of a profile; its path is relative to the study", "Correct the path, or put the file there");
+        check_places(measure);
+        for (const char* key : {"measure.at_s", "measure.from_s"})
+            if (measure.has(key)) require_in_run(measure.number(key), key, measure);
+        if (find_gate(name) != nullptr) require_name(name, "measure.name", where);
+        if (measure.has("measure.gate") && find_gate(measure.text("measure.gate")) == nullptr &&
+            wrong_measures_.count(measure.text("measure.gate")) == 0)
+            refuse(measure.where("measure.gate"), fmt::format("measure.gate = \"{}\"", measure.text("measure.gate")),
+                   "It names a measure that places a gate, or places one itself",
+                   "Correct it, or write gate = { disc_m = [x, y, z], radius_m = r }");
+        if (measure.has("measure.wall") && !is_wall(measure.text("measure.wall")))
+            refuse(measure.where("measure.wall"), fmt::format("measure.wall = \"{}\"", measure.text("measure.wall")),
+                   "It names a solid, or a side of the room that is a wall", "Correct it");
+    }
+
+    /// Region, gate and points of a measure are in the room; gates and points may lie on its sides.
+    void check_places(const ParameterValues& measure) {
+        const std::string& name = measure.text("measure.name");
+        if (const std::optional<Region> region = read_region(measure, "measure.region", measure.where("measure.name")))
+            require_in_room(*region, "measure." + name, place_of(measure, "measure.region", "measure.name"));
+        if (measure.has("measure.gate.disc_m")) {
+            const RoomGate& gate = *find_gate(name);
+            const Vec3 reach = gate.radius * (1.0 - gate.normal.array().square()).max(0.0).sqrt().matrix();
+            require_place(measure, "measure.gate.disc_m", gate.centre - reach, gate.centre + reach);
+        }
+        if (measure.has("measure.gate.lower_m")) {
+            const RoomGate& gate = *find_gate(name);
+            require_place(measure, "measure.gate.lower_m", gate.lower.cwiseMin(gate.upper), gate.lower.cwiseMax(gate.upper));
+        }
+        for (const char* key : {"measure.upstream_m", "measure.downstream_m"})
+            if (measure.has(key)) require_place(measure, key, vec3_of(measure, key), vec3_of(measure, key));
+    }
+
+    /// \param lower,upper  corners of the box around what the key places
+    void require_place(const ParameterValues& measure, const char* key, const Vec3& lower, const Vec3& upper) {
+        const double allowed = 1e-6 * scene_.size.maxCoeff();
+        if ((lower.array() <= scene_.upper().array() + allowed).all() && (upper.array() >= scene_.lower().array() - allowed).all()) return;
+        refuse(measure.where(key),
+               fmt::format("{} = {} of {} lies outside the room", key, text_of(vec3_of(measure, key)), measure.text("measure.name")),
+               room_rule(), "Correct it");
     }
 
     const RoomGate* find_gate(const std::string& name) const {
@@ -1044,16 +1096,11 @@ private:
             return refuse(where, "run.stop has only one of measure and idle_s", "Nothing passes the gate of a measure for a time",
                           "Give both");
         const std::string name = gate_of(values_.text("run.stop.measure"));
-        if (name.empty() && has_measure(values_.text("run.stop.measure")) && !mistakes_.empty()) return;  // its gate was not read
+        if (wrong_measures_.count(values_.text("run.stop.measure")) > 0) return;  // its gate was not read
         if (name.empty())
             return refuse(where, fmt::format("run.stop.measure = \"{}\"", values_.text("run.stop.measure")),
                           "It names a measure with a gate", "Correct it");
         scene_.run.stop = StopWhenIdle{name, values_.number("run.stop.idle_s")};
-    }
-
-    bool has_measure(const std::string& name) const {
-        const auto& measures = values_.tables("measure");
-        return std::any_of(measures.begin(), measures.end(), [&](const auto& one) { return one.text("measure.name") == name; });
     }
 
     /// The gate of a measure: its own, or the one that it names; empty without one.
@@ -1079,7 +1126,7 @@ private:
     fs::path folder_;
     RoomScene scene_;
     Mistakes mistakes_;
-    std::set<std::string> solid_names_;
+    std::set<std::string> solid_names_, wrong_measures_;
     std::map<coupling::DomainSide, std::string> grains_at_;
     std::vector<std::string> boundary_places_;  ///< of scene_.boundaries, in the study
 };
