@@ -420,6 +420,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"mass_in\"\nregion = { sphere = { centre_m = [0, 0, 9], radius_m = 1 } }\n\n[run]\n",
             "measure.x is about a region outside the room"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angle\"\nat_s = 9\n\n[run]\n", "measure.at_s = 9. The run ends at 4 s"},
+        Bad{"name = \"tube\"", "name = \"tube\"\nremoved_at_s = 4.5", "solid.removed_at_s = 4.5. The run ends at 4 s"},
         Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }", "It names a measure with a gate"},
         Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},
         Bad{k_dry, "medium = \"none\"\ncell_m = 0.01\n", "Without a medium there are neither flow nor mesh"},

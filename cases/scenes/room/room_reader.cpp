@@ -467,6 +467,7 @@ private:
         solid.felt_by_fluid = values.boolean("solid.fluid");
         if (values.has("solid.removed_at_s")) {
             solid.removed_at = values.number("solid.removed_at_s");
+            require_in_run(*solid.removed_at, "solid.removed_at_s", values);
             refuse_in_medium(solid, where, "is taken away");
         }
         read_motion(values, solid);
