@@ -79,6 +79,15 @@ int set_in_tables(ParameterValues& values, const ParameterTable& table, const st
     return count;
 }
 
+/// A value as it counts: 0.1 and 0.10 are one. A text that is no value, of which key_settings tells, stays as it is.
+ParameterValue counted(const std::optional<KeyPath>& key, const std::string& text) {
+    try {
+        if (key) return value_of_text(*key->parameter, text);
+    } catch (const UserError&) {
+    }
+    return text;
+}
+
 }  // namespace
 
 std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std::string>& words, const std::string& params) {
@@ -89,7 +98,8 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
         const KeyAxis axis{word.substr(0, equals),
                            equals == std::string::npos ? std::vector<std::string>{} : split(word.substr(equals + 1))};
         if (axis.values.empty()) mistakes.push_back({"", fmt::format("--set {}", word), "It is written as KEY=a,b", "Give the values"});
-        if (!find_key(table, axis.key)) {
+        const std::optional<KeyPath> key = find_key(table, axis.key);
+        if (!key) {
             std::vector<std::string> known;
             for (const Parameter& parameter : table) known.push_back(parameter.key);
             const std::string nearest = nearest_word(axis.key, known);
@@ -98,10 +108,13 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
         }
         if (std::any_of(axes.begin(), axes.end(), [&](const KeyAxis& other) { return other.key == axis.key; }))
             mistakes.push_back({"", fmt::format("--set {} is given twice", axis.key), "A key has one list of values", "Put all into one"});
-        for (std::size_t i = 0; i < axis.values.size(); ++i)
-            if (std::count(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(i), axis.values[i]) == 1)
-                mistakes.push_back({"", fmt::format("--set {} has {} twice", axis.key, axis.values[i]), "Every point is another one",
-                                    "Give each value once"});
+        std::vector<ParameterValue> values;
+        for (const std::string& text : axis.values) {
+            values.push_back(counted(key, text));
+            if (std::count(values.begin(), values.end(), values.back()) == 2)
+                mistakes.push_back(
+                    {"", fmt::format("--set {} has {} twice", axis.key, text), "Every point is another one", "Give each value once"});
+        }
         axes.push_back(axis);
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
