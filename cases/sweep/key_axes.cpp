@@ -208,6 +208,11 @@ std::vector<KeySetting> key_settings(const ParameterTable& table, const Paramete
     return settings;
 }
 
+Mistake of_point(Mistake mistake, const std::string& point) {
+    if (mistake.where.rfind(point + ":", 0) == 0) mistake.where = point;
+    return mistake;
+}
+
 std::string safe_name(std::string text) {
     text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '[' || c == ']'; }), text.end());
     for (char& c : text)

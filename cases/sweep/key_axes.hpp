@@ -50,6 +50,9 @@ struct KeySetting {
 /// \throws UserError  when no table gives a key of a repeated section, or a text is no value of its key's kind
 std::vector<KeySetting> key_settings(const ParameterTable& table, const ParameterValues& base, const std::vector<KeyAxis>& axes);
 
+/// A mistake in the text of a point, without a line of it: the text is written when nothing is wrong.
+Mistake of_point(Mistake mistake, const std::string& point);
+
 /// A text as part of a name of a folder: OpenFOAM takes few characters in a path.
 std::string safe_name(std::string text);
 

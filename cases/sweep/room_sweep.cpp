@@ -49,7 +49,7 @@ std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, co
             try {
                 room_scene(parse_parameters(table, text, one.name), study.parent_path());
             } catch (const UserError& error) {
-                for (const Mistake& mistake : error.mistakes()) mistakes.push_back(mistake);
+                for (const Mistake& mistake : error.mistakes()) mistakes.push_back(of_point(mistake, one.name));
             }
             points.push_back({one.name, text, bed_of(one.values), {}, {"geometry", "bed"}});
         }

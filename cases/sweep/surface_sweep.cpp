@@ -32,7 +32,7 @@ std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study,
             try {
                 require_surface_study(text, one.name);
             } catch (const UserError& error) {
-                for (const Mistake& mistake : error.mistakes()) mistakes.push_back(mistake);
+                for (const Mistake& mistake : error.mistakes()) mistakes.push_back(of_point(mistake, one.name));
             }
             points.push_back({one.name, text, "", {}});
         }

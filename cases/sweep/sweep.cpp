@@ -481,7 +481,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
                 add_once(mistake, mistakes);
             }
         } catch (const UserError& error) {
-            for (const Mistake& mistake : error.mistakes()) add_once(mistake, mistakes);
+            for (const Mistake& mistake : error.mistakes()) add_once(of_point(mistake, name), mistakes);
         }
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));

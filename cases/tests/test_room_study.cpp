@@ -290,6 +290,7 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     EXPECT_THAT(text_of("contact.glass-glass.frictoin=1"), HasSubstr("there is no such key"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.1"), HasSubstr("friction has 0.1 twice"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.10"), HasSubstr("friction has 0.10 twice"));
+    EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,-2"), HasSubstr("room_glass-glass.friction_-2: contact.friction = -2"));
     EXPECT_THAT(text_of("run.seed=1,1.0"), HasSubstr("run.seed has 1.0 twice"));
     EXPECT_THAT(text_of("solid.tube.velocity_m_s=[0,0,0.03],[0, 0, 3e-2]"), HasSubstr("has [0, 0, 3e-2] twice"));
     EXPECT_THROW(axes({"run.end_s=1", "run.end_s=2"}), UserError);
