@@ -138,33 +138,37 @@ public:
     CalibrationFile read() {
         const ReadParameters read = parse_with_mistakes(calibration_table(), read_file(path_), path_.string());
         mistakes_.add(read.mistakes);
-        if (!read.complete) mistakes_.refuse();
         const ParameterValues& values = read.values;
-        read_head(values);
+        read_method(values);
+        read_studies(values);
         for (const ParameterValues& table : values.tables("parameter")) read_parameter(table);
         for (const ParameterValues& table : values.tables("target")) read_target(table);
         found_.measured = fitted_measured_;
         found_.measured.insert(found_.measured.end(), held_out_measured_.begin(), held_out_measured_.end());
-        check_whole();
-        if (studies_exist()) {
-            check_points();
-            mistakes_.gather([&] { check_plan(); });
-        }
+        check_whole(values);
+        check_points();
+        if (read.complete) read_budget(values);
+        if (read.complete && studies_are_sound_) mistakes_.gather([&] { check_plan(); });
         mistakes_.refuse();
         found_.identity = identity(values) + profiles_;
         return found_;
     }
 
 private:
-    void read_head(const ParameterValues& values) {
-        found_.name = values.text("name");
-        found_.method = values.text("method");
-        found_.objective = calibration::find_objective(values.text("objective"));
-        found_.repeats = static_cast<int>(values.integer("repeats"));
-        found_.rounds = static_cast<int>(values.integer("rounds"));
-        found_.evaluations = static_cast<int>(values.integer("evaluations"));
-        found_.budget_runs = static_cast<double>(values.integer("budget.runs"));
-        found_.budget_core_h = values.number("budget.core_h");
+    // A value that is wrong or missing is told by the table; what is there is read all the same.
+
+    static std::string text_of(const ParameterValues& table, const char* key) { return table.has(key) ? table.text(key) : ""; }
+
+    static bool is_held_out(const ParameterValues& target) { return target.has("target.held_out") && target.boolean("target.held_out"); }
+
+    void read_method(const ParameterValues& values) {
+        found_.name = text_of(values, "name");
+        found_.method = text_of(values, "method");
+        if (values.has("objective")) found_.objective = calibration::find_objective(values.text("objective"));
+    }
+
+    void read_studies(const ParameterValues& values) {
+        if (!values.has("study")) return;
         std::set<std::string> stems;
         for (const std::string& text : values.texts("study")) {
             const fs::path study = path_.parent_path() / text;
@@ -176,13 +180,18 @@ private:
         }
     }
 
-    bool studies_exist() const {
-        return std::all_of(found_.studies.begin(), found_.studies.end(), [](const fs::path& study) { return fs::exists(study); });
+    void read_budget(const ParameterValues& values) {
+        found_.repeats = static_cast<int>(values.integer("repeats"));
+        found_.rounds = static_cast<int>(values.integer("rounds"));
+        found_.evaluations = static_cast<int>(values.integer("evaluations"));
+        found_.budget_runs = static_cast<double>(values.integer("budget.runs"));
+        found_.budget_core_h = values.number("budget.core_h");
     }
 
     void read_parameter(const ParameterValues& table) {
+        if (!table.has("parameter.range")) return;
         CalibratedParameter parameter;
-        parameter.key = table.text("parameter.key");
+        parameter.key = text_of(table, "parameter.key");
         const std::string name = table.has("parameter.name") ? table.text("parameter.name") : parameter.key;
         const double low = table.numbers("parameter.range")[0], high = table.numbers("parameter.range")[1];
         parameter.range = {name, low, high, table.has("parameter.tolerance") ? table.number("parameter.tolerance") : 0.1 * (high - low)};
@@ -193,8 +202,8 @@ private:
         if (table.has("parameter.values")) {
             parameter.values = table.numbers("parameter.values");
             std::sort(parameter.values.begin(), parameter.values.end());
-            if (std::adjacent_find(parameter.values.begin(), parameter.values.end()) != parameter.values.end())
-                mistakes_.add({where, fmt::format("{} has a value twice", name), "The values of a grid differ", "Leave one out"});
+            if (const auto twice = std::adjacent_find(parameter.values.begin(), parameter.values.end()); twice != parameter.values.end())
+                mistakes_.add({where, fmt::format("{} has {} twice", name, *twice), "The values of a grid differ", "Leave one out"});
             for (const double value : parameter.values)
                 if (value < std::min(low, high) || value > std::max(low, high))
                     mistakes_.add({where, fmt::format("{} = {} is outside of its range, {} to {}", name, value, low, high),
@@ -205,31 +214,33 @@ private:
         if (found_.method == "surface" && parameter.values.size() < 3)
             mistakes_.add({where, fmt::format("{} has {} value(s)", name, parameter.values.size()),
                            "A quadratic needs three values of each parameter", "Add values, or use method = \"grid\""});
+        places_.push_back(where);
         found_.parameters.push_back(std::move(parameter));
     }
 
     void read_target(const ParameterValues& table) {
         calibration::Target target;
         Measured measured;
-        const bool held_out = table.boolean("target.held_out");
-        measured.measure = table.text("target.measure");
+        const bool held_out = is_held_out(table);
+        measured.measure = text_of(table, "target.measure");
         const std::string where = place_of(table, "target.measure", path_);
         measured.study = study_index(table, where);
         const std::string stem = measured.study < found_.studies.size() ? found_.studies[measured.study].stem().string() : "";
         target.name = table.has("target.name") ? table.text("target.name")
                                                : (found_.studies.size() > 1 ? stem + ": " : std::string()) + measured.measure;
-        target.tolerance = table.number("target.tolerance");
+        if (table.has("target.tolerance")) target.tolerance = table.number("target.tolerance");
         if (table.has("target.weight")) target.weight = table.number("target.weight");
         if (held_out && table.has("target.weight"))
             mistakes_.add({where, fmt::format("the held-out target {} has the weight {} in the objective", target.name, target.weight),
                            "A held-out target never enters the objective", "Remove its weight, or held_out = true"});
-        if (table.has("target.value") == table.has("target.profile"))
-            mistakes_.add(
-                {where, fmt::format("the target {} has {}", target.name, table.has("target.value") ? "a value and a profile" : "no value"),
-                 "A target is either a value or a profile", "Give one of them"});
+        const bool value = !table.where("target.value").empty(), profile = !table.where("target.profile").empty();
+        if (value == profile)
+            mistakes_.add({where, fmt::format("the target {} has {}", target.name, value ? "a value and a profile" : "no value"),
+                           "A target is either a value or a profile", "Give one of them"});
         if (table.has("target.value")) target.values = {table.number("target.value")};
         if (table.has("target.profile")) read_profile(table, target, measured);
-        if (found_.objective->relative && !held_out && std::count(target.values.begin(), target.values.end(), 0.0) > 0)
+        if (found_.objective != nullptr && found_.objective->relative && !held_out &&
+            std::count(target.values.begin(), target.values.end(), 0.0) > 0)
             mistakes_.add({where, fmt::format("the target {} is 0", target.name), "A relative error divides by the target",
                            "Use objective = \"squared_misfit\""});
         (held_out ? found_.targets.held_out : found_.targets.fitted).push_back(target);
@@ -240,14 +251,14 @@ private:
         std::vector<std::string> stems;
         for (const fs::path& study : found_.studies) stems.push_back(study.stem().string());
         if (!table.has("target.study")) {
-            if (stems.size() == 1) return 0;
-            mistakes_.add({where, fmt::format("the target {} names no study", table.text("target.measure")),
+            if (stems.size() <= 1) return 0;
+            mistakes_.add({where, fmt::format("the target {} names no study", text_of(table, "target.measure")),
                            fmt::format("With several studies each target belongs to one: {}", fmt::join(stems, ", ")), "Add study = "});
             return stems.size();
         }
         const std::string name = table.text("target.study");
         const auto found = std::find(stems.begin(), stems.end(), name);
-        if (found == stems.end()) {
+        if (found == stems.end() && !stems.empty()) {
             const std::string nearest = nearest_word(name, stems);
             mistakes_.add({place_of(table, "target.study", path_), fmt::format("target.study = \"{}\" is no study", name),
                            fmt::format("Studies are {}", fmt::join(stems, ", ")),
@@ -289,21 +300,21 @@ private:
                            "Correct the heights or lowest_m"});
     }
 
-    void check_whole() {
-        const std::size_t parameters = found_.parameters.size();
+    void check_whole(const ParameterValues& values) {
+        const std::size_t parameters = values.tables("parameter").size();
+        const std::vector<ParameterValues>& targets = values.tables("target");
         mistakes_.require(parameters >= 1 && parameters <= k_most_parameters, fmt::format("{} [[parameter]]", parameters),
                           fmt::format("A calibration varies 1 to {} keys", k_most_parameters), "Add or remove some");
         mistakes_.require(!(found_.method == "bobyqa" && parameters == 1), "bobyqa with one parameter", "It needs two or more",
                           "Use method = \"surface\"");
-        mistakes_.require(!found_.targets.fitted.empty(), "no [[target]] is fitted", "The objective needs a target that is not held out",
-                          "Add one");
+        mistakes_.require(!std::all_of(targets.begin(), targets.end(), is_held_out), "no [[target]] is fitted",
+                          "The objective needs a target that is not held out", "Add one");
         std::set<std::string> keys;
         for (const CalibratedParameter& parameter : found_.parameters)
-            mistakes_.require(keys.insert(parameter.key).second, fmt::format("{} is varied twice", parameter.key),
+            mistakes_.require(parameter.key.empty() || keys.insert(parameter.key).second, fmt::format("{} is varied twice", parameter.key),
                               "Each parameter has a key of its own", "Remove one");
         check_held_out();
-        if (studies_exist())
-            for (const Measured& measured : found_.measured) check_measure(measured);
+        for (const Measured& measured : found_.measured) check_measure(measured);
     }
 
     /// The same measurement cannot be held out and fitted.
@@ -316,15 +327,16 @@ private:
     }
 
     void check_measure(const Measured& measured) {
-        if (measured.study >= found_.studies.size()) return;
+        if (measured.measure.empty() || measured.study >= found_.studies.size()) return;
+        const fs::path& study = found_.studies[measured.study];
         std::vector<std::string> known;
         try {
-            known = access_.measures(found_.studies[measured.study]);
+            if (fs::exists(study)) known = access_.measures(study);
         } catch (const UserError&) {  // told by check_points
         }
         if (known.empty() || std::find(known.begin(), known.end(), measured.measure) != known.end()) return;
         const std::string nearest = nearest_word(measured.measure, known);
-        mistakes_.add(fmt::format("{} has no measure {}", found_.studies[measured.study].string(), measured.measure),
+        mistakes_.add(fmt::format("{} has no measure {}", study.string(), measured.measure),
                       fmt::format("Its measures are {}", fmt::join(known, ", ")),
                       nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest));
     }
@@ -332,27 +344,31 @@ private:
     /// The keys, the ends of the ranges and the grid are allowed in all studies.
     void check_points() {
         for (const fs::path& study : found_.studies) {
-            if (!mistakes_.gather([&] { access_.points(study, {}, 1, fs::path("runs")); })) continue;
-            for (const CalibratedParameter& parameter : found_.parameters) {
-                std::set<double> all(parameter.values.begin(), parameter.values.end());
-                all.insert({parameter.range.low, parameter.range.high});
-                std::vector<std::string> texts;
-                for (const double value : all) texts.push_back(number_text(value));
-                try {
-                    access_.points(study, {{parameter.key, texts}}, 1, fs::path("runs"));
-                } catch (const UserError& error) {
-                    for (Mistake mistake : error.mistakes()) add_of_study(study, std::move(mistake));
-                }
-            }
+            const bool sound = fs::exists(study) && mistakes_.gather([&] { access_.points(study, {}, 1, fs::path("runs")); });
+            studies_are_sound_ = studies_are_sound_ && sound;
+            for (std::size_t n = 0; sound && n < found_.parameters.size(); ++n)
+                if (!found_.parameters[n].key.empty()) check_parameter(study, found_.parameters[n], places_[n]);
         }
     }
 
-    /// What a sweep says of its option is of this file's parameters.
-    void add_of_study(const fs::path& study, Mistake mistake) {
+    void check_parameter(const fs::path& study, const CalibratedParameter& parameter, const std::string& place) {
+        std::set<double> all(parameter.values.begin(), parameter.values.end());
+        all.insert({parameter.range.low, parameter.range.high});
+        std::vector<std::string> texts;
+        for (const double value : all) texts.push_back(number_text(value));
+        try {
+            access_.points(study, {{parameter.key, texts}}, 1, fs::path("runs"));
+        } catch (const UserError& error) {
+            for (const Mistake& mistake : error.mistakes()) add_of_parameter(study, place, mistake);
+        }
+    }
+
+    /// What is said of a sweep's option, or of a line of a study that is not written, is of this file's parameter.
+    void add_of_parameter(const fs::path& study, const std::string& place, const Mistake& mistake) {
         const std::string option = "--set ";
-        if (mistake.what.rfind(option, 0) == 0)
-            mistake.what = fmt::format("{}: parameter {}", study.string(), mistake.what.substr(option.size()));
-        mistakes_.add(std::move(mistake));
+        const bool of_option = mistake.what.rfind(option, 0) == 0;
+        const std::string what = of_option ? "parameter " + mistake.what.substr(option.size()) : mistake.what;
+        mistakes_.add({place, fmt::format("{}: {}", study.string(), what), mistake.rule, mistake.remedy});
     }
 
     void check_plan() {
@@ -371,6 +387,8 @@ private:
     const StudyAccess& access_;
     Mistakes mistakes_;
     CalibrationFile found_;
+    std::vector<std::string> places_;  // of the parameters
+    bool studies_are_sound_ = true;
     std::vector<Measured> fitted_measured_, held_out_measured_;
     std::string profiles_;  // their contents' hashes
 };

@@ -308,6 +308,67 @@ weight = 2
     EXPECT_THAT(text, HasSubstr("has the weight 2 in the objective"));
 }
 
+TEST_F(Calibrate, reports_wrong_values_beside_missing_studies_and_empty_ranges) {
+    write_file(folder_ / "bad.toml", "kind = \"free_surface\"\n");
+    const std::string text = refusal(R"(
+study = ["heap.toml", "absent.toml", "bad.toml"]
+method = "gird"
+objective = "squared"
+repeats = 0
+[budget]
+runs = -1
+[[parameter]]
+key = "contact.friction"
+range = [0.9, 0.1]
+[[parameter]]
+name = "five"
+key = 5
+range = [1, 1]
+[[parameter]]
+key = "bodies.density_kg_m3"
+range = [2000, 1e9]
+[[parameter]]
+key = "contact.fricton"
+range = [0.1, 0.9]
+[[parameter]]
+key = "contact.theta"
+[[target]]
+value = "high"
+study = "heaps"
+tolerance = 1
+[[target]]
+measure = "angel"
+study = "heap"
+tolerance = 0
+held_out = "no"
+)");
+    for (const char* part : {"method = \"gird\" is no choice",
+                             "objective = \"squared\" is no choice",
+                             "repeats = 0 is too low",
+                             "budget.runs = -1 is too low",
+                             "budget.core_h is missing",
+                             "parameter.key = 5 has the wrong type",
+                             "parameter.range is missing",
+                             "target.measure is missing",
+                             "target.value = ",
+                             "target.tolerance = 0",
+                             "target.held_out = ",
+                             "absent.toml does not exist",
+                             "bad.toml: domain.width_m is missing",
+                             "range of contact.friction is 0.9 to 0.1: it is empty",
+                             "range of five is 1 to 1",
+                             "5 [[parameter]]",
+                             "target.study = \"heaps\" is no study",
+                             "has no measure angel",
+                             "Did you mean contact.friction?",
+                             "the target heap: angel has no value"})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("no [[target]] is fitted")));
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("quadratic")));
+    // A range is wrong at its own place, not in a study that is nowhere.
+    EXPECT_THAT(text, HasSubstr("calibration.toml:17: " + (folder_ / "heap.toml").string() + ": bodies.density_kg_m3 = "));
+}
+
 TEST_F(Calibrate, refuses_held_out_targets_in_the_objective_unknown_names_and_plans_over_the_budget) {
     const std::string head = "study = [\"heap.toml\"]";
     EXPECT_THAT(refusal(calibration_text(head, angle_target() + angle_target("held_out = true\n"))),
