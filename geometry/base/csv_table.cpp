@@ -54,7 +54,7 @@ CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::str
     if (!stream || !next_line()) {
         mistakes.push_back({name_, "the file cannot be read or is empty",
                             fmt::format("It must hold the columns {}", fmt::join(required, ",")),
-                            "Check the path in constant/couplingProperties"});
+                            "Check the file, and the path that names it"});
         return;
     }
     const int header = number;

@@ -160,6 +160,9 @@ MeasuredProfile measured_profile(const MeasureSource& source, const MeasureValue
 }
 
 Profile read_profile(const std::filesystem::path& file) {
+    if (!std::filesystem::is_regular_file(file))
+        throw UserError({{file.string(), "there is no such file", "against names a CSV file; its path is relative to the run directory",
+                          "Put the file there, or correct the path in measures.json"}});
     std::vector<Mistake> mistakes;
     const CsvTable table(file, {"x_m", "height_m"}, {}, mistakes);
     Profile profile;

@@ -39,15 +39,12 @@ json read_list(const fs::path& file) {
     return list;
 }
 
-/// The measures to make. \throws UserError  with all mistakes
-json checked_measures(const fs::path& run, const std::optional<std::string>& name) {
-    const fs::path file = run / k_measures;
-    const json measures = read_list(file);
-    std::vector<Mistake> mistakes = check_measures(measures, file.string());
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+/// The measure of a name; without a name all of them. \throws UserError  when there is none of this name
+json chosen(const json& measures, const std::optional<std::string>& name, const fs::path& file) {
     if (!name) return measures;
     std::vector<std::string> names;
     for (const json& measure : measures) {
+        if (!measure.is_object() || !measure.contains("name") || !measure["name"].is_string()) continue;
         names.push_back(measure["name"].get<std::string>());
         if (names.back() == *name) return json::array({measure});
     }
@@ -70,9 +67,16 @@ bool has_measures(const fs::path& run_directory) {
 
 json measure_run(const fs::path& run_directory, const std::optional<std::string>& name) {
     const MeasureSource source(run_directory);
+    const fs::path file = run_directory / k_measures;
+    const json measures = read_list(file);
     json results = json::object();
     Mistakes mistakes;
-    for (const json& measure : checked_measures(run_directory, name)) {
+    mistakes.add(check_measures(measures, file.string()));
+    if (!measures.is_array()) mistakes.refuse();
+    json to_make = json::array();
+    mistakes.gather([&] { to_make = chosen(measures, name, file); });
+    for (const json& measure : to_make) {
+        if (!check_measures(json::array({measure})).empty()) continue;  // told
         const MeasureValues values(measure);
         try {
             results[values.name()] = to_json(values, values.kind().measure(source, values));

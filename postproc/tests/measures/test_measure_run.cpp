@@ -230,6 +230,17 @@ TEST_F(MeasuredRun, tells_all_that_it_cannot_measure_at_once) {
     } catch (const UserError& error) {
         EXPECT_EQ(error.mistakes().size(), 2U) << error.what();
     }
+    write(k_measures, R"([{"name": "a", "what": "passed_masss"},
+                          {"name": "b", "what": "wall_force", "wall": "plate"},
+                          {"name": "c", "what": "profile_error", "against": "gone.csv"}])");
+    try {
+        measure_run(run_);
+        FAIL() << "one measure has a mistake, two find nothing";
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().size(), 3U) << error.what();
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("passed_masss"), HasSubstr("walls.csv"),
+                                        HasSubstr((run_ / "gone.csv").string() + ": measure.c: there is no such file")));
+    }
 }
 
 TEST_F(MeasuredRun, refuses_maps_of_more_cells_than_anyone_draws) {
