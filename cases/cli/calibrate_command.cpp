@@ -96,6 +96,13 @@ void calibrate(const CalibrateOptions& options) {
     }
 }
 
+void refuse_without_folder(const CalibrateOptions& options) {
+    Mistakes mistakes;
+    mistakes.add("calibrate without -o", "Its runs need a folder", "Name one: cutterflow calibrate FILE -o DIR");
+    mistakes.gather([&] { cases::read_calibration(options.file, study_access()); });
+    mistakes.refuse();
+}
+
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
@@ -111,8 +118,7 @@ void add_calibrate(CLI::App& app) {
         ->check(CLI::IsMember({"local", "slurm"}))
         ->capture_default_str();
     command->callback([options, output] {
-        if (!options->plan && output->count() == 0)
-            throw UserError("calibrate without -o", "Its runs need a folder", "Name one: cutterflow calibrate FILE -o DIR");
+        if (!options->plan && output->count() == 0) refuse_without_folder(*options);
         calibrate(*options);
     });
 }

@@ -605,6 +605,17 @@ TEST_F(Cli, names_all_wrong_options_of_a_sweep_at_once) {
     EXPECT_FALSE(fs::exists(folder_ / "my sweep"));
 }
 
+TEST_F(Cli, names_a_calibration_without_a_folder_beside_the_mistakes_of_its_file) {
+    write_file(folder_ / "calibration.toml", "study = [\"absent.toml\"]\n[budget]\nruns = 0\n");
+    const Outcome outcome = call({"calibrate", "calibration.toml"});
+    expect_refused(outcome, 2, "calibrate without -o");
+    for (const char* part : {"absent.toml does not exist", "calibration.toml:3: budget.runs = 0 is too low", "budget.core_h is missing"})
+        expect_contains(outcome.text, part);
+    const Outcome plan = call({"calibrate", "calibration.toml", "--plan"});
+    expect_refused(plan, 2, "absent.toml does not exist");
+    expect_contains(plan.text, "budget.runs = 0 is too low");
+}
+
 TEST_F(Cli, refuses_a_sweep_over_what_it_does_not_vary) {
     const Outcome outcome = call({"sweep", study(), "--speed", "30,60", "--discharges", "0.1"});
     expect_refused(outcome, 2, "a sweep over --speed. A sweep varies --rpm, --discharge, --design, --set, --repeats");
