@@ -15,6 +15,7 @@
 #include "geometry/base/csv_table.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
@@ -238,6 +239,20 @@ private:
                 {"to_s", turn.end}};
     }
 
+    /// How far the preparation pressed each solid that it presses [m], by name.
+    nlohmann::json pressed_solids() const {
+        nlohmann::json pressed = nlohmann::json::object();
+        if (std::none_of(pieces_.begin(), pieces_.end(), [](const BedPiece& piece) { return piece.compress.has_value(); })) return pressed;
+        const nlohmann::json bed =
+            read_json_document(directory_.file(bed_start()) / names::dem_state,
+                               {{"walls/*/name", JsonKind::text, true}, {"walls/*/pressed_m/*", JsonKind::number, true}},
+                               "Remove the folder bed; it is made anew");
+        for (const BedPiece& piece : pieces_)
+            for (const nlohmann::json& wall : bed.at("walls"))
+                if (piece.compress && wall.at("name") == piece.compress->solid) pressed[piece.compress->solid] = wall.at("pressed_m");
+        return pressed;
+    }
+
     nlohmann::json room_json() const {
         std::size_t poured = 0;
         double mass = 0.0;
@@ -246,6 +261,7 @@ private:
                 ++poured;
                 mass += grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
             }
+        const nlohmann::json pressed = pressed_solids();
         nlohmann::json solids = nlohmann::json::array();
         for (const RoomSolid& solid : scene_.solids) {
             nlohmann::json one{{"name", solid.name}, {"file", surface_file(solid)}, {"material", solid.material}};
@@ -255,6 +271,7 @@ private:
                                  {"to_s", solid.travel->end}};
             if (solid.turn) one["turn"] = turn_json(*solid.turn);
             if (solid.removed_at) one["removed_at_s"] = *solid.removed_at;
+            if (pressed.contains(solid.name)) one["pressed_m"] = pressed.at(solid.name);
             solids.push_back(one);
         }
         nlohmann::json gates = nlohmann::json::array();

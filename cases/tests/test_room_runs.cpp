@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -169,6 +170,69 @@ gate = { disc_m = [0, 0, 0.055], radius_m = 0.03, normal = [0, 0, -1] }
 end_s = 1.5
 write_interval_s = 0.25
 )";
+
+/// A lid is pressed on a bed and stands in the run.
+const char* const k_pressed_bed = R"(
+name = "a bed under a lid"
+[scene]
+kind = "room"
+[room]
+size_m = [0.03, 0.03, 0.08]
+[[solid]]
+name = "lid"
+generate = "box"
+lower_m = [-0.0148, -0.0148, 0.05]
+upper_m = [0.0148, 0.0148, 0.055]
+[[prepare]]
+do = "pour"
+grains = "grains"
+count = 120
+region = { box = { lower_m = [-0.015, -0.015, 0], upper_m = [0.015, 0.015, 0.05] } }
+[[prepare]]
+do = "compress"
+solid = "lid"
+pressure_pa = 2000
+[[measure]]
+name = "on_lid"
+what = "wall_force"
+wall = "lid"
+component = "z"
+[run]
+end_s = 0.2
+write_interval_s = 0.1
+)";
+
+/// Rows of one wall.
+std::vector<Vec3> of_wall(const postproc::Table& rows, const std::string& wall, const std::array<const char*, 3>& columns) {
+    std::vector<Vec3> values;
+    for (std::size_t n = 0; n < rows.rows(); ++n)
+        if (rows.text("wall")[n] == wall)
+            values.emplace_back(rows.number(columns[0])[n], rows.number(columns[1])[n], rows.number(columns[2])[n]);
+    return values;
+}
+
+// The lid comes to bear pressure times area at the end of its part of the preparation; in the run it stands there, on a bed that holds it.
+TEST_F(RoomRuns, a_lid_is_pressed_on_a_bed_and_stands_in_the_run) {
+    write_file(folder_ / "bed.toml", std::string(k_pressed_bed) + k_materials);
+    const double force = 2000.0 * 0.0296 * 0.0296;
+    EXPECT_NE(call({"check", "bed.toml"}).find("lid is pressed on the grains with 1.752 N"), std::string::npos);
+    call({"run", "bed.toml", "-o", "bed"});
+    const std::array<const char*, 3> forces{"force_x_n", "force_y_n", "force_z_n"}, ways{"pressed_x_m", "pressed_y_m", "pressed_z_m"};
+    const auto walls = [&](const fs::path& run) {
+        return postproc::read_joined_table(run, "rock", "walls.csv", {{"time_s"}, {"wall"}, {}, ""});
+    };
+    const postproc::Table poured = walls(folder_ / "bed/bed/1"), pressed = walls(folder_ / "bed/bed/2"), run = walls(folder_ / "bed");
+    for (const Vec3& way : of_wall(poured, "lid", ways)) ASSERT_EQ(way, Vec3(Vec3::Zero()));
+    EXPECT_NEAR(of_wall(pressed, "lid", forces).back().z(), force, 0.01 * force);
+    const Vec3 way = of_wall(pressed, "lid", ways).back();
+    EXPECT_GT(way.z(), -0.05 + 0.01);
+    EXPECT_LT(way.z(), -0.05 + 0.02);
+    for (const Vec3& in_run : of_wall(run, "lid", ways)) ASSERT_NEAR((in_run - way).norm(), 0.0, 1e-9);
+    EXPECT_NEAR(of_wall(run, "lid", forces).back().z(), force, 0.05 * force);
+    EXPECT_NEAR(json_of("bed/room.json").at("solids")[0].at("pressed_m")[2].get<double>(), way.z(), 1e-9);
+    EXPECT_NEAR(json_of("bed/report/measures.json").at("on_lid").at("value").get<double>(), force, 0.05 * force);
+    EXPECT_NE(read_file(folder_ / "bed/report/index.html").find("pressed by"), std::string::npos);
+}
 
 TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
     write_file(folder_ / "heap.toml", std::string(k_heap) + k_materials);

@@ -1,6 +1,7 @@
 #include "geometry/surface/surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -31,6 +32,12 @@ double area_of(const TriangleSurface& surface) {
     double area = 0.0;
     for (const Triangle& triangle : surface.triangles) area += area_vector(surface, triangle).norm();
     return area;
+}
+
+double area_seen_along(const TriangleSurface& surface, const Vec3& direction) {
+    double sum = 0.0;
+    for (const Triangle& triangle : surface.triangles) sum += std::abs(area_vector(surface, triangle).dot(direction));
+    return 0.5 * sum;
 }
 
 double volume_of(const TriangleSurface& surface) {

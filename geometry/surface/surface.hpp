@@ -43,6 +43,10 @@ Vec3 centroid_of(const TriangleSurface& surface, const Triangle& triangle);
 /// Sum of the triangles' areas [m2].
 double area_of(const TriangleSurface& surface);
 
+/// Area [m2] of a closed convex surface seen along `direction` (of length 1): half the sum of |n . direction| A. Of a hollow one more than
+/// its shadow.
+double area_seen_along(const TriangleSurface& surface, const Vec3& direction);
+
 /// Volume [m3] by the divergence theorem; meaningful for closed surfaces only, negative when inside out.
 double volume_of(const TriangleSurface& surface);
 

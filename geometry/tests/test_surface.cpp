@@ -18,6 +18,12 @@ TEST(Surface, measures_a_box) {
     EXPECT_EQ(bounds_of(surface).max, Vec3(3.0, 5.0, 7.0));
 }
 
+TEST(Surface, a_box_shows_its_faces_by_their_cosines) {
+    const TriangleSurface surface = box(Vec3(1.0, 2.0, 3.0), Vec3(3.0, 5.0, 7.0));
+    EXPECT_NEAR(area_seen_along(surface, Vec3(0.0, 0.0, -1.0)), 6.0, 1e-12);
+    EXPECT_NEAR(area_seen_along(surface, Vec3(0.6, 0.0, 0.8)), 0.6 * 12.0 + 0.8 * 6.0, 1e-12);
+}
+
 TEST(Surface, mass_properties_of_a_box_are_those_of_mechanics) {
     const MassProperties mass = mass_properties(box(Vec3(1.0, 2.0, 3.0), Vec3(3.0, 5.0, 7.0)));
     EXPECT_NEAR(mass.volume, 24.0, 1e-12);

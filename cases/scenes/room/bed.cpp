@@ -1,14 +1,21 @@
 #include "cases/scenes/room/bed.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <random>
 
+#include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
+#include "solver/physics/contact.hpp"
 
 namespace cutterflow::cases {
 
 namespace {
 
 constexpr double k_longest_settling = 20.0;  // [s], where no step says it
+constexpr double k_press_speed = 0.05;       // [m/s]
+constexpr double k_press_way = 0.3;          // overlaps in a step
 
 class Pieces {
 public:
@@ -22,6 +29,9 @@ public:
             add("remove", trim->region);
         } else if (const auto* freeze = std::get_if<FreezeStep>(&step)) {
             add("freeze", freeze->region);
+        } else if (const auto* compress = std::get_if<CompressStep>(&step)) {
+            close(k_longest_settling);
+            pieces_.push_back({{}, {}, compress->longest, *compress});
         } else {
             close(std::get<SettleStep>(step).longest);
         }
@@ -59,6 +69,28 @@ private:
 
 double BedPiece::end() const {
     return (grains.empty() ? 0.0 : grains.back().time) + longest;
+}
+
+double contact_step(const RoomScene& scene) {
+    double step = std::numeric_limits<double>::infinity();
+    for (const RoomGrains& kind : scene.grains) {
+        const double radius = 0.5 * kind.smallest(), mass = kind.density * 4.0 / 3.0 * k_pi * radius * radius * radius;
+        const double modulus = scene.contact.youngs_modulus / (1.0 - scene.contact.poisson_rock * scene.contact.poisson_rock);
+        const physics::Impact impact{0.5 * mass, 0.5 * radius, 0.5 * modulus, scene.contact.max_speed};
+        step = std::min({step, physics::rayleigh_time(radius, kind.density, scene.contact.youngs_modulus, scene.contact.poisson_rock),
+                         physics::hertz_time(impact)});
+    }
+    return scene.grains.empty() ? 0.0 : scene.contact.time_step_fraction * step;
+}
+
+double press_speed(const RoomScene& scene, const CompressStep& compress) {
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (const RoomGrains& kind : scene.grains) {
+        const double d = kind.smallest();
+        const double modulus = 0.5 * scene.contact.youngs_modulus / (1.0 - scene.contact.poisson_rock * scene.contact.poisson_rock);
+        thinnest = std::min(thinnest, std::pow(compress.pressure * d * d / (4.0 / 3.0 * modulus * std::sqrt(0.25 * d)), 2.0 / 3.0));
+    }
+    return std::min(k_press_speed, k_press_way * thinnest / contact_step(scene));
 }
 
 std::vector<BedPiece> bed_pieces(const RoomScene& scene) {

@@ -80,7 +80,13 @@ FoamDictionary contact_section(const RoomScene& scene, bool moves) {
     return section_of(contact).add("pairs", pairs);
 }
 
-FoamValue wall_list(const RoomScene& scene, const std::string& to_run, bool moves) {
+FoamDictionary press_section(const RoomScene& scene, const CompressStep& compress) {
+    return FoamDictionary().add("direction", compress.direction).add("force", compress.force).add("speed", press_speed(scene, compress));
+}
+
+/// \param piece  of the preparation; null in the run
+FoamValue wall_list(const RoomScene& scene, const std::string& to_run, const BedPiece* piece) {
+    const bool moves = piece == nullptr;
     std::vector<FoamValue> walls;
     for (const RoomSolid* one : solids_of(scene, moves)) {
         const RoomSolid& solid = *one;
@@ -98,6 +104,7 @@ FoamValue wall_list(const RoomScene& scene, const std::string& to_run, bool move
                                  .add("from", solid.turn->begin)
                                  .add("to", solid.turn->end));
         if (moves && solid.removed_at) wall.add("removedAt", *solid.removed_at);
+        if (piece && piece->compress && piece->compress->solid == solid.name) wall.add("press", press_section(scene, *piece->compress));
         walls.emplace_back(wall);
     }
     return FoamValue::list(walls);
@@ -136,8 +143,9 @@ void add_clump_files(const RoomScene& scene, std::vector<CaseText>& files) {
         if (!grains.clump.empty()) files.push_back({clump_file(grains), grains.clump_text});
 }
 
-/// \param fed  whether grains come in that are not there at the start
-FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bool fed, const std::string& to_run, bool moves) {
+/// \param fed  whether grains come in that are not there at the start \param piece  of the preparation; null in the run
+FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bool fed, const std::string& to_run, const BedPiece* piece) {
+    const bool moves = piece == nullptr;
     FoamDictionary rock;
     if (!start.empty()) rock.add("start", FoamValue::quoted(start));
     if (fed)
@@ -148,7 +156,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
                               .add("reach", 0.0));
     if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
-        .add("walls", wall_list(scene, to_run, moves))
+        .add("walls", wall_list(scene, to_run, piece))
         .add("domain", domain_section(scene, !moves));
 }
 
@@ -229,7 +237,7 @@ std::string surface_file(const RoomSolid& solid) {
 
 std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, const std::string& start, const std::string& to_run) {
     FoamDictionary coupling;
-    coupling.add("medium", "none").add("rock", rock_section(scene, start, !piece.grains.empty(), to_run, false));
+    coupling.add("medium", "none").add("rock", rock_section(scene, start, !piece.grains.empty(), to_run, &piece));
     if (!piece.events.empty()) {
         std::vector<FoamValue> events;
         for (const RegionEvent& event : piece.events) events.emplace_back(event_section(event));
@@ -250,7 +258,7 @@ std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& sta
     FoamDictionary coupling;
     if (!scene.medium.present()) coupling.add("medium", "none");
     if (const std::string outlet = outlet_patch(scene); !outlet.empty()) coupling.add("patches", FoamDictionary().add("outlet", outlet));
-    coupling.add("rock", rock_section(scene, start, !fed.empty(), "", true));
+    coupling.add("rock", rock_section(scene, start, !fed.empty(), "", nullptr));
     if (scene.medium.present()) coupling.add("kernel", section_of(scene.kernel)).add("closures", section_of(scene.closures));
     if (const std::vector<FoamValue> events = event_list(scene.events); !events.empty()) coupling.add("events", FoamValue::list(events));
     if (!scene.gates.empty()) {

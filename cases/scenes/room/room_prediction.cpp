@@ -30,19 +30,6 @@ double mass_of(const PlacedGrain& grain) {
     return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
 }
 
-/// Share of the smaller of Rayleigh time and Hertz time of the smallest grains.
-double contact_step(const RoomScene& scene) {
-    double step = std::numeric_limits<double>::infinity();
-    for (const RoomGrains& kind : scene.grains) {
-        const double radius = 0.5 * kind.smallest(), mass = kind.density * 4.0 / 3.0 * k_pi * radius * radius * radius;
-        const double modulus = scene.contact.youngs_modulus / (1.0 - scene.contact.poisson_rock * scene.contact.poisson_rock);
-        const physics::Impact impact{0.5 * mass, 0.5 * radius, 0.5 * modulus, scene.contact.max_speed};
-        step = std::min({step, physics::rayleigh_time(radius, kind.density, scene.contact.youngs_modulus, scene.contact.poisson_rock),
-                         physics::hertz_time(impact)});
-    }
-    return scene.grains.empty() ? 0.0 : scene.contact.time_step_fraction * step;
-}
-
 double largest_diameter(const RoomScene& scene) {
     double largest = 0.0;
     for (const RoomGrains& kind : scene.grains) largest = std::max(largest, kind.largest());
@@ -83,17 +70,12 @@ double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     return step;
 }
 
-const RoomSolid* find_solid(const RoomScene& scene, const std::string& name) {
-    const auto found = std::find_if(scene.solids.begin(), scene.solids.end(), [&](const RoomSolid& one) { return one.name == name; });
-    return found == scene.solids.end() ? nullptr : &*found;
-}
-
 /// Bores that something flows through.
 std::vector<Opening> flow_bores(const ParameterValues& values, const RoomScene& scene) {
     std::vector<Opening> bores;
     for (const ParameterValues& boundary : values.tables("boundary")) {
         if (!boundary.has("boundary.inside")) continue;
-        const RoomSolid* solid = find_solid(scene, boundary.text("boundary.inside"));
+        const RoomSolid* solid = scene.find_solid(boundary.text("boundary.inside"));
         if (solid != nullptr && solid->bore)
             bores.push_back({boundary.where("boundary.inside"), "radius of " + solid->name, solid->bore->radius});
     }
@@ -104,7 +86,7 @@ std::vector<Opening> flow_bores(const ParameterValues& values, const RoomScene& 
 std::vector<Opening> floor_openings(const ParameterValues& values, const RoomScene& scene) {
     std::vector<Opening> openings;
     for (const ParameterValues& table : values.tables("solid")) {
-        const RoomSolid* solid = find_solid(scene, table.text("solid.name"));
+        const RoomSolid* solid = scene.find_solid(table.text("solid.name"));
         if (solid != nullptr && solid->felt_by_fluid && solid->opening > 0.0)
             openings.push_back({table.where("solid.name"), "opening of " + solid->name, solid->opening});
     }
@@ -130,6 +112,9 @@ std::vector<std::string> models_of(const RoomScene& scene) {
                                      solid.turn->begin, solid.turn->end));
         if (solid.removed_at) on.push_back(fmt::format("{} is taken away at {:g} s", solid.name, *solid.removed_at));
     }
+    for (const PrepareStep& step : scene.preparation)
+        if (const auto* compress = std::get_if<CompressStep>(&step))
+            on.push_back(fmt::format("{} is pressed on the grains with {:.4g} N before the run", compress->solid, compress->force));
     for (const RoomEvent& event : scene.events) {
         if (const auto* feed = std::get_if<FeedEvent>(&event))
             on.push_back(fmt::format("{} are fed at {:g} kg/s", feed->grains, feed->rate));

@@ -836,11 +836,18 @@ private:
         const std::string where = values.where("prepare.do");
         if (what != "pour")
             refuse_keys(values, {"prepare.grains", "prepare.depth_m", "prepare.mass_kg", "prepare.count"}, "It belongs to do = \"pour\"");
-        if (what != "settle") refuse_keys(values, {"prepare.longest_s"}, "It belongs to do = \"settle\"");
+        if (what != "settle" && what != "compress")
+            refuse_keys(values, {"prepare.longest_s"}, "It belongs to do = \"settle\" and \"compress\"");
+        if (what != "compress")
+            refuse_keys(values, {"prepare.solid", "prepare.direction", "prepare.pressure_pa"}, "It belongs to do = \"compress\"");
         if (what == "settle") {
             refuse_keys(values, {"prepare.above_m", "prepare.below_m", "prepare.region"}, "All grains settle");
             scene_.preparation.emplace_back(SettleStep{number_or(values, "prepare.longest_s", k_longest_settling)});
             return;
+        }
+        if (what == "compress") {
+            refuse_keys(values, {"prepare.above_m", "prepare.below_m", "prepare.region"}, "A solid compresses what is in its way");
+            return read_compress(values, where);
         }
         const std::optional<Region> region = region_of_step(values, where);
         if (what == "pour") return read_pour(values, region, where);
@@ -850,6 +857,31 @@ private:
         require_in_room(*region, fmt::format("do = \"{}\"", what), where);
         if (what == "trim") scene_.preparation.emplace_back(TrimStep{*region});
         if (what == "freeze") scene_.preparation.emplace_back(FreezeStep{*region});
+    }
+
+    void read_compress(const ParameterValues& values, const std::string& where) {
+        const auto pressure = required(values, "prepare.pressure_pa", "do = \"compress\"", "prepare.do");
+        if (!values.has("prepare.solid"))
+            return refuse(where, "do = \"compress\" without solid", "A solid presses on the grains", "Name it");
+        const std::string& name = values.text("prepare.solid");
+        const RoomSolid* solid = scene_.find_solid(name);
+        if (solid == nullptr) {
+            if (solid_names_.count(name) == 0)  // else its mistakes are told
+                refuse(values.where("prepare.solid"), fmt::format("prepare.solid = \"{}\"", name),
+                       solid_names_.empty() ? "The study has no [[solid]]"
+                                            : fmt::format("The study's solids are {}", fmt::join(solid_names_, ", ")),
+                       "Name one of them");
+            return;
+        }
+        refuse_in_medium(*solid, values.where("prepare.solid"), "is pressed");
+        const Vec3 given = values.has("prepare.direction") ? vec3_of(values, "prepare.direction") : Vec3(-Vec3::UnitZ());
+        if (given.norm() == 0.0)
+            return refuse(values.where("prepare.direction"), "prepare.direction = (0, 0, 0)", "It has a direction", "Correct it");
+        const Vec3 direction = given.normalized();
+        if (pressure)
+            scene_.preparation.emplace_back(CompressStep{name, direction, *pressure,
+                                                         *pressure * geometry::area_seen_along(solid->surface, direction),
+                                                         number_or(values, "prepare.longest_s", k_longest_settling)});
     }
 
     const RoomGrains* grains_of(const ParameterValues& values, const std::string& key, const std::string& where) {

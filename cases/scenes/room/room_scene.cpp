@@ -68,4 +68,9 @@ const RoomGrains* RoomScene::find_grains(const std::string& wanted) const {
     return found == grains.end() ? nullptr : &*found;
 }
 
+const RoomSolid* RoomScene::find_solid(const std::string& wanted) const {
+    const auto found = std::find_if(solids.begin(), solids.end(), [&](const RoomSolid& one) { return one.name == wanted; });
+    return found == solids.end() ? nullptr : &*found;
+}
+
 }  // namespace cutterflow::cases

@@ -169,7 +169,15 @@ struct TrimStep {
 struct FreezeStep {
     Region region;
 };
-using PrepareStep = std::variant<PourStep, SettleStep, TrimStep, FreezeStep>;
+/// A solid is pressed on the grains until they bear it; then it stands.
+struct CompressStep {
+    std::string solid;
+    Vec3 direction = -Vec3::UnitZ();
+    double pressure = 0.0;  ///< [Pa]
+    double force = 0.0;     ///< that pressure on the solid's area [N]
+    double longest = 0.0;   ///< as of SettleStep [s]
+};
+using PrepareStep = std::variant<PourStep, SettleStep, TrimStep, FreezeStep, CompressStep>;
 
 /// Events of the run.
 struct FeedEvent {
@@ -249,6 +257,7 @@ struct RoomScene {
     Vec3 lower() const { return {-0.5 * size.x(), -0.5 * size.y(), 0.0}; }
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
     const RoomGrains* find_grains(const std::string& name) const;
+    const RoomSolid* find_solid(const std::string& name) const;
 };
 
 }  // namespace cutterflow::cases

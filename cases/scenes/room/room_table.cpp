@@ -245,13 +245,28 @@ ParameterTable grain_rows() {
 
 ParameterTable prepare_rows() {
     ParameterTable rows{
-        choice("prepare.do", {"pour", "settle", "trim", "freeze"}, "A step of the preparation; they are done in the file's order.")
+        choice("prepare.do", {"pour", "settle", "trim", "freeze", "compress"},
+               "A step of the preparation; they are done in the file's order.")
             .repeated(),
         text("prepare.grains", "What is poured.").optional().repeated(),
         length("prepare.depth_m", "Depth of the poured bed; give this, mass_kg or count.").optional().repeated(),
         number("prepare.mass_kg", "kg", "Poured mass.").above(0.0).at_most(1e9).optional().repeated(),
         Row("prepare.count", ParameterKind::integer, "-", "Poured grains.").at_least(1.0).at_most(1e8).optional().repeated(),
-        duration("prepare.longest_s", "By when grains must have come to rest.").derived("20 s").repeated(),
+        duration("prepare.longest_s", "Settle and compress: by when grains must have come to rest.").derived("20 s").repeated(),
+        text("prepare.solid", "Compress: the solid that is pressed on the grains until they bear it; then it stands.")
+            .optional()
+            .repeated(),
+        number("prepare.pressure_pa", "Pa", "Compress: force over the area that the solid, as a convex one, shows along direction.")
+            .above(0.0)
+            .at_most(1e7)
+            .optional()
+            .repeated(),
+        Row("prepare.direction", ParameterKind::numbers, "-", "Compress: in which the solid moves.")
+            .of_length(3)
+            .at_least(-1e3)
+            .at_most(1e3)
+            .derived("down, [0, 0, -1]")
+            .repeated(),
         level("prepare.above_m", "Trim and freeze: what lies above this level.").optional().repeated(),
         level("prepare.below_m", "Trim and freeze: what lies below this level.").optional().repeated(),
     };

@@ -103,6 +103,10 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
             text += fmt::format("; turns at {:.4g} rpm from {:g} to {:g} s",
                                 solid.at("turn").at("speed_rad_s").get<double>() / rpm_to_rad_s(1.0),
                                 solid.at("turn").at("from_s").get<double>(), solid.at("turn").at("to_s").get<double>());
+        if (solid.contains("pressed_m"))
+            text += fmt::format("; pressed by {:.4g} mm before the run",
+                                1e3 * std::hypot(solid.at("pressed_m").at(0).get<double>(), solid.at("pressed_m").at(1).get<double>(),
+                                                 solid.at("pressed_m").at(2).get<double>()));
         if (solid.contains("removed_at_s")) text += fmt::format("; taken away at {:g} s", solid.at("removed_at_s").get<double>());
         rows.push_back({html::escape(solid.at("name").get<std::string>()), text});
     }

@@ -30,7 +30,8 @@ double lasted(const nlohmann::json& motion, double time) {
 }
 
 /// Where a point of a solid is at a time.
-Vec3 moved(const nlohmann::json& solid, double time, const Vec3& point) {
+Vec3 moved(const nlohmann::json& solid, double time, const Vec3& given) {
+    const Vec3 point = solid.contains("pressed_m") ? Vec3(given + vec3_in(solid.at("pressed_m"))) : given;
     if (solid.contains("travel")) {
         const nlohmann::json& travel = solid.at("travel");
         return point + vec3_in(travel.at("velocity_m_s")) * lasted(travel, time);
