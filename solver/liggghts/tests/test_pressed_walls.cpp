@@ -22,8 +22,8 @@ coupling::DemSettings between_plates(bool plate_above) {
     const std::filesystem::path folder = scratch_folder();
     const auto slab = [&](const char* name, bool above, double gap) {
         const double z = above ? k_radius + gap : -k_radius - 0.01 - gap;
-        return coupling::WallSettings{name,
-                                      write_stl(folder / (std::string(name) + ".stl"), block(Vec3(-0.05, -0.05, z), Vec3(0.05, 0.05, z + 0.01), 3))};
+        return coupling::WallSettings{
+            name, write_stl(folder / (std::string(name) + ".stl"), block(Vec3(-0.05, -0.05, z), Vec3(0.05, 0.05, z + 0.01), 3))};
     };
     settings.walls = {slab("plate", plate_above, plate_above ? k_gap : 0.0), slab("table", !plate_above, plate_above ? 0.0 : k_gap)};
     settings.walls[0].press = coupling::WallPress{plate_above ? Vec3(-Vec3::UnitZ()) : Vec3(Vec3::UnitZ()), k_force, k_speed};
