@@ -113,13 +113,6 @@ double smallest_diameter(const Study& study) {
 
 }  // namespace
 
-void require_start_donor(const fs::path& folder) {
-    if (fs::is_directory(folder) && may_hold_a_run(folder)) return;
-    throw UserError(fmt::format("--start-from {} is no run directory", folder.string()),
-                    fmt::format("It has a {}: its frozen-rotor flow is reused", names::manifest),
-                    "Correct the path, or leave --start-from out");
-}
-
 std::map<std::string, std::string> stage_inputs(const ParameterValues& values, const fs::path& study_folder, const std::string& stage) {
     std::map<std::string, std::string> inputs;
     for (const Parameter& parameter : study_table())

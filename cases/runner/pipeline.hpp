@@ -16,10 +16,6 @@
 
 namespace cutterflow::cases {
 
-/// \throws UserError  when `folder`, whose frozen-rotor flow shall be reused, is no run directory; a point of a sweep whose run has not
-/// begun is an empty one
-void require_start_donor(const std::filesystem::path& folder);
-
 /// How a study is computed; no part of what is computed.
 struct PipelineSettings {
     std::filesystem::path study_file;

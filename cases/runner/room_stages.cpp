@@ -336,6 +336,19 @@ std::map<std::string, std::string> bed_inputs(const ParameterValues& values) {
     return inputs;
 }
 
+bool take_bed(const fs::path& donor, const RunDirectory& directory, const std::vector<Stage>& stages) {
+    const Manifest of_donor(donor / names::manifest);
+    const std::vector<std::string> shared{k_geometry, k_bed};
+    const auto is_same = [&](const std::string& name) {
+        const StageRecord* record = of_donor.find(name);
+        const auto wanted = std::find_if(stages.begin(), stages.end(), [&](const Stage& stage) { return stage.name == name; });
+        return record != nullptr && record->state == StageState::done && record->inputs == wanted->inputs;
+    };
+    if (!std::all_of(shared.begin(), shared.end(), is_same)) return false;
+    share_stages(donor, directory.path(), shared);
+    return true;
+}
+
 std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, Say say) {
     const auto room = std::make_shared<const RoomWork>(directory, request, solver, std::move(say));
     std::vector<Stage> stages{

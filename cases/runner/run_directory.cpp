@@ -62,6 +62,13 @@ void require_usable_run_directory(const fs::path& path) {
                     "A run directory is empty or made by cutterflow; nothing is overwritten", "Choose another with -o");
 }
 
+void require_start_donor(const fs::path& folder) {
+    if (fs::is_directory(folder) && may_hold_a_run(folder)) return;
+    throw UserError(fmt::format("--start-from {} is no run directory", folder.string()),
+                    fmt::format("It has a {}: its frozen-rotor flow or bed is reused", names::manifest),
+                    "Correct the path, or leave --start-from out");
+}
+
 RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexically_normal()) {
     require_usable_run_directory(path_);
     std::error_code failed;

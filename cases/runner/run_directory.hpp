@@ -16,6 +16,10 @@ bool may_hold_a_run(const std::filesystem::path& path);
 /// \throws UserError  as require_openfoam_path, or when a folder that is there holds something that is no run: nothing is overwritten
 void require_usable_run_directory(const std::filesystem::path& path);
 
+/// \throws UserError  when `folder`, whose frozen-rotor flow or bed shall be reused, is no run directory; a point of a sweep whose run has
+/// not begun is an empty one
+void require_start_donor(const std::filesystem::path& folder);
+
 /// A run directory that belongs to this process while the object lives. Children inherit the lock: a solver that outlives its parent
 /// keeps the directory busy.
 class RunDirectory {

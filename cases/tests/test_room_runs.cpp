@@ -232,6 +232,17 @@ TEST_F(RoomRuns, a_lid_is_pressed_on_a_bed_and_stands_in_the_run) {
     EXPECT_NEAR(json_of("bed/room.json").at("solids")[0].at("pressed_m")[2].get<double>(), way.z(), 1e-9);
     EXPECT_NEAR(json_of("bed/report/measures.json").at("on_lid").at("value").get<double>(), force, 0.05 * force);
     EXPECT_NE(read_file(folder_ / "bed/report/index.html").find("pressed by"), std::string::npos);
+
+    // The same bed for a run that prepares nothing else; another one is made.
+    EXPECT_NE(call({"run", "bed.toml", "-o", "again", "--start-from", "bed"}).find("the bed is the same as that of bed"),
+              std::string::npos);
+    EXPECT_EQ(read_file(folder_ / "again/postProcessing/rock/0/walls.csv"), read_file(folder_ / "bed/postProcessing/rock/0/walls.csv"));
+    EXPECT_FALSE(fs::exists(folder_ / "again/bed/1"));
+    std::string other = std::string(k_pressed_bed) + k_materials;
+    other.replace(other.find("2000"), 4, "1000");
+    write_file(folder_ / "other.toml", other);
+    EXPECT_NE(call({"run", "other.toml", "-o", "other", "--start-from", "bed"}).find("no finished bed of the same preparation"),
+              std::string::npos);
 }
 
 TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {

@@ -57,7 +57,7 @@ cases::RoomRequest begun_well(const RunOptions& options) {
     if (options.ranks != 1)
         mistakes.add(
             {"", fmt::format("--ranks {}", options.ranks), "A room runs on one core", "Leave it out; run several studies side by side"});
-    if (!options.start_from.empty()) mistakes.add({"", "--start-from with a room", "It has no frozen-rotor flow", "Leave it out"});
+    if (!options.start_from.empty()) mistakes.gather([&] { cases::require_start_donor(options.start_from); });
     mistakes.gather([&] { cases::require_usable_run_directory(options.folder()); });
     mistakes.gather([&] { cases::require_machine(1); });
     cases::RoomRequest request;
@@ -75,10 +75,14 @@ cases::RoomRequest begun_well(const RunOptions& options) {
 /// \return the run directory's path
 fs::path go_through(const cases::RoomRequest& request, const RunOptions& options, const std::string& until) {
     const cases::RunDirectory directory(options.folder());
+    const std::vector<cases::Stage> stages = cases::room_stages(directory, request, installation().programs / "cutterFoam", say);
+    if (!options.start_from.empty())
+        say(cases::take_bed(options.start_from, directory, stages)
+                ? fmt::format("the bed is the same as that of {}", options.start_from)
+                : fmt::format("{} has no finished bed of the same preparation: it is made here", options.start_from));
     cases::Manifest manifest(directory.file(names::manifest));
     const auto versions = build_versions();
     manifest.set_versions({versions.begin(), versions.end()});
-    const std::vector<cases::Stage> stages = cases::room_stages(directory, request, installation().programs / "cutterFoam", say);
     const auto last = std::find_if(stages.begin(), stages.end(), [&](const cases::Stage& stage) { return stage.name == until; });
     try {
         cases::run_stages(directory, manifest, stages, until, options.resume,
