@@ -222,8 +222,8 @@ MeasureKind angle_kind() {
         "Angle of a heap's or a hollow's slope with the horizontal: straight lines through the silhouettes, both sides; the cone through "
         "the whole surface beside it.",
         {single(ParameterRow("view", k_choice, "-",
-                             "around: a round heap, silhouettes from 8 directions. x or y: a slope between two plates, one silhouette "
-                             "along that direction.")
+                             "around: a round heap, silhouettes from 8 directions. x or y: a slope between two plates, one silhouette, "
+                             "its profile along x or y.")
                     .one_of({"around", "x", "y"})
                     .by_default("around")),
          shaped(MeasureShape::pair,
