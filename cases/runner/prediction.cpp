@@ -19,11 +19,11 @@ namespace cutterflow::cases {
 namespace {
 
 constexpr double k_gravity = 9.81;
-// Core time of a coupled step over that of the flow alone, and what each rank beyond the first adds to either: fastest steps of
+// Core time of a coupled step over that of the flow alone, and what each rank beyond the first adds to either: least rounds of
 // docs/results/step_cost.md, on one and two ranks.
-constexpr double k_rock_share = 1.32;
-constexpr double k_flow_per_rank = 0.10;
-constexpr double k_rock_per_rank = 0.25;
+constexpr double k_rock_share = 1.41;
+constexpr double k_flow_per_rank = 0.44;
+constexpr double k_rock_per_rank = 0.33;
 // Rock may travel this share of its kernel width in a step. The smallest cells that it meets at the cutter measure this share of the
 // background's (docs/design/003-meshing.md).
 constexpr double k_travel_share = 0.25;

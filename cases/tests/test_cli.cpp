@@ -262,10 +262,10 @@ TEST_F(Cli, check_predicts_what_a_run_costs) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "check writes nothing";
 }
 
-// Fastest steps of docs/results/step_cost.md, wall seconds times ranks: the draft mesh of this cutter on the machine undisturbed.
+// Core seconds per step of docs/results/step_cost.md: the draft mesh of this cutter on the machine undisturbed.
 TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
     study(k_feed);
-    const std::map<int, std::pair<double, double>> measured{{1, {0.561, 0.741}}, {2, {2 * 0.310, 2 * 0.462}}};
+    const std::map<int, std::pair<double, double>> measured{{1, {0.359, 0.506}}, {2, {0.516, 0.672}}};
     for (const auto& [ranks, core_s] : measured) {
         if (ranks > cases::available_cores()) continue;
         const Outcome outcome = call({"check", "study.toml", "--json", "--ranks", std::to_string(ranks)});

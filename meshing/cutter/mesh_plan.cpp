@@ -34,7 +34,7 @@ constexpr double k_core_bulge = 0.80;
 constexpr double k_refined_per_area = 1.9;  // background cells that a surface of unit area refines, times the cell's mean face area
 constexpr double k_mouth_rate = 1.26;       // Courant number per step over (mouth velocity x step / height of the gap's cells)
 constexpr double k_tip_rate = 1.95;         // over (tip speed x step / width of the cutter's cells)
-constexpr double k_core_s_per_cell_step = 9.3e-6;
+constexpr double k_core_s_per_cell_step = 5.9e-6;
 constexpr double k_mesh_memory = 0.13e9, k_mesh_memory_per_cell = 1.36e3;  // snappyHexMesh [bytes]
 constexpr double k_run_memory = 0.32e9, k_run_memory_per_cell = 2.04e3;    // cutterFoam on one rank [bytes]
 

@@ -22,7 +22,7 @@ namespace {
 constexpr double k_seconds_per_grain_and_step = 0.65e-6;  // of a dense bed with rolling friction and walls, on one core
 constexpr double k_rest = 0.5;                            // of a small bed [s]
 // Of a coupled step on one core: of the flow, with grains (docs/design/003-meshing.md), and of mapping a grain to cells.
-constexpr double k_seconds_per_cell_and_step = 9.3e-6 * 1.32, k_seconds_per_mapped_grain = 30e-6;
+constexpr double k_seconds_per_cell_and_step = 5.9e-6 * 1.41, k_seconds_per_mapped_grain = 30e-6;
 constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
 constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
 
