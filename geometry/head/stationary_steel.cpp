@@ -109,6 +109,15 @@ TriangleSurface StationarySteel::solid() const {
     return welded(joined({backplate, suction_pipe}));
 }
 
+bool is_in_stationary_steel(const StationarySteelParameters& p, const Vec3& point) {
+    const double from_axis = point.head<2>().norm(), from_mouth = (point - mouth_centre(p.mouth)).head<2>().norm();
+    const double z_top = p.gap + p.plate_thickness;
+    if (from_mouth <= p.mouth.radius) return false;
+    const bool in_plate = point.z() > p.gap && point.z() < z_top && from_axis < p.plate_radius;
+    const bool in_pipe = point.z() >= z_top && point.z() < p.pipe_top && from_mouth < p.mouth.radius + p.pipe_wall;
+    return in_plate || in_pipe;
+}
+
 StationarySteel generate_stationary_steel(const StationarySteelParameters& p) {
     require_consistent(p);
     const double edge = p.edge_length;

@@ -36,4 +36,7 @@ struct StationarySteel {
 /// \throws UserError  when the sizes contradict each other (each contradiction is named)
 StationarySteel generate_stationary_steel(const StationarySteelParameters& parameters);
 
+/// Whether a point lies in that steel, by its exact cylinders. \pre the sizes do not contradict each other
+bool is_in_stationary_steel(const StationarySteelParameters& parameters, const Vec3& point);
+
 }  // namespace cutterflow::geometry

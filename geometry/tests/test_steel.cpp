@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -345,6 +346,22 @@ TEST(StationarySteel, the_pipe_opens_through_the_mouth_only) {
         }
     EXPECT_TRUE(steel.contains(Vec3(-0.3, 0.1, 0.045)));
     EXPECT_FALSE(steel.contains(Vec3(-0.3, 0.1, 0.029)));
+}
+
+TEST(StationarySteel, its_cylinders_hold_the_points_that_its_surface_holds) {
+    const SolidSearch steel(generated_steel().solid());
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> across(-0.5, 0.5), along(-0.05, 0.6);
+    int inside = 0, outside = 0;
+    for (int k = 0; k < 6000; ++k) {
+        const Vec3 point(across(random), across(random), along(random));
+        if (steel.nearest(point).distance < 2e-3) continue;  // the surface's circles are polygons
+        const bool in_steel = steel.contains(point);
+        EXPECT_EQ(is_in_stationary_steel(model_steel(), point), in_steel) << point.transpose();
+        ++(in_steel ? inside : outside);
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_GT(outside, 1000);
 }
 
 TEST(StationarySteel, a_mouth_outside_the_backplate_is_refused) {

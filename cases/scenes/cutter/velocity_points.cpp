@@ -30,12 +30,15 @@ std::vector<double> spaced(double a, double b, int n) {
 }
 
 /// Lies a point of measurement in steel at all angles between the rotor and it?
-bool always_in_steel(const postproc::AdvPoint& point, const geometry::SolidSearch& cutter, const geometry::SolidSearch& stationary) {
-    const geometry::SolidSearch& resting = point.rotating ? cutter : stationary;  // at rest beside the point
-    const geometry::SolidSearch& passing = point.rotating ? stationary : cutter;
-    if (resting.contains(point.position())) return true;
+bool always_in_steel(const postproc::AdvPoint& point, const geometry::SolidSearch& cutter,
+                     const geometry::StationarySteelParameters& stationary) {
+    const auto in_cutter = [&](const Vec3& place) { return cutter.contains(place); };
+    const auto in_stationary = [&](const Vec3& place) { return geometry::is_in_stationary_steel(stationary, place); };
+    const auto at_rest = [&](const Vec3& place) { return point.rotating ? in_cutter(place) : in_stationary(place); };
+    const auto passes = [&](const Vec3& place) { return point.rotating ? in_stationary(place) : in_cutter(place); };
+    if (at_rest(point.position())) return true;
     for (int i = 0; i < k_angles; ++i)
-        if (!passing.contains(rotate_about({}, 2.0 * k_pi * i / k_angles, point.position()))) return false;
+        if (!passes(rotate_about({}, 2.0 * k_pi * i / k_angles, point.position()))) return false;
     return true;
 }
 
@@ -69,7 +72,8 @@ VelocitySetInput adv_set(const Study& study) {
 }
 
 void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter) {
-    const geometry::SolidSearch rotor(cutter), stationary(geometry::generate_stationary_steel(stationary_steel_of(study, head)).solid());
+    const geometry::SolidSearch rotor(cutter);
+    const geometry::StationarySteelParameters stationary = stationary_steel_of(study, head);
     const AxialCylinder water = study.water(head);
     std::vector<Mistake> mistakes;
     for (const postproc::AdvPoint& point : postproc::read_adv_points(*study.report.adv_points)) {
