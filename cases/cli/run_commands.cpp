@@ -40,9 +40,8 @@ void add_run(CLI::App& app) {
     auto* command = app.add_subcommand("run", "Execute every unfinished stage of a study, up to its report.");
     const auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
-    command->add_option(
-        "--start-from", options->start_from,
-        "Run directory whose frozen-rotor flow, of a room whose bed, is reused if what makes it is identical, as for a repeat");
+    command->add_option("--start-from", options->start_from,
+                        "Run directory to take the frozen-rotor flow from (of a room: the bed), if what makes it is identical");
     command->add_flag("--resume", options->resume, "Resume an interrupted run from its last checkpoint");
     command->add_flag("--json", options->json, "Print results.json");
     command->callback([options] { kind_of_study(options->study).run(*options); });

@@ -32,7 +32,7 @@ struct Solid {
 };
 
 void add_common_options(CLI::App& command, Solid& solid) {
-    command.add_option("--edge-m", solid.edge_length, "Longest edge of the surface's triangles")->required();
+    command.add_option("--edge-m", solid.edge_length, "Longest edge of the surface's triangles")->required()->check(k_positive);
     command.add_option("-o,--output", solid.output, "STL file to write")->required();
 }
 
@@ -101,7 +101,7 @@ void add_backplate(CLI::App& app) {
     command->add_option("--mouth-offset-m", steel->mouth.offset, "Distance of the mouth's centre from the axis")
         ->required()
         ->check(k_not_negative);
-    command->add_option("--mouth-azimuth-deg", *azimuth_deg, "Azimuth of the mouth's centre")->capture_default_str();
+    command->add_option("--mouth-azimuth-deg", *azimuth_deg, "Azimuth of the mouth's centre")->check(k_angle_deg)->capture_default_str();
     length("--pipe-wall-m", steel->pipe_wall, "Thickness of the pipe's wall");
     length("--pipe-length-m", *pipe_length, "Length of the pipe above the plate");
     add_common_options(*command, *solid);

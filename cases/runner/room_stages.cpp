@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <memory>
 #include <random>
+#include <set>
+#include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cases/runner/run_progress.hpp"
 #include "cases/runner/table_inputs.hpp"
@@ -178,10 +181,38 @@ private:
         const double end = pieces_[piece].end(), reached = std::stod(newest_checkpoint(piece_folder(piece)).filename().string());
         if (reached < end - 0.5 * scene_.bed_step) return;
         require_all_came_in(piece);
+        if (pieces_[piece].compress) refuse_compression(piece, *pieces_[piece].compress);
         throw CheckFailure(
             {"", fmt::format("the grains of {} are not at rest after {:g} s", piece_folder(piece).string(), end),
              "A preparation ends with its mean kinetic energy, without spin, below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
              "Look at its pictures; give the step settle a larger longest_s, or the contacts friction and rolling friction"});
+    }
+
+    /// The solid met too few grains, or they go on giving way.
+    [[noreturn]] void refuse_compression(std::size_t piece, const CompressStep& step) const {
+        const nlohmann::json state = dem_state(newest_checkpoint(piece_folder(piece)));
+        for (const nlohmann::json& wall : state.at("walls")) {
+            if (wall.at("name") != step.solid) continue;
+            const std::vector<double> force = wall.at("force_n"), way = wall.at("pressed_m");
+            throw CheckFailure(
+                {"",
+                 fmt::format("after {:g} s the grains of {} bear {:.4g} N of the {:.4g} N with which {} is pressed; it went {:.4g} m",
+                             pieces_[piece].end(), piece_folder(piece).string(), 0.0 - Vec3(force.data()).dot(step.direction), step.force,
+                             step.solid, Vec3(way.data()).norm()),
+                 fmt::format("A step compress ends when grains bear the force to 1 % and are at rest; the solid moves at most {:.2g} m/s",
+                             press_speed(scene_, step)),
+                 "Look at its pictures; put the solid close to the grains, before them along its direction, or give the step a larger "
+                 "longest_s"});
+        }
+        throw std::logic_error(step.solid + " is no wall of its own preparation");
+    }
+
+    static nlohmann::json dem_state(const fs::path& checkpoint) {
+        return read_json_document(checkpoint / names::dem_state,
+                                  {{"walls/*/name", JsonKind::text, true},
+                                   {"walls/*/force_n/*", JsonKind::number, true},
+                                   {"walls/*/pressed_m/*", JsonKind::number, true}},
+                                  "Remove the folder bed; it is made anew");
     }
 
     /// The last row of the account of rock of a piece.
@@ -243,10 +274,7 @@ private:
     nlohmann::json pressed_solids() const {
         nlohmann::json pressed = nlohmann::json::object();
         if (std::none_of(pieces_.begin(), pieces_.end(), [](const BedPiece& piece) { return piece.compress.has_value(); })) return pressed;
-        const nlohmann::json bed =
-            read_json_document(directory_.file(bed_start()) / names::dem_state,
-                               {{"walls/*/name", JsonKind::text, true}, {"walls/*/pressed_m/*", JsonKind::number, true}},
-                               "Remove the folder bed; it is made anew");
+        const nlohmann::json bed = dem_state(directory_.file(bed_start()));
         for (const BedPiece& piece : pieces_)
             for (const nlohmann::json& wall : bed.at("walls"))
                 if (piece.compress && wall.at("name") == piece.compress->solid) pressed[piece.compress->solid] = wall.at("pressed_m");
@@ -336,17 +364,33 @@ std::map<std::string, std::string> bed_inputs(const ParameterValues& values) {
     return inputs;
 }
 
-bool take_bed(const fs::path& donor, const RunDirectory& directory, const std::vector<Stage>& stages) {
+namespace {
+
+/// Why a stage of another run cannot be taken; empty when it can.
+std::string difference(const fs::path& donor, const StageRecord* record, const Stage& wanted) {
+    if (record == nullptr || record->state != StageState::done) return fmt::format("its stage {} is not finished", wanted.name);
+    std::set<std::string> apart;
+    for (const auto& [inputs, others] : {std::pair(&record->inputs, &wanted.inputs), std::pair(&wanted.inputs, &record->inputs)})
+        for (const auto& [key, value] : *inputs)
+            if (const auto other = others->find(key); other == others->end() || other->second != value) apart.insert(key);
+    if (!apart.empty()) return fmt::format("other values of {}", fmt::join(apart, ", "));
+    for (const auto& [file, hash] : record->outputs)
+        if (!fs::is_regular_file(donor / file) || sha256_of_file(donor / file) != hash)
+            return fmt::format("its file {} was changed or is gone", file);
+    return "";
+}
+
+}  // namespace
+
+std::string take_bed(const fs::path& donor, const RunDirectory& directory, const std::vector<Stage>& stages) {
     const Manifest of_donor(donor / names::manifest);
     const std::vector<std::string> shared{k_geometry, k_bed};
-    const auto is_same = [&](const std::string& name) {
-        const StageRecord* record = of_donor.find(name);
-        const auto wanted = std::find_if(stages.begin(), stages.end(), [&](const Stage& stage) { return stage.name == name; });
-        return record != nullptr && record->state == StageState::done && record->inputs == wanted->inputs;
-    };
-    if (!std::all_of(shared.begin(), shared.end(), is_same)) return false;
+    for (const Stage& stage : stages) {
+        if (std::find(shared.begin(), shared.end(), stage.name) == shared.end()) continue;
+        if (std::string apart = difference(donor, of_donor.find(stage.name), stage); !apart.empty()) return apart;
+    }
     share_stages(donor, directory.path(), shared);
-    return true;
+    return "";
 }
 
 std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, Say say) {

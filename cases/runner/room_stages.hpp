@@ -28,9 +28,9 @@ RoomRequest read_room_request(const std::filesystem::path& study);
 std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const std::filesystem::path& solver,
                                std::function<void(const std::string&)> say);
 
-/// Takes geometry and bed of another run, if it has finished them with the same inputs and this run has not begun.
-/// \param stages  of this run \return whether they are the same
-bool take_bed(const std::filesystem::path& donor, const RunDirectory& directory, const std::vector<Stage>& stages);
+/// Takes geometry and bed of another run, if it has finished them with the same inputs and they are as it wrote them.
+/// \param stages  of this run, which has not begun \return why they were not taken; empty when they were
+std::string take_bed(const std::filesystem::path& donor, const RunDirectory& directory, const std::vector<Stage>& stages);
 
 /// What the bed of a room depends on, by key: points of a sweep with equal ones share it.
 std::map<std::string, std::string> bed_inputs(const ParameterValues& values);

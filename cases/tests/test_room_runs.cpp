@@ -234,15 +234,23 @@ TEST_F(RoomRuns, a_lid_is_pressed_on_a_bed_and_stands_in_the_run) {
     EXPECT_NE(read_file(folder_ / "bed/report/index.html").find("pressed by"), std::string::npos);
 
     // The same bed for a run that prepares nothing else; another one is made.
-    EXPECT_NE(call({"run", "bed.toml", "-o", "again", "--start-from", "bed"}).find("the bed is the same as that of bed"),
+    EXPECT_NE(call({"run", "bed.toml", "-o", "again", "--start-from", "bed"}).find("the bed is that of bed, copied from there"),
               std::string::npos);
     EXPECT_EQ(read_file(folder_ / "again/postProcessing/rock/0/walls.csv"), read_file(folder_ / "bed/postProcessing/rock/0/walls.csv"));
     EXPECT_FALSE(fs::exists(folder_ / "again/bed/1"));
     std::string other = std::string(k_pressed_bed) + k_materials;
     other.replace(other.find("2000"), 4, "1000");
     write_file(folder_ / "other.toml", other);
-    EXPECT_NE(call({"run", "other.toml", "-o", "other", "--start-from", "bed"}).find("no finished bed of the same preparation"),
-              std::string::npos);
+    EXPECT_NE(
+        call({"run", "other.toml", "-o", "other", "--start-from", "bed"}).find("the bed of bed is not taken, other values of prepare"),
+        std::string::npos);
+
+    // Upwards there is nothing to press on.
+    std::string upwards = std::string(k_pressed_bed) + k_materials;
+    upwards.replace(upwards.find("pressure_pa = 2000"), 18, "pressure_pa = 2000\ndirection = [0, 0, 1]\nlongest_s = 0.2");
+    write_file(folder_ / "upwards.toml", upwards);
+    const std::string refused = call({"mesh", "upwards.toml", "-o", "upwards"}, 4);
+    EXPECT_NE(refused.find("bear 0 N of the 1.752 N with which lid is pressed; it went 0.01 m"), std::string::npos) << refused;
 }
 
 TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {

@@ -412,7 +412,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end, "[[prepare]]\ndo = \"compress\"\nsolid = \"disc\"\npressure_pa = 1e8\n\n[run]\n",
             "prepare.pressure_pa = 100000000 is too high"},
         Bad{k_end, "[[prepare]]\ndo = \"compress\"\nsolid = \"disc\"\npressure_pa = 10\ndirection = [0, 0, 0]\n\n[run]\n",
-            "It has a direction"},
+            "It must not be zero"},
         Bad{k_end, "[[prepare]]\ndo = \"trim\"\nabove_m = 0.1\npressure_pa = 10\n\n[run]\n", "It belongs to do = \"compress\""},
         Bad{k_end, "[[event]]\ndo = \"remove\"\nat_s = 9\nregion = { above_m = 0.05 }\n\n[run]\n", "The run ends at 4 s"},
         Bad{"material = \"glass\"\ndensity", "material = \"glass beads\"\ndensity", "letters, digits"},

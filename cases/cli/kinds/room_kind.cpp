@@ -15,6 +15,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/shell_word.hpp"
+#include "geometry/base/run_files.hpp"
 #include "geometry/base/versions.hpp"
 #include "postproc/pages/room/room_page.hpp"
 
@@ -76,10 +77,11 @@ cases::RoomRequest begun_well(const RunOptions& options) {
 fs::path go_through(const cases::RoomRequest& request, const RunOptions& options, const std::string& until) {
     const cases::RunDirectory directory(options.folder());
     const std::vector<cases::Stage> stages = cases::room_stages(directory, request, installation().programs / "cutterFoam", say);
-    if (!options.start_from.empty())
-        say(cases::take_bed(options.start_from, directory, stages)
-                ? fmt::format("the bed is the same as that of {}", options.start_from)
-                : fmt::format("{} has no finished bed of the same preparation: it is made here", options.start_from));
+    if (!options.start_from.empty() && !fs::exists(directory.file(names::manifest))) {
+        const std::string apart = cases::take_bed(options.start_from, directory, stages);
+        say(apart.empty() ? fmt::format("the bed is that of {}, copied from there", options.start_from)
+                          : fmt::format("the bed of {} is not taken, {}: it is made here", options.start_from, apart));
+    }
     cases::Manifest manifest(directory.file(names::manifest));
     const auto versions = build_versions();
     manifest.set_versions({versions.begin(), versions.end()});

@@ -861,27 +861,33 @@ private:
 
     void read_compress(const ParameterValues& values, const std::string& where) {
         const auto pressure = required(values, "prepare.pressure_pa", "do = \"compress\"", "prepare.do");
-        if (!values.has("prepare.solid"))
-            return refuse(where, "do = \"compress\" without solid", "A solid presses on the grains", "Name it");
-        const std::string& name = values.text("prepare.solid");
-        const RoomSolid* solid = scene_.find_solid(name);
-        if (solid == nullptr) {
-            if (solid_names_.count(name) == 0)  // else its mistakes are told
-                refuse(values.where("prepare.solid"), fmt::format("prepare.solid = \"{}\"", name),
-                       solid_names_.empty() ? "The study has no [[solid]]"
-                                            : fmt::format("The study's solids are {}", fmt::join(solid_names_, ", ")),
-                       "Name one of them");
-            return;
-        }
-        refuse_in_medium(*solid, values.where("prepare.solid"), "is pressed");
+        const RoomSolid* solid = pressed_solid(values, where);
         const Vec3 given = values.has("prepare.direction") ? vec3_of(values, "prepare.direction") : Vec3(-Vec3::UnitZ());
         if (given.norm() == 0.0)
-            return refuse(values.where("prepare.direction"), "prepare.direction = (0, 0, 0)", "It has a direction", "Correct it");
+            refuse(values.where("prepare.direction"), "prepare.direction = [0, 0, 0]", "It must not be zero", "Correct it");
+        if (!pressure || solid == nullptr || given.norm() == 0.0) return;
         const Vec3 direction = given.normalized();
-        if (pressure)
-            scene_.preparation.emplace_back(CompressStep{name, direction, *pressure,
-                                                         *pressure * geometry::area_seen_along(solid->surface, direction),
-                                                         number_or(values, "prepare.longest_s", k_longest_settling)});
+        scene_.preparation.emplace_back(CompressStep{solid->name, direction, *pressure,
+                                                     *pressure * geometry::area_seen_along(solid->surface, direction),
+                                                     number_or(values, "prepare.longest_s", k_longest_settling)});
+    }
+
+    /// Null with a mistake, or when the solid's own mistakes are told.
+    const RoomSolid* pressed_solid(const ParameterValues& values, const std::string& where) {
+        if (!values.has("prepare.solid")) {
+            refuse(where, "do = \"compress\" without solid", "A solid presses on the grains", "Name it");
+            return nullptr;
+        }
+        const std::string& name = values.text("prepare.solid");
+        const RoomSolid* solid = scene_.find_solid(name);
+        if (solid != nullptr)
+            refuse_in_medium(*solid, values.where("prepare.solid"), "is pressed");
+        else if (solid_names_.count(name) == 0)
+            refuse(values.where("prepare.solid"), fmt::format("prepare.solid = \"{}\"", name),
+                   solid_names_.empty() ? "The study has no [[solid]]"
+                                        : fmt::format("The study's solids are {}", fmt::join(solid_names_, ", ")),
+                   "Name one of them");
+        return solid;
     }
 
     const RoomGrains* grains_of(const ParameterValues& values, const std::string& key, const std::string& where) {
