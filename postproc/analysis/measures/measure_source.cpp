@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -147,19 +148,32 @@ PassedMass MeasureSource::out_of_region(const Region& region) const {
     return passed;
 }
 
+/// [s]; without end for what stays.
+double MeasureSource::removed_at(const std::string& wall) const {
+    const fs::path room = directory_ / "room.json";
+    if (!fs::exists(room)) return std::numeric_limits<double>::infinity();
+    const nlohmann::json of_room = read_json_document(
+        room, {{"solids/*/name", JsonKind::text, false}, {"solids/*/removed_at_s", JsonKind::number, false}}, k_run_again);
+    for (const nlohmann::json& solid : of_room.value("solids", nlohmann::json::array()))
+        if (solid.value("name", "") == wall && solid.contains("removed_at_s")) return solid.at("removed_at_s");
+    return std::numeric_limits<double>::infinity();
+}
+
+/// Rows of a wall that was taken away count as long as it stood.
 Signal MeasureSource::wall_force(const std::string& wall, const std::string& component) const {
     const Table rows =
         joined_with(directory_, "rock", "walls.csv", {{"time_s", "force_x_n", "force_y_n", "force_z_n"}, {"wall"}, {}, k_run_again});
+    const double end = removed_at(wall);
     Signal signal;
     for (std::size_t n = 0; n < rows.rows(); ++n) {
-        if (rows.text("wall")[n] != wall) continue;
+        if (rows.text("wall")[n] != wall || rows.number("time_s")[n] > end) continue;
         const Vec3 force(rows.number("force_x_n")[n], rows.number("force_y_n")[n], rows.number("force_z_n")[n]);
         signal.time.push_back(rows.number("time_s")[n]);
         signal.value.push_back(component == "magnitude" ? force.norm() : force[component[0] - 'x']);
     }
     if (signal.time.empty())
-        throw UserError({{directory_.string(), fmt::format("walls.csv has no force on \"{}\"", wall), "It has the walls that rock can meet",
-                          "Correct the wall's name"}});
+        throw UserError({{directory_.string(), fmt::format("walls.csv has no force on \"{}\"", wall),
+                          "It has the walls that rock can meet, until they are taken away", "Correct the wall's name"}});
     return signal;
 }
 

@@ -48,6 +48,7 @@ public:
 private:
     double end() const;
     void require_gate(const std::string& gate) const;
+    double removed_at(const std::string& wall) const;
 
     std::filesystem::path directory_;
     mutable std::vector<double> times_;

@@ -200,6 +200,10 @@ TEST_F(MeasuredRun, reads_forces_columns_and_probes) {
                           {"name": "turn", "what": "spectrum", "table": "loads/loads.csv", "column": "torque"},
                           {"name": "drop", "what": "pressure_drop", "upstream_m": [0, 0, 0], "downstream_m": [0, 0, 1],
                            "density_kg_m3": 1000, "from_s": 4, "to_s": 6}])");
+    // The tube is taken away at 10 s; the zeros that follow are no force.
+    for (int n = 2001; n <= 2010; ++n) walls += fmt::format("{:.3f},plate,3,4,0\n{:.3f},tube,0,0,0\n", 0.005 * n, 0.005 * n);
+    write("postProcessing/rock/0/walls.csv", walls);
+    write("room.json", R"({"solids": [{"name": "tube", "removed_at_s": 10.0}]})");
     const json results = measure_run(run_);
     const auto value = [&](const char* name) { return results[name]["value"].get<double>(); };
     EXPECT_NEAR(value("push"), 4.0, 0.01);
