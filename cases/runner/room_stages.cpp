@@ -1,13 +1,12 @@
 #include "cases/runner/room_stages.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <random>
-#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cases/runner/run_progress.hpp"
 #include "cases/runner/table_inputs.hpp"
@@ -364,33 +363,13 @@ std::map<std::string, std::string> bed_inputs(const ParameterValues& values) {
     return inputs;
 }
 
-namespace {
-
-/// Why a stage of another run cannot be taken; empty when it can.
-std::string difference(const fs::path& donor, const StageRecord* record, const Stage& wanted) {
-    if (record == nullptr || record->state != StageState::done) return fmt::format("its stage {} is not finished", wanted.name);
-    std::set<std::string> apart;
-    for (const auto& [inputs, others] : {std::pair(&record->inputs, &wanted.inputs), std::pair(&wanted.inputs, &record->inputs)})
-        for (const auto& [key, value] : *inputs)
-            if (const auto other = others->find(key); other == others->end() || other->second != value) apart.insert(key);
-    if (!apart.empty()) return fmt::format("other values of {}", fmt::join(apart, ", "));
-    for (const auto& [file, hash] : record->outputs)
-        if (!fs::is_regular_file(donor / file) || sha256_of_file(donor / file) != hash)
-            return fmt::format("its file {} was changed or is gone", file);
-    return "";
-}
-
-}  // namespace
-
 std::string take_bed(const fs::path& donor, const RunDirectory& directory, const std::vector<Stage>& stages) {
-    const Manifest of_donor(donor / names::manifest);
-    const std::vector<std::string> shared{k_geometry, k_bed};
-    for (const Stage& stage : stages) {
-        if (std::find(shared.begin(), shared.end(), stage.name) == shared.end()) continue;
-        if (std::string apart = difference(donor, of_donor.find(stage.name), stage); !apart.empty()) return apart;
-    }
-    share_stages(donor, directory.path(), shared);
-    return "";
+    std::vector<Stage> shared;
+    std::copy_if(stages.begin(), stages.end(), std::back_inserter(shared),
+                 [](const Stage& stage) { return stage.name == k_geometry || stage.name == k_bed; });
+    std::string apart = why_not_shared(donor, shared);
+    if (apart.empty()) share_stages(donor, directory.path(), {k_geometry, k_bed});
+    return apart;
 }
 
 std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, Say say) {

@@ -40,6 +40,10 @@ std::vector<std::string> changed_inputs(const std::map<std::string, std::string>
     return changed;
 }
 
+bool is_as_written(const std::filesystem::path& file, const std::string& hash) {
+    return std::filesystem::is_regular_file(file) && sha256_of_file(file) == hash;
+}
+
 class Plan {
 public:
     Plan(const RunDirectory& directory, const Manifest& manifest, const std::vector<Stage>& stages)
@@ -111,8 +115,8 @@ private:
 
     void check_file(const std::string& stage, const std::string& file, const std::string& hash, std::vector<Mistake>& mistakes) const {
         const std::filesystem::path path = directory_.file(file);
+        if (is_as_written(path, hash)) return;
         const bool there = std::filesystem::exists(path);
-        if (there && sha256_of_file(path) == hash) return;
         mistakes.push_back({path.string(), there ? "this generated file was changed by hand" : "this generated file was removed",
                             fmt::format("It belongs to the stage {} and is not overwritten", stage),
                             there ? fmt::format("Keep your version as overrides/{} in a new run directory, or undo the change", file)
@@ -161,6 +165,19 @@ void run_stages(const RunDirectory& directory, Manifest& manifest, const std::ve
         manifest.finish(stage.name, hashes_of(directory, outcome.outputs), wall_s, outcome.core_s);
         observer(stage, StageEvent::ends, wall_s);
     }
+}
+
+std::string why_not_shared(const std::filesystem::path& from, const std::vector<Stage>& wanted) {
+    const Manifest donor(from / names::manifest);
+    for (const Stage& stage : wanted) {
+        const StageRecord* record = donor.find(stage.name);
+        if (record == nullptr || record->state != StageState::done) return fmt::format("its stage {} is not finished", stage.name);
+        const std::vector<std::string> changed = changed_inputs(record->inputs, stage.inputs);
+        if (!changed.empty()) return fmt::format("other values of {}", fmt::join(changed, ", "));
+        for (const auto& [file, hash] : record->outputs)
+            if (!is_as_written(from / file, hash)) return fmt::format("its file {} was changed or is gone", file);
+    }
+    return "";
 }
 
 void share_stages(const std::filesystem::path& from, const std::filesystem::path& to, const std::vector<std::string>& stages) {

@@ -39,6 +39,10 @@ using StageObserver = std::function<void(const Stage&, StageEvent, double wall_s
 void run_stages(const RunDirectory& directory, Manifest& manifest, const std::vector<Stage>& stages, const std::string& until, bool resume,
                 const StageObserver& observer);
 
+/// Why what stages wrote in another run directory cannot be taken for the stages of this one: one is not finished, has other inputs, or
+/// its files are not as it wrote them. Empty when it can.
+std::string why_not_shared(const std::filesystem::path& from, const std::vector<Stage>& wanted);
+
 /// Copies what stages wrote in one run directory into another in which none began yet. Whether they fit is judged there, by their inputs,
 /// as for every finished stage.
 void share_stages(const std::filesystem::path& from, const std::filesystem::path& to, const std::vector<std::string>& stages);
