@@ -878,15 +878,11 @@ private:
             refuse(where, "do = \"compress\" without solid", "A solid presses on the grains", "Name it");
             return nullptr;
         }
-        const std::string& name = values.text("prepare.solid");
-        const RoomSolid* solid = scene_.find_solid(name);
-        if (solid != nullptr)
+        const RoomSolid* solid = scene_.find_solid(values.text("prepare.solid"));
+        if (solid == nullptr)
+            refuse_unknown(values, "prepare.solid", {solid_names_.begin(), solid_names_.end()}, "solids");
+        else
             refuse_in_medium(*solid, values.where("prepare.solid"), "is pressed");
-        else if (solid_names_.count(name) == 0)
-            refuse(values.where("prepare.solid"), fmt::format("prepare.solid = \"{}\"", name),
-                   solid_names_.empty() ? "The study has no [[solid]]"
-                                        : fmt::format("The study's solids are {}", fmt::join(solid_names_, ", ")),
-                   "Name one of them");
         return solid;
     }
 
@@ -899,13 +895,20 @@ private:
         if (grains == nullptr) {
             std::vector<std::string> names;
             for (const ParameterValues& one : values_.tables("grains")) names.push_back(one.text("grains.name"));
-            if (std::find(names.begin(), names.end(), values.text(key)) != names.end()) return nullptr;  // its mistakes are told
-            const std::string nearest = nearest_word(values.text(key), names);
-            refuse(values.where(key), fmt::format("{} = \"{}\"", key, values.text(key)),
-                   names.empty() ? "The study has no [[grains]]" : fmt::format("The study's grains are {}", fmt::join(names, ", ")),
-                   nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest));
+            refuse_unknown(values, key, names, "grains");
         }
         return grains;
+    }
+
+    /// A key names a table that the study has not. One of `names` was read with mistakes, which are told.
+    void refuse_unknown(const ParameterValues& values, const std::string& key, const std::vector<std::string>& names,
+                        const std::string& tables) {
+        if (std::find(names.begin(), names.end(), values.text(key)) != names.end()) return;
+        const std::string nearest = nearest_word(values.text(key), names);
+        refuse(values.where(key), fmt::format("{} = \"{}\"", key, values.text(key)),
+               names.empty() ? fmt::format("The study has no {}", tables)
+                             : fmt::format("The study's {} are {}", tables, fmt::join(names, ", ")),
+               nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest));
     }
 
     /// A box or upright cylinder, in which grains begin; the room without one.
