@@ -1,6 +1,7 @@
 #pragma once
 /// \file Walls of triangles. Each stands still in a frame of its own, in which the rocks that touch it are sought.
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "geometry/base/axis_frame.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -32,13 +33,12 @@ std::vector<double> spaced(double a, double b, int n) {
 /// Lies a point of measurement in steel at all angles between the rotor and it?
 bool always_in_steel(const postproc::AdvPoint& point, const geometry::SolidSearch& cutter,
                      const geometry::StationarySteelParameters& stationary) {
-    const auto in_cutter = [&](const Vec3& place) { return cutter.contains(place); };
-    const auto in_stationary = [&](const Vec3& place) { return geometry::is_in_stationary_steel(stationary, place); };
-    const auto at_rest = [&](const Vec3& place) { return point.rotating ? in_cutter(place) : in_stationary(place); };
-    const auto passes = [&](const Vec3& place) { return point.rotating ? in_stationary(place) : in_cutter(place); };
+    std::function<bool(const Vec3&)> at_rest = [&](const Vec3& place) { return geometry::is_in_stationary_steel(stationary, place); };
+    std::function<bool(const Vec3&)> passing = [&](const Vec3& place) { return cutter.contains(place); };
+    if (point.rotating) std::swap(at_rest, passing);
     if (at_rest(point.position())) return true;
     for (int i = 0; i < k_angles; ++i)
-        if (!passes(rotate_about({}, 2.0 * k_pi * i / k_angles, point.position()))) return false;
+        if (!passing(rotate_about({}, 2.0 * k_pi * i / k_angles, point.position()))) return false;
     return true;
 }
 
