@@ -59,6 +59,8 @@ constexpr const char* k_walls = "walls";
 constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
 constexpr const char* k_clumps = "clumps";
 constexpr const char* k_motion = "rock_motion";
+constexpr const char* k_contact_memory = "contact_memory";
+constexpr int k_this_contact_memory = 2;        // 1, without the key: speeds of impacts in place of their radii
 constexpr const char* k_pressed = "pressed_m";  // of a wall in a checkpoint
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_wall_rolling = "wall_rolling";
@@ -658,7 +660,11 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     if (is_first_rank()) {
         std::ofstream stream(folder / names::dem_state);
         const bool rolling = context_.rock_rock.resists_rolling();
-        nlohmann::json state{{"time_s", time_}, {"torque_n_m", torque}, {k_rolling_history, rolling}, {k_walls, bodies}};
+        nlohmann::json state{{"time_s", time_},
+                             {"torque_n_m", torque},
+                             {k_rolling_history, rolling},
+                             {k_contact_memory, k_this_contact_memory},
+                             {k_walls, bodies}};
         if (context_.has_clumps) state[k_clumps] = clump_state(settings_.shapes, bodies_);
         stream << state.dump(2) << '\n';
         if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / names::dem_state).string()));
@@ -685,6 +691,7 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                                                     {{"time_s", JsonKind::number, true},
                                                      {"torque_n_m", JsonKind::number, true},
                                                      {k_rolling_history, JsonKind::truth, false},
+                                                     {k_contact_memory, JsonKind::whole, false},
                                                      {"walls/*/name", JsonKind::text, false},
                                                      {"walls/*/force_n/*", JsonKind::number, false},
                                                      {"walls/*/pressed_m/*", JsonKind::number, false},
@@ -697,6 +704,11 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                           fmt::format("the checkpoint was written {} rolling friction of rock on rock", written_with ? "with" : "without"),
                           fmt::format("This run has it {}; what contacts remember differs", rolling ? "above 0" : "0"),
                           "Resume with the settings of the checkpoint, or start anew"}});
+    const int memory = state.value(k_contact_memory, 1);
+    if (memory != k_this_contact_memory)
+        throw UserError({{(folder / names::dem_state).string(), fmt::format("{} is {}", k_contact_memory, memory),
+                          fmt::format("Contacts of this version remember other values, which is {}", k_this_contact_memory),
+                          "Resume with the version that wrote the checkpoint, or start anew"}});
     if (!std::filesystem::is_regular_file(folder / k_restart_file))
         throw UserError(
             {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", k_remedy}});
@@ -716,7 +728,7 @@ void LiggghtsEngine::Implementation::adopt_wall_contacts(const std::vector<std::
     for (int i = 0; i < lammps_->atom->nlocal; ++i) {
         auto* records = reinterpret_cast<WallContactRecord*>(records_->array_atom[i]);
         for (int k = 0; k < WallContacts::max_contacts; ++k) {
-            if (records[k].impact_speed == 0.0) continue;  // never used
+            if (records[k].impact_radius == 0.0) continue;  // never used
             const auto before = static_cast<std::size_t>(records[k].body);
             const int now = before < body_now.size() ? body_now[before] : -1;
             if (now < 0) records[k] = WallContactRecord{};

@@ -25,9 +25,9 @@ Part covered_by(int spring, double width, double contact_radius) {
     return {inner, outer};
 }
 
-/// Share of the normal force: the integral of 3/2 (1 - x^2) over x = inner/a to outer/a.
-double pressure_share(const Part& part, double contact_radius) {
-    const double x = part.inner / contact_radius, y = part.outer / contact_radius;
+/// Share of the normal force: the integral of 3/2 (1 - x^2) over x = inner/a to outer/a. \param per_radius  1/a [1/m]
+double pressure_share(const Part& part, double per_radius) {
+    const double x = part.inner * per_radius, y = part.outer * per_radius;
     return 1.5 * (y - x) - 0.5 * (y * y * y - x * x * x);
 }
 
@@ -40,14 +40,17 @@ Vec3 turned(const Vec3& vector, const Vec3& normal, double angle) {
 /// Force [N] of one spring and its damper, at most `limit` [N]; of an angle and a spin the couple [N m]. What slips carries the limit in
 /// the spring alone.
 Vec3 spring_force(double stiffness, double damping, const Vec3& slip_velocity, double limit, Vec3& stretch) {
-    const double elastic = stiffness * stretch.norm();
-    if (elastic > limit) {
-        stretch *= limit / elastic;
-        return -stiffness * stretch;
+    const double limit_squared = limit * limit;  // roots are taken of what slips alone
+    const Vec3 elastic = -stiffness * stretch;
+    const double elastic_squared = elastic.squaredNorm();
+    if (elastic_squared > limit_squared) {
+        const double share = limit / std::sqrt(elastic_squared);
+        stretch *= share;
+        return share * elastic;
     }
-    const Vec3 force = -stiffness * stretch - damping * slip_velocity;
-    const double size = force.norm();
-    return size > limit ? force * (limit / size) : force;
+    const Vec3 force = elastic - damping * slip_velocity;
+    const double squared = force.squaredNorm();
+    return squared > limit_squared ? Vec3(force * (limit / std::sqrt(squared))) : force;
 }
 
 }  // namespace
@@ -58,15 +61,19 @@ ElasticPair elastic_pair(double youngs_modulus, double poisson_a, double poisson
     return {1.0 / (compliance(poisson_a) + compliance(poisson_b)), 1.0 / (shear_compliance(poisson_a) + shear_compliance(poisson_b))};
 }
 
+double impact_radius(const ElasticPair& elastic, double radius, double mass, double speed) {
+    return std::sqrt(radius * physics::hertz_largest_overlap({mass, radius, elastic.youngs, speed}));
+}
+
 Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory) {
     const double contact_radius = std::sqrt(contact.radius * contact.overlap);
     const double normal_stiffness = 4.0 / 3.0 * contact.elastic.youngs * contact_radius;
     const double damping = contact.damping_factor * std::sqrt(contact.mass * normal_stiffness);
     const double normal_force = std::max(0.0, normal_stiffness * contact.overlap - damping * contact.normal_speed);
 
-    const physics::Impact impact{contact.mass, contact.radius, contact.elastic.youngs, contact.impact_speed};
-    const double width = std::sqrt(contact.radius * physics::hertz_largest_overlap(impact)) / k_springs;
-    const double slip_damping = std::min(damping, contact.most_slip_damping);
+    const double width = contact.impact_radius / k_springs, per_radius = 1.0 / contact_radius;
+    const double slip_damping = std::min(damping, contact.most_slip_damping) * per_radius;
+    const double slip_stiffness = 8.0 * contact.elastic.shear, slip_limit = contact.friction * normal_force;
     SlipMemory now;
     now.contact_radius = contact_radius;
     Vec3 force = normal_force * contact.normal;
@@ -76,8 +83,8 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
         const double kept = std::min(1.0, covered_by(i, width, memory.contact_radius).length() / part.length());
         Vec3 stretch = kept * Vec3(memory.stretch[i]) + contact.slip_velocity * time_step;
         stretch -= contact.normal * contact.normal.dot(stretch);
-        force += spring_force(8.0 * contact.elastic.shear * part.length(), slip_damping * part.length() / contact_radius,
-                              contact.slip_velocity, contact.friction * normal_force * pressure_share(part, contact_radius), stretch);
+        force += spring_force(slip_stiffness * part.length(), slip_damping * part.length(), contact.slip_velocity,
+                              slip_limit * pressure_share(part, per_radius), stretch);
         std::copy_n(stretch.data(), 3, now.stretch[i]);
     }
     if (time_step > 0.0) memory = now;

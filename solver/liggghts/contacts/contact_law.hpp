@@ -15,11 +15,15 @@ struct ElasticPair {
 /// Effective constants of a pair. [NieuwboerVanRheeKeetels2023]
 ElasticPair elastic_pair(double youngs_modulus, double poisson_a, double poisson_b);
 
+/// Radius [m] that a contact reaches in an impact without damping:  sqrt(R* delta_max), delta_max Hertz' largest overlap.
+/// \param radius  R* [m] \param mass  m* [kg] \param speed  normal, at the first touch [m/s] [AntypovElliott2011]
+double impact_radius(const ElasticPair& elastic, double radius, double mass, double speed);
+
 struct Contact {
     Vec3 normal = Vec3::Zero();         ///< unit, from the other body towards the rock
     double overlap = 0.0;               ///< delta [m], >= 0
     double normal_speed = 0.0;          ///< [m/s], positive when separating
-    double impact_speed = 0.0;          ///< normal speed at the first touch [m/s]
+    double impact_radius = 0.0;         ///< radius that the contact reaches in its impact [m], see impact_radius
     Vec3 slip_velocity = Vec3::Zero();  ///< tangential velocity of the rock's surface relative to the other's [m/s]
     double radius = 0.0;                ///< R* [m], 1/R* = sum 1/R
     double mass = 0.0;                  ///< m* [kg], 1/m* = sum 1/m, masses with added mass

@@ -25,7 +25,7 @@ double share_beside(double cosine) {
 }
 
 bool is_live(const WallContactRecord& record, double step) {
-    return record.impact_speed > 0.0 && record.last_touch >= step - 1.0;
+    return record.impact_radius > 0.0 && record.last_touch >= step - 1.0;
 }
 
 using Records = std::array<WallContactRecord*, WallContacts::max_contacts>;
@@ -53,11 +53,13 @@ WallContactRecord* unused(const Records& records, const Records& taken, double s
     return ended != records.end() ? *ended : *std::find_if(records.begin(), records.end(), is_free);
 }
 
-/// Impact speed of an existing contact between the body and this rock, 0 without one.
-double known_impact_speed(const Records& records, int body, double step) {
-    for (const WallContactRecord* record : records)
-        if (is_live(*record, step) && static_cast<int>(record->body) == body) return record->impact_speed;
-    return 0.0;
+/// An existing contact between the body and this rock, else null.
+const WallContactRecord* known(const Records& records, int body, double step) {
+    const auto is_on_body = [&](const WallContactRecord* record) {
+        return is_live(*record, step) && static_cast<int>(record->body) == body;
+    };
+    const auto found = std::find_if(records.begin(), records.end(), is_on_body);
+    return found == records.end() ? nullptr : *found;
 }
 
 }  // namespace
@@ -88,7 +90,6 @@ std::vector<WallContacts::Weighted> WallContacts::merge(std::vector<WallTouch> t
 
 /// \param contacts  of one rock
 void WallContacts::apply(const std::vector<Weighted>& contacts) {
-    const LAMMPS_NS::Atom& atom = *lammps_->atom;
     const double step = static_cast<double>(lammps_->update->ntimestep);
     const int rock = contacts.front().touch.rock;
     auto* row = reinterpret_cast<WallContactRecord*>(records_->array_atom[rock]);
@@ -101,18 +102,30 @@ void WallContacts::apply(const std::vector<Weighted>& contacts) {
     for (std::size_t k = 0; k < contacts.size(); ++k) {
         if (taken[k]) continue;
         const WallTouch& touch = contacts[k].touch;
-        const double known = known_impact_speed(records, touch.body, step);
-        const double approach = touch.normal.dot(touch.wall_velocity - Vec3(atom.v[touch.rock]));
+        const WallContactRecord begun = begin(touch, known(records, touch.body, step));
         taken[k] = unused(records, taken, step);
-        *taken[k] = WallContactRecord{};
+        *taken[k] = begun;
         if (rolling_row) *roll_of(taken[k]) = {};
-        taken[k]->body = touch.body;
-        taken[k]->impact_speed = known > 0.0 ? known : std::max(approach, k_smallest_impact_speed);
-        taken[k]->damping_factor =
-            context_.damping_factor(context_.law_on(touch.body), taken[k]->impact_speed,
-                                    context_.impact_diameter(atom.rmass[rock], atom.radius[rock], atom.density[rock]), atom.density[rock]);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k], roll_of(taken[k]));
+}
+
+/// \param known  an existing contact between the touched body and the rock, whose impact counts; null without one
+WallContactRecord WallContacts::begin(const WallTouch& touch, const WallContactRecord* known) const {
+    const LAMMPS_NS::Atom& atom = *lammps_->atom;
+    WallContactRecord record;
+    record.body = touch.body;
+    if (known) {
+        record.impact_radius = known->impact_radius;
+        record.damping_factor = known->damping_factor;
+        return record;
+    }
+    const double mass = atom.rmass[touch.rock], radius = atom.radius[touch.rock], density = atom.density[touch.rock];
+    const double speed = std::max(touch.normal.dot(touch.wall_velocity - Vec3(atom.v[touch.rock])), k_smallest_impact_speed);
+    const PairLaw& law = context_.law_on(touch.body);
+    record.impact_radius = impact_radius(law.elastic, radius, context_.mass_with_added_mass(mass, radius, density), speed);
+    record.damping_factor = context_.damping_factor(law, speed, context_.impact_diameter(mass, radius, density), density);
+    return record;
 }
 
 Rolling WallContacts::rolling_of(const WallTouch& touch) const {
@@ -138,7 +151,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     contact.normal = touch.normal;
     contact.overlap = touch.overlap;
     contact.normal_speed = touch.normal.dot(centre_velocity);
-    contact.impact_speed = record.impact_speed;
+    contact.impact_radius = record.impact_radius;
     contact.slip_velocity = surface_velocity - touch.normal * touch.normal.dot(surface_velocity);
     contact.radius = radius;
     contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius, atom.density[rock]);

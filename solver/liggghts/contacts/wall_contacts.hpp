@@ -21,8 +21,8 @@ struct WallTouch {
 /// A contact of a rock with a body, kept from step to step in a row of LIGGGHTS' property per rock.
 struct WallContactRecord {
     double body = 0.0;
-    double last_touch = 0.0;    ///< step
-    double impact_speed = 0.0;  ///< [m/s]; 0: never used
+    double last_touch = 0.0;     ///< step
+    double impact_radius = 0.0;  ///< [m], see Contact; 0: never used
     double damping_factor = 0.0;
     double normal[3] = {0.0, 0.0, 0.0};
     SlipMemory slip;
@@ -35,7 +35,7 @@ struct WallContactRecord {
 /// * a touch counts as a separate contact when its normal differs from that of a deeper one by more than 35 degrees, and not at all below
 ///   20, with a smooth transition: on a smooth surface the nearest point of the steel alone makes the force, which then has a potential;
 /// * a contact of the previous step is continued by the touch of the same body with the nearest normal;
-/// * the impact speed belongs to rock and body and lasts until no triangle of the body touches the rock.
+/// * what follows from the impact speed belongs to rock and body and lasts until no triangle of the body touches the rock.
 class WallContacts {
 public:
     static constexpr int max_contacts = 6;  ///< of one rock; the deepest ones count
@@ -61,6 +61,7 @@ private:
     static std::vector<Weighted> merge(std::vector<WallTouch> touches);
     void apply(const std::vector<Weighted>& contacts);
     void apply(const Weighted& contact, WallContactRecord& record, RollMemory* roll);
+    WallContactRecord begin(const WallTouch& touch, const WallContactRecord* known) const;
     Rolling rolling_of(const WallTouch& touch) const;
 
     LAMMPS_NS::LAMMPS* lammps_;

@@ -160,6 +160,22 @@ TEST(Checkpoint, a_damaged_one_is_refused_as_the_users_input) {
     }
 }
 
+// Contacts of an earlier version remember the speeds of impacts where this one has radii.
+TEST(Checkpoint, one_of_other_contact_memory_is_refused) {
+    const auto folder = scratch_folder();
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
+    engine.write_checkpoint(folder);
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::ofstream(folder / "dem.json") << R"({"time_s": 0.1, "torque_n_m": 0.0})";
+    MPI_Barrier(MPI_COMM_WORLD);
+    try {
+        engine.read_checkpoint(folder);
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("contact_memory is 1"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Checkpoint, rock_can_be_inserted_and_removed_after_reading) {
     const Mill mill;
     LiggghtsEngine engine(mill.settings, {mill.rotor}, MPI_COMM_WORLD);

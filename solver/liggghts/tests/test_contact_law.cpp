@@ -112,7 +112,7 @@ TEST(ContactLaw, a_normal_impact_returns_the_restitution) {
 // straight lines beside that curve, 2.1 % of the limit apart at most, and twice as much where the way back has twice the size.
 TEST(ContactLaw, slip_begins_at_the_edge_as_cattaneo_and_mindlin_have_it) {
     Contact contact = rock_on_steel();
-    contact.impact_speed = speed_for(contact);
+    contact.impact_radius = impact_radius(contact.elastic, contact.radius, contact.mass, speed_for(contact));
     const double limit = 0.15 * normal_force_of(contact);
     const double full_slip = 3.0 * limit / (16.0 * contact.elastic.shear * contact_radius_of(contact));
     SlipMemory memory;
@@ -145,7 +145,7 @@ TEST(ContactLaw, a_growing_contact_keeps_its_tangential_force_and_a_shrinking_on
     contact.friction = 10.0;
     const double before = contact_radius_of(contact), width = before / 2.2, after = 2.8 * width;
     contact.overlap = std::pow(k_springs * width, 2) / contact.radius;  // what the impact reaches
-    contact.impact_speed = speed_for(contact);
+    contact.impact_radius = impact_radius(contact.elastic, contact.radius, contact.mass, speed_for(contact));
     contact.overlap = before * before / contact.radius;
     SlipMemory memory;
     slip_by(0.0, contact, memory);
@@ -159,7 +159,7 @@ TEST(ContactLaw, a_growing_contact_keeps_its_tangential_force_and_a_shrinking_on
 
 TEST(ContactLaw, what_slides_carries_coulombs_limit) {
     Contact contact = rock_on_steel();
-    contact.impact_speed = speed_for(contact);
+    contact.impact_radius = impact_radius(contact.elastic, contact.radius, contact.mass, speed_for(contact));
     SlipMemory memory;
     Vec3 force = Vec3::Zero();
     for (int k = 0; k < 100; ++k) force = slip_by(1e-5, contact, memory);

@@ -22,8 +22,8 @@ namespace ContactModels {
 
 /// The pair's history from the first touch until the rocks separate, in the order in which the model declares it.
 struct RockPairRecord {
-    double impact_speed = 0.0;  ///< [m/s]; 0: never used
-    double last_touch = 0.0;    ///< step
+    double impact_radius = 0.0;  ///< [m], see Contact; 0: never used
+    double last_touch = 0.0;     ///< step
     double damping_factor = 0.0;
     cutterflow::liggghts::SlipMemory slip;
     cutterflow::liggghts::RollMemory roll;  ///< there only when something resists rolling
@@ -36,7 +36,7 @@ public:
     NormalModel(LAMMPS* lammps, IContactHistorySetup* history, ContactModelBase* model)
         : NormalModelBase(lammps, history, model),
           context_(cutterflow::liggghts::ContactContext::of(lammps)),
-          offset_(history->add_history_value("impact_speed", "0")) {
+          offset_(history->add_history_value("impact_radius", "0")) {
         history->add_history_value("last_touch", "0");
         history->add_history_value("damping_factor", "0");
         history->add_history_value("contact_radius", "0");
@@ -63,17 +63,17 @@ public:
         const double mass_j = is_frozen(pair.j) ? k_infinite : context_.mass_with_added_mass(pair.mj, pair.radj, atom->density[pair.j]);
         const bool keep = pair.computeflag && pair.shearupdate;
         auto& record = *reinterpret_cast<RockPairRecord*>(pair.contact_history + offset_);
-        update_record(record, pair, keep);
 
         cutterflow::liggghts::Contact contact;
         contact.normal = Vec3(pair.en);
         contact.overlap = pair.deltan;
         contact.normal_speed = pair.vn;
-        contact.impact_speed = record.impact_speed;
         contact.slip_velocity = Vec3(pair.vtr1, pair.vtr2, pair.vtr3);
         contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
         contact.mass = context_.pair_mass(mass_i, mass_j);
         contact.elastic = context_.rock_rock.elastic;
+        update_record(record, pair, contact, keep);
+        contact.impact_radius = record.impact_radius;
         contact.damping_factor = record.damping_factor;
         contact.friction = context_.rock_rock.settings.friction;
         contact.rolling_friction = context_.rock_rock.settings.rolling_friction;
@@ -104,14 +104,16 @@ private:
 
     bool is_frozen(int rock) const { return atom->type[rock] == cutterflow::liggghts::k_frozen; }
 
-    /// A first touch stores the approach speed and clears all slip. LIGGGHTS clears the history of a separated pair only while the pair
-    /// is in its neighbour list, therefore the step of the last touch decides.
-    void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, bool keep) const {
+    /// A first touch stores what follows from the approach speed and clears all slip. LIGGGHTS clears the history of a separated pair only
+    /// while the pair is in its neighbour list, therefore the step of the last touch decides.
+    void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, const cutterflow::liggghts::Contact& contact,
+                       bool keep) const {
         const double step = static_cast<double>(update->ntimestep);
-        const bool first_touch = record.impact_speed == 0.0 || record.last_touch < step - 1.0;
+        const bool first_touch = record.impact_radius == 0.0 || record.last_touch < step - 1.0;
         if (first_touch) {
-            record.impact_speed = std::max(-pair.vn, cutterflow::liggghts::k_smallest_impact_speed);
-            record.damping_factor = damping_factor(pair, record.impact_speed);
+            const double speed = std::max(-pair.vn, cutterflow::liggghts::k_smallest_impact_speed);
+            record.impact_radius = cutterflow::liggghts::impact_radius(contact.elastic, contact.radius, contact.mass, speed);
+            record.damping_factor = damping_factor(pair, speed);
             record.slip = {};
             if (context_.rock_rock.resists_rolling()) record.roll = {};
         }
