@@ -47,7 +47,7 @@ std::string replay_lines(const std::vector<fs::path>& runs, const fs::path& stud
     try {
         const cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
-        const std::string text = postproc::replay_text(results.estimate);
+        const std::string text = postproc::replay_text(results.estimate, results.fed);
         require_weak_coupling(results.estimate, text, settings.folder);
         return text;
     } catch (const Interrupted& interrupted) {

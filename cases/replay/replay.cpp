@@ -78,17 +78,24 @@ bool same(const ParameterValue& a, const ParameterValue& b) {
     return x != nullptr && y != nullptr ? std::abs(*x - *y) <= k_same * std::max(std::abs(*x), std::abs(*y)) : a == b;
 }
 
-bool belongs_to_flow(const Parameter& parameter) {
+bool is_text(const ParameterValues& values, const char* key, const char* text) {
+    return values.has(key) && values.text(key) == text;
+}
+
+/// Whether the flow of that run depends on the key: soil stands where swing and ladder have it, and hauled water has the swing's speed.
+bool belongs_to_flow(const Parameter& parameter, const ParameterValues& recorded) {
+    if (parameter.key == "swing.direction" || parameter.key == "ladder.inclination_deg") return is_text(recorded, "bank.model", "wall");
+    if (parameter.key == "swing.speed_m_min") return recorded.has("hauling.water") && recorded.boolean("hauling.water");
     if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage) return true;
     const std::string section = parameter.key.substr(0, parameter.key.find('.'));
     return section == "rotor" || section == "suction" || section == "fluid" || section == "bank" || section == "hauling";
 }
 
-/// The table of a study of which all that belongs to the flow may be left out.
-ParameterTable rock_study_table() {
+/// The table of a study of which all that belongs to the recorded flow may be left out.
+ParameterTable rock_study_table(const ParameterValues& recorded) {
     ParameterTable table = study_table();
     for (Parameter& parameter : table) {
-        if (!belongs_to_flow(parameter)) continue;
+        if (!belongs_to_flow(parameter, recorded)) continue;
         parameter.default_value.reset();
         parameter.optional = true;
     }
@@ -97,14 +104,15 @@ ParameterTable rock_study_table() {
 
 /// The rock of another study in a run's flow.
 void take_study(RecordedRun& run, const fs::path& file) {
-    ParameterValues values = read_parameters(rock_study_table(), file);
+    ParameterValues values = read_parameters(rock_study_table(run.values), file);
     // The steel is the run's own copy; a study names the file that it was made from, relative to itself.
     if (values.has("cutter.file"))
         values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
     Mistakes mistakes(file.string());
     mistakes.add(check_same_flow(run.values, values, file));
     for (const Parameter& parameter : study_table())
-        if (belongs_to_flow(parameter) && run.values.has(parameter.key)) values.set(parameter.key, *run.values.find(parameter.key));
+        if (belongs_to_flow(parameter, run.values) && run.values.has(parameter.key))
+            values.set(parameter.key, *run.values.find(parameter.key));
     mistakes.add(check_file_rules(values, file));
     mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
     mistakes.refuse();
@@ -141,13 +149,32 @@ fs::path cost_file(const fs::path& folder) {
     return folder / "postProcessing" / "cost" / "0" / "cost.json";
 }
 
-void evaluate(const fs::path& folder, Replay& replay) {
+bool is_fed_all_the_time(const ParameterValues& values) {
+    const std::vector<ParameterValues>& feeds = values.tables("feed");
+    return std::any_of(feeds.begin(), feeds.end(), [](const ParameterValues& feed) { return feed.text("feed.kind") == "cut_face"; });
+}
+
+/// Production of a run's or a replay's head.
+std::optional<postproc::FedHead> fed_head(const fs::path& folder, const RecordedRun& run) {
+    const double revolution = 60.0 / run.values.number("rotor.speed_rpm");
+    return postproc::fed_head_of(postproc::read_ledger(folder), revolution, revolution / run.head.size.blades);
+}
+
+void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
     const postproc::Table fates = postproc::read_fates(folder);
     const postproc::SpillageRatios ratios = postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1));
-    if (!ratios.ratio)
-        throw CheckFailure({folder.string(), ratios.reason, "A replay ends when rock has left the head", "Raise run.max_revolutions"});
-    replay.spillage = *ratios.ratio;
-    replay.undecided = *ratios.undecided;
+    if (is_fed_all_the_time(run.values)) {
+        replay.fed = fed_head(folder, run);
+        if (!replay.fed)
+            throw CheckFailure({folder.string(), "no whole revolution is left after the start-up",
+                                "Production is told over whole revolutions once the head has filled", "Raise run.max_revolutions"});
+        replay.spillage = replay.fed->production.spillage_max;
+    } else {
+        if (!ratios.ratio)
+            throw CheckFailure({folder.string(), ratios.reason, "A replay ends when rock has left the head", "Raise run.max_revolutions"});
+        replay.spillage = *ratios.ratio;
+    }
+    replay.undecided = ratios.undecided.value_or(1.0);
     replay.core_s =
         read_json_document(cost_file(folder), {{"core_s", JsonKind::number, true}}, "Start again in another folder").at("core_s");
 }
@@ -213,7 +240,7 @@ private:
             }
             require_child(meshing::foam_command(folder, settings_.solver.string()));
         }
-        evaluate(folder, replays_[n]);
+        evaluate(folder, runs_[tasks_[n].run], replays_[n]);
     }
 
     const ReplaySettings& settings_;
@@ -250,10 +277,14 @@ void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>&
     write_file(file, plan.dump(2) + "\n");
 }
 
-/// Spillage of a coupled run by its own rock; none while it has put in none.
-std::optional<double> coupled_spillage(const fs::path& run) {
-    const postproc::Table fates = postproc::read_fates(run);
+/// Spillage of a coupled run by its own rock; none while it has put in none, or its production is not known.
+std::optional<double> coupled_spillage(const RecordedRun& run) {
+    const postproc::Table fates = postproc::read_fates(run.folder);
     if (fates.empty()) return std::nullopt;
+    if (is_fed_all_the_time(run.values)) {
+        const std::optional<postproc::FedHead> fed = fed_head(run.folder, run);
+        return fed ? std::optional(fed->production.spillage_max) : std::nullopt;
+    }
     return postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1)).ratio;
 }
 
@@ -261,12 +292,33 @@ nlohmann::json optional_json(const std::optional<double>& value) {
     return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
+/// Bound, interval of the run itself, hold-up and what was found; empty for a batch.
+std::string fed_columns(const std::optional<postproc::FedHead>& fed) {
+    if (!fed) return ",,,,";
+    const Production& production = fed->production;
+    const std::string interval = production.share ? fmt::format("{:.6g}", production.share->half_interval) : "";
+    return fmt::format("{:.6g},{},{:.6g},{},{}", production.spillage_min, interval, production.held, production.is_steady ? 1 : 0,
+                       fed->is_full ? 1 : 0);
+}
+
+/// Null for batches.
+nlohmann::json fed_json(const std::optional<postproc::FedReplays>& fed) {
+    if (!fed) return nullptr;
+    return {{"fed_kg_s", fed->fed},
+            {"hold_up_kg", fed->held},
+            {"settled", fed->steady},
+            {"head_is_full", fed->full},
+            {"spillage_min", fed->spillage_min}};
+}
+
 void write_results(const fs::path& folder, const ReplayResults& results) {
-    std::string csv = "name,run,same_placement_as_run,seed,start_revolution,spillage,undecided,core_s\n";
+    std::string csv =
+        "name,run,same_placement_as_run,seed,start_revolution,spillage,undecided,core_s,spillage_min,half_interval_95,hold_up_kg,"
+        "is_steady,head_is_full\n";
     double core_s = 0.0;
     for (const Replay& replay : results.replays) {
-        csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
-                           replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s);
+        csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
+                           replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s, fed_columns(replay.fed));
         core_s += replay.core_s;
     }
     write_file(folder / "replays.csv", csv);
@@ -282,6 +334,7 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
                                {{"count", estimate.corrections.count},
                                 {"mean", estimate.corrections.mean},
                                 {"half_interval_95", optional_json(estimate.correction_interval)}}},
+                              {"fed", fed_json(results.fed)},
                               {"core_s", core_s}};
     write_file(folder / "replays.json", json.dump(2) + "\n");
 }
@@ -292,7 +345,7 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
     std::vector<Mistake> mistakes;
     for (const Parameter& parameter : study_table()) {
         const ParameterValue *of_run = recorded.find(parameter.key), *of_study = study.find(parameter.key);
-        if (!belongs_to_flow(parameter) || of_run == nullptr || of_study == nullptr || same(*of_run, *of_study)) continue;
+        if (!belongs_to_flow(parameter, recorded) || of_run == nullptr || of_study == nullptr || same(*of_run, *of_study)) continue;
         mistakes.push_back({file.string(), fmt::format("{} = {}", parameter.key, toml_text(*of_study)),
                             fmt::format("A replay takes the flow as the run recorded it, with {}", toml_text(*of_run)),
                             "Give the run's value, or run the study itself"});
@@ -316,13 +369,19 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     ReplayResults results;
     results.replays = Replays(settings, runs).take_all();
     std::vector<double> spillage;
+    std::vector<postproc::FedHead> fed;
     for (const Replay& replay : results.replays) {
-        if (!replay.is_pair) {
-            spillage.push_back(replay.spillage);
-        } else if (const std::optional<double> coupled = coupled_spillage(replay.run)) {
-            results.pairs.push_back({*coupled, replay.spillage});
+        if (replay.is_pair) continue;
+        spillage.push_back(replay.spillage);
+        if (replay.fed) fed.push_back(*replay.fed);
+    }
+    if (!fed.empty()) results.fed = postproc::fed_replays_of(fed);
+    for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) {
+        const Replay& pair = results.replays[r];
+        if (const std::optional<double> coupled = coupled_spillage(runs[r])) {
+            results.pairs.push_back({*coupled, pair.spillage});
         } else {
-            say(fmt::format("{}: no rock has left its head yet, so it corrects nothing", replay.run.string()));
+            say(fmt::format("{}: its own spillage is not known yet, so it corrects nothing", pair.run.string()));
         }
     }
     results.estimate = postproc::estimate_spillage(spillage, results.pairs);

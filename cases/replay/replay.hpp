@@ -28,19 +28,22 @@ struct Replay {
     bool is_pair = false;       ///< has the placement of `run`
     std::int64_t seed = 0;      ///< of the first feed
     double start_revolution = 0.0;
-    double spillage = 0.0;   ///< spilled / (spilled + sucked up) [-]
+    double spillage = 0.0;   ///< of a batch spilled / (spilled + sucked up), of a feed 1 - delivered/fed in its window [-]
     double undecided = 0.0;  ///< share of the placed mass
     double core_s = 0.0;
+    std::optional<postproc::FedHead> fed;  ///< of a head that is fed all the time
 };
 
 struct ReplayResults {
     std::vector<Replay> replays;
     std::vector<postproc::ReplayPair> pairs;  ///< of the runs that put in rock
     postproc::ReplayEstimate estimate;
+    std::optional<postproc::FedReplays> fed;  ///< of the replays with placements of their own
 };
 
 /// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,
-/// and sections rotor, suction, fluid, bank and hauling. Both are resolved. \param file  of the study, for messages
+/// sections rotor, suction, fluid, bank and hauling, with a bank the swing's direction and the ladder, with hauled water its speed. Both
+/// are resolved. \param file  of the study, for messages
 std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const std::filesystem::path& file);
 
 /// Runs every replay and writes replays.csv and replays.json into the folder.

@@ -45,5 +45,19 @@ TEST(SameFlow, a_recorded_flow_keeps_its_bank_and_its_hauling) {
     EXPECT_EQ(check_same_flow(study(bank), study(bank + "[hauling]\nwater = true\n"), "other.toml").size(), 1u);
 }
 
+// Soil stands to one side and is level; only hauled water knows the swing's speed.
+TEST(SameFlow, beside_a_bank_swing_and_ladder_belong_to_the_flow) {
+    const auto beside_bank = [](const std::string& swing, const std::string& more) {
+        return study("[swing]\n" + swing + "[bank]\nmodel = \"wall\"\n" + more);
+    };
+    const ParameterValues slow = beside_bank("speed_m_min = 6\n", "");
+    EXPECT_THAT(check_same_flow(slow, beside_bank("speed_m_min = 12\n", ""), "other.toml"), ::testing::IsEmpty());
+    const auto other = beside_bank("speed_m_min = 6\ndirection = \"under_cut\"\n", "[ladder]\ninclination_deg = 30\n");
+    EXPECT_EQ(check_same_flow(slow, other, "other.toml").size(), 2u);
+    const std::string hauling = "[hauling]\nwater = true\n";
+    EXPECT_EQ(check_same_flow(beside_bank("speed_m_min = 6\n", hauling), beside_bank("speed_m_min = 12\n", hauling), "other.toml").size(),
+              1u);
+}
+
 }  // namespace
 }  // namespace cutterflow::cases

@@ -16,7 +16,32 @@ std::string percent(double share, const std::optional<double>& interval) {
                     : fmt::format("{:.1f} %, no interval", 100.0 * share);
 }
 
+std::string fed_text(const FedReplays& fed, double spillage_max) {
+    std::string text =
+        fmt::format("fed         {:.3g} kg/s; hold-up {:.3g} kg, settled in {} of {} replays\n", fed.fed, fed.held, fed.steady, fed.count);
+    if (fed.steady < fed.count)
+        text += fmt::format("bounds      {:.1f} to {:.1f} %: where hold-up has not settled, 1 - delivered/fed is the upper bound\n",
+                            100.0 * fed.spillage_min, 100.0 * spillage_max);
+    if (fed.full > 0) text += fmt::format("full        the head cannot take what it cuts in {} of {} replays\n", fed.full, fed.count);
+    return text;
+}
+
 }  // namespace
+
+FedReplays fed_replays_of(const std::vector<FedHead>& heads) {
+    Expects(!heads.empty());
+    FedReplays fed;
+    fed.count = heads.size();
+    const double share = 1.0 / static_cast<double>(heads.size());
+    for (const FedHead& head : heads) {
+        fed.steady += head.production.is_steady ? 1 : 0;
+        fed.full += head.is_full ? 1 : 0;
+        fed.spillage_min += share * head.production.spillage_min;
+        fed.fed += share * head.production.fed / (head.production.to - head.production.from);
+        fed.held += share * head.production.held;
+    }
+    return fed;
+}
 
 ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::vector<ReplayPair>& pairs) {
     Expects(!replays.empty());
@@ -33,9 +58,10 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
     return estimate;
 }
 
-std::string replay_text(const ReplayEstimate& estimate) {
+std::string replay_text(const ReplayEstimate& estimate, const std::optional<FedReplays>& fed) {
     std::string text = fmt::format("replayed    {}, {} placements; rock does not change this flow\n",
                                    percent(estimate.replays.mean, estimate.replay_interval), estimate.replays.count);
+    if (fed) text += fed_text(*fed, estimate.replays.mean);
     if (estimate.corrections.count == 0) return text + "coupled     no run: what the recorded flow leaves out is not known\n";
     text += fmt::format(
         "coupled     {:+.1f} points{}, {} run(s) with the same placements as their replays\n", 100.0 * estimate.corrections.mean,

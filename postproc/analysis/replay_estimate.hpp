@@ -5,8 +5,20 @@
 #include <vector>
 
 #include "geometry/base/statistics/sample.hpp"
+#include "postproc/analysis/results.hpp"
 
 namespace cutterflow::postproc {
+
+/// What replays of a head that is fed all the time say beside their spillage, which is 1 - delivered/fed in the window of each.
+struct FedReplays {
+    std::size_t count = 0, steady = 0;  ///< steady: hold-up has settled; in the others spillage is the upper bound alone
+    std::size_t full = 0;               ///< in which the head was full
+    double spillage_min = 0.0;          ///< spilled/fed, mean
+    double fed = 0.0, held = 0.0;       ///< mean rate [kg/s] and mean hold-up [kg]
+};
+
+/// \pre a replay
+FedReplays fed_replays_of(const std::vector<FedHead>& heads);
 
 /// A coupled run and the replay of the same rock in the flow that it recorded before the rock came in.
 struct ReplayPair {
@@ -31,7 +43,7 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
 /// Largest mean correction with which replays may stand for coupled runs [-].
 inline constexpr double k_largest_correction = 0.05;
 
-/// Lines for the user.
-std::string replay_text(const ReplayEstimate& estimate);
+/// Lines for the user. \param fed  of replays of a head that is fed all the time
+std::string replay_text(const ReplayEstimate& estimate, const std::optional<FedReplays>& fed);
 
 }  // namespace cutterflow::postproc

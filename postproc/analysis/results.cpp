@@ -54,21 +54,6 @@ std::vector<double> sum_of(const Table& table, const std::vector<const char*>& c
     return sum;
 }
 
-std::optional<FedHead> evaluate_fed_head(const RunData& run) {
-    constexpr double full_share = 0.05;  // of what a blade passing cuts
-    if (!run.operating_point.fed_by_cutting || !run.rock || run.rock->ledger.empty()) return std::nullopt;
-    const Table& ledger = run.rock->ledger;
-    const ProductionSeries series{ledger.number("time_s"), ledger.number("fed_kg"), ledger.number("delivered_kg"),
-                                  sum_of(ledger, {"spilled_mixing_kg", "spilled_cutting_kg", "left_behind_kg"}),
-                                  sum_of(ledger, {"owed_kg", "in_head_kg", "on_bed_kg"})};
-    const double revolution = run.operating_point.revolution_s();
-    const std::optional<Production> production = production_of(series, revolution);
-    if (!production) return std::nullopt;
-    const double rate = production->fed / (production->to - production->from);
-    const double longest = longest_time_above(series.time, ledger.number("owed_kg"), full_share * rate * blade_period(run));
-    return FedHead{*production, longest >= revolution};
-}
-
 RotorLoads average_loads(const RunData& run, double start) {
     RotorLoads rotor;
     const std::vector<double>& times = run.loads.number("time_s");
@@ -371,6 +356,18 @@ json versions_json(const RunData& run) {
 
 }  // namespace
 
+std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, double blade_period) {
+    constexpr double full_share = 0.05;  // of what a blade passing cuts
+    const ProductionSeries series{ledger.number("time_s"), ledger.number("fed_kg"), ledger.number("delivered_kg"),
+                                  sum_of(ledger, {"spilled_mixing_kg", "spilled_cutting_kg", "left_behind_kg"}),
+                                  sum_of(ledger, {"owed_kg", "in_head_kg", "on_bed_kg"})};
+    const std::optional<Production> production = production_of(series, revolution);
+    if (!production) return std::nullopt;
+    const double rate = production->fed / (production->to - production->from);
+    const double longest = longest_time_above(series.time, ledger.number("owed_kg"), full_share * rate * blade_period);
+    return FedHead{*production, longest >= revolution};
+}
+
 Results compute_results(const RunData& run) {
     Results results;
     results.finished = run.finished;
@@ -384,7 +381,8 @@ Results compute_results(const RunData& run) {
     }
     results.outflow = average_outflow(run);
     results.mixing = mixing_of(run, results.outflow);
-    results.fed = evaluate_fed_head(run);
+    if (run.operating_point.fed_by_cutting && run.rock && !run.rock->ledger.empty())
+        results.fed = fed_head_of(run.rock->ledger, run.operating_point.revolution_s(), blade_period(run));
     results.rotor = average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.fed) results.dredging = dredging_of(results, run);

@@ -124,6 +124,10 @@ struct Results {
     Cost cost;
 };
 
+/// What the ledger of a head that is fed all the time says. \param revolution  [s] \param blade_period  from blade to blade [s]
+/// \return nothing while it has not run long enough, see production_of
+std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, double blade_period);
+
 /// \throws CheckFailure  when the fates of the rock do not add up
 Results compute_results(const RunData& run);
 

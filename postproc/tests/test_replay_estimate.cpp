@@ -78,11 +78,11 @@ TEST(ReplayEstimate, has_no_interval_of_one_pair) {
     const ReplayEstimate estimate = Synthetic(4).estimate(5, 1);
     EXPECT_TRUE(estimate.replay_interval);
     EXPECT_FALSE(estimate.interval);
-    EXPECT_NE(replay_text(estimate).find("two coupled runs"), std::string::npos);
+    EXPECT_NE(replay_text(estimate, std::nullopt).find("two coupled runs"), std::string::npos);
 }
 
 TEST(ReplayEstimate, without_a_coupled_run_says_that_its_bias_is_unknown) {
-    const std::string text = replay_text(Synthetic(5).estimate(5, 0));
+    const std::string text = replay_text(Synthetic(5).estimate(5, 0), std::nullopt);
     EXPECT_NE(text.find("is not known"), std::string::npos);
 }
 
@@ -93,6 +93,42 @@ TEST(ReplayEstimate, by_hand) {
     EXPECT_NEAR(estimate.corrections.variance, 0.0002, 1e-12);
     // Welch: (0.01/3 + 0.0002/2)^2 / ((0.01/3)^2/2 + (0.0002/2)^2/1) = 2.1187 degrees of freedom, t = 4.0850
     EXPECT_NEAR(*estimate.interval, 4.085 * std::sqrt(0.01 / 3.0 + 0.0001), 0.005);
+}
+
+FedHead head(double fed, double delivered, double spilled, bool is_steady) {
+    FedHead head;
+    head.production.from = 3.0;
+    head.production.to = 5.0;
+    head.production.fed = fed;
+    head.production.delivered = delivered;
+    head.production.spilled = spilled;
+    head.production.held = 2.0;
+    head.production.is_steady = is_steady;
+    head.production.spillage_min = spilled / fed;
+    head.production.spillage_max = 1.0 - delivered / fed;
+    return head;
+}
+
+TEST(FedReplays, say_how_many_have_settled_and_what_bounds_the_others) {
+    FedHead full = head(20.0, 12.0, 6.0, false);
+    full.is_full = true;
+    const FedReplays fed = fed_replays_of({head(20.0, 10.0, 10.0, true), full});
+    EXPECT_EQ(fed.count, 2u);
+    EXPECT_EQ(fed.steady, 1u);
+    EXPECT_EQ(fed.full, 1u);
+    EXPECT_NEAR(fed.fed, 10.0, 1e-12);
+    EXPECT_NEAR(fed.held, 2.0, 1e-12);
+    EXPECT_NEAR(fed.spillage_min, 0.5 * (0.5 + 0.3), 1e-12);
+    const std::string text = replay_text(estimate_spillage({0.5, 0.4}, {}), fed);
+    for (const char* part : {"settled in 1 of 2", "40.0 to 45.0 %", "cannot take what it cuts in 1 of 2"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(FedReplays, have_no_bounds_where_all_have_settled) {
+    const FedReplays fed = fed_replays_of({head(20.0, 10.0, 10.0, true)});
+    const std::string text = replay_text(estimate_spillage({0.5}, {}), fed);
+    EXPECT_EQ(text.find("bounds"), std::string::npos) << text;
+    EXPECT_EQ(text.find("full"), std::string::npos) << text;
 }
 
 }  // namespace
