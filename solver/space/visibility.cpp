@@ -10,6 +10,9 @@ constexpr double k_least_node_weight = 0.1;
 /// Stored hidden cells (4 bytes each) above which unused nodes are dropped, and as how many a triangle in a shadow map counts.
 constexpr std::size_t k_most_kept_cells = 32u << 20;
 constexpr std::size_t k_cells_per_shade = 2;
+/// After so many tries boxes of cells are asked whether all of them are in view only while this share of them was.
+constexpr int k_tries = 8;
+constexpr double k_least_left_out = 0.25;
 /// A stored list reaches this much further than requested, because a rock's kernel widens gradually into coarser cells.
 constexpr double k_list_margin = 1.1;
 
@@ -252,8 +255,17 @@ void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double 
         point.shadows.emplace(steel_[steel], point.position, point.clearance_limit);
         kept_cells_ += k_cells_per_shade * point.shadows->size();
     }
+    // Where steel is all around, as over a bank, asking costs more than it leaves out.
+    int asked = 0, left_out = 0;
+    const auto is_worth_leaving_out = [&](const Box& box) {
+        if (asked >= k_tries && left_out < k_least_left_out * asked) return false;
+        ++asked;
+        const bool sees_all = sees_all_of(box);
+        left_out += sees_all ? 1 : 0;
+        return sees_all;
+    };
     found_.clear();
-    trees_.of(cells).between(centre, inner, outer, sees_all_of, found_);
+    trees_.of(cells).between(centre, inner, outer, is_worth_leaving_out, found_);
     for (const Neighbour& n : found_) {
         const Vec3 offset = change(trees_.centre(n.index)) - point.position;
         if (point.shadows->is_clear(offset)) continue;
