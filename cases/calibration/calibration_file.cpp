@@ -309,12 +309,26 @@ private:
                           "Use method = \"surface\"");
         mistakes_.require(!std::all_of(targets.begin(), targets.end(), is_held_out), "no [[target]] is fitted",
                           "The objective needs a target that is not held out", "Add one");
-        std::set<std::string> keys;
-        for (const CalibratedParameter& parameter : found_.parameters)
-            mistakes_.require(parameter.key.empty() || keys.insert(parameter.key).second, fmt::format("{} is varied twice", parameter.key),
-                              "Each parameter has a key of its own", "Remove one");
+        std::set<std::string> keys, names;
+        for (const CalibratedParameter& parameter : found_.parameters) {
+            const bool is_new = parameter.key.empty() || keys.insert(parameter.key).second;
+            mistakes_.require(is_new, fmt::format("{} is varied twice", parameter.key), "Each parameter has a key of its own",
+                              "Remove one");
+            mistakes_.require(!is_new || parameter.range.name.empty() || names.insert(parameter.range.name).second,
+                              fmt::format("two parameters are called {}", parameter.range.name), "Results tell parameters by their names",
+                              "Rename one");
+        }
+        for (const auto& of_a_kind : {found_.targets.fitted, found_.targets.held_out}) require_own_names(of_a_kind);
         check_held_out();
         for (const Measured& measured : found_.measured) check_measure(measured);
+    }
+
+    void require_own_names(const std::vector<calibration::Target>& targets) {
+        std::set<std::string> names;
+        for (const calibration::Target& target : targets)
+            mistakes_.require(target.name.empty() || names.insert(target.name).second,
+                              fmt::format("two targets are called {}", target.name), "Results tell targets by their names",
+                              "Remove one, or give it another name");
     }
 
     /// The same measurement cannot be held out and fitted.

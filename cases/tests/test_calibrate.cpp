@@ -397,6 +397,15 @@ TEST_F(Calibrate, refuses_held_out_targets_in_the_objective_unknown_names_and_pl
     EXPECT_THAT(refusal(text), HasSubstr("It must be a list of 2 numbers"));
 }
 
+TEST_F(Calibrate, refuses_two_of_one_name) {
+    const std::string head = "study = [\"heap.toml\"]";
+    EXPECT_THAT(refusal(calibration_text(head, angle_target() + angle_target())), HasSubstr("two targets are called angle"));
+    EXPECT_EQ(refusal(calibration_text(head, angle_target() + angle_target("name = \"angle of another day\"\n"))), "");
+    std::string text = calibration_text(head, angle_target());
+    text.replace(text.find("name = \"density\""), 16, "name = \"mu\"");
+    EXPECT_THAT(refusal(text), HasSubstr("two parameters are called mu"));
+}
+
 TEST_F(Calibrate, goes_on_with_its_own_file_alone) {
     const std::string text = calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"\nrepeats = 1", angle_target());
     write(text);

@@ -73,6 +73,8 @@ json measure_run(const fs::path& run_directory, const std::optional<std::string>
     Mistakes mistakes;
     mistakes.add(check_measures(measures, file.string()));
     if (!measures.is_array()) mistakes.refuse();
+    if (measures.empty())
+        mistakes.add({file.string(), "it names no measure", "Something is measured", "Give the study a [[measure]], or write one"});
     json to_make = json::array();
     mistakes.gather([&] { to_make = chosen(measures, name, file); });
     for (const json& measure : to_make) {
