@@ -318,7 +318,8 @@ private:
                               fmt::format("two parameters are called {}", parameter.range.name), "Results tell parameters by their names",
                               "Rename one");
         }
-        for (const auto& of_a_kind : {found_.targets.fitted, found_.targets.held_out}) require_own_names(of_a_kind);
+        require_own_names(found_.targets.fitted);
+        require_own_names(found_.targets.held_out);
         check_held_out();
         for (const Measured& measured : found_.measured) check_measure(measured);
     }

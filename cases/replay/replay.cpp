@@ -78,14 +78,10 @@ bool same(const ParameterValue& a, const ParameterValue& b) {
     return x != nullptr && y != nullptr ? std::abs(*x - *y) <= k_same * std::max(std::abs(*x), std::abs(*y)) : a == b;
 }
 
-bool is_text(const ParameterValues& values, const char* key, const char* text) {
-    return values.has(key) && values.text(key) == text;
-}
-
 /// Whether the flow of that run depends on the key: soil stands where swing and ladder have it, and hauled water has the swing's speed.
 bool belongs_to_flow(const Parameter& parameter, const ParameterValues& recorded) {
-    if (parameter.key == "swing.direction" || parameter.key == "ladder.inclination_deg") return is_text(recorded, "bank.model", "wall");
-    if (parameter.key == "swing.speed_m_min") return recorded.has("hauling.water") && recorded.boolean("hauling.water");
+    if (parameter.key == "swing.direction" || parameter.key == "ladder.inclination_deg") return has_bank(recorded);
+    if (parameter.key == "swing.speed_m_min") return recorded.boolean("hauling.water");
     if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage) return true;
     const std::string section = parameter.key.substr(0, parameter.key.find('.'));
     return section == "rotor" || section == "suction" || section == "fluid" || section == "bank" || section == "hauling";
@@ -149,22 +145,12 @@ fs::path cost_file(const fs::path& folder) {
     return folder / "postProcessing" / "cost" / "0" / "cost.json";
 }
 
-bool is_fed_all_the_time(const ParameterValues& values) {
-    const std::vector<ParameterValues>& feeds = values.tables("feed");
-    return std::any_of(feeds.begin(), feeds.end(), [](const ParameterValues& feed) { return feed.text("feed.kind") == "cut_face"; });
-}
-
-/// Production of a run's or a replay's head.
-std::optional<postproc::FedHead> fed_head(const fs::path& folder, const RecordedRun& run) {
-    const double revolution = 60.0 / run.values.number("rotor.speed_rpm");
-    return postproc::fed_head_of(postproc::read_ledger(folder), revolution, revolution / run.head.size.blades);
-}
-
 void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
     const postproc::Table fates = postproc::read_fates(folder);
     const postproc::SpillageRatios ratios = postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1));
-    if (is_fed_all_the_time(run.values)) {
-        replay.fed = fed_head(folder, run);
+    const Study study = make_study(run.values, run.folder);
+    if (study.is_fed_by_cutting()) {
+        replay.fed = postproc::fed_head_of(postproc::read_ledger(folder), study.period(), study.period() / run.head.size.blades);
         if (!replay.fed)
             throw CheckFailure({folder.string(), "no whole revolution is left after the start-up",
                                 "Production is told over whole revolutions once the head has filled", "Raise run.max_revolutions"});
@@ -277,14 +263,10 @@ void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>&
     write_file(file, plan.dump(2) + "\n");
 }
 
-/// Spillage of a coupled run by its own rock; none while it has put in none, or its production is not known.
-std::optional<double> coupled_spillage(const RecordedRun& run) {
-    const postproc::Table fates = postproc::read_fates(run.folder);
+/// Spillage of a coupled run by its own rock, which is no feed from a cut face; none while it has put in none.
+std::optional<double> coupled_spillage(const fs::path& run) {
+    const postproc::Table fates = postproc::read_fates(run);
     if (fates.empty()) return std::nullopt;
-    if (is_fed_all_the_time(run.values)) {
-        const std::optional<postproc::FedHead> fed = fed_head(run.folder, run);
-        return fed ? std::optional(fed->production.spillage_max) : std::nullopt;
-    }
     return postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1)).ratio;
 }
 
@@ -371,19 +353,16 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     std::vector<double> spillage;
     std::vector<postproc::FedHead> fed;
     for (const Replay& replay : results.replays) {
-        if (replay.is_pair) continue;
-        spillage.push_back(replay.spillage);
-        if (replay.fed) fed.push_back(*replay.fed);
-    }
-    if (!fed.empty()) results.fed = postproc::fed_replays_of(fed);
-    for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) {
-        const Replay& pair = results.replays[r];
-        if (const std::optional<double> coupled = coupled_spillage(runs[r])) {
-            results.pairs.push_back({*coupled, pair.spillage});
+        if (replay.fed) fed.push_back(*replay.fed);  // of another study: there are no pairs
+        if (!replay.is_pair) {
+            spillage.push_back(replay.spillage);
+        } else if (const std::optional<double> coupled = coupled_spillage(replay.run)) {
+            results.pairs.push_back({*coupled, replay.spillage});
         } else {
-            say(fmt::format("{}: its own spillage is not known yet, so it corrects nothing", pair.run.string()));
+            say(fmt::format("{}: no rock has left its head yet, so it corrects nothing", replay.run.string()));
         }
     }
+    if (!fed.empty()) results.fed = postproc::fed_replays_of(fed);
     results.estimate = postproc::estimate_spillage(spillage, results.pairs);
     write_results(settings.folder, results);
     return results;

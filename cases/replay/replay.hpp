@@ -38,7 +38,7 @@ struct ReplayResults {
     std::vector<Replay> replays;
     std::vector<postproc::ReplayPair> pairs;  ///< of the runs that put in rock
     postproc::ReplayEstimate estimate;
-    std::optional<postproc::FedReplays> fed;  ///< of the replays with placements of their own
+    std::optional<postproc::FedReplays> fed;  ///< of a study that is fed all the time
 };
 
 /// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,

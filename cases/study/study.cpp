@@ -86,10 +86,6 @@ constexpr std::array<const char*, 11> k_bank_keys = {
     "soil.bulking",       "soil.specific_energy_mj_m3", "bed.spill_layer_m"};
 constexpr double k_wider_by_picks = 0.03;  // of the ring radius: a head that is wider than its ring by this has picks
 
-bool has_bank(const ParameterValues& values) {
-    return values.text("bank.model") == k_wall_bank;
-}
-
 void resolve_bank(ParameterValues& values, const HeadSize& head) {
     const double ring = head.ring_radius;
     const bool has_picks = head.tip_radius >= (1.0 + k_wider_by_picks) * ring;
@@ -452,7 +448,7 @@ void check_recording(const ParameterValues& study, Rules& rules) {
     const char* key = "run.record_revolutions";
     rules.require(recorded >= 1.0, key, "The rotor passes all its phases in one revolution", "Use 1 or more, or 0 for no recording");
     rules.require(!study.tables("feed").empty(), key, "A recording is for rock", "Add a feed, or use 0");
-    rules.require(!has_cut_face(study), key, "Replays follow batches; a steady rate needs rock and water together",
+    rules.require(!has_cut_face(study), key, "Rock from a cut face is replayed in the flow of another run, by cutterflow replay --study",
                   "Use 0, or feed.kind = \"batch\"");
     for (const ParameterValues& feed : study.tables("feed"))
         rules.require(
@@ -482,6 +478,10 @@ bool Study::is_fed_by_cutting() const {
 AxialCylinder Study::water(const HeadSize& head) const {
     const double bottom = -head.depth - tank.bed_clearance;
     return {tank.radius, bottom, bottom + tank.height};
+}
+
+bool has_bank(const ParameterValues& values) {
+    return values.text("bank.model") == k_wall_bank;
 }
 
 bool lacks_swing(const ParameterValues& values) {

@@ -136,6 +136,9 @@ const ParameterTable& study_table();
 /// Rules that values broke which a study's file gives, as far as they can be seen without the cutter. \param file  the study's
 std::vector<Mistake> check_file_rules(const ParameterValues& values, const std::filesystem::path& file);
 
+/// Whether soil stands beside the head of a study.
+bool has_bank(const ParameterValues& values);
+
 /// Whether a study has a bank without the swing that cuts it. check_file_rules refuses it.
 bool lacks_swing(const ParameterValues& values);
 
