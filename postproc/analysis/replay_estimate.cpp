@@ -1,5 +1,7 @@
 #include "postproc/analysis/replay_estimate.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gsl/assert>
 
@@ -16,12 +18,14 @@ std::string percent(double share, const std::optional<double>& interval) {
                     : fmt::format("{:.1f} %, no interval", 100.0 * share);
 }
 
-std::string fed_text(const FedReplays& fed, double spillage_max) {
+/// \param undelivered  1 - delivered/fed, mean
+std::string fed_text(const FedReplays& fed, double undelivered) {
     std::string text =
         fmt::format("fed         {:.3g} kg/s; hold-up {:.3g} kg, settled in {} of {} replays\n", fed.fed, fed.held, fed.steady, fed.count);
+    const auto [low, high] = std::minmax(fed.spillage_min, undelivered);  // hold-up that falls turns them round
     if (fed.steady < fed.count)
-        text += fmt::format("bounds      {:.1f} to {:.1f} %: where hold-up has not settled, 1 - delivered/fed is the upper bound\n",
-                            100.0 * fed.spillage_min, 100.0 * spillage_max);
+        text += fmt::format("bounds      {:.1f} to {:.1f} %, spilled/fed and 1 - delivered/fed: hold-up has not settled\n", 100.0 * low,
+                            100.0 * high);
     if (fed.full > 0) text += fmt::format("full        the head cannot take what it cuts in {} of {} replays\n", fed.full, fed.count);
     return text;
 }

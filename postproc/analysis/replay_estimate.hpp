@@ -11,9 +11,9 @@ namespace cutterflow::postproc {
 
 /// What replays of a head that is fed all the time say beside their spillage, which is 1 - delivered/fed in the window of each.
 struct FedReplays {
-    std::size_t count = 0, steady = 0;  ///< steady: hold-up has settled; in the others spillage is the upper bound alone
+    std::size_t count = 0, steady = 0;  ///< steady: hold-up has settled; in the others spillage is one bound, spilled/fed the other
     std::size_t full = 0;               ///< in which the head was full
-    double spillage_min = 0.0;          ///< spilled/fed, mean
+    double spillage_min = 0.0;          ///< spilled/fed, mean; above 1 - delivered/fed where hold-up falls
     double fed = 0.0, held = 0.0;       ///< mean rate [kg/s] and mean hold-up [kg]
 };
 
