@@ -154,7 +154,7 @@ void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
         if (!replay.fed)
             throw CheckFailure({folder.string(), "no whole revolution is left after the start-up",
                                 "Production is told over whole revolutions once the head has filled", "Raise run.max_revolutions"});
-        replay.spillage = replay.fed->production.spillage_max;
+        replay.spillage = replay.fed->production.undelivered;
     } else {
         if (!ratios.ratio)
             throw CheckFailure({folder.string(), ratios.reason, "A replay ends when rock has left the head", "Raise run.max_revolutions"});

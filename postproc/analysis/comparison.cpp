@@ -64,7 +64,7 @@ std::optional<double> mixing(const ComparedRun& compared, double Mixing::*member
 /// Of a head that is fed all the time; only bounds are known while its hold-up changes.
 Estimate spillage_of(const Production& production) {
     if (!production.is_steady) return {std::nullopt, production.spillage_min, production.spillage_max, std::nullopt};
-    Estimate estimate = plain(production.spillage_max);
+    Estimate estimate = plain(production.undelivered);
     if (production.share) estimate.half_width = production.share->half_interval;
     return estimate;
 }

@@ -80,13 +80,13 @@ Dredging dredging_of(const Results& results, const RunData& run) {
     const double fines = of_soil * (1.0 - point.rock_share);
     if (window.is_steady && results.mixing)
         dredging.spillage_with_fines =
-            (window.spillage_max * window.fed + results.mixing->well_mixed_spillage * fines) / (window.fed + fines);
+            (window.undelivered * window.fed + results.mixing->well_mixed_spillage * fines) / (window.fed + fines);
     if (!(point.in_situ_density > 0.0)) return dredging;
     dredging.cut_in_situ = of_soil / duration / point.in_situ_density;
     dredging.delivered_in_situ = window.delivered / duration / point.in_situ_density;
     if (window.is_steady && point.swing_speed > 0.0 && point.step > 0.0)
         dredging.spill_layer =
-            window.spillage_max * window.fed / duration / point.in_situ_density * point.bulking / (point.swing_speed * point.step);
+            window.undelivered * window.fed / duration / point.in_situ_density * point.bulking / (point.swing_speed * point.step);
     if (point.specific_energy) dredging.cutting_power = *point.specific_energy * *dredging.cut_in_situ;
     if (!(*dredging.delivered_in_situ > 0.0)) return dredging;
     if (results.rotor.power) dredging.energy = results.rotor.power->mean / *dredging.delivered_in_situ;

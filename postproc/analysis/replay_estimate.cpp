@@ -1,7 +1,5 @@
 #include "postproc/analysis/replay_estimate.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <gsl/assert>
 
@@ -18,14 +16,12 @@ std::string percent(double share, const std::optional<double>& interval) {
                     : fmt::format("{:.1f} %, no interval", 100.0 * share);
 }
 
-/// \param undelivered  1 - delivered/fed, mean
-std::string fed_text(const FedReplays& fed, double undelivered) {
+std::string fed_text(const FedReplays& fed) {
     std::string text =
         fmt::format("fed         {:.3g} kg/s; hold-up {:.3g} kg, settled in {} of {} replays\n", fed.fed, fed.held, fed.steady, fed.count);
-    const auto [low, high] = std::minmax(fed.spillage_min, undelivered);  // hold-up that falls turns them round
     if (fed.steady < fed.count)
-        text += fmt::format("bounds      {:.1f} to {:.1f} %, spilled/fed and 1 - delivered/fed: hold-up has not settled\n", 100.0 * low,
-                            100.0 * high);
+        text += fmt::format("bounds      {:.1f} to {:.1f} %, spilled/fed and 1 - delivered/fed: hold-up has not settled\n",
+                            100.0 * fed.spillage_min, 100.0 * fed.spillage_max);
     if (fed.full > 0) text += fmt::format("full        the head cannot take what it cuts in {} of {} replays\n", fed.full, fed.count);
     return text;
 }
@@ -41,6 +37,7 @@ FedReplays fed_replays_of(const std::vector<FedHead>& heads) {
         fed.steady += head.production.is_steady ? 1 : 0;
         fed.full += head.is_full ? 1 : 0;
         fed.spillage_min += share * head.production.spillage_min;
+        fed.spillage_max += share * head.production.spillage_max;
         fed.fed += share * head.production.fed / (head.production.to - head.production.from);
         fed.held += share * head.production.held;
     }
@@ -65,7 +62,7 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
 std::string replay_text(const ReplayEstimate& estimate, const std::optional<FedReplays>& fed) {
     std::string text = fmt::format("replayed    {}, {} placements; rock does not change this flow\n",
                                    percent(estimate.replays.mean, estimate.replay_interval), estimate.replays.count);
-    if (fed) text += fed_text(*fed, estimate.replays.mean);
+    if (fed) text += fed_text(*fed);
     if (estimate.corrections.count == 0) return text + "coupled     no run: what the recorded flow leaves out is not known\n";
     text += fmt::format(
         "coupled     {:+.1f} points{}, {} run(s) with the same placements as their replays\n", 100.0 * estimate.corrections.mean,

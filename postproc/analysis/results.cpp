@@ -236,7 +236,7 @@ json fed_json(const FedHead& head, double in_situ_density) {
                 {"hold_up_kg", production.held},
                 {"hold_up_change_share", production.held_change / production.fed},
                 {"is_steady", production.is_steady},
-                {"spillage", production.is_steady ? json(production.spillage_max) : json(nullptr)},
+                {"spillage", production.is_steady ? json(production.undelivered) : json(nullptr)},
                 {"spillage_min", production.spillage_min},
                 {"spillage_max", production.spillage_max},
                 {"head_is_full", head.is_full}};

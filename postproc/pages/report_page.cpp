@@ -136,7 +136,7 @@ std::string fed_answers(const FedHead& head) {
     std::string blocks =
         answer(palette::sucked_up, "Production: delivered / fed, by mass", percent(production.delivered / production.fed) + interval, sure);
     blocks += answer(palette::spilled, "Spillage: 1 − delivered / fed, by mass",
-                     production.is_steady ? percent(production.spillage_max) + interval
+                     production.is_steady ? percent(production.undelivered) + interval
                                           : fmt::format("{} to {}", percent(production.spillage_min), percent(production.spillage_max)),
                      production.is_steady ? "what the head holds changed by less than 5 % of what was fed"
                                           : "bounds: what the head holds still changes, and may yet be delivered or spilled");

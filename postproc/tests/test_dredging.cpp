@@ -91,7 +91,7 @@ TEST(Dredging, counts_fines_as_neutral_rock_and_the_layer_as_not_cut) {
     // 7.5 of 10 kg/s are cut rock, 80 % of what is cut.
     EXPECT_NEAR(*work.cut_in_situ, 7.5 / 0.8 / 2000.0, 1e-6);
     ASSERT_TRUE(results.mixing && work.spillage_with_fines);
-    const double fines = 7.5 / 0.8 * 0.2, spilled = results.fed->production.spillage_max * 10.0;
+    const double fines = 7.5 / 0.8 * 0.2, spilled = results.fed->production.undelivered * 10.0;
     EXPECT_NEAR(*work.spillage_with_fines, (spilled + results.mixing->well_mixed_spillage * fines) / (10.0 + fines), 1e-6);
     EXPECT_EQ(work.layer_share, 0.25);
 }

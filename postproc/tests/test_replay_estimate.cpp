@@ -124,12 +124,6 @@ TEST(FedReplays, say_how_many_have_settled_and_what_bounds_the_others) {
         EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
-TEST(FedReplays, have_bounds_in_order_where_hold_up_falls) {
-    const FedReplays fed = fed_replays_of({head(20.0, 12.0, 10.0, false)});
-    const std::string text = replay_text(estimate_spillage({0.4}, {}), fed);
-    EXPECT_NE(text.find("40.0 to 50.0 %"), std::string::npos) << text;
-}
-
 TEST(FedReplays, have_no_bounds_where_all_have_settled) {
     const FedReplays fed = fed_replays_of({head(20.0, 10.0, 10.0, true)});
     const std::string text = replay_text(estimate_spillage({0.5}, {}), fed);

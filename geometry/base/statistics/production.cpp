@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "geometry/base/statistics/sample.hpp"
 
@@ -172,8 +173,9 @@ std::optional<Production> production_of(const ProductionSeries& series, double r
     production.held_change = gain(series.held);
     production.held = mean_over(series.time, series.held, production.from, production.to);
     production.is_steady = production.start.has_value() && std::abs(production.held_change) < k_steady_change * production.fed;
-    production.spillage_min = production.spilled / production.fed;
-    production.spillage_max = 1.0 - production.delivered / production.fed;
+    production.undelivered = 1.0 - production.delivered / production.fed;
+    // Hold-up that falls is spilled and delivered beside what comes in.
+    std::tie(production.spillage_min, production.spillage_max) = std::minmax({production.spilled / production.fed, production.undelivered});
 
     std::vector<double> shares = gains(series.time, series.delivered, production.from, production.to, interval);
     for (double& share : shares) share /= production.fed * interval / (production.to - production.from);

@@ -45,7 +45,8 @@ struct Production {
     double held = 0.0;                                 ///< mean over the window [kg]
     std::optional<BatchMeans> share;                   ///< delivered over fed, P
     bool is_steady = false;                            ///< hold-up changed by less than 5 % of what was fed
-    double spillage_min = 0.0, spillage_max = 0.0;     ///< [spilled/fed, 1 - delivered/fed]; spillage is 1 - P only when is_steady
+    double undelivered = 0.0;                          ///< 1 - delivered/fed: the spillage when is_steady
+    double spillage_min = 0.0, spillage_max = 0.0;     ///< spilled/fed and undelivered, the less one first
 };
 
 /// Start-up ends once the means of hold-up over two successive windows of max(1 revolution, 1.5 s) differ by less than 10 %, but not before

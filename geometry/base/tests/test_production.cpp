@@ -115,7 +115,7 @@ TEST(Production, of_a_reservoir_is_its_share_once_it_is_full) {
     EXPECT_LE(std::abs(share - 0.6), 2.0 * production->share->half_interval);
     EXPECT_LE(production->share->half_interval, 0.04);
     EXPECT_NEAR(production->spillage_min, 0.4, 0.03);
-    EXPECT_NEAR(production->spillage_max, 1.0 - share, 1e-12);
+    EXPECT_NEAR(production->undelivered, 1.0 - share, 1e-12);
 }
 
 TEST(Production, without_a_steady_hold_up_has_bounds) {
@@ -126,6 +126,23 @@ TEST(Production, without_a_steady_hold_up_has_bounds) {
     EXPECT_NEAR(production->spillage_min, 0.4 * 0.8, 0.03);
     EXPECT_NEAR(production->spillage_max, 1.0 - 0.6 * 0.8, 0.03);
     EXPECT_NEAR(production->held_change / production->fed, 0.2, 0.02);
+}
+
+TEST(Production, has_bounds_in_order_where_hold_up_falls) {
+    ProductionSeries series;  // 1 kg/s comes in; 10 kg that are there at the start leave it too, 0.5 kg/s to either side
+    for (int k = 0; k <= 2000; ++k) {
+        const double t = 0.01 * k;
+        series.time.push_back(t);
+        series.fed.push_back(10.0 + t);
+        series.delivered.push_back(0.75 * t);
+        series.spilled.push_back(0.75 * t);
+        series.held.push_back(10.0 - 0.5 * t);
+    }
+    const auto production = production_of(series, 1.0);
+    ASSERT_TRUE(production);
+    EXPECT_NEAR(production->undelivered, 0.25, 1e-9);
+    EXPECT_NEAR(production->spillage_min, 0.25, 1e-9);
+    EXPECT_NEAR(production->spillage_max, 0.75, 1e-9);
 }
 
 TEST(Production, knows_how_long_more_is_owed_than_a_limit) {
