@@ -174,6 +174,8 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
     EXPECT_THAT(files.front().text, ContainsRegex("start +\"../1/checkpoints/0.5\";"));
     EXPECT_THAT(files.front().text, HasSubstr("halfSpace"));
     EXPECT_THAT(files.front().text, HasSubstr("atRest"));
+    EXPECT_THAT(files.front().text, HasSubstr("calming")) << "of the preparation alone";
+    for (const CaseText& file : grain_files(request.scene, "bed", 1)) EXPECT_THAT(file.text, Not(HasSubstr("calming")));
     EXPECT_THAT(files.front().text, Not(HasSubstr("travel")));
     for (const CaseText& file : files) EXPECT_NE(file.path, "constant/rockFeed.csv");
 }

@@ -23,9 +23,9 @@ std::vector<Mistake> no_mistakes(const CouplingSettings&, const FluidEngine&, Co
     return {};
 }
 
-std::unique_ptr<RockCoupling> make_free_rock(const CouplingSettings&, const FluidProperties&, FluidEngine& fluid, DemEngine& dem,
+std::unique_ptr<RockCoupling> make_free_rock(const CouplingSettings& settings, const FluidProperties&, FluidEngine& fluid, DemEngine& dem,
                                              Communicator&) {
-    return std::make_unique<FreeRock>(fluid, dem);
+    return std::make_unique<FreeRock>(settings.calming, fluid, dem);
 }
 
 std::vector<ModelNote> no_models(const CouplingSettings&) {

@@ -186,6 +186,15 @@ SettingTable<QueueSettings> queue_rows() {
         .take();
 }
 
+SettingTable<CalmingSettings> calming_rows() {
+    using S = CalmingSettings;
+    return Rows<S>()
+        .require(&S::speed,
+                 number("speed", "m/s", "Root mean square of the velocities of rock from which down rock is slowed down.").above(0.0))
+        .require(&S::time, number("time", "s", "Time in which that takes away the share 1 - 1/e of a velocity.").above(0.0))
+        .take();
+}
+
 SettingTable<SoilSettings> soil_rows() {
     return Rows<SoilSettings>()
         .add(&SoilSettings::permeability,
@@ -242,6 +251,7 @@ void Setting<Settings>::assign(Settings& settings, const ParameterValue& value) 
 template struct Setting<OutflowSettings>;
 template struct Setting<StopSettings>;
 template struct Setting<QueueSettings>;
+template struct Setting<CalmingSettings>;
 template struct Setting<SoilSettings>;
 template struct Setting<CheckpointSettings>;
 template struct Setting<RecordSettings>;
@@ -265,6 +275,12 @@ const SettingTable<StopSettings>& setting_table<StopSettings>() {
 template <>
 const SettingTable<QueueSettings>& setting_table<QueueSettings>() {
     static const SettingTable<QueueSettings> table = queue_rows();
+    return table;
+}
+
+template <>
+const SettingTable<CalmingSettings>& setting_table<CalmingSettings>() {
+    static const SettingTable<CalmingSettings> table = calming_rows();
     return table;
 }
 

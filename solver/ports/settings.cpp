@@ -140,6 +140,10 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
             check_hindrance(mistakes, settings.closures);
         }
         mistakes.add(setting_mistakes(settings.queue, "rock.queue", where));
+        mistakes.add(setting_mistakes(settings.calming, "rock.calming", where));
+        if (settings.calming && settings.has_medium)
+            mistakes.add("rock.calming with a medium", "It is for a bed that comes to rest without one; in a medium drag slows rock down",
+                         "Remove the section, or write medium none;");
         if (settings.rock_feed.empty() && settings.rock_start.empty())
             mistakes.add("rock.feed is missing", "Rock enters through a feed file, or is there from the start on (rock.start)",
                          "Name a CSV file");

@@ -148,6 +148,17 @@ struct QueueSettings {
 template <>
 const SettingTable<QueueSettings>& setting_table<QueueSettings>();
 
+/// Without a medium: while the root mean square of the velocities of rock that is not frozen is at most `speed`, rock is slowed down by the
+/// force -m v/time. What is left of the motion of a bed that only has to come to rest, loose grains that bounce in their cages and the
+/// bed's own elastic waves, dies down with `time` instead of going on for seconds. [CundallStrack1979]
+struct CalmingSettings {
+    double speed = 0.0;  ///< [m/s]
+    double time = 0.0;   ///< [s]
+};
+
+template <>
+const SettingTable<CalmingSettings>& setting_table<CalmingSettings>();
+
 /// Soil that stands in the water: a bank, a bed.
 struct SoilSettings {
     std::filesystem::path surface;  ///< STL [m] that closes it, absolute frame
@@ -173,6 +184,7 @@ struct CouplingSettings {
     std::optional<IdleSettings> idle;
     std::vector<ClumpShape> shapes;      ///< that rock of the feed may have, as the DEM's
     std::optional<QueueSettings> queue;  ///< none: the feed's rock comes in batches
+    std::optional<CalmingSettings> calming;
     KernelSettings kernel;
     ClosureSettings closures;
     std::optional<FateSettings> fates;  ///< needed by outflow and stop; without, rock is followed but not sorted by fate

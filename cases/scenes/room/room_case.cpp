@@ -1,6 +1,7 @@
 #include "cases/scenes/room/room_case.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -23,6 +24,7 @@ constexpr int k_checkpoints_kept = 2;
 constexpr double k_retry = 0.02;                                // until a grain without room is tried again [s]
 constexpr std::uint64_t k_feed_sequence = 0x9e3779b97f4a7c15u;  // added to the seed: other numbers than the preparation's
 constexpr double k_rest_energy = 1e-6, k_rest_speed = 0.01;
+constexpr double k_calming_energy = 1e-4;  // mean of v^2/(2 g d) from which down a preparation is calmed
 
 /// A section with every key of the struct's table.
 template <class Settings>
@@ -143,6 +145,14 @@ void add_clump_files(const RoomScene& scene, std::vector<CaseText>& files) {
         if (!grains.clump.empty()) files.push_back({clump_file(grains), grains.clump_text});
 }
 
+/// Of a preparation. A grain that moves as fast as k_rest_speed allows while it is slowed down lacks 1 % of its weight to balance.
+FoamDictionary calming_section(const RoomScene& scene) {
+    double smallest = scene.grains.front().smallest();
+    for (const RoomGrains& grains : scene.grains) smallest = std::min(smallest, grains.smallest());
+    const double gravity = scene.gravity.norm();
+    return FoamDictionary().add("speed", std::sqrt(2.0 * k_calming_energy * gravity * smallest)).add("time", std::sqrt(smallest / gravity));
+}
+
 /// \param fed  whether grains come in that are not there at the start \param piece  of the preparation; null in the run
 FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bool fed, const std::string& to_run, const BedPiece* piece) {
     const bool moves = piece == nullptr;
@@ -154,6 +164,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
                               .add("interval", std::min(moves ? scene.run.longest_step : scene.bed_step, 1.0))
                               .add("retryInterval", k_retry)
                               .add("reach", 0.0));
+    if (!moves) rock.add("calming", calming_section(scene));
     if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, piece))

@@ -1,14 +1,19 @@
 #pragma once
 /// \file Rock without a medium: weight and contacts alone.
+#include <optional>
+
 #include "solver/coupling/rock_coupling.hpp"
+#include "solver/ports/settings.hpp"
 
 namespace cutterflow::coupling {
 
-/// m dv/dt = weight + contacts, every DEM step. Nothing is sampled, mapped or carried.
+/// m dv/dt = weight + contacts, every DEM step, and -m v/time in a step that begins calm (CalmingSettings). Nothing is sampled, mapped or
+/// carried.
 class FreeRock final : public RockCoupling {
 public:
     /// \param fluid  gives the time step
-    FreeRock(const FluidEngine& fluid, DemEngine& dem) : fluid_(fluid), dem_(dem) {}
+    FreeRock(const std::optional<CalmingSettings>& calming, const FluidEngine& fluid, DemEngine& dem)
+        : calming_(calming), fluid_(fluid), dem_(dem) {}
 
     /// Rock without a velocity starts at rest.
     std::vector<int> insert(const std::vector<FeedRock>& due) override;
@@ -30,6 +35,9 @@ public:
     void restore(std::vector<Vec3>, const BookedExchange&) override {}
 
 private:
+    HydrodynamicForce resistance() const;
+
+    std::optional<CalmingSettings> calming_;
     const FluidEngine& fluid_;
     DemEngine& dem_;
     DemStep step_;

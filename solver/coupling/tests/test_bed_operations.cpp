@@ -377,6 +377,50 @@ TEST(StopRules, measure_energy_without_spin_over_weight_times_diameter) {
     EXPECT_EQ(restlessness(rocks, {1}, 9.81).energy, 0.0);
 }
 
+/// Rows `id,time_s,x_m,diameter_m,vx_m_s` of rock without a medium, at y = z = 0.
+CouplingSettings moving_rock(const TemporaryFolder& folder, const std::vector<std::string>& rows) {
+    std::string feed = "id,time_s,x_m,diameter_m,vx_m_s,y_m,z_m,density_kg_m3,vy_m_s,vz_m_s\n";
+    for (const std::string& row : rows) feed += row + ",0,0,2650,0,0\n";
+    CouplingSettings settings;
+    settings.has_rock = true;
+    settings.has_medium = false;
+    settings.rock_feed = folder.write("moving.csv", feed);
+    return settings;
+}
+
+TEST(Calming, slows_down_rock_that_is_calm_and_leaves_faster_rock_alone) {
+    constexpr double time = 0.05;
+    const TemporaryFolder folder;
+    const auto speeds_at_end = [&](double speed) {
+        CouplingSettings settings =
+            moving_rock(folder, {fmt::format("1,0,0,0.01,{}", speed), fmt::format("2,0,1,0.02,{}", -0.5 * speed), "3,0,2,0.01,0"});
+        settings.calming = CalmingSettings{0.01, time};
+        Rows rows;
+        Bed bed(settings, folder, rows);
+        bed.go_to(0.1);
+        EXPECT_NEAR(bed.dem.rocks().velocity[1].x() / bed.dem.rocks().velocity[0].x(), -0.5, 1e-9) << "whatever its mass";
+        return bed.dem.rocks().velocity[0].x() / speed * std::exp(bed.fluid.time() / time);
+    };
+    EXPECT_NEAR(speeds_at_end(0.01), 1.0, 1e-3) << "root mean square of three rocks 0.0065 m/s";
+    EXPECT_NEAR(speeds_at_end(0.02), std::exp(0.1 / time), 1e-9) << "0.013 m/s";
+}
+
+TEST(Calming, counts_rock_that_is_not_frozen) {
+    const TemporaryFolder folder;
+    const auto speed_at_end = [&](const std::vector<OperationSettings>& operations) {
+        CouplingSettings settings = moving_rock(folder, {"1,0,0,0.01,0", "2,0,1,0.01,0", "3,0,2,0.01,0", "4,0.02,3,0.01,0.1"});
+        settings.calming = CalmingSettings{0.06, 0.05};
+        settings.operations = operations;
+        Rows rows;
+        Bed bed(settings, folder, rows);
+        bed.go_to(0.05);
+        return bed.dem.rocks().velocity.back().x();
+    };
+    EXPECT_LT(speed_at_end({}), 0.09) << "0.05 m/s over four rocks";
+    EXPECT_EQ(speed_at_end({at(0.01, OperationKind::freeze, BoxRegion{Vec3(-0.5, -0.5, -0.5), Vec3(2.5, 0.5, 0.5)})}), 0.1)
+        << "0.1 m/s of the one that is not frozen";
+}
+
 TEST(StopRules, end_a_run_whose_gate_is_idle) {
     const TemporaryFolder folder;
     CouplingSettings settings = row_of_rock(folder, 2);

@@ -190,6 +190,7 @@ void read_rock(DictionarySection& section, const std::filesystem::path& folder, 
     section.read("start", result.coupling.rock_start, folder, k_optional);
     section.read("feed", result.coupling.rock_feed, folder, result.coupling.rock_start.empty() ? k_required : k_optional);
     read_tabled(section, "queue", result.coupling.queue);
+    read_tabled(section, "calming", result.coupling.calming);
     read_list(section, "walls", dem.walls, [&](DictionarySection& wall) { return read_wall(wall, folder); });
     if (const Foam::dictionary* shapes = section.section("shapes", k_optional)) {
         DictionarySection below = section.below(*shapes, "shapes");

@@ -525,6 +525,19 @@ TEST(CouplingDictionary, ReadsNoFluidWithoutAMedium) {
     EXPECT_EQ(found.dem->gravity, Vec3(6.9, 0.0, -6.9));
 }
 
+TEST(CouplingDictionary, CalmsRockWithoutAMediumOnly) {
+    std::string text = k_dry;
+    text.replace(text.find("feed"), 0, "calming { speed 0.01; time 0.05; }\n    ");
+    testing::TinyCase tiny = case_with("dictionary_calming", text);
+    tiny.files.erase("constant/transportProperties");
+    const CouplingDictionary found = read(tiny);
+    ASSERT_TRUE(found.coupling.calming);
+    EXPECT_EQ(found.coupling.calming->speed, 0.01);
+    EXPECT_EQ(found.coupling.calming->time, 0.05);
+    text.erase(text.find("medium none;"), 12);
+    EXPECT_THAT(mistakes_of([&] { read("dictionary_calming_wet", text); }), ElementsAre(HasSubstr("rock.calming with a medium")));
+}
+
 TEST(CouplingDictionary, RefusesWhatNeedsAFluidWithoutAMedium) {
     std::string text = k_dry;
     text.replace(text.find("false"), 5, "true");
