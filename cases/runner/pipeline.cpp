@@ -282,15 +282,16 @@ StageOutcome Pipeline::make_case() {
     if (const std::vector<Mistake> mistakes = bank_mistakes(resolve_study(values_, head.size), study, head.size, head.profile);
         !mistakes.empty())
         throw UserError(mistakes);
-    std::vector<MadeWall> walls_of_soil;
+    const geometry::TriangleSurface cutter = geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface)));
+    std::vector<MadeWall> walls_beside_steel;
     if (study.bank) {
         const geometry::TriangleSurface soil = bank_surface(study, head.size, contour);
         geometry::write_stl(soil, directory_.path() / names::bank_surface);
         written.emplace_back(names::bank_surface);
-        if (!study.feeds.empty()) walls_of_soil.push_back(bank_contact_wall(study, head.size, contour, soil));
+        if (!study.feeds.empty()) walls_beside_steel.push_back(bank_contact_wall(study, head.size, contour, soil));
+        if (!study.feeds.empty() && study.bank->pick_length > 0.0) walls_beside_steel.push_back(pick_contact_wall(study, contour, cutter));
     }
     write_resolved_study(head.size);
-    const geometry::TriangleSurface cutter = geometry::welded(geometry::read_surface(directory_.file(names::cutter_surface)));
     const Prediction prediction = predict(study, head.size, cutter, {settings_.ranks, machine_slowness()});
     write_file(directory_.file(names::prediction), to_json(prediction).dump(2) + "\n");
     written.insert(written.end(), {names::resolved_study, names::prediction});
@@ -301,7 +302,7 @@ StageOutcome Pipeline::make_case() {
         write_file(directory_.file(names::feed_report), feed_json(feeds, study));
         written.insert(written.end(), {names::rock_feed, names::feed_report});
         for (const WallSurfaceReport& wall :
-             write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius, walls_of_soil))
+             write_contact_surfaces(directory_.path(), smallest_diameter(study), head.size.ring_radius, walls_beside_steel))
             say_(wall.text());
         written.emplace_back(k_contact_surface_report);
     }

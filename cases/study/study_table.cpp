@@ -107,8 +107,10 @@ ParameterTable bank_rows() {
             .at_least(0.0)
             .at_most(k_largest_length)
             .derived("0.02 ring radius"),
-        number(k_case_stage, "bank.pick_length_m", "m",
-               "By which picks that the cutter's file does not have stand out of the head's contour; they cut, and do nothing else.")
+        number(
+            k_case_stage, "bank.pick_length_m", "m",
+            "By which picks that the cutter's file does not have stand out of the head's contour. They cut, and rock does not pass between "
+            "them; water does.")
             .at_least(0.0)
             .at_most(k_largest_length)
             .derived("0 when the head is wider than its ring by 0.03 ring radius or more, as heads with picks are; else 0.1 ring radius"),

@@ -158,10 +158,11 @@ TEST(StudyBank, is_felt_by_water_and_by_rock) {
     const CaseInputs both = inputs_of(std::string(k_bank) + k_rock + "[rock]\nfriction_soil = 0.7\n");
     EXPECT_TRUE(solver_settings(both).soil);
     const coupling::DemSettings dem = dem_settings(both);
-    ASSERT_EQ(dem.walls.size(), 4u);
+    ASSERT_EQ(dem.walls.size(), 5u);
     EXPECT_EQ(dem.walls[0].material, coupling::k_steel);
-    EXPECT_EQ(dem.walls[3].material, coupling::k_soil);
-    EXPECT_FALSE(dem.walls[3].rotating);
+    EXPECT_TRUE(dem.walls[3].rotating) << "picks";
+    EXPECT_EQ(dem.walls[4].material, coupling::k_soil);
+    EXPECT_FALSE(dem.walls[4].rotating);
     EXPECT_EQ(dem.contact.rock_soil.friction, 0.7);
     EXPECT_EQ(dem.contact.rock_soil.rolling_friction, 0.15);
 }
@@ -200,6 +201,28 @@ TEST(StudyBank, has_a_surface_for_rock_on_its_soil) {
     geometry::TriangleSurface half = soil;  // what a bank with a hole would be held against
     half.triangles.resize(soil.triangles.size() / 2);
     EXPECT_THROW(bank_contact_wall(study, size, contour_of(study), half), CheckFailure);
+}
+
+// Rock that a blade pushes does not slip away between its edge and the soil, where picks are.
+TEST(StudyBank, has_picks_for_rock_where_the_head_has_none) {
+    const Study study = study_of(k_bank);
+    const geometry::Contour contour = contour_of(study);
+    const MadeWall picks = pick_contact_wall(study, contour, model_head().surface);
+    ASSERT_GT(picks.report.triangles, 100u);
+    EXPECT_GT(picks.report.smallest_angle, 5.0 * k_pi / 180.0);
+    const geometry::SolidSearch soil(bank_surface(study, head_size(model_head()), contour));
+    double nearest = 1.0;
+    for (const Vec3& point : picks.surface.points) nearest = std::min(nearest, soil.contains(point) ? 0.0 : soil.nearest(point).distance);
+    EXPECT_GT(nearest, 0.5 * study.bank->clearance) << "picks clear the soil at any rotor angle";
+    const auto walls_of = [&](const std::string& more) {
+        const Study made = make_study(resolved_of(std::string(k_bank) + more + k_rock), "/tmp");
+        std::vector<std::string> names;
+        for (const coupling::WallSettings& wall : dem_settings(case_inputs_of(made, head_size(model_head()), contour, 1)).walls)
+            names.push_back(wall.name);
+        return names;
+    };
+    EXPECT_EQ(walls_of(""), (std::vector<std::string>{"cutter", "backplate", "suction_pipe", "picks", "bank"}));
+    EXPECT_EQ(walls_of("pick_length_m = 0.0\n"), (std::vector<std::string>{"cutter", "backplate", "suction_pipe", "bank"}));
 }
 
 geometry::TriangleSurface box_between(const Vec3& lower, const Vec3& upper) {

@@ -177,6 +177,10 @@ coupling::WallSettings bank_wall(const Vec3& hauling) {
     return wall;
 }
 
+coupling::WallSettings pick_wall() {
+    return {"picks", "constant/triSurface/picks_dem.stl", true};
+}
+
 std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs& inputs) {
     const std::vector<Mistake> mistakes = check_case_inputs(inputs);
     if (!mistakes.empty()) throw UserError(mistakes);

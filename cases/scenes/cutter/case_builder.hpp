@@ -25,6 +25,9 @@ std::vector<coupling::WallSettings> standard_walls();
 /// The soil of a study with a bank; write_contact_surfaces makes its file. \param hauling  with which it flows through its surface [m/s]
 coupling::WallSettings bank_wall(const Vec3& hauling = Vec3::Zero());
 
+/// The picks that the cutter's file does not have; write_contact_surfaces makes their file.
+coupling::WallSettings pick_wall();
+
 /// Writes 0/, constant/ and system/ of the transient run, constant/contour.csv, constant/samples/, the DEM's surfaces (copies of
 /// geometry/*.stl, with rock only; write_contact_surfaces puts better ones in their place) and the empty file by which ParaView opens the
 /// case. \param run_directory  exists; with rock it holds geometry/cutter.stl, backplate.stl, suction_pipe.stl \return the files that were

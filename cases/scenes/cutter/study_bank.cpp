@@ -12,6 +12,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "geometry/head/picks.hpp"
 #include "geometry/head/stationary_steel.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/contact_surface.hpp"
@@ -27,6 +28,7 @@ constexpr double k_seconds_per_hour = 3600.0;
 constexpr double k_tolerance_per_ring_radius = 5e-4, k_tolerance_per_distance = 0.25;
 constexpr double k_edge_per_ring_radius = 0.25;
 constexpr double k_measured_per_ring_radius = 0.0125;
+constexpr int k_pick_heights = 32;
 
 Mistake broken(const ParameterValues& resolved, const char* key, const std::string& rule, const std::string& remedy) {
     return {resolved.where(key), fmt::format("{} = {:.6g}", key, resolved.number(key)), rule, remedy};
@@ -202,6 +204,21 @@ MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geome
     throw CheckFailure({"", fmt::format("the bank that rock touches lies {:.3g} m off its soil", report.deviation),
                         fmt::format("It may lie {:.3g} m off", report.allowed_deviation),
                         "Send the study and the cutter's file to the maintainers"});
+}
+
+MadeWall pick_contact_wall(const Study& study, const geometry::Contour& contour, const geometry::TriangleSurface& cutter) {
+    const double sense = study.rotation_speed > 0.0 ? 1.0 : -1.0;
+    const coupling::WallSettings settings = pick_wall();
+    MadeWall made{
+        settings.file, geometry::pick_rows(geometry::SolidSearch(cutter), contour, study.bank->pick_length, sense, k_pick_heights), {}};
+    if (made.surface.triangles.empty())
+        throw UserError("bank.pick_length_m", "Picks stand on the edges of blades, and the cutter has none",
+                        "Write bank.pick_length_m = 0");
+    WallSurfaceReport& report = made.report;
+    report.wall = settings.name;
+    report.triangles_given = report.triangles = made.surface.triangles.size();
+    report.smallest_angle_given = report.smallest_angle = geometry::smallest_angle_of(made.surface);
+    return made;
 }
 
 std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study& study, const HeadSize& size,

@@ -23,6 +23,10 @@ geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size,
 MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geometry::Contour& contour,
                            const geometry::TriangleSurface& soil);
 
+/// What rock touches of the picks that the cutter's file does not have. \pre the study has a bank, whose pick length is above 0
+/// \throws UserError  when the cutter has no blades
+MadeWall pick_contact_wall(const Study& study, const geometry::Contour& contour, const geometry::TriangleSurface& cutter);
+
 /// Rules that a bank breaks beside this head, its steel and its water: higher than head or water, steps longer than the head, overhanging,
 /// steel in the soil, a file that is open. None for a study without a bank. \param resolved  from which the study was made; its lines are
 /// named \param profile  of the head, with its error
