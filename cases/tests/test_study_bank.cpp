@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -103,6 +104,18 @@ TEST(StudyBank, stands_on_the_side_where_rock_is_fed) {
             const Study study = make_study(resolve_study(values, head_size(model_head())), "/tmp");
             EXPECT_EQ(study.bank_side() > 0.0, bank_azimuth_deg(swing, rotor) > 0.0) << swing << " " << rotor;
         }
+}
+
+// A short step from a low bank is cut by the nose, from where rock has the longest way to the mouth.
+TEST(StudyBank, tells_how_far_below_the_ring_it_is_cut) {
+    const std::string swing = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
+    const Study nose = study_of(swing), deep = study_of(swing + "cut_height_m = 0.45\nstep_m = 0.4\n");
+    const double of_nose = cut_figures(nose, contour_of(nose)).depth, of_deep = cut_figures(deep, contour_of(deep)).depth;
+    EXPECT_LT(of_nose, 0.485);
+    EXPECT_LT(of_deep, of_nose - 0.05);
+    EXPECT_GT(of_deep, 0.1);
+    EXPECT_NE(bank_text(nose, contour_of(nose)).find(fmt::format("{:.2g} m below the ring in the mean", of_nose)), std::string::npos);
+    EXPECT_NEAR(bank_json(nose, contour_of(nose)).at("model").at("mean_depth_m").get<double>(), of_nose, 1e-12);
 }
 
 TEST(StudyBank, can_stand_beside_the_model_cutter_and_is_a_solid) {

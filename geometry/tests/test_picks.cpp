@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/head/picks.hpp"
+#include "geometry/head/blade_faces.hpp"
 #include "geometry/head/revolution_contour.hpp"
 #include "geometry/tests/solids.hpp"
 

@@ -14,7 +14,7 @@ struct FedReplays {
     std::size_t count = 0, steady = 0;  ///< steady: hold-up has settled; in the others spillage is one bound, spilled/fed the other
     std::size_t full = 0;               ///< in which the head was full
     double spillage_min = 0.0, spillage_max = 0.0;  ///< of spilled/fed and 1 - delivered/fed, means
-    double fed = 0.0, held = 0.0;       ///< mean rate [kg/s] and mean hold-up [kg]
+    double fed = 0.0, held = 0.0;                   ///< mean rate [kg/s] and mean hold-up [kg]
 };
 
 /// \pre a replay

@@ -12,7 +12,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/cgal/solid_search.hpp"
-#include "geometry/head/picks.hpp"
+#include "geometry/head/blade_faces.hpp"
 #include "geometry/head/stationary_steel.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/contact_surface.hpp"
@@ -29,6 +29,7 @@ constexpr double k_tolerance_per_ring_radius = 5e-4, k_tolerance_per_distance = 
 constexpr double k_edge_per_ring_radius = 0.25;
 constexpr double k_measured_per_ring_radius = 0.0125;
 constexpr int k_pick_heights = 32;
+constexpr double k_patch_per_ring_radius = 0.05;
 
 Mistake broken(const ParameterValues& resolved, const char* key, const std::string& rule, const std::string& remedy) {
     return {resolved.where(key), fmt::format("{} = {:.6g}", key, resolved.number(key)), rule, remedy};
@@ -244,8 +245,11 @@ std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study&
 }
 
 CutFigures cut_figures(const Study& study, const geometry::Contour& contour) {
+    const geometry::Bank bank = bank_of(study, contour);
     CutFigures figures;
-    figures.section = bank_of(study, contour).cut_section();
+    figures.section = bank.cut_section();
+    for (const geometry::CutFacePatch& patch : bank.cut_face(k_patch_per_ring_radius * contour.ring_radius()).patches)
+        figures.depth += patch.depth_m * patch.flux_area_m2 / figures.section;
     figures.swing_speed = study.bank->swing_speed;
     figures.in_situ = figures.swing_speed * figures.section;
     figures.dry = study.bank->grain_density * (1.0 - study.bank->porosity) * figures.in_situ;
@@ -254,16 +258,18 @@ CutFigures cut_figures(const Study& study, const geometry::Contour& contour) {
 
 CutFigures scaled(const CutFigures& figures, double length_ratio) {
     const double flow = std::pow(length_ratio, 2.5);
-    return {figures.section * length_ratio * length_ratio, figures.in_situ * flow, figures.dry * flow,
+    return {figures.section * length_ratio * length_ratio, figures.depth * length_ratio, figures.in_situ * flow, figures.dry * flow,
             figures.swing_speed * std::sqrt(length_ratio)};
 }
 
 std::string bank_text(const Study& study, const geometry::Contour& contour) {
     if (!study.bank) return "";
     const auto line = [](const char* of, const CutFigures& figures) {
-        return fmt::format("{}cut section {:.4g} m2, swing {:.4g} m/min: {:.4g} m3/h of soil in situ, {:.4g} t/h of dry grains\n", of,
-                           figures.section, 60.0 * figures.swing_speed, k_seconds_per_hour * figures.in_situ,
-                           1e-3 * k_seconds_per_hour * figures.dry);
+        return fmt::format(
+            "{}cut section {:.4g} m2, {:.2g} m below the ring in the mean, swing {:.4g} m/min: {:.4g} m3/h of soil in situ, "
+            "{:.4g} t/h of dry grains\n",
+            of, figures.section, figures.depth, 60.0 * figures.swing_speed, k_seconds_per_hour * figures.in_situ,
+            1e-3 * k_seconds_per_hour * figures.dry);
     };
     const CutFigures figures = cut_figures(study, contour);
     std::string text =
@@ -278,6 +284,7 @@ nlohmann::json bank_json(const Study& study, const geometry::Contour& contour) {
     if (!study.bank) return nullptr;
     const auto figures_json = [](const CutFigures& figures) {
         return nlohmann::json{{"cut_section_m2", figures.section},
+                              {"mean_depth_m", figures.depth},
                               {"swing_speed_m_s", figures.swing_speed},
                               {"in_situ_m3_s", figures.in_situ},
                               {"dry_kg_s", figures.dry}};

@@ -35,9 +35,10 @@ std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study&
 
 /// What a swing cuts.
 struct CutFigures {
-    double section = 0.0;      ///< A_cut [m2]
-    double in_situ = 0.0;      ///< volume flux of standing soil v_h A_cut [m3/s]
-    double dry = 0.0;          ///< mass flux of its grains [kg/s]
+    double section = 0.0;  ///< A_cut [m2]
+    double depth = 0.0;    ///< of the cut face below the ring plane, mean by what is cut [m]: the way that rock has to climb to the mouth
+    double in_situ = 0.0;  ///< volume flux of standing soil v_h A_cut [m3/s]
+    double dry = 0.0;      ///< mass flux of its grains [kg/s]
     double swing_speed = 0.0;  ///< [m/s]
 };
 /// \pre the study has a bank
