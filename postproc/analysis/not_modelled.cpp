@@ -14,7 +14,7 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
              ? "rock comes loose from the cut face ahead of the blades, as fast as the head swings; forces of cutting are not computed"
              : "rock is released loose between the blades; spillage by cutting (rock never taken into the head) is not counted"},
         {"bank and breach", scope.feels_bank
-                                ? "the bank stands still as the swings before left it; it does not breach"
+                                ? "the bank is as the swings before left it; it does not breach"
                                 : "no face confines the flow on the cut side; the open side lets rock out that a bank would hold back"},
         {"bed", scope.fed_by_layer
                     ? "what the swing before left comes in as a level layer of given thickness; it is not the rock that this run leaves"
@@ -23,7 +23,9 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
         {"hauling (swing motion)",
          scope.hauls ? "the head travels along a straight line at constant speed; the swing's arc and its ends are left out"
                      : "the head turns but does not travel; rock is not swept into the head by the swing"},
-        {"pick points and adapters", "only what the cutter's surface file contains; teeth missing there affect neither flow nor rock"},
+        {"pick points and adapters",
+         "water meets what the cutter's surface file contains; beside a bank rock does not pass between picks that it lacks "
+         "(bank.pick_length_m), without a bank it does"},
         {"lift and rock spin forces",
          "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source is valid for grains"},
         {"rock shape and breakage", "rocks are spheres that do not break; sizes are those of the feed"},
@@ -50,15 +52,22 @@ const std::string& scope_sentence(const Scope& scope) {
     static const std::string rock_at_bank =
         "This is spillage by mixing of loose rock in a turning head with imposed discharge beside a bank that stands still: cutting, "
         "hauling and continuous feed are not modelled, so this report names no best speed.";
+    static const std::string hauled_rock =
+        "This is spillage by mixing of loose rock in a turning head with imposed discharge that travels along its bank: cutting and "
+        "continuous feed are not modelled, so this report names no best speed.";
     static const std::string flow =
         "This is the flow of clear water through a turning head with imposed discharge, without bank, hauling and rock; it shows where "
         "water leaves the head, not how much rock would, and this report names no best speed.";
     static const std::string flow_at_bank =
         "This is the flow of clear water through a turning head with imposed discharge beside a bank that stands still, without hauling "
         "and rock; it shows where water leaves the head, not how much rock would, and this report names no best speed.";
-    if (!scope.with_rock) return scope.feels_bank ? flow_at_bank : flow;
+    static const std::string hauled_flow =
+        "This is the flow of clear water through a turning head with imposed discharge that travels along its bank, without rock; it shows "
+        "where water leaves the head, not how much rock would, and this report names no best speed.";
+    if (!scope.feels_bank) return scope.with_rock ? rock : flow;
+    if (!scope.with_rock) return scope.hauls ? hauled_flow : flow_at_bank;
     if (scope.fed_by_cutting) return scope.hauls ? hauled : cutting;
-    return scope.feels_bank ? rock_at_bank : rock;
+    return scope.hauls ? hauled_rock : rock_at_bank;
 }
 
 }  // namespace cutterflow::postproc

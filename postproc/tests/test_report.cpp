@@ -74,6 +74,18 @@ TEST(WriteReport, page_gives_the_answer_first_with_bounds_error_and_cost) {
     EXPECT_FALSE(contains(page, "is not finished"));
 }
 
+TEST(ScopeSentence, says_of_a_bank_that_it_stands_still_or_that_the_head_travels_along_it) {
+    for (const bool with_rock : {false, true})
+        for (const bool fed : {false, true}) {
+            if (fed && !with_rock) continue;
+            const std::string still = scope_sentence({with_rock, fed, true, false}), hauled = scope_sentence({with_rock, fed, true, true});
+            EXPECT_TRUE(contains(still, "stands still")) << still;
+            EXPECT_FALSE(contains(hauled, "stands still") || contains(hauled, "hauling")) << hauled;
+            EXPECT_TRUE(contains(hauled, "names no best speed")) << hauled;
+        }
+    EXPECT_FALSE(contains(scope_sentence({true, false}), "stands still")) << "without a bank";
+}
+
 // 10 kg/s are fed and 60 % of them delivered; the head holds 5 kg.
 TEST(WriteReport, of_a_fed_head_gives_production_and_spillage_with_interval_and_hold_up_first) {
     SmallRun run("report_fed");
