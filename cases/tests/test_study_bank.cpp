@@ -260,6 +260,12 @@ protected:
     std::filesystem::path file_;
 };
 
+TEST_F(SoilOfAFile, stands_beyond_the_picks) {
+    const std::string keys = with(box_between(Vec3(0.0, 0.41, -0.5), Vec3(0.8, 1.1, -0.02)));
+    EXPECT_TRUE(has(mistakes_of(keys), "whose picks stand out by 0.04 m"));
+    EXPECT_FALSE(has(mistakes_of(keys + "pick_length_m = 0.0\n"), "picks"));
+}
+
 TEST_F(SoilOfAFile, stands_in_the_place_of_the_computed_one) {
     const geometry::TriangleSurface box = box_between(Vec3(0.1, 0.6, -0.5), Vec3(0.8, 1.1, -0.05));
     const std::string keys = with(box);

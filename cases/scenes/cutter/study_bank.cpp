@@ -139,6 +139,10 @@ void check_soil_of_file(const ParameterValues& resolved, const Study& study, con
     else if (!(distance > profile.error))
         refuse(fmt::format("The soil comes within {:.3g} m of the head, whose contour is known to {:.3g} m", distance, profile.error),
                "Cut the soil back");
+    else if (!(distance > study.bank->pick_length))
+        refuse(fmt::format("The soil comes within {:.3g} m of the head, whose picks stand out by {:g} m (bank.pick_length_m)", distance,
+                           study.bank->pick_length),
+               "Cut the soil back, or give the picks their length");
     const Vec3 up(-std::cos(study.inclination), 0.0, std::sin(study.inclination));
     double top = -std::numeric_limits<double>::infinity();
     for (const Vec3& corner : soil.points) top = std::max(top, corner.dot(up));
