@@ -147,9 +147,7 @@ void add_clump_files(const RoomScene& scene, std::vector<CaseText>& files) {
 
 /// Of a preparation. A grain that moves as fast as k_rest_speed allows while it is slowed down lacks 1 % of its weight to balance.
 FoamDictionary calming_section(const RoomScene& scene) {
-    double smallest = scene.grains.front().smallest();
-    for (const RoomGrains& grains : scene.grains) smallest = std::min(smallest, grains.smallest());
-    const double gravity = scene.gravity.norm();
+    const double smallest = scene.smallest_grain(), gravity = scene.gravity.norm();
     return FoamDictionary().add("speed", std::sqrt(2.0 * k_calming_energy * gravity * smallest)).add("time", std::sqrt(smallest / gravity));
 }
 
@@ -164,7 +162,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
                               .add("interval", std::min(moves ? scene.run.longest_step : scene.bed_step, 1.0))
                               .add("retryInterval", k_retry)
                               .add("reach", 0.0));
-    if (!moves) rock.add("calming", calming_section(scene));
+    if (!moves && scene.gravity.norm() > 0.0) rock.add("calming", calming_section(scene));
     if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, piece))

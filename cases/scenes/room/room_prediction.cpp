@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -30,18 +29,6 @@ double mass_of(const PlacedGrain& grain) {
     return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
 }
 
-double largest_diameter(const RoomScene& scene) {
-    double largest = 0.0;
-    for (const RoomGrains& kind : scene.grains) largest = std::max(largest, kind.largest());
-    return largest;
-}
-
-double smallest_diameter(const RoomScene& scene) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const RoomGrains& kind : scene.grains) smallest = std::min(smallest, kind.smallest());
-    return smallest;
-}
-
 /// Terminal speed of the fastest grains in the medium [m/s]; 0 where none is heavier.
 double fall_speed(const RoomScene& scene) {
     double fastest = 0.0;
@@ -64,7 +51,7 @@ double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     double step = scene.run.longest_step;
     if (flow > 0.0) step = std::min(step, k_room_max_courant * cell / flow);
     if (grains > 0.0 && !scene.grains.empty()) {
-        const double width = coupling::mapping_width(scene.kernel, smallest_diameter(scene), cell);
+        const double width = coupling::mapping_width(scene.kernel, scene.smallest_grain(), cell);
         step = std::min(step, k_travel_share * width / grains);
     }
     return step;
@@ -160,7 +147,7 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
     std::vector<Mistake> warnings = meshing::room_mesh_warnings(*mesh);
     if (scene.grains.empty()) return warnings;
     for (const Mistake& warning : hindrance_warnings(values, !scene.preparation.empty())) warnings.push_back(warning);
-    const double largest = largest_diameter(scene);
+    const double largest = scene.largest_grain();
     std::vector<Opening> openings = floor_openings(values, scene);
     for (const Opening& bore : flow_bores(values, scene)) {
         openings.push_back(bore);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -442,17 +441,6 @@ private:
         return true;
     }
 
-    double largest_diameter() const {
-        double largest = 0.0;
-        for (const RoomGrains& grains : scene_.grains) largest = std::max(largest, grains.largest());
-        return largest;
-    }
-    double smallest_diameter() const {
-        double smallest = std::numeric_limits<double>::infinity();
-        for (const RoomGrains& grains : scene_.grains) smallest = std::min(smallest, grains.smallest());
-        return smallest;
-    }
-
     // -------------------------------------------------------------- solids
 
     void read_solid(const ParameterValues& values) {
@@ -571,7 +559,7 @@ private:
     }
 
     void require_opening(const std::optional<double>& opening, const std::string& name, const std::string& where) {
-        const double least = k_narrowest_opening * largest_diameter();
+        const double least = k_narrowest_opening * scene_.largest_grain();
         if (opening && *opening > 0.0 && *opening < least - k_tolerance)
             refuse(where, fmt::format("the opening of {} is {:g} m wide", name, *opening),
                    fmt::format("An opening below {:g} diameters of the largest grain ({:g} m) is plugged by an arch", k_narrowest_opening,
@@ -1120,7 +1108,7 @@ private:
                 refuse(values_.where(key), fmt::format("{} = {:g} in a run of {:g} s", key, values_.number(key), run.end),
                        fmt::format("A run has at most {:g} of them", k_most_outputs), "Write less often");
         const double fall =
-            scene_.grains.empty() || scene_.gravity.norm() == 0.0 ? 1.0 : std::sqrt(smallest_diameter() / scene_.gravity.norm());
+            scene_.grains.empty() || scene_.gravity.norm() == 0.0 ? 1.0 : std::sqrt(scene_.smallest_grain() / scene_.gravity.norm());
         scene_.bed_step = number_or(values_, "dem.longest_step_s", k_look_per_fall * fall);
         run.longest_step = std::min(scene_.bed_step, run.write_interval);
         run.seed = static_cast<std::uint64_t>(values_.integer("run.seed"));

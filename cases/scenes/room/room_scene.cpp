@@ -1,6 +1,7 @@
 #include "cases/scenes/room/room_scene.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "geometry/base/axis_frame.hpp"
 
@@ -61,6 +62,18 @@ double RoomGrains::mean_volume() const {
     for (const GrainClass& one : std::get<std::vector<GrainClass>>(sizes))
         grains_per_volume += one.mass_share / volume_of_sphere(one.diameter);
     return 1.0 / grains_per_volume;
+}
+
+double RoomScene::smallest_grain() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const RoomGrains& kind : grains) smallest = std::min(smallest, kind.smallest());
+    return smallest;
+}
+
+double RoomScene::largest_grain() const {
+    double largest = 0.0;
+    for (const RoomGrains& kind : grains) largest = std::max(largest, kind.largest());
+    return largest;
 }
 
 const RoomGrains* RoomScene::find_grains(const std::string& wanted) const {
