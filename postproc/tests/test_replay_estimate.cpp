@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -104,8 +106,7 @@ FedHead head(double fed, double delivered, double spilled, bool is_steady) {
     head.production.spilled = spilled;
     head.production.held = 2.0;
     head.production.is_steady = is_steady;
-    head.production.spillage_min = spilled / fed;
-    head.production.spillage_max = 1.0 - delivered / fed;
+    std::tie(head.production.spillage_min, head.production.spillage_max) = std::minmax({spilled / fed, 1.0 - delivered / fed});
     return head;
 }
 
@@ -122,6 +123,12 @@ TEST(FedReplays, say_how_many_have_settled_and_what_bounds_the_others) {
     const std::string text = replay_text(estimate_spillage({0.5, 0.4}, {}), fed);
     for (const char* part : {"settled in 1 of 2", "40.0 to 45.0 %", "cannot take what it cuts in 1 of 2"})
         EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(FedReplays, have_bounds_in_order_where_hold_up_falls) {
+    const FedReplays fed = fed_replays_of({head(20.0, 12.0, 10.0, false)});
+    const std::string text = replay_text(estimate_spillage({0.4}, {}), fed);
+    EXPECT_NE(text.find("40.0 to 50.0 %"), std::string::npos) << text;
 }
 
 TEST(FedReplays, have_no_bounds_where_all_have_settled) {
