@@ -16,10 +16,11 @@ function(cutterflow_for_developers name)
   endif()
 endfunction()
 
-# cutterflow_test(NAME LABEL unit SOURCES test_x.cpp ... LINKS lib ... [RANKS n] [ARGS ...]): one GoogleTest program, one CTest
-# entry. Labels: tree, unit, cli, mpi, liggghts, foam, coupled. With RANKS the program is started by mpirun and brings its own main.
+# cutterflow_test(NAME LABEL unit SOURCES test_x.cpp ... LINKS lib ... [RANKS n] [CORES n] [ARGS ...]): one GoogleTest program, one
+# CTest entry. Labels: tree, unit, cli, mpi, liggghts, foam, coupled. With RANKS the program is started by mpirun and brings its own
+# main. CORES: how many cores programs take that the test starts.
 function(cutterflow_test name)
-  cmake_parse_arguments(ARG "" "LABEL;RANKS;TIMEOUT" "SOURCES;LINKS;ARGS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL;RANKS;CORES;TIMEOUT" "SOURCES;LINKS;ARGS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   cutterflow_for_developers(${name})
   target_compile_options(${name} PRIVATE -Wall -Wextra)
@@ -31,6 +32,9 @@ function(cutterflow_test name)
     target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest GTest::gtest_main)
   endif()
   cutterflow_add_ctest(${name} ${ARG_LABEL} "${ARG_RANKS}" "${ARG_TIMEOUT}" $<TARGET_FILE:${name}> ${ARG_ARGS})
+  if(ARG_CORES)
+    set_tests_properties(${name} PROPERTIES PROCESSORS ${ARG_CORES})
+  endif()
 endfunction()
 
 # Registers a command as a CTest entry, on one rank or on several; Open MPI is told what a bare machine or a container needs.
@@ -44,6 +48,8 @@ function(cutterflow_add_ctest name label ranks timeout)
   if(NOT timeout)
     set(timeout 120)
   endif()
+  # Long tests start first.
+  set_tests_properties(${name} PROPERTIES COST ${timeout})
   if(CUTTERFLOW_SANITIZE)  # sanitizers make programs several times slower
     math(EXPR timeout "6 * ${timeout}")
   endif()
