@@ -58,7 +58,7 @@ void add_generate_cutter(CLI::App& app) {
     auto* command = app.add_subcommand("generate-cutter", "Write the STL of a parametric crown cutter.");
     const auto options = std::make_shared<GenerateOptions>();
     command->add_option("crown", options->crown, "TOML file of its sizes, as cases/examples/model_cutter/crown.toml")->required();
-    command->add_option("-o,--output", options->output, "STL file to write")->required();
+    command->add_option("-o,--output", options->output, "STL file to write")->required()->check(k_stl_name);
     command->callback([options] { generate(*options); });
 }
 

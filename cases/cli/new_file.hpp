@@ -1,9 +1,11 @@
 #pragma once
 /// \file Files that a command writes for the user.
+#include <cctype>
 #include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "geometry/base/error.hpp"
 
@@ -14,6 +16,15 @@ inline void require_new_file(const std::filesystem::path& file) {
     if (std::filesystem::exists(file))
         throw UserError(fmt::format("{} is there already", file.string()), "Nothing is overwritten", "Choose another name or remove it");
 }
+
+/// Of a file that is written as STL: another ending would name another format, and other programs would not read it.
+inline const CLI::Validator k_stl_name(
+    [](std::string& name) {
+        std::string ending = std::filesystem::path(name).extension().string();
+        for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return ending == ".stl" ? std::string() : name + " does not end with .stl, and an STL file is written";
+    },
+    "");
 
 /// \throws UserError  when two options name one place: the second would be written over the first
 inline void require_different_places(const char* option, const std::string& place, const char* other_option, const std::string& other) {

@@ -23,6 +23,9 @@ inline const CLI::Validator k_not_empty([](std::string& text) { return text.empt
 inline const CLI::Validator k_positive = number_that([](double value) { return value > 0.0; }, "a number above 0");
 inline const CLI::Validator k_not_negative = number_that([](double value) { return value >= 0.0; }, "a number from 0 on");
 
+/// Coordinates of an STL are single precision, and solids are machines.
+inline const CLI::Validator k_length = number_that([](double value) { return value <= 1e6; }, "a length of at most 1e6 m");
+
 inline const CLI::Validator k_angle_deg = number_that([](double value) { return std::abs(value) <= 360.0; }, "a number from -360 to 360");
 
 }  // namespace cutterflow::cli

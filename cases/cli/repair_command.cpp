@@ -100,7 +100,7 @@ void add_repair(CLI::App& app) {
         app.add_subcommand("repair", "Repair a cutter's surface into one watertight solid, or report where that is not possible.");
     const auto options = std::make_shared<RepairOptions>();
     command->add_option("cutter", options->input, "STL, OBJ or PLY file; it is not changed")->required();
-    command->add_option("-o,--output", options->output, "STL file to write, in metres")->required();
+    command->add_option("-o,--output", options->output, "STL file to write, in metres")->required()->check(k_stl_name);
     command->add_option("--unit", options->unit,
                         "Unit of length of the file (m, mm, cm, inch, ft); without it metres, millimetres or inches, the first that gives "
                         "a plausible size");

@@ -32,17 +32,20 @@ struct Solid {
 };
 
 void add_common_options(CLI::App& command, Solid& solid) {
-    command.add_option("--edge-m", solid.edge_length, "Longest edge of the surface's triangles")->required()->check(k_positive);
-    command.add_option("-o,--output", solid.output, "STL file to write")->required();
+    command.add_option("--edge-m", solid.edge_length, "Longest edge of the surface's triangles")
+        ->required()
+        ->check(k_positive)
+        ->check(k_length);
+    command.add_option("-o,--output", solid.output, "STL file to write")->required()->check(k_stl_name);
 }
 
 void add_pipe(CLI::App& app) {
     auto* command = app.add_subcommand("pipe", "A pipe about the z axis from z = 0 up; a rod when its inner radius is 0.");
     const auto pipe = std::make_shared<geometry::PipeParameters>();
     const auto solid = std::make_shared<Solid>();
-    command->add_option("--inner-radius-m", pipe->inner_radius, "Inner radius")->required();
-    command->add_option("--wall-m", pipe->wall, "Thickness of the wall")->required();
-    command->add_option("--length-m", pipe->length, "Length")->required();
+    command->add_option("--inner-radius-m", pipe->inner_radius, "Inner radius")->required()->check(k_length);
+    command->add_option("--wall-m", pipe->wall, "Thickness of the wall")->required()->check(k_length);
+    command->add_option("--length-m", pipe->length, "Length")->required()->check(k_length);
     add_common_options(*command, *solid);
     command->callback([pipe, solid] {
         pipe->edge_length = solid->edge_length;
@@ -54,9 +57,9 @@ void add_box(CLI::App& app) {
     auto* command = app.add_subcommand("box", "A box centred on the z axis, from z = 0 up.");
     const auto size = std::make_shared<Vec3>(Vec3::Zero());
     const auto solid = std::make_shared<Solid>();
-    command->add_option("--x-m", size->x(), "Length along x")->required();
-    command->add_option("--y-m", size->y(), "Length along y")->required();
-    command->add_option("--z-m", size->z(), "Length along z")->required();
+    command->add_option("--x-m", size->x(), "Length along x")->required()->check(k_length);
+    command->add_option("--y-m", size->y(), "Length along y")->required()->check(k_length);
+    command->add_option("--z-m", size->z(), "Length along z")->required()->check(k_length);
     add_common_options(*command, *solid);
     command->callback([size, solid] { write_solid(geometry::generate_box(*size, solid->edge_length), size->prod(), solid->output); });
 }
@@ -65,11 +68,13 @@ void add_funnel(CLI::App& app) {
     auto* command = app.add_subcommand("funnel", "A funnel about the z axis: its spout ends at z = 0, the cone is above it.");
     const auto funnel = std::make_shared<geometry::FunnelParameters>();
     const auto solid = std::make_shared<Solid>();
-    command->add_option("--inlet-radius-m", funnel->inlet_radius, "Inner radius of the cone's upper end")->required();
-    command->add_option("--outlet-radius-m", funnel->outlet_radius, "Inner radius of the cone's lower end and of the spout")->required();
-    command->add_option("--height-m", funnel->cone_height, "Height of the cone")->required();
-    command->add_option("--spout-m", funnel->spout_length, "Length of the spout")->capture_default_str();
-    command->add_option("--wall-m", funnel->wall, "Thickness of the wall along the radius")->required();
+    command->add_option("--inlet-radius-m", funnel->inlet_radius, "Inner radius of the cone's upper end")->required()->check(k_length);
+    command->add_option("--outlet-radius-m", funnel->outlet_radius, "Inner radius of the cone's lower end and of the spout")
+        ->required()
+        ->check(k_length);
+    command->add_option("--height-m", funnel->cone_height, "Height of the cone")->required()->check(k_length);
+    command->add_option("--spout-m", funnel->spout_length, "Length of the spout")->check(k_length)->capture_default_str();
+    command->add_option("--wall-m", funnel->wall, "Thickness of the wall along the radius")->required()->check(k_length);
     add_common_options(*command, *solid);
     command->callback([funnel, solid] {
         funnel->edge_length = solid->edge_length;
@@ -92,7 +97,7 @@ void add_backplate(CLI::App& app) {
     const auto pipe_length = std::make_shared<double>(0.0);
     const auto solid = std::make_shared<Solid>();
     const auto length = [command](const char* name, double& value, const char* help) {
-        command->add_option(name, value, help)->required()->check(k_positive);
+        command->add_option(name, value, help)->required()->check(k_positive)->check(k_length);
     };
     length("--radius-m", steel->plate_radius, "Radius of the plate");
     length("--thickness-m", steel->plate_thickness, "Thickness of the plate");
@@ -100,7 +105,8 @@ void add_backplate(CLI::App& app) {
     length("--mouth-radius-m", steel->mouth.radius, "Inner radius of mouth and pipe");
     command->add_option("--mouth-offset-m", steel->mouth.offset, "Distance of the mouth's centre from the axis")
         ->required()
-        ->check(k_not_negative);
+        ->check(k_not_negative)
+        ->check(k_length);
     command->add_option("--mouth-azimuth-deg", *azimuth_deg, "Azimuth of the mouth's centre")->check(k_angle_deg)->capture_default_str();
     length("--pipe-wall-m", steel->pipe_wall, "Thickness of the pipe's wall");
     length("--pipe-length-m", *pipe_length, "Length of the pipe above the plate");

@@ -431,6 +431,9 @@ TEST_F(Cli, generate_solid_writes_solids_of_known_volume_and_inspect_shows_them_
     }
     expect_refused(call({"generate-solid", "box", "--x-m", "0", "--y-m", "1", "--z-m", "1", "--edge-m", "1", "-o", "flat.stl"}), 2,
                    "length along x = 0 m. It must be above 0");
+    const Outcome huge = call({"generate-solid", "box", "--x-m", "1e39", "--y-m", "1", "--z-m", "2e6", "--edge-m", "1", "-o", "box.ply"});
+    for (const char* part : {"1e39 is not a length of at most 1e6 m", "2e6 is not a length", "box.ply does not end with .stl"})
+        expect_refused(huge, 2, part);
     write_file(folder_ / "study.toml", "[cutter]\nfile = \"box.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n");
     expect_refused(call({"check", "study.toml"}), 2, "box.stl: ");
 }
