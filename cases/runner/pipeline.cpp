@@ -288,8 +288,10 @@ StageOutcome Pipeline::make_case() {
         const geometry::TriangleSurface soil = bank_surface(study, head.size, contour);
         geometry::write_stl(soil, directory_.path() / names::bank_surface);
         written.emplace_back(names::bank_surface);
-        if (!study.feeds.empty()) walls_beside_steel.push_back(bank_contact_wall(study, head.size, contour, soil));
-        if (!study.feeds.empty() && study.bank->pick_length > 0.0) walls_beside_steel.push_back(pick_contact_wall(study, contour, cutter));
+        if (!study.feeds.empty()) {
+            walls_beside_steel.push_back(bank_contact_wall(study, head.size, contour, soil));
+            if (study.bank->adds_picks()) walls_beside_steel.push_back(pick_contact_wall(study, contour, cutter));
+        }
     }
     write_resolved_study(head.size);
     const Prediction prediction = predict(study, head.size, cutter, {settings_.ranks, machine_slowness()});

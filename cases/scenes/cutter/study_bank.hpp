@@ -23,7 +23,7 @@ geometry::TriangleSurface bank_surface(const Study& study, const HeadSize& size,
 MadeWall bank_contact_wall(const Study& study, const HeadSize& size, const geometry::Contour& contour,
                            const geometry::TriangleSurface& soil);
 
-/// What rock touches of the picks that the cutter's file does not have. \pre the study has a bank, whose pick length is above 0
+/// What rock touches of the picks that the cutter's file does not have. \pre the study has a bank that adds picks
 /// \throws UserError  when the cutter has no blades
 MadeWall pick_contact_wall(const Study& study, const geometry::Contour& contour, const geometry::TriangleSurface& cutter);
 

@@ -38,7 +38,7 @@ CaseInputs::Rock rock_of(const Study& study) {
         for (const FeedClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
     rock.contact = study.contact;
     rock.walls = standard_walls();
-    if (study.bank && study.bank->pick_length > 0.0) rock.walls.push_back(pick_wall());
+    if (study.bank && study.bank->adds_picks()) rock.walls.push_back(pick_wall());
     if (study.bank) rock.walls.push_back(bank_wall(hauling_of(study)));
     return rock;
 }
