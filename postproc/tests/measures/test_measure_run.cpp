@@ -247,6 +247,17 @@ TEST_F(MeasuredRun, tells_all_that_it_cannot_measure_at_once) {
     }
 }
 
+TEST_F(MeasuredRun, refuses_a_list_without_measures_and_writes_nothing) {
+    write(k_measures, "[]");
+    try {
+        write_measures(run_, {});
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_EQ(error.mistakes().front().what, "it names no measure");
+    }
+    EXPECT_FALSE(std::filesystem::exists(run_ / k_measure_results));
+}
+
 TEST_F(MeasuredRun, refuses_maps_of_more_cells_than_anyone_draws) {
     Grains two;
     two.add({0.0, 0.0, 0.0}, Vec3::Zero(), 0.1, k_density);
