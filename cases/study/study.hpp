@@ -90,8 +90,8 @@ struct Study {
         double cut_height = 0.0, step = 0.0, clearance = 0.0, pick_length = 0.0;  ///< [m]
         /// Whether picks stand on the blades that the cutter's file does not have.
         bool adds_picks() const { return pick_length > 0.0; }
-        double grain_density = 0.0;                                               ///< of the soil [kg/m3]
-        double porosity = 0.0;                                                    ///< of the soil
+        double grain_density = 0.0;                 ///< of the soil [kg/m3]
+        double porosity = 0.0;                      ///< of the soil
         std::optional<std::filesystem::path> file;  ///< the soil's surface, absolute; none: what earlier swings left
         bool hauls = false;                         ///< the run's frame travels with the head
         double bulking = 1.5;                       ///< volume of loose rock over that of soil
