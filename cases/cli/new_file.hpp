@@ -1,6 +1,5 @@
 #pragma once
 /// \file Files that a command writes for the user.
-#include <cctype>
 #include <filesystem>
 #include <string>
 
@@ -8,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/io/read_surface.hpp"
 
 namespace cutterflow::cli {
 
@@ -20,9 +20,7 @@ inline void require_new_file(const std::filesystem::path& file) {
 /// Of a file that is written as STL: another ending would name another format, and other programs would not read it.
 inline const CLI::Validator k_stl_name(
     [](std::string& name) {
-        std::string ending = std::filesystem::path(name).extension().string();
-        for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return ending == ".stl" ? std::string() : name + " does not end with .stl, and an STL file is written";
+        return geometry::extension_of(name) == ".stl" ? std::string() : name + " does not end with .stl, and an STL file is written";
     },
     "");
 

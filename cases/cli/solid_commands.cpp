@@ -31,6 +31,11 @@ struct Solid {
     std::string output;
 };
 
+/// A size that has to be given; the solid's generator knows whether it may be 0.
+void add_length(CLI::App& command, const char* name, double& value, const char* help) {
+    command.add_option(name, value, help)->required()->check(k_length);
+}
+
 void add_common_options(CLI::App& command, Solid& solid) {
     command.add_option("--edge-m", solid.edge_length, "Longest edge of the surface's triangles")
         ->required()
@@ -43,9 +48,9 @@ void add_pipe(CLI::App& app) {
     auto* command = app.add_subcommand("pipe", "A pipe about the z axis from z = 0 up; a rod when its inner radius is 0.");
     const auto pipe = std::make_shared<geometry::PipeParameters>();
     const auto solid = std::make_shared<Solid>();
-    command->add_option("--inner-radius-m", pipe->inner_radius, "Inner radius")->required()->check(k_length);
-    command->add_option("--wall-m", pipe->wall, "Thickness of the wall")->required()->check(k_length);
-    command->add_option("--length-m", pipe->length, "Length")->required()->check(k_length);
+    add_length(*command, "--inner-radius-m", pipe->inner_radius, "Inner radius");
+    add_length(*command, "--wall-m", pipe->wall, "Thickness of the wall");
+    add_length(*command, "--length-m", pipe->length, "Length");
     add_common_options(*command, *solid);
     command->callback([pipe, solid] {
         pipe->edge_length = solid->edge_length;
@@ -57,9 +62,9 @@ void add_box(CLI::App& app) {
     auto* command = app.add_subcommand("box", "A box centred on the z axis, from z = 0 up.");
     const auto size = std::make_shared<Vec3>(Vec3::Zero());
     const auto solid = std::make_shared<Solid>();
-    command->add_option("--x-m", size->x(), "Length along x")->required()->check(k_length);
-    command->add_option("--y-m", size->y(), "Length along y")->required()->check(k_length);
-    command->add_option("--z-m", size->z(), "Length along z")->required()->check(k_length);
+    add_length(*command, "--x-m", size->x(), "Length along x");
+    add_length(*command, "--y-m", size->y(), "Length along y");
+    add_length(*command, "--z-m", size->z(), "Length along z");
     add_common_options(*command, *solid);
     command->callback([size, solid] { write_solid(geometry::generate_box(*size, solid->edge_length), size->prod(), solid->output); });
 }
@@ -68,13 +73,11 @@ void add_funnel(CLI::App& app) {
     auto* command = app.add_subcommand("funnel", "A funnel about the z axis: its spout ends at z = 0, the cone is above it.");
     const auto funnel = std::make_shared<geometry::FunnelParameters>();
     const auto solid = std::make_shared<Solid>();
-    command->add_option("--inlet-radius-m", funnel->inlet_radius, "Inner radius of the cone's upper end")->required()->check(k_length);
-    command->add_option("--outlet-radius-m", funnel->outlet_radius, "Inner radius of the cone's lower end and of the spout")
-        ->required()
-        ->check(k_length);
-    command->add_option("--height-m", funnel->cone_height, "Height of the cone")->required()->check(k_length);
+    add_length(*command, "--inlet-radius-m", funnel->inlet_radius, "Inner radius of the cone's upper end");
+    add_length(*command, "--outlet-radius-m", funnel->outlet_radius, "Inner radius of the cone's lower end and of the spout");
+    add_length(*command, "--height-m", funnel->cone_height, "Height of the cone");
     command->add_option("--spout-m", funnel->spout_length, "Length of the spout")->check(k_length)->capture_default_str();
-    command->add_option("--wall-m", funnel->wall, "Thickness of the wall along the radius")->required()->check(k_length);
+    add_length(*command, "--wall-m", funnel->wall, "Thickness of the wall along the radius");
     add_common_options(*command, *solid);
     command->callback([funnel, solid] {
         funnel->edge_length = solid->edge_length;

@@ -34,12 +34,6 @@ constexpr double k_import_s_per_byte = 2e-6;
     throw UserError(std::vector<Mistake>{{file.string(), what, rule, remedy}});
 }
 
-std::string extension_of(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension;
-}
-
 std::string bytes_of(const fs::path& file) {
     if (!fs::exists(file)) refuse(file, "the file does not exist", k_formats, "Check the path");
     if (!fs::is_regular_file(file)) refuse(file, "this is not a file", k_formats, "Name the surface file itself");
@@ -199,6 +193,12 @@ void append(TriangleSurface& surface, const ImportedMesh& mesh, const fs::path& 
 }
 
 }  // namespace
+
+std::string extension_of(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension;
+}
 
 TriangleSurface read_surface(const fs::path& file) {
     const std::string extension = extension_of(file);

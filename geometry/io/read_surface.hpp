@@ -2,6 +2,7 @@
 /// \file Import of STL (ASCII and binary), OBJ and PLY.
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "geometry/io/length_unit.hpp"
 #include "geometry/surface/surface.hpp"
@@ -13,6 +14,9 @@ namespace cutterflow::geometry {
 /// not
 ///                    finite numbers
 TriangleSurface read_surface(const std::filesystem::path& file);
+
+/// The ending of a file's name with its dot, in lower case: it tells the format.
+std::string extension_of(const std::filesystem::path& file);
 
 struct ImportedSurface {
     TriangleSurface surface;  ///< [m]
