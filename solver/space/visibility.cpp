@@ -1,5 +1,6 @@
 #include "solver/space/visibility.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cutterflow::coupling {
@@ -10,6 +11,8 @@ constexpr double k_least_node_weight = 0.1;
 /// Stored hidden cells (4 bytes each) above which unused nodes are dropped, and as how many a triangle in a shadow map counts.
 constexpr std::size_t k_most_kept_cells = 32u << 20;
 constexpr std::size_t k_cells_per_shade = 2;
+/// Nodes used in so many of the last mesh positions stay.
+constexpr std::uint64_t k_newest = 2;
 /// After so many tries boxes of cells are asked whether all of them are in view only while this share of them was.
 constexpr int k_tries = 8;
 constexpr double k_least_left_out = 0.25;
@@ -74,9 +77,10 @@ CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
     }
 }
 
-Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames)
+Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, View view)
     : trees_(trees),
       frames_(frames),
+      view_(view),
       nodes_(trees.zones()),
       visible_(trees.cells().centres.size(), 1.0),
       hidden_(trees.cells().centres.size(), 0.0) {
@@ -129,50 +133,91 @@ void Visibility::look_from_point(const Vec3& position, double reach) {
 
 void Visibility::look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing) {
     const int level = static_cast<int>(std::lround(4.0 * std::log2(spacing)));
-    const double h = std::exp2(0.25 * level);
-    std::array<std::int64_t, 3> base;
-    Vec3 fraction;
-    for (int i = 0; i < 3; ++i) {
-        const double x = position[i] / h - k_lattice_offset[i];
-        base[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(x));
-        fraction[i] = x - std::floor(x);
-    }
-    std::array<Source, 9> sources;
-    std::size_t count = 0;
-    double sum = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        double weight = 1.0;
-        std::array<std::int64_t, 3> index = base;
-        for (int i = 0; i < 3; ++i) {
-            const bool upper = (corner >> i & 1) != 0;
-            weight *= upper ? fraction[i] : 1.0 - fraction[i];
-            if (upper) ++index[static_cast<std::size_t>(i)];
-        }
-        if (weight == 0.0) continue;
-        SamplePoint& point = node(steel, level, index, h);
-        measure_clearance(steel, point, reach + (point.position - position).norm());
-        weight *= seen_share(steel, position, clearance, h, point);
-        if (weight == 0.0) continue;
-        sources[count++] = {&point, weight};
-        sum += weight;
-    }
+    const bool is_blended = view_ == View::all_nodes;
+    const Sources sources =
+        is_blended ? all_nodes(steel, position, clearance, reach, level) : one_node(steel, position, clearance, reach, level);
     SamplePoint centre;
     centre.position = position;
-    if (sum < k_least_node_weight) {
-        sources[count++] = {&centre, k_least_node_weight - sum};
-        sum = k_least_node_weight;
+    const double least = is_blended ? k_least_node_weight : k_least_node_weight / static_cast<double>(sources.nodes.size());
+    const double missing = std::max(0.0, least - sources.sum), sum = sources.sum + missing;
+    for (std::size_t i = 0; i < sources.count; ++i) {
+        const Source& source = sources.nodes[i];
+        add_hidden(steel, *source.point, source.weight / sum, reach + (source.point->position - position).norm());
     }
-    for (std::size_t i = 0; i < count; ++i)
-        add_hidden(steel, *sources[i].point, sources[i].weight / sum, reach + (sources[i].point->position - position).norm());
+    if (missing > 0.0) add_hidden(steel, centre, missing / sum, reach);
     dim_touched();
     release(centre);
 }
 
-Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing) {
+/// Spacing of a lattice [m].
+double Visibility::spacing_of(int level) {
+    return std::exp2(0.25 * level);
+}
+
+/// The nodes about a point with their trilinear weights.
+std::array<Visibility::Corner, 8> Visibility::corners_around(const Vec3& position, double spacing) {
+    std::array<std::int64_t, 3> base;
+    Vec3 fraction;
+    for (int i = 0; i < 3; ++i) {
+        const double x = position[i] / spacing - k_lattice_offset[i];
+        base[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(x));
+        fraction[i] = x - std::floor(x);
+    }
+    std::array<Corner, 8> corners;
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+        corners[corner] = {base, 1.0};
+        for (int i = 0; i < 3; ++i) {
+            const bool upper = (corner >> i & 1) != 0;
+            corners[corner].weight *= upper ? fraction[i] : 1.0 - fraction[i];
+            if (upper) ++corners[corner].index[static_cast<std::size_t>(i)];
+        }
+    }
+    return corners;
+}
+
+Visibility::Sources Visibility::all_nodes(Zone steel, const Vec3& position, double clearance, double reach, int level) {
+    Sources sources;
+    for (const Corner& corner : corners_around(position, spacing_of(level))) {
+        if (corner.weight == 0.0) continue;
+        const Source source = source_at(steel, corner, position, clearance, reach, level);
+        if (source.weight == 0.0) continue;
+        sources.nodes[sources.count++] = source;
+        sources.sum += source.weight;
+    }
+    return sources;
+}
+
+Visibility::Sources Visibility::one_node(Zone steel, const Vec3& position, double clearance, double reach, int level) {
+    std::array<Corner, 8> corners = corners_around(position, spacing_of(level));
+    std::stable_sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.weight > b.weight; });
+    Source best{nullptr, 0.0};
+    for (const Corner& corner : corners) {
+        if (corner.weight <= best.weight) break;  // what it sees can only lower its weight
+        const Source source = source_at(steel, corner, position, clearance, reach, level);
+        if (source.weight > best.weight) best = source;
+    }
+    Sources sources;
+    if (best.point == nullptr) return sources;
+    sources.nodes[0] = best;
+    sources.count = 1;
+    sources.sum = best.weight;
+    return sources;
+}
+
+/// A node, its weight lowered by the share of the rock's surroundings that is hidden from it.
+Visibility::Source Visibility::source_at(Zone steel, const Corner& corner, const Vec3& position, double clearance, double reach,
+                                         int level) {
+    SamplePoint& point = node(steel, level, corner.index);
+    measure_clearance(steel, point, reach + (point.position - position).norm());
+    return {&point, corner.weight * seen_share(steel, position, clearance, spacing_of(level), point)};
+}
+
+Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::array<std::int64_t, 3>& index) {
     SamplePoint& point = nodes_[steel][key_of(level, index)];
     if (point.last_used == 0)
-        point.position = spacing * (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) +
-                                    k_lattice_offset);
+        point.position =
+            spacing_of(level) *
+            (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) + k_lattice_offset);
     point.last_used = stamp_;
     return point;
 }
@@ -280,16 +325,18 @@ void Visibility::release(SamplePoint& point) {
     drop_shadows(point);
 }
 
+/// Halves what is kept, or as near as it comes with all nodes of the last mesh positions: those unused for longest go first.
 void Visibility::drop_old_nodes() {
-    for (Lattice& lattice : nodes_)
-        for (auto i = lattice.begin(); i != lattice.end();) {
-            if (i->second.last_used + 2 >= stamp_) {
-                ++i;
-                continue;
+    for (std::uint64_t age = stamp_ / 2; kept_cells_ > k_most_kept_cells / 2 && age > k_newest; age /= 2)
+        for (Lattice& lattice : nodes_)
+            for (auto i = lattice.begin(); i != lattice.end();) {
+                if (i->second.last_used + age >= stamp_) {
+                    ++i;
+                    continue;
+                }
+                release(i->second);
+                i = lattice.erase(i);
             }
-            release(i->second);
-            i = lattice.erase(i);
-        }
 }
 
 }  // namespace cutterflow::coupling

@@ -45,17 +45,23 @@ private:
     std::vector<Vec3> centres_;
 };
 
+/// What of a lattice's nodes around a rock looks for it.
+enum class View : std::uint8_t {
+    all_nodes,  ///< all eight with trilinear weights: changes smoothly as the rock moves, as the fluid's equations ask for
+    one_node    ///< the one of the largest weight: changes with a jump, at an eighth of the lines of sight
+};
+
 /// Visible fraction of a rock from each cell around it.
 ///
-/// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: the eight nodes around its centre with
-/// trilinear weights, which change smoothly as the rock moves. A cell is hidden from a node when a triangle intersects the line
+/// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: at the eight nodes around its centre with
+/// trilinear weights, or at one of them. A cell is hidden from a node when a triangle intersects the line
 /// between them. Nodes, steel and cells of one zone do not move relative to each other, so a node's hidden cells are computed once and
 /// stored; those of other zones are computed for every mesh position. A node that is hidden from part of the rock's surroundings
 /// (beyond a blade, inside steel) loses weight in proportion to that part; the other nodes take it over. The visible fraction is the
 /// product over the steel of all zones. Without steel within reach all cells are visible.
 class Visibility {
 public:
-    Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames);
+    Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, View view = View::all_nodes);
 
     /// Sets the position of the mesh.
     void set_frames(const ZoneFrames& frames);
@@ -96,16 +102,30 @@ private:
         std::optional<ShadowMap> shadows{};  // of the steel that can hide listed cells
         std::uint64_t last_used = 0;
     };
+    struct Corner {
+        std::array<std::int64_t, 3> index;
+        double weight;
+    };
     struct Source {
         SamplePoint* point;
         double weight;
+    };
+    struct Sources {
+        std::array<Source, 8> nodes;
+        std::size_t count = 0;
+        double sum = 0.0;  // of the weights
     };
     using Lattice = std::unordered_map<std::uint64_t, SamplePoint>;
 
     void forget();
     void dim_touched();
     void look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing);
-    SamplePoint& node(Zone steel, int level, const std::array<std::int64_t, 3>& index, double spacing);
+    static double spacing_of(int level);
+    static std::array<Corner, 8> corners_around(const Vec3& position, double spacing);
+    Sources all_nodes(Zone steel, const Vec3& position, double clearance, double reach, int level);
+    Sources one_node(Zone steel, const Vec3& position, double clearance, double reach, int level);
+    Source source_at(Zone steel, const Corner& corner, const Vec3& position, double clearance, double reach, int level);
+    SamplePoint& node(Zone steel, int level, const std::array<std::int64_t, 3>& index);
     void measure_clearance(Zone steel, SamplePoint& point, double reach);
     void drop_shadows(SamplePoint& point);
     double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const SamplePoint& node) const;
@@ -118,6 +138,7 @@ private:
     const CellTrees& trees_;
     std::vector<SteelTree> steel_;
     ZoneFrames frames_;
+    View view_;
     std::uint64_t stamp_ = 1;
     std::vector<Lattice> nodes_;  // by the steel's zone
     std::size_t kept_cells_ = 0;

@@ -81,7 +81,8 @@ KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProp
       drag_(physics::find_drag_law(settings.closures.drag)),
       hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
       lift_(physics::find_lift_law(settings.closures.lift)),
-      mapping_(fluid.cells(), fluid.steel(), fluid.moving_zones(), settings.kernel, communicator),
+      mapping_(fluid.cells(), fluid.steel(), fluid.moving_zones(), settings.kernel, communicator,
+               fluid.feels_rock() ? View::all_nodes : View::one_node),
       interface_speed_(mapping_.sizes().interface_speed(fluid.moving_zones())),
       carry_(fluid.cells().centres.size(), Vec3::Zero()) {
     map_present_rock();
@@ -125,7 +126,7 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
 
-    replace_void_fraction();
+    if (fluid_.feels_rock()) replace_void_fraction();
     return rejected;
 }
 
@@ -142,7 +143,7 @@ void KernelCoupling::adopt_present_rock() {
         booked_.volume += volume;
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
-    replace_void_fraction();
+    if (fluid_.feels_rock()) replace_void_fraction();
 }
 
 void KernelCoupling::remove(gsl::span<const int> ids) {
@@ -160,13 +161,14 @@ void KernelCoupling::remove(gsl::span<const int> ids) {
         booked_.momentum -= properties_.density * volume * flow[p].velocity;
     }
     dem_.remove(ids);
-    replace_void_fraction();
+    if (fluid_.feels_rock()) replace_void_fraction();
 }
 
 void KernelCoupling::replace_void_fraction() {
     const std::vector<double> solid_fraction = spread_present_rock();
-    require_room(largest_of(solid_fraction, communicator_), settings_.kernel);
-    fluid_.reset_void_fraction(void_fraction_of(solid_fraction));
+    note_fullness(solid_fraction, largest_of(solid_fraction, communicator_));
+    void_fraction_new_ = void_fraction_of(solid_fraction);
+    fluid_.reset_void_fraction(void_fraction_new_);
 }
 
 /// \return solid fraction per cell of the rocks where they are
@@ -207,6 +209,7 @@ void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRoc
 }
 
 void KernelCoupling::sample() {
+    if (!fluid_.feels_rock()) replace_void_fraction();
     sample_with(present_, flow_);
 }
 
@@ -269,13 +272,6 @@ void KernelCoupling::require_all_rocks() const {
                         "Rock stays in the run or leaves it through the domain's boundary", "Report this as a defect"});
 }
 
-void KernelCoupling::map_one_way() {
-    const std::vector<double> solid_fraction = spread_present_rock();
-    void_fraction_new_ = void_fraction_of(solid_fraction);
-    check_ranges();
-    note_fullness(solid_fraction, largest_of(solid_fraction, communicator_));
-}
-
 /// \throws CheckFailure  when a cell has no room left
 void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, double largest) {
     const double limit = settings_.kernel.max_solid_fraction;
@@ -290,7 +286,7 @@ void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, do
 }
 
 void KernelCoupling::map() {
-    if (!fluid_.feels_rock()) return map_one_way();
+    if (!fluid_.feels_rock()) return check_ranges();
     const Rocks& rocks = dem_.rocks();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
     const double dt = fluid_.time_step();

@@ -49,7 +49,8 @@ public:
     void adopt_present_rock() override;
     void remove(gsl::span<const int> ids) override;
 
-    /// Samples the flow at every rock on the present mesh.
+    /// Samples the flow at every rock on the present mesh. What a flow that does not feel rock needs of it, the void fraction, is laid here,
+    /// once a step.
     void sample() override;
 
     /// Longest step [s] in which rock travels a quarter of its kernel width, relative to the cells of either zone, and in a flow that feels
@@ -59,8 +60,7 @@ public:
 
     const DemStep& move() override;
 
-    /// Builds both void fractions and the momentum exchange on the moved mesh; for a flow that does not feel rock the new void fraction
-    /// alone.
+    /// Builds both void fractions and the momentum exchange on the moved mesh; nothing for a flow that does not feel rock.
     void map() override;
 
     gsl::span<const double> void_fraction_old() const override { return void_fraction_old_; }
@@ -84,7 +84,6 @@ public:
 private:
     std::vector<double> spread_present_rock();
     void replace_void_fraction();
-    void map_one_way();
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
     void map_present_rock();

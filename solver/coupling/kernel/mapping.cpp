@@ -68,13 +68,13 @@ void Stencils::resize_entries(std::size_t count) {
 }
 
 Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
-                 Communicator& communicator)
+                 Communicator& communicator, View view)
     : moving_(moving.begin(), moving.end()),
       frames_(moving, 0.0),
       trees_(cells, frames_.zones()),
       boxes_(trees_, communicator),
       sizes_(cells, frames_.zones(), communicator),
-      visibility_(steel, trees_, frames_),
+      visibility_(steel, trees_, frames_, view),
       kernel_(kernel),
       communicator_(communicator),
       angles_(moving_.size(), 0.0) {

@@ -44,9 +44,10 @@ struct Stencils {
 /// messages between the ranks near to it.
 class Mapping {
 public:
-    /// Keeps references to the engine's arrays. The mesh is at its position at time 0.
+    /// Keeps references to the engine's arrays. The mesh is at its position at time 0. \param view  one node is enough where no fluid feels
+    /// the rock
     Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
-            Communicator& communicator);
+            Communicator& communicator, View view = View::all_nodes);
 
     /// Sets the mesh to its position at a time [s].
     void set_time(double time);

@@ -1,6 +1,7 @@
 // Mapping between rock and cells: volume, centroid, walls, blades, the rotor interface, ranks, redistribution.
 #include <functional>
 #include <numeric>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -50,8 +51,8 @@ Stencils stencils_of(Mapping& mapping, const TestRocks& rocks) {
 
 /// A mesh with its mapping, on one rank.
 struct Bench {
-    explicit Bench(SyntheticMesh m)
-        : mesh(std::move(m)), mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial) {}
+    explicit Bench(SyntheticMesh m, View view = View::all_nodes)
+        : mesh(std::move(m)), mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial, view) {}
     SyntheticMesh mesh;
     SerialCommunicator serial;
     Mapping mapping;
@@ -142,8 +143,11 @@ TEST(Mapping, gives_the_same_stencils_again_and_new_ones_to_rock_that_moved) {
     EXPECT_EQ(bench.build(TestRocks()).size(), 0u);
 }
 
+class FromNodes : public ::testing::TestWithParam<View> {};
+INSTANTIATE_TEST_SUITE_P(Views, FromNodes, ::testing::Values(View::all_nodes, View::one_node));
+
 /// What is kept of cells and nodes while rock travels and the mesh turns must not show in the result.
-TEST(Mapping, of_rock_that_travelled_is_that_of_rock_that_appeared) {
+TEST_P(FromNodes, rock_that_travelled_is_mapped_as_rock_that_appeared) {
     const auto mesh = [] {
         SyntheticMesh m;
         m.add_annulus(0.05, 0.2, 15, 90, -0.12, 0.12, 24, true);
@@ -152,7 +156,7 @@ TEST(Mapping, of_rock_that_travelled_is_that_of_rock_that_appeared) {
         m.add_sheet(Vec3(0.21, 0.02, -0.2), Vec3(0.1, 0.02, 0), Vec3(0, 0, 0.4), 20, 40, false);
         return m;
     };
-    Bench travelled(mesh());
+    Bench travelled(mesh(), GetParam());
     TestRocks rocks;
     for (int i = 0; i < 8; ++i) rocks.add(Vec3(0.1 + 0.015 * i, 0.02 + 0.002 * i, -0.05 + 0.01 * i), i % 2 == 0 ? 0.03 : 0.012);
     for (int step = 0; step < 60; ++step) {
@@ -161,7 +165,7 @@ TEST(Mapping, of_rock_that_travelled_is_that_of_rock_that_appeared) {
         travelled.mapping.set_time(angle);
         const Stencils found = travelled.build(rocks);
         if (step % 12 != 11) continue;
-        Bench fresh(mesh());
+        Bench fresh(mesh(), GetParam());
         fresh.mapping.set_time(angle);
         const Stencils expected = fresh.build(rocks);
         EXPECT_EQ(found.cell, expected.cell) << step;
@@ -185,10 +189,10 @@ SyntheticMesh bladed_box(double half, double dx, bool rotor_zone = false) {
     return mesh;
 }
 
-TEST(ThinBlade, has_nothing_behind_it) {
+TEST_P(FromNodes, a_thin_blade_has_nothing_behind_it) {
     const double d = 0.02;
     for (const double dx : {0.005, 0.01, 0.02}) {
-        Bench bench(bladed_box(0.2, dx));
+        Bench bench(bladed_box(0.2, dx), GetParam());
         for (const Vec3& x : {Vec3(-0.51 * d, 0, -0.15), Vec3(-0.6 * d, 0.033, -0.1501), Vec3(-1.3 * d, 0.01, -0.14)}) {
             const Stencils s = bench.build(one_rock(x, d));
             EXPECT_LE(bench.normalisation(s), 1e-12);
@@ -197,13 +201,13 @@ TEST(ThinBlade, has_nothing_behind_it) {
     }
 }
 
-TEST(ThinBlade, that_turns_has_nothing_behind_it_at_any_angle) {
+TEST_P(FromNodes, a_thin_blade_that_turns_has_nothing_behind_it_at_any_angle) {
     // Blade in the rotor, from the axis to the interface; rock on its leading side, cells of both zones around.
     SyntheticMesh mesh;
     mesh.add_annulus(0.02, 0.2, 18, 90, -0.15, 0.15, 30, true);
     mesh.add_annulus(0.2, 0.3, 10, 120, -0.15, 0.15, 30, false);
     mesh.add_sheet(Vec3(0.0, 0, -0.2), Vec3(0.195, 0, 0), Vec3(0, 0, 0.4), 20, 40, true);
-    Bench bench(std::move(mesh));
+    Bench bench(std::move(mesh), GetParam());
     for (const double angle : {0.0, 0.013, 0.4, 1.234, 3.0}) {
         bench.mapping.set_time(angle);
         const Vec3 x = rotate_about(RotationAxis{}, angle, Vec3(0.15, 0.012, 0.004));
@@ -220,6 +224,40 @@ TEST(ThinBlade, that_turns_has_nothing_behind_it_at_any_angle) {
         }
         EXPECT_TRUE(saw_stator);
     }
+}
+
+/// Of a flow that goes around the edge of a blade. A node is at most half a diagonal of the lattice, 0.8 sigma, from the rock, and only
+/// cells past the edge are judged otherwise from there.
+TEST(OneNode, samples_nearly_what_all_nodes_do) {
+    const double d = 0.02, half = 0.15;
+    Bench all(bladed_box(half, 0.01)), one(bladed_box(half, 0.01), View::one_node);
+    const auto flow = [](const Vec3& x) { return Vec3(-x[2], 0.0, x[0]); };
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-2.0 * d, 2.0 * d);
+    TestRocks rocks;
+    while (rocks.id.size() < 200) {
+        const Vec3 x(place(random), place(random), place(random));
+        if (x[2] > 0.5 * d || std::abs(x[0]) > 0.5 * d) rocks.add(x, d);  // outside the blade
+    }
+    const Stencils of_all = all.build(rocks), of_one = one.build(rocks);
+    EXPECT_LE(one.normalisation(of_one), 1e-12);
+    const auto sampled = [&](const Stencils& s, std::size_t p) {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = s.first[p]; i < s.first[p + 1]; ++i) {
+            const auto c = static_cast<std::size_t>(s.cell[i]);
+            sum += s.sample[i] * all.mesh.volumes[c] * flow(all.mesh.centres[c]);
+        }
+        return sum;
+    };
+    double squares = 0.0, largest = 0.0;
+    for (std::size_t p = 0; p < rocks.id.size(); ++p) {
+        const double difference = (sampled(of_one, p) - sampled(of_all, p)).norm();
+        squares += difference * difference;
+        largest = std::max(largest, difference);
+    }
+    EXPECT_GT(largest, 0.0);                                                        // they are not the same view
+    EXPECT_LE(std::sqrt(squares / static_cast<double>(rocks.id.size())), 0.1 * d);  // of a shear of 1/s
+    EXPECT_LE(largest, 0.5 * d);
 }
 
 /// Largest solid volume that moves between cells in one step along a path, over the rock's volume, and the largest change of a cell.

@@ -1,4 +1,5 @@
-// Cost of mapping 368 rocks on a mesh of the draft cutter's size: two stencils per step (old and new positions on the moved mesh).
+// Cost of mapping 368 rocks on a mesh of the draft cutter's size: two stencils per step (old and new positions on the moved mesh), and one
+// for each of a replay's longer steps.
 //   build/bin/bench_mapping
 #include <random>
 
@@ -62,7 +63,29 @@ void map_one_step(benchmark::State& state) {
     state.counters["tests_per_step"] = static_cast<double>(mapping.visibility().tests()) / static_cast<double>(steps);
     state.counters["nodes"] = static_cast<double>(mapping.visibility().kept_nodes());
 }
+
+/// range(0): cell size in the head [mm]; range(1): the View.
+void map_one_step_of_a_replay(benchmark::State& state) {
+    const testing::SyntheticMesh mesh = testing::draft_cutter(1e-3 * static_cast<double>(state.range(0)));
+    SerialCommunicator serial;
+    Mapping mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial, static_cast<View>(state.range(1)));
+    Batch batch(368);
+    const double dt = 3e-3, speed = rpm_to_rad_s(60.0);
+    double angle = 0.0;
+    Stencils stencils;
+    for (auto _ : state) {
+        for (std::size_t p = 0; p < batch.position.size(); ++p)
+            batch.position[p] = rotate_about(RotationAxis(), 0.5 * speed * dt, batch.position[p]) + dt * batch.velocity[p];
+        angle += speed * dt;
+        mapping.set_time(angle);
+        mapping.build(batch.shapes(), stencils);
+    }
+}
 BENCHMARK(map_one_step)->ArgsProduct({{4, 6, 12, 18}, {50, 90}})->Iterations(40)->Unit(benchmark::kMillisecond);
+BENCHMARK(map_one_step_of_a_replay)
+    ->ArgsProduct({{12, 18}, {static_cast<int>(View::all_nodes), static_cast<int>(View::one_node)}})
+    ->Iterations(40)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace cutterflow::coupling
