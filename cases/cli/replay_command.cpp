@@ -41,15 +41,15 @@ void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::
 
 }  // namespace
 
-std::string replay_lines(const std::vector<fs::path>& runs, const fs::path& study, int count, const fs::path& folder, bool resume) {
+ReplayAnswer replay_answer(const std::vector<fs::path>& runs, const fs::path& study, int count, const fs::path& folder, bool resume) {
     const cases::ReplaySettings settings{
         runs, study, count, folder, installation().programs / "cutterFoam", std::max(1, cases::available_cores()), resume};
     try {
-        const cases::ReplayResults results =
+        cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
-        const std::string text = postproc::replay_text(results.estimate, results.fed);
+        std::string text = postproc::replay_text(results.estimate, results.fed);
         require_weak_coupling(results.estimate, text, settings.folder);
-        return text;
+        return {std::move(results), std::move(text)};
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. Finished replays are kept in {}; repeat the command with --resume", interrupted.what(),
                                       settings.folder.string()));
@@ -72,8 +72,9 @@ void add_replay(CLI::App& app) {
     command->add_option("-o,--output", options->output, "Folder of the replays")->required();
     command->add_flag("--resume", options->resume, "Go on with a stopped call, or add placements to it");
     command->callback([options] {
-        std::cout << replay_lines({options->runs.begin(), options->runs.end()}, options->study, options->count, options->output,
-                                  options->resume);
+        std::cout << replay_answer({options->runs.begin(), options->runs.end()}, options->study, options->count, options->output,
+                                   options->resume)
+                         .lines;
     });
 }
 

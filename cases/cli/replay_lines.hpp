@@ -4,12 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "cases/replay/replay.hpp"
+
 namespace cutterflow::cli {
 
-/// Runs replays on all cores (cases::ReplaySettings has the parameters). \return the answer's lines
+struct ReplayAnswer {
+    cases::ReplayResults results;
+    std::string lines;
+};
+
+/// Runs replays on all cores (cases::ReplaySettings has the parameters).
 /// \throws CheckFailure  when rock changes the flow more than replays may leave out
 /// \throws Interrupted   with the way to go on
-std::string replay_lines(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& study, int count,
-                         const std::filesystem::path& folder, bool resume);
+ReplayAnswer replay_answer(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& study, int count,
+                           const std::filesystem::path& folder, bool resume);
 
 }  // namespace cutterflow::cli

@@ -15,8 +15,10 @@
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/cli/replay_lines.hpp"
+#include "cases/replay/replay.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/study/study.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter.hpp"
@@ -47,8 +49,15 @@ void require_known_axes(const std::vector<std::string>& words) {
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-/// \throws UserError  when the points would record no flow, or run elsewhere
+/// \throws UserError  when the points would record no flow, or run elsewhere, or have no one flow for another study's rock
 void require_recorded_points(const SweepOptions& options) {
+    Mistakes mistakes;
+    mistakes.require(options.replay_study.empty() || options.replays > 0, "--replay-study without --replay",
+                     "It names the study whose rock is replayed", "Add --replay N");
+    mistakes.require(options.replay_study.empty() || options.axes.repeats == 1,
+                     fmt::format("--replay-study with --repeats {}", options.axes.repeats),
+                     "Another study's rock is replayed in one flow of each setting", "Leave --repeats out");
+    mistakes.refuse();
     if (options.replays == 0) return;
     if (!kind_of_study(options.study).replays || options.launcher != "local" || options.emit)
         throw UserError("--replay with a study that is not a cutter's, --launcher slurm or --emit",
@@ -56,6 +65,16 @@ void require_recorded_points(const SweepOptions& options) {
     if (cases::read_study(options.study).number("run.record_revolutions") == 0.0)
         throw UserError({{options.study, "run.record_revolutions = 0 in a sweep with --replay",
                           "A replay needs the flow that its run recorded before the rock", "Set run.record_revolutions = 1"}});
+}
+
+/// \throws UserError  when the rock to be replayed does not fit the flow of a point
+void require_fitting_rock(const SweepOptions& options, const std::vector<cases::SweepPoint>& points) {
+    if (options.replay_study.empty()) return;
+    for (const cases::SweepPoint& point : points) {
+        const ParameterValues values = parse_parameters(cases::study_table(), point.text, point.name);
+        std::vector<Mistake> mistakes = cases::check_rock_study(values, options.replay_study);
+        if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    }
 }
 
 /// Repeats of one setting, by the name of the first.
@@ -69,13 +88,25 @@ std::map<std::string, std::vector<fs::path>> runs_by_setting(const std::vector<c
     return settings;
 }
 
-void replay_settings(const SweepOptions& options, const std::vector<cases::SweepPoint>& points, const std::vector<fs::path>& done,
-                     const fs::path& folder) {
+/// Replays every setting and writes replays.csv. \return what the settings lack whose replays tell nothing; they do not stop the others
+std::vector<std::string> replay_settings(const SweepOptions& options, const std::vector<cases::SweepPoint>& points,
+                                         const std::vector<fs::path>& done, const fs::path& folder) {
+    std::vector<cases::ReplayedSetting> settings;
+    std::vector<std::string> failures;
     for (const auto& [name, runs] : runs_by_setting(points, done)) {
         const fs::path replays = folder / ("replays_" + name);
         say(fmt::format("{}: {} replays in {}", name, options.replays, replays.string()));
-        std::cout << name << '\n' << replay_lines(runs, {}, options.replays, replays, fs::exists(replays));
+        try {
+            ReplayAnswer answer = replay_answer(runs, options.replay_study, options.replays, replays, fs::exists(replays));
+            std::cout << name << '\n' << answer.lines;
+            settings.push_back({name, std::move(answer.results)});
+        } catch (const CheckFailure& failure) {
+            failures.push_back(failure.what());
+        }
     }
+    write_file(folder / "replays.csv", cases::replays_csv(settings));
+    std::cout << fmt::format("the replays: {}\n", (folder / "replays.csv").string());
+    return failures;
 }
 
 /// \param words  that belong to no option
@@ -91,6 +122,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     mistakes.gather([&] { cases::require_sweep_folder(folder, options.resume); });
     mistakes.gather([&] { points = kind_of_study(options.study).points(options, folder); });
     mistakes.gather([&] { require_recorded_points(options); });
+    mistakes.gather([&] { require_fitting_rock(options, points); });
     mistakes.refuse();
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
     const cases::SweepSettings settings{folder,         installation().programs / "cutterflow",
@@ -120,12 +152,15 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     if (outcome.done.size() > 1)
         std::cout << fmt::format("the comparison: {}\n",
                                  kind_of_study(options.study).write_comparison(outcome.done, folder / "comparison").string());
-    if (options.replays > 0) replay_settings(options, points, outcome.done, folder);
+    std::vector<std::string> failures;
+    if (options.replays > 0) failures = replay_settings(options, points, outcome.done, folder);
     if (!outcome.failed.empty()) {
-        std::vector<Mistake> failures;
-        for (const std::string& text : outcome.failed) failures.push_back({"", text, "", ""});
-        throw ToolError(failures);
+        failures.insert(failures.begin(), outcome.failed.begin(), outcome.failed.end());
+        std::vector<Mistake> mistakes_of_points;
+        for (const std::string& text : failures) mistakes_of_points.push_back({"", text, "", ""});
+        throw ToolError(mistakes_of_points);
     }
+    if (!failures.empty()) throw CheckFailure({"", fmt::format("{}", fmt::join(failures, "\n")), "", ""});
 }
 
 void compare(const CompareOptions& options) {
@@ -158,6 +193,8 @@ void add_sweep(CLI::App& app) {
         ->add_option("--replay", options->replays,
                      "Placements of rock in the flow that each setting recorded, after its runs: spillage with its interval")
         ->check(CLI::Range(1, 1000));
+    command->add_option("--replay-study", options->replay_study,
+                        "Study whose rock --replay places in those flows, in place of the sweep's own");
     command->add_option("-o,--output", options->output, "Folder of the sweep; default runs/<name of the study file>_sweep");
     command->add_option("--ranks", options->ranks, "Processes per run; runs execute in parallel up to the available cores")
         ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <thread>
 
 #include <fmt/format.h>
@@ -98,19 +99,34 @@ ParameterTable rock_study_table(const ParameterValues& recorded) {
     return table;
 }
 
+/// The steel is the run's own copy; a study names the file that it was made from, relative to itself.
+void make_cutter_absolute(ParameterValues& values, const fs::path& file) {
+    if (values.has("cutter.file"))
+        values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
+}
+
+/// What is wrong with a study whose rock is replayed in a recorded flow.
+std::vector<Mistake> rock_study_mistakes(const ParameterValues& recorded, const ParameterValues& values, const fs::path& file) {
+    Mistakes mistakes(file.string());
+    mistakes.add(check_same_flow(recorded, values, file));
+    mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
+    return mistakes.take();
+}
+
+/// Takes what belongs to the recorded flow.
+void take_flow(const ParameterValues& recorded, ParameterValues& values) {
+    for (const Parameter& parameter : study_table())
+        if (belongs_to_flow(parameter, recorded) && recorded.has(parameter.key)) values.set(parameter.key, *recorded.find(parameter.key));
+}
+
 /// The rock of another study in a run's flow.
 void take_study(RecordedRun& run, const fs::path& file) {
     ParameterValues values = read_parameters(rock_study_table(run.values), file);
-    // The steel is the run's own copy; a study names the file that it was made from, relative to itself.
-    if (values.has("cutter.file"))
-        values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
+    make_cutter_absolute(values, file);
     Mistakes mistakes(file.string());
-    mistakes.add(check_same_flow(run.values, values, file));
-    for (const Parameter& parameter : study_table())
-        if (belongs_to_flow(parameter, run.values) && run.values.has(parameter.key))
-            values.set(parameter.key, *run.values.find(parameter.key));
+    mistakes.add(rock_study_mistakes(run.values, values, file));
+    take_flow(run.values, values);
     mistakes.add(check_file_rules(values, file));
-    mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
     mistakes.refuse();
     run.values = resolve_study(values, run.head.size);
 }
@@ -293,16 +309,17 @@ nlohmann::json fed_json(const std::optional<postproc::FedReplays>& fed) {
             {"spillage_min", fed->spillage_min}};
 }
 
+double cost_of(const std::vector<Replay>& replays) {
+    return std::accumulate(replays.begin(), replays.end(), 0.0, [](double sum, const Replay& replay) { return sum + replay.core_s; });
+}
+
 void write_results(const fs::path& folder, const ReplayResults& results) {
     std::string csv =
         "name,run,same_placement_as_run,seed,start_revolution,spillage,undecided,core_s,spillage_min,half_interval_95,hold_up_kg,"
         "is_steady,head_is_full\n";
-    double core_s = 0.0;
-    for (const Replay& replay : results.replays) {
+    for (const Replay& replay : results.replays)
         csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
                            replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s, fed_columns(replay.fed));
-        core_s += replay.core_s;
-    }
     write_file(folder / "replays.csv", csv);
     const postproc::ReplayEstimate& estimate = results.estimate;
     const nlohmann::json json{{"schema", "cutterflow.replays/1"},
@@ -317,7 +334,7 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
                                 {"mean", estimate.corrections.mean},
                                 {"half_interval_95", optional_json(estimate.correction_interval)}}},
                               {"fed", fed_json(results.fed)},
-                              {"core_s", core_s}};
+                              {"core_s", cost_of(results.replays)}};
     write_file(folder / "replays.json", json.dump(2) + "\n");
 }
 
@@ -333,6 +350,33 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
                             "Give the run's value, or run the study itself"});
     }
     return mistakes;
+}
+
+std::vector<Mistake> check_rock_study(ParameterValues planned, const fs::path& study) {
+    ParameterValues values = read_parameters(rock_study_table(planned), study);
+    make_cutter_absolute(values, study);
+    if (values.has("cutter.file")) planned.set("cutter.file", values.text("cutter.file"));
+    std::vector<Mistake> mistakes = rock_study_mistakes(planned, values, study);
+    take_flow(planned, values);
+    for (Mistake& mistake : check_file_rules(values, study)) mistakes.push_back(std::move(mistake));
+    return mistakes;
+}
+
+std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
+    std::string csv = "setting,placements,spillage,half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,core_s\n";
+    const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string(); };
+    for (const ReplayedSetting& setting : settings) {
+        const ReplayResults& results = setting.results;
+        const postproc::ReplayEstimate& estimate = results.estimate;
+        csv += fmt::format("{},{},{:.6g},{},", setting.name, estimate.replays.count, estimate.spillage,
+                           cell(estimate.corrections.count == 0 ? estimate.replay_interval : estimate.interval));
+        if (const auto& fed = results.fed)
+            csv += fmt::format("{:.6g},{:.6g},{:.6g},{},{}", fed->spillage_min, fed->fed, fed->held, fed->steady, fed->full);
+        else
+            csv += ",,,,";
+        csv += fmt::format(",{:.6g}\n", cost_of(results.replays));
+    }
+    return csv;
 }
 
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say) {

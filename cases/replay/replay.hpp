@@ -46,10 +46,24 @@ struct ReplayResults {
 /// are resolved. \param file  of the study, for messages
 std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const std::filesystem::path& file);
 
+/// Mistakes of a study whose rock is to be replayed in the flow of a study that has not run yet. The cutter's file is not compared.
+/// \throws UserError  as read_parameters
+std::vector<Mistake> check_rock_study(ParameterValues planned, const std::filesystem::path& study);
+
 /// Runs every replay and writes replays.csv and replays.json into the folder.
 /// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, and as RunDirectory
 /// \throws ToolError    when a replay fails
 /// \throws Interrupted  when the user stops it; finished replays are kept
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);
+
+/// One setting of a sweep and its replays.
+struct ReplayedSetting {
+    std::string name;
+    ReplayResults results;
+};
+
+/// One line per setting: spillage with half its 95 % interval, and of a head that is fed all the time the rate of the feed, hold-up, in how
+/// many placements it has settled and in how many the head is full. Cost [core s]. Empty cells: of a batch, or not known.
+std::string replays_csv(const std::vector<ReplayedSetting>& settings);
 
 }  // namespace cutterflow::cases

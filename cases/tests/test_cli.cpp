@@ -608,6 +608,19 @@ TEST_F(Cli, names_all_wrong_options_of_a_sweep_at_once) {
     EXPECT_FALSE(fs::exists(folder_ / "my sweep"));
 }
 
+TEST_F(Cli, looks_at_rock_to_be_replayed_before_a_sweep_runs) {
+    study("[run]\nrecord_revolutions = 1\n[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\n");
+    write_file(folder_ / "rock.toml", "[rotor]\nspeed_rpm = 50\n[swing]\ndirection = \"under_cut\"\n");
+    const Outcome options = call({"sweep", "study.toml", "--repeats", "2", "--replay-study", "rock.toml", "-o", "sweep"});
+    expect_refused(options, 2, "--replay-study without --replay");
+    expect_contains(options.text, "--replay-study with --repeats 2");
+    const Outcome rock = call({"sweep", "study.toml", "--rpm", "45", "--replay", "3", "--replay-study", "rock.toml", "-o", "sweep"});
+    expect_refused(rock, 2, "rotor.speed_rpm = 50. A replay takes the flow as the run recorded it, with 45");
+    expect_contains(rock.text, "no [[feed]]");
+    expect_refused(call({"sweep", "study.toml", "--replay", "3", "--replay-study", "none.toml", "-o", "sweep"}), 2, "none.toml");
+    EXPECT_FALSE(fs::exists(folder_ / "sweep"));
+}
+
 TEST_F(Cli, names_a_calibration_without_a_folder_beside_the_mistakes_of_its_file) {
     write_file(folder_ / "calibration.toml", "study = [\"absent.toml\"]\n[budget]\nruns = 0\n");
     const Outcome outcome = call({"calibrate", "calibration.toml"});

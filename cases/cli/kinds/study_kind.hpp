@@ -54,7 +54,8 @@ struct SweepOptions {
     bool resume = false;
     std::string launcher = "local";
     bool emit = false;
-    int replays = 0;  ///< of every setting; 0: none
+    int replays = 0;           ///< of every setting; 0: none
+    std::string replay_study;  ///< whose rock is replayed; empty: the study's own
 };
 
 struct CompareOptions {
