@@ -8,6 +8,9 @@
 namespace cutterflow::coupling {
 namespace {
 
+/// Phases of the still cells that a step passes at most.
+constexpr double k_phases_per_step = 2.0;
+
 Vec3 between(const std::vector<float>& values, std::size_t before, std::size_t after, double share) {
     const Eigen::Map<const Eigen::Vector3f> first(&values[before]), second(&values[after]);
     return (1.0 - share) * first.cast<double>() + share * second.cast<double>();
@@ -21,7 +24,7 @@ Vec3 between(const std::vector<float>& values, std::size_t before, std::size_t a
 
 FrozenFluid::FrozenFluid(FlowRecording recording, const ClockTimes& times)
     : recording_(std::move(recording)),
-      clock_(times, 2.0 * k_pi / (recording_.blades * recording_.phases * std::abs(recording_.moving.front().speed))),
+      clock_(times, k_phases_per_step * 2.0 * k_pi / (recording_.blades * recording_.phases * std::abs(recording_.moving.front().speed))),
       velocity_(recording_.cells.size()),
       acceleration_(recording_.cells.size()),
       void_fraction_(recording_.cells.size(), 1.0),

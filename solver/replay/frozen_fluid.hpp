@@ -21,7 +21,7 @@ public:
     std::string time_name() const override { return clock_.time_name(); }
     double time_step() const override { return clock_.step(); }
     bool running() override { return clock_.running(); }
-    /// The step is at most one phase of the still cells, the shorter ones.
+    /// The step is at most two phases of the still cells, the shorter ones.
     void begin_step(double travel_limit, double stop_time) override { clock_.advance(travel_limit, stop_time); }
     /// Zero: nothing asks where rock was swept away by steel.
     gsl::span<const double> wall_retreat() const override { return zero_; }

@@ -16,8 +16,10 @@ namespace {
 /// as in a gas): with A = alpha + K dt, velocities follow roots of magnitude sqrt(K dt / A), for half of it below sqrt(1/2).
 constexpr double k_carry_share = 0.5;
 
-/// Rock and interface travel at most this share of the kernel width per step.
+/// Rock and interface travel at most this share of the kernel width per step: where the fluid feels rock, so that its fields are smooth in
+/// time, and where it does not, so that the flow a rock feels hardly changes in a step.
 constexpr double k_travel_share = 0.25;
+constexpr double k_travel_share_one_way = 0.5;
 
 /// Walls take the rock that they sweep from a cell itself up to this share of the cell's volume, so that the cell keeps fluid.
 constexpr double k_swept_share = 0.25;
@@ -215,6 +217,7 @@ void KernelCoupling::sample() {
 
 double KernelCoupling::travel_limit() const {
     const Rocks& rocks = dem_.rocks();
+    const double share = fluid_.feels_rock() ? k_travel_share : k_travel_share_one_way;
     double limit = std::numeric_limits<double>::infinity();
     for (const std::size_t p : present_.shared.near()) {
         Vec3 cell_velocity = Vec3::Zero();
@@ -224,7 +227,7 @@ double KernelCoupling::travel_limit() const {
         }
         double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
         if (fluid_.feels_rock()) speed = std::max(speed, interface_speed_);
-        if (speed > 0.0) limit = std::min(limit, k_travel_share * present_.width[p] / speed);
+        if (speed > 0.0) limit = std::min(limit, share * present_.width[p] / speed);
     }
     double least = -limit;
     communicator_.max(gsl::span<double>(&least, 1));

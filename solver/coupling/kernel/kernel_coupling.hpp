@@ -49,13 +49,13 @@ public:
     void adopt_present_rock() override;
     void remove(gsl::span<const int> ids) override;
 
-    /// Samples the flow at every rock on the present mesh. What a flow that does not feel rock needs of it, the void fraction, is laid here,
-    /// once a step.
+    /// Samples the flow at every rock on the present mesh. What a flow that does not feel rock needs of it, the void fraction, is laid
+    /// here, once a step.
     void sample() override;
 
-    /// Longest step [s] in which rock travels a quarter of its kernel width, relative to the cells of either zone, and in a flow that feels
-    /// rock the rotor interface a quarter of the narrowest; infinity without rock. Kernels are at least 1.5 cells wide, and what moves with
-    /// the rock is smooth on them.
+    /// Longest step [s] in which rock travels a quarter of its kernel width, relative to the cells of either zone, and the rotor interface
+    /// a quarter of the narrowest; in a flow that does not feel rock, rock half of its width. Infinity without rock. Kernels are at
+    /// least 1.5 cells wide, and what moves with the rock is smooth on them.
     double travel_limit() const override;
 
     const DemStep& move() override;

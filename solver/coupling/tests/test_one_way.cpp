@@ -91,7 +91,7 @@ TEST(OneWay, the_step_follows_the_kernel) {
     FrozenFluid frozen(uniform_stream(testing::box(0.06, 0.004)), {0.0, 1.0, {}});
     Follower follower(frozen);
     for (int i = 0; i < 20; ++i) follower.step();
-    const double by_kernel = 0.25 * k_diameter / follower.dem.rocks().velocity[0].norm();  // gamma is 1
+    const double by_kernel = 0.5 * k_diameter / follower.dem.rocks().velocity[0].norm();  // gamma is 1
     EXPECT_NEAR(follower.coupling.travel_limit(), by_kernel, 1e-9 * by_kernel);
 }
 
