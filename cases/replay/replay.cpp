@@ -161,6 +161,15 @@ fs::path cost_file(const fs::path& folder) {
     return folder / "postProcessing" / "cost" / "0" / "cost.json";
 }
 
+/// What a replay found that is too short to tell a production.
+std::string no_window_text(const fs::path& folder) {
+    const postproc::Table ledger = postproc::read_ledger(folder);
+    if (ledger.empty()) return "no rock was fed";
+    const auto last = [&](const char* column) { return ledger.number(column).back(); };
+    return fmt::format("no whole revolution is left after the start-up: of {:.3g} kg {:.3g} kg are delivered and {:.3g} kg in the head",
+                       last("fed_kg"), last("delivered_kg"), last("in_head_kg"));
+}
+
 void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
     const postproc::Table fates = postproc::read_fates(folder);
     const postproc::SpillageRatios ratios = postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1));
@@ -168,7 +177,7 @@ void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
     if (study.is_fed_by_cutting()) {
         replay.fed = postproc::fed_head_of(postproc::read_ledger(folder), study.period(), study.period() / run.head.size.blades);
         if (!replay.fed)
-            throw CheckFailure({folder.string(), "no whole revolution is left after the start-up",
+            throw CheckFailure({folder.string(), no_window_text(folder),
                                 "Production is told over whole revolutions once the head has filled", "Raise run.max_revolutions"});
         replay.spillage = replay.fed->production.undelivered;
     } else {
@@ -290,13 +299,17 @@ nlohmann::json optional_json(const std::optional<double>& value) {
     return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
-/// Bound, interval of the run itself, hold-up and what was found; empty for a batch.
+std::string loss_columns(const postproc::Losses& losses) {
+    return fmt::format("{:.6g},{:.6g},{:.6g}", losses.mixing, losses.cutting, losses.left_behind);
+}
+
+/// Bound, interval of the run itself, hold-up, what was found and losses; empty for a batch.
 std::string fed_columns(const std::optional<postproc::FedHead>& fed) {
-    if (!fed) return ",,,,";
+    if (!fed) return ",,,,,,,";
     const Production& production = fed->production;
     const std::string interval = production.share ? fmt::format("{:.6g}", production.share->half_interval) : "";
-    return fmt::format("{:.6g},{},{:.6g},{},{}", production.spillage_min, interval, production.held, production.is_steady ? 1 : 0,
-                       fed->is_full ? 1 : 0);
+    return fmt::format("{:.6g},{},{:.6g},{},{},{}", production.spillage_min, interval, production.held, production.is_steady ? 1 : 0,
+                       fed->is_full ? 1 : 0, loss_columns(fed->losses));
 }
 
 /// Null for batches.
@@ -306,6 +319,9 @@ nlohmann::json fed_json(const std::optional<postproc::FedReplays>& fed) {
             {"hold_up_kg", fed->held},
             {"settled", fed->steady},
             {"head_is_full", fed->full},
+            {"spilled_mixing", fed->losses.mixing},
+            {"spilled_cutting", fed->losses.cutting},
+            {"left_behind", fed->losses.left_behind},
             {"spillage_min", fed->spillage_min}};
 }
 
@@ -316,7 +332,7 @@ double cost_of(const std::vector<Replay>& replays) {
 void write_results(const fs::path& folder, const ReplayResults& results) {
     std::string csv =
         "name,run,same_placement_as_run,seed,start_revolution,spillage,undecided,core_s,spillage_min,half_interval_95,hold_up_kg,"
-        "is_steady,head_is_full\n";
+        "is_steady,head_is_full,spilled_mixing,spilled_cutting,left_behind\n";
     for (const Replay& replay : results.replays)
         csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
                            replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s, fed_columns(replay.fed));
@@ -363,7 +379,10 @@ std::vector<Mistake> check_rock_study(ParameterValues planned, const fs::path& s
 }
 
 std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
-    std::string csv = "setting,placements,spillage,half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,core_s\n";
+    std::string csv =
+        "setting,placements,spillage,half_interval_95,own_half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,spilled_"
+        "mixing,spilled_cutting,"
+        "left_behind,core_s\n";
     const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string(); };
     for (const ReplayedSetting& setting : settings) {
         const ReplayResults& results = setting.results;
@@ -371,9 +390,10 @@ std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
         csv += fmt::format("{},{},{:.6g},{},", setting.name, estimate.replays.count, estimate.spillage,
                            cell(estimate.corrections.count == 0 ? estimate.replay_interval : estimate.interval));
         if (const auto& fed = results.fed)
-            csv += fmt::format("{:.6g},{:.6g},{:.6g},{},{}", fed->spillage_min, fed->fed, fed->held, fed->steady, fed->full);
+            csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{},{},{}", cell(fed->own_interval), fed->spillage_min, fed->fed, fed->held,
+                               fed->steady, fed->full, loss_columns(fed->losses));
         else
-            csv += ",,,,";
+            csv += ",,,,,,,,";
         csv += fmt::format(",{:.6g}\n", cost_of(results.replays));
     }
     return csv;

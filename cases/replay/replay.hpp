@@ -63,7 +63,8 @@ struct ReplayedSetting {
 };
 
 /// One line per setting: spillage with half its 95 % interval, and of a head that is fed all the time the rate of the feed, hold-up, in how
-/// many placements it has settled and in how many the head is full. Cost [core s]. Empty cells: of a batch, or not known.
+/// many placements it has settled and in how many the head is full, and what was lost. Cost [core s]. Empty cells: of a batch, or not
+/// known.
 std::string replays_csv(const std::vector<ReplayedSetting>& settings);
 
 }  // namespace cutterflow::cases

@@ -179,44 +179,45 @@ std::vector<QuantityRule> fed_rules() {
             return value > 0.0 ? plain(value) : Estimate{};
         };
     };
-    return {{"cut_height_m", "height of the bank", "m", false, of_point(&OperatingPoint::cut_height)},
-            {"step_m", "step", "m", false, of_point(&OperatingPoint::step)},
-            {"pipe_velocity_m_s", "speed in the suction mouth", "m/s", false,
-             [](const ComparedRun& r) { return plain(r.results.delivery.pipe_velocity); }},
-            {"settling_number", "settling number u_t / (Q / (π R²))", "-", false,
-             [](const ComparedRun& r) { return plain(settling_number(r)); }},
-            {"cut_in_situ_m3_h", "cut, soil in situ", "m³/h", true, of_work([](const Dredging& work) {
-                 return work.cut_in_situ ? std::optional<double>(3600.0 * *work.cut_in_situ) : std::nullopt;
-             })},
-            {"spilled_mixing_share", "spilled by mixing / fed", "-", true, of_work([](const Dredging& work) { return work.mixing; })},
-            {"spilled_cutting_share", "spilled by cutting / fed", "-", true, of_work([](const Dredging& work) { return work.cutting; })},
-            {"left_behind_share", "left behind / fed", "-", true, of_work([](const Dredging& work) { return work.left_behind; })},
-            {"concentration", "delivered rock in the mixture, by volume", "-", true,
-             of_work([](const Dredging& work) { return work.concentration; })},
-            {"mixture_density_kg_m3", "density of the mixture", "kg/m³", true,
-             of_work([](const Dredging& work) { return work.mixture_density; })},
-            {"spill_layer_m", "layer that the spillage leaves", "m", true, of_work([](const Dredging& work) { return work.spill_layer; })},
-            {"cutting_torque_n_m", "torque of cutting, from the specific energy", "N m", true,
-             [](const ComparedRun& r) {
-                 if (!r.results.dredging || !r.results.dredging->cutting_power) return Estimate{};
-                 return plain(*r.results.dredging->cutting_power / r.run.operating_point.angular_speed());
-             }},
-            {"energy_in_situ_j_m3", "energy for flow and rock per delivered m³ in situ", "J/m³", true,
-             of_work([](const Dredging& work) { return work.energy; })},
-            {"residence_time_s", "time of delivered rock from cut to mouth", "s", true,
-             of_work([](const Dredging& work) { return work.residence_time; })},
-            {"ratio", "spillage: 1 - delivered / fed", "-", true, of([](const FedHead& head) { return spillage_of(head.production); })},
-            {"production", "production: delivered / fed", "-", true, of([](const FedHead& head) { return share_of(head.production); })},
-            {"hold_up_kg", "hold-up: owed, in the head or on the bed", "kg", true,
-             of([](const FedHead& head) { return plain(head.production.held); })},
-            {"hold_up_change_share", "change of hold-up / fed", "-", true,
-             of([](const FedHead& head) { return plain(head.production.held_change / head.production.fed); })},
-            {"fed_kg_s", "fed", "kg/s", true, rate(&Production::fed)},
-            {"delivered_kg_s", "delivered", "kg/s", true, rate(&Production::delivered)},
-            {"delivered_in_situ_m3_h", "delivered, soil in situ", "m³/h", true, [](const ComparedRun& r) { return in_situ_rate(r, 1.0); }},
-            {"prototype_delivered_in_situ_m3_h", "delivered, soil in situ, prototype", "m³/h", true,
-             [](const ComparedRun& r) { return in_situ_rate(r, r.run.operating_point.length_ratio); }},
-            {"head_is_full", "head is full (1: yes)", "-", true, of([](const FedHead& head) { return plain(head.is_full ? 1.0 : 0.0); })}};
+    return {
+        {"cut_height_m", "height of the bank", "m", false, of_point(&OperatingPoint::cut_height)},
+        {"step_m", "step", "m", false, of_point(&OperatingPoint::step)},
+        {"pipe_velocity_m_s", "speed in the suction mouth", "m/s", false,
+         [](const ComparedRun& r) { return plain(r.results.delivery.pipe_velocity); }},
+        {"settling_number", "settling number u_t / (Q / (π R²))", "-", false,
+         [](const ComparedRun& r) { return plain(settling_number(r)); }},
+        {"cut_in_situ_m3_h", "cut, soil in situ", "m³/h", true,
+         of_work([](const Dredging& work) { return work.cut_in_situ ? std::optional<double>(3600.0 * *work.cut_in_situ) : std::nullopt; })},
+        {"spilled_mixing_share", "spilled by mixing / fed", "-", true, of([](const FedHead& head) { return plain(head.losses.mixing); })},
+        {"spilled_cutting_share", "spilled by cutting / fed", "-", true,
+         of([](const FedHead& head) { return plain(head.losses.cutting); })},
+        {"left_behind_share", "left behind / fed", "-", true, of([](const FedHead& head) { return plain(head.losses.left_behind); })},
+        {"concentration", "delivered rock in the mixture, by volume", "-", true,
+         of_work([](const Dredging& work) { return work.concentration; })},
+        {"mixture_density_kg_m3", "density of the mixture", "kg/m³", true,
+         of_work([](const Dredging& work) { return work.mixture_density; })},
+        {"spill_layer_m", "layer that the spillage leaves", "m", true, of_work([](const Dredging& work) { return work.spill_layer; })},
+        {"cutting_torque_n_m", "torque of cutting, from the specific energy", "N m", true,
+         [](const ComparedRun& r) {
+             if (!r.results.dredging || !r.results.dredging->cutting_power) return Estimate{};
+             return plain(*r.results.dredging->cutting_power / r.run.operating_point.angular_speed());
+         }},
+        {"energy_in_situ_j_m3", "energy for flow and rock per delivered m³ in situ", "J/m³", true,
+         of_work([](const Dredging& work) { return work.energy; })},
+        {"residence_time_s", "time of delivered rock from cut to mouth", "s", true,
+         of_work([](const Dredging& work) { return work.residence_time; })},
+        {"ratio", "spillage: 1 - delivered / fed", "-", true, of([](const FedHead& head) { return spillage_of(head.production); })},
+        {"production", "production: delivered / fed", "-", true, of([](const FedHead& head) { return share_of(head.production); })},
+        {"hold_up_kg", "hold-up: owed, in the head or on the bed", "kg", true,
+         of([](const FedHead& head) { return plain(head.production.held); })},
+        {"hold_up_change_share", "change of hold-up / fed", "-", true,
+         of([](const FedHead& head) { return plain(head.production.held_change / head.production.fed); })},
+        {"fed_kg_s", "fed", "kg/s", true, rate(&Production::fed)},
+        {"delivered_kg_s", "delivered", "kg/s", true, rate(&Production::delivered)},
+        {"delivered_in_situ_m3_h", "delivered, soil in situ", "m³/h", true, [](const ComparedRun& r) { return in_situ_rate(r, 1.0); }},
+        {"prototype_delivered_in_situ_m3_h", "delivered, soil in situ, prototype", "m³/h", true,
+         [](const ComparedRun& r) { return in_situ_rate(r, r.run.operating_point.length_ratio); }},
+        {"head_is_full", "head is full (1: yes)", "-", true, of([](const FedHead& head) { return plain(head.is_full ? 1.0 : 0.0); })}};
 }
 
 std::vector<QuantityRule> load_rules(bool with_rock) {

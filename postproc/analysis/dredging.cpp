@@ -52,17 +52,13 @@ std::optional<WaysOut> ways_out_of(const Results& results, double by_cutting, do
 Dredging dredging_of(const Results& results, const RunData& run) {
     const Production& window = results.fed->production;
     const OperatingPoint& point = run.operating_point;
-    const Table& ledger = run.rock->ledger;
+    const Losses& losses = results.fed->losses;
     const double duration = window.to - window.from;
-    const auto gain = [&](const char* column) { return gain_over(ledger.number("time_s"), ledger.number(column), window.from, window.to); };
 
     Dredging dredging;
     dredging.layer_share = run.feed ? run.feed->left_share : 0.0;
-    dredging.mixing = gain("spilled_mixing_kg") / window.fed;
-    dredging.cutting = gain("spilled_cutting_kg") / window.fed;
-    dredging.left_behind = gain("left_behind_kg") / window.fed;
     follow_delivered(run.rock->events, window, dredging);
-    dredging.ways_out = ways_out_of(results, dredging.cutting, dredging.mixing + dredging.cutting + dredging.left_behind);
+    dredging.ways_out = ways_out_of(results, losses.cutting, losses.mixing + losses.cutting + losses.left_behind);
 
     double mass = 0.0, volume = 0.0;  // of the feed
     if (run.feed)

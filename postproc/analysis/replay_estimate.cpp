@@ -1,5 +1,7 @@
 #include "postproc/analysis/replay_estimate.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gsl/assert>
 
@@ -22,6 +24,11 @@ std::string fed_text(const FedReplays& fed) {
     if (fed.steady < fed.count)
         text += fmt::format("bounds      {:.1f} to {:.1f} %, spilled/fed and 1 - delivered/fed: hold-up has not settled\n",
                             100.0 * fed.spillage_min, 100.0 * fed.spillage_max);
+    if (fed.own_interval)
+        text += fmt::format("each        +- {:.1f} points (95 %) at most, by batches of a replay's own revolutions\n",
+                            100.0 * *fed.own_interval);
+    text += fmt::format("lost        {:.1f} % after mixing, {:.1f} % where it was cut, {:.1f} % left behind\n", 100.0 * fed.losses.mixing,
+                        100.0 * fed.losses.cutting, 100.0 * fed.losses.left_behind);
     if (fed.full > 0) text += fmt::format("full        the head cannot take what it cuts in {} of {} replays\n", fed.full, fed.count);
     return text;
 }
@@ -40,6 +47,10 @@ FedReplays fed_replays_of(const std::vector<FedHead>& heads) {
         fed.spillage_max += share * head.production.spillage_max;
         fed.fed += share * head.production.fed / (head.production.to - head.production.from);
         fed.held += share * head.production.held;
+        if (const auto& own = head.production.share) fed.own_interval = std::max(fed.own_interval.value_or(0.0), own->half_interval);
+        fed.losses.mixing += share * head.losses.mixing;
+        fed.losses.cutting += share * head.losses.cutting;
+        fed.losses.left_behind += share * head.losses.left_behind;
     }
     return fed;
 }

@@ -15,6 +15,8 @@ struct FedReplays {
     std::size_t full = 0;               ///< in which the head was full
     double spillage_min = 0.0, spillage_max = 0.0;  ///< of spilled/fed and 1 - delivered/fed, means
     double fed = 0.0, held = 0.0;                   ///< mean rate [kg/s] and mean hold-up [kg]
+    std::optional<double> own_interval;             ///< largest half 95 % interval that a replay has by its own batches of revolutions
+    Losses losses;                                  ///< means
 };
 
 /// \pre a replay

@@ -244,12 +244,12 @@ json fed_json(const FedHead& head, double in_situ_density) {
     return object;
 }
 
-json dredging_json(const Dredging& dredging) {
+json dredging_json(const Dredging& dredging, const Losses& losses) {
     json object{{"cut_in_situ_m3_h", dredging.cut_in_situ ? json(3600.0 * *dredging.cut_in_situ) : json(nullptr)},
                 {"left_by_swing_before_share", dredging.layer_share},
-                {"spilled_mixing_share", dredging.mixing},
-                {"spilled_cutting_share", dredging.cutting},
-                {"left_behind_share", dredging.left_behind},
+                {"spilled_mixing_share", losses.mixing},
+                {"spilled_cutting_share", losses.cutting},
+                {"left_behind_share", losses.left_behind},
                 {"concentration", dredging.concentration},
                 {"mixture_density_kg_m3", dredging.mixture_density},
                 {"spill_layer_m", or_null(dredging.spill_layer)},
@@ -365,7 +365,11 @@ std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, doubl
     if (!production) return std::nullopt;
     const double rate = production->fed / (production->to - production->from);
     const double longest = longest_time_above(series.time, ledger.number("owed_kg"), full_share * rate * blade_period);
-    return FedHead{*production, longest >= revolution};
+    const auto lost = [&](const char* column) {
+        return gain_over(series.time, ledger.number(column), production->from, production->to) / production->fed;
+    };
+    const Losses losses{lost("spilled_mixing_kg"), lost("spilled_cutting_kg"), lost("left_behind_kg")};
+    return FedHead{*production, losses, longest >= revolution};
 }
 
 Results compute_results(const RunData& run) {
@@ -412,7 +416,7 @@ json results_json(const Results& results, const RunData& run) {
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},
                           {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)}};
     document["production"] = results.fed ? fed_json(*results.fed, run.operating_point.in_situ_density) : json(nullptr);
-    document["dredging"] = results.dredging ? dredging_json(*results.dredging) : json(nullptr);
+    document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},
                              {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};

@@ -41,9 +41,17 @@ struct Mixing {
     double well_mixed_spillage = 0.0;     ///< S_mix
 };
 
+/// What was lost in the window of a production, over what was fed in it, by mass.
+struct Losses {
+    double mixing = 0.0;       ///< had been in the head's flow
+    double cutting = 0.0;      ///< never taken in
+    double left_behind = 0.0;  ///< outside and far off, taken out of the run
+};
+
 /// A head that is fed from a cut face.
 struct FedHead {
     Production production;
+    Losses losses;
     bool is_full = false;  ///< for a revolution more was owed than 5 % of what a blade passing cuts: the head cannot take what it cuts
 };
 
@@ -56,12 +64,11 @@ struct WaysOut {
 
 /// What a head that is fed from a cut face does in the window of its production (dredging.hpp).
 struct Dredging {
-    std::optional<double> cut_in_situ;                      ///< soil that the swing cuts [m3/s]
-    std::optional<double> delivered_in_situ;                ///< [m3/s]
-    double layer_share = 0.0;                               ///< of what was fed: loose rock that the swing before left
-    double mixing = 0.0, cutting = 0.0, left_behind = 0.0;  ///< spilled each way, over fed
-    double concentration = 0.0;                             ///< delivered rock's volume over the mixture's
-    double mixture_density = 0.0;                           ///< [kg/m3]
+    std::optional<double> cut_in_situ;          ///< soil that the swing cuts [m3/s]
+    std::optional<double> delivered_in_situ;    ///< [m3/s]
+    double layer_share = 0.0;                   ///< of what was fed: loose rock that the swing before left
+    double concentration = 0.0;                 ///< delivered rock's volume over the mixture's
+    double mixture_density = 0.0;               ///< [kg/m3]
     std::optional<double> spill_layer;          ///< (1 - P) M_fed / (rho_grain (1 - n)) B / (v_h s): thickness that the spillage makes [m]
     std::optional<double> cutting_power;        ///< specific energy given by the user, times cut_in_situ [W]
     std::optional<double> energy;               ///< of the drive for flow and rock, per delivered volume of soil [J/m3]

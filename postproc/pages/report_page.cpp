@@ -237,9 +237,10 @@ std::string production_table(const Results& results, const RunData& run) {
 /// Shares of what was fed, in the window of the production.
 std::string losses_table(const Results& results, const RunData& run) {
     const Dredging& dredging = *results.dredging;
-    std::vector<std::vector<std::string>> rows{{"spilled by mixing: had been in the head’s flow", percent(dredging.mixing)},
-                                               {"spilled by cutting: lost where it was cut, never taken in", percent(dredging.cutting)},
-                                               {"left behind: outside and far off, taken out of the run", percent(dredging.left_behind)}};
+    const Losses& losses = results.fed->losses;
+    std::vector<std::vector<std::string>> rows{{"spilled by mixing: had been in the head’s flow", percent(losses.mixing)},
+                                               {"spilled by cutting: lost where it was cut, never taken in", percent(losses.cutting)},
+                                               {"left behind: outside and far off, taken out of the run", percent(losses.left_behind)}};
     if (dredging.layer_share > 0.0)
         rows.push_back({"of what was fed, loose rock that the swing before left", percent(dredging.layer_share)});
     if (run.operating_point.rock_share < 1.0) {

@@ -47,9 +47,9 @@ TEST(Dredging, has_the_rates_of_the_swing) {
     const Dredging& work = *results.dredging;
     EXPECT_NEAR(*work.cut_in_situ, 10.0 / 2000.0, 1e-6);
     EXPECT_NEAR(*work.delivered_in_situ, 6.0 / 2000.0, 5e-5);
-    EXPECT_NEAR(work.mixing, 0.4, 0.01);
-    EXPECT_EQ(work.cutting, 0.0);
-    EXPECT_EQ(work.left_behind, 0.0);
+    EXPECT_NEAR(results.fed->losses.mixing, 0.4, 0.01);
+    EXPECT_EQ(results.fed->losses.cutting, 0.0);
+    EXPECT_EQ(results.fed->losses.left_behind, 0.0);
     // Of 0.12 m3/s of mixture.
     double mass = 0.0, volume = 0.0;
     for (const RockClass& rock : run.feed->classes) {

@@ -113,6 +113,9 @@ FedHead head(double fed, double delivered, double spilled, bool is_steady) {
 TEST(FedReplays, say_how_many_have_settled_and_what_bounds_the_others) {
     FedHead full = head(20.0, 12.0, 6.0, false);
     full.is_full = true;
+    full.losses = {0.2, 0.1, 0.04};
+    full.production.share.emplace();
+    full.production.share->half_interval = 0.013;
     const FedReplays fed = fed_replays_of({head(20.0, 10.0, 10.0, true), full});
     EXPECT_EQ(fed.count, 2u);
     EXPECT_EQ(fed.steady, 1u);
@@ -121,7 +124,8 @@ TEST(FedReplays, say_how_many_have_settled_and_what_bounds_the_others) {
     EXPECT_NEAR(fed.held, 2.0, 1e-12);
     EXPECT_NEAR(fed.spillage_min, 0.5 * (0.5 + 0.3), 1e-12);
     const std::string text = replay_text(estimate_spillage({0.5, 0.4}, {}), fed);
-    for (const char* part : {"settled in 1 of 2", "40.0 to 45.0 %", "cannot take what it cuts in 1 of 2"})
+    for (const char* part : {"settled in 1 of 2", "40.0 to 45.0 %", "cannot take what it cuts in 1 of 2", "+- 1.3 points (95 %) at most",
+                             "10.0 % after mixing, 5.0 % where it was cut, 2.0 % left behind"})
         EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
