@@ -77,7 +77,7 @@ CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
     }
 }
 
-Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, View view)
+Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, NodeView view)
     : trees_(trees),
       frames_(frames),
       view_(view),
@@ -133,7 +133,7 @@ void Visibility::look_from_point(const Vec3& position, double reach) {
 
 void Visibility::look_past(Zone steel, const Vec3& position, double clearance, double reach, double spacing) {
     const int level = static_cast<int>(std::lround(4.0 * std::log2(spacing)));
-    const bool is_blended = view_ == View::all_nodes;
+    const bool is_blended = view_ == NodeView::all_nodes;
     const Sources sources =
         is_blended ? all_nodes(steel, position, clearance, reach, level) : one_node(steel, position, clearance, reach, level);
     SamplePoint centre;

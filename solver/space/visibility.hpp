@@ -46,7 +46,7 @@ private:
 };
 
 /// What of a lattice's nodes around a rock looks for it.
-enum class View : std::uint8_t {
+enum class NodeView : std::uint8_t {
     all_nodes,  ///< all eight with trilinear weights: changes smoothly as the rock moves, as the fluid's equations ask for
     one_node    ///< the one of the largest weight: changes with a jump, at an eighth of the lines of sight
 };
@@ -61,7 +61,7 @@ enum class View : std::uint8_t {
 /// product over the steel of all zones. Without steel within reach all cells are visible.
 class Visibility {
 public:
-    Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, View view = View::all_nodes);
+    Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, NodeView view = NodeView::all_nodes);
 
     /// Sets the position of the mesh.
     void set_frames(const ZoneFrames& frames);
@@ -138,7 +138,7 @@ private:
     const CellTrees& trees_;
     std::vector<SteelTree> steel_;
     ZoneFrames frames_;
-    View view_;
+    NodeView view_;
     std::uint64_t stamp_ = 1;
     std::vector<Lattice> nodes_;  // by the steel's zone
     std::size_t kept_cells_ = 0;

@@ -84,7 +84,7 @@ KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProp
       hindrance_(physics::find_hindrance_law(settings.closures.hindrance)),
       lift_(physics::find_lift_law(settings.closures.lift)),
       mapping_(fluid.cells(), fluid.steel(), fluid.moving_zones(), settings.kernel, communicator,
-               fluid.feels_rock() ? View::all_nodes : View::one_node),
+               fluid.feels_rock() ? NodeView::all_nodes : NodeView::one_node),
       interface_speed_(mapping_.sizes().interface_speed(fluid.moving_zones())),
       carry_(fluid.cells().centres.size(), Vec3::Zero()) {
     map_present_rock();

@@ -68,7 +68,7 @@ void Stencils::resize_entries(std::size_t count) {
 }
 
 Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
-                 Communicator& communicator, View view)
+                 Communicator& communicator, NodeView view)
     : moving_(moving.begin(), moving.end()),
       frames_(moving, 0.0),
       trees_(cells, frames_.zones()),

@@ -47,7 +47,7 @@ public:
     /// Keeps references to the engine's arrays. The mesh is at its position at time 0. \param view  one node is enough where no fluid feels
     /// the rock
     Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMotion> moving, const KernelSettings& kernel,
-            Communicator& communicator, View view = View::all_nodes);
+            Communicator& communicator, NodeView view = NodeView::all_nodes);
 
     /// Sets the mesh to its position at a time [s].
     void set_time(double time);

@@ -51,7 +51,7 @@ Stencils stencils_of(Mapping& mapping, const TestRocks& rocks) {
 
 /// A mesh with its mapping, on one rank.
 struct Bench {
-    explicit Bench(SyntheticMesh m, View view = View::all_nodes)
+    explicit Bench(SyntheticMesh m, NodeView view = NodeView::all_nodes)
         : mesh(std::move(m)), mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial, view) {}
     SyntheticMesh mesh;
     SerialCommunicator serial;
@@ -143,8 +143,8 @@ TEST(Mapping, gives_the_same_stencils_again_and_new_ones_to_rock_that_moved) {
     EXPECT_EQ(bench.build(TestRocks()).size(), 0u);
 }
 
-class FromNodes : public ::testing::TestWithParam<View> {};
-INSTANTIATE_TEST_SUITE_P(Views, FromNodes, ::testing::Values(View::all_nodes, View::one_node));
+class FromNodes : public ::testing::TestWithParam<NodeView> {};
+INSTANTIATE_TEST_SUITE_P(Views, FromNodes, ::testing::Values(NodeView::all_nodes, NodeView::one_node));
 
 /// What is kept of cells and nodes while rock travels and the mesh turns must not show in the result.
 TEST_P(FromNodes, rock_that_travelled_is_mapped_as_rock_that_appeared) {
@@ -230,7 +230,7 @@ TEST_P(FromNodes, a_thin_blade_that_turns_has_nothing_behind_it_at_any_angle) {
 /// cells past the edge are judged otherwise from there.
 TEST(OneNode, samples_nearly_what_all_nodes_do) {
     const double d = 0.02, half = 0.15;
-    Bench all(bladed_box(half, 0.01)), one(bladed_box(half, 0.01), View::one_node);
+    Bench all(bladed_box(half, 0.01)), one(bladed_box(half, 0.01), NodeView::one_node);
     const auto flow = [](const Vec3& x) { return Vec3(-x[2], 0.0, x[0]); };
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-2.0 * d, 2.0 * d);

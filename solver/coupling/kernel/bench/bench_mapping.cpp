@@ -64,11 +64,11 @@ void map_one_step(benchmark::State& state) {
     state.counters["nodes"] = static_cast<double>(mapping.visibility().kept_nodes());
 }
 
-/// range(0): cell size in the head [mm]; range(1): the View.
+/// range(0): cell size in the head [mm]; range(1): the NodeView.
 void map_one_step_of_a_replay(benchmark::State& state) {
     const testing::SyntheticMesh mesh = testing::draft_cutter(1e-3 * static_cast<double>(state.range(0)));
     SerialCommunicator serial;
-    Mapping mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial, static_cast<View>(state.range(1)));
+    Mapping mapping(mesh.cells(), mesh.steel(), testing::unit_turn(), KernelSettings{}, serial, static_cast<NodeView>(state.range(1)));
     Batch batch(368);
     const double dt = 3e-3, speed = rpm_to_rad_s(60.0);
     double angle = 0.0;
@@ -83,7 +83,7 @@ void map_one_step_of_a_replay(benchmark::State& state) {
 }
 BENCHMARK(map_one_step)->ArgsProduct({{4, 6, 12, 18}, {50, 90}})->Iterations(40)->Unit(benchmark::kMillisecond);
 BENCHMARK(map_one_step_of_a_replay)
-    ->ArgsProduct({{12, 18}, {static_cast<int>(View::all_nodes), static_cast<int>(View::one_node)}})
+    ->ArgsProduct({{12, 18}, {static_cast<int>(NodeView::all_nodes), static_cast<int>(NodeView::one_node)}})
     ->Iterations(40)
     ->Unit(benchmark::kMillisecond);
 
