@@ -156,9 +156,9 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     if (options.replays > 0) failures = replay_settings(options, points, outcome.done, folder);
     if (!outcome.failed.empty()) {
         failures.insert(failures.begin(), outcome.failed.begin(), outcome.failed.end());
-        std::vector<Mistake> mistakes_of_points;
-        for (const std::string& text : failures) mistakes_of_points.push_back({"", text, "", ""});
-        throw ToolError(mistakes_of_points);
+        std::vector<Mistake> causes;
+        for (const std::string& text : failures) causes.push_back({"", text, "", ""});
+        throw ToolError(causes);
     }
     if (!failures.empty()) throw CheckFailure({"", fmt::format("{}", fmt::join(failures, "\n")), "", ""});
 }

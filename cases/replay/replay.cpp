@@ -99,36 +99,34 @@ ParameterTable rock_study_table(const ParameterValues& recorded) {
     return table;
 }
 
-/// The steel is the run's own copy; a study names the file that it was made from, relative to itself.
-void make_cutter_absolute(ParameterValues& values, const fs::path& file) {
-    if (values.has("cutter.file"))
-        values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
-}
+/// A study whose rock is replayed, with all that belongs to the recorded flow, and what is wrong with it.
+struct RockStudy {
+    ParameterValues values;
+    std::vector<Mistake> mistakes;
+};
 
-/// What is wrong with a study whose rock is replayed in a recorded flow.
-std::vector<Mistake> rock_study_mistakes(const ParameterValues& recorded, const ParameterValues& values, const fs::path& file) {
+/// \param has_steel  whether `recorded` names the file that the flow's steel was made from, for comparison
+RockStudy read_rock_study(ParameterValues recorded, const fs::path& file, bool has_steel) {
+    ParameterValues values = read_parameters(rock_study_table(recorded), file);
+    // The steel is the run's own copy; a study names the file that it was made from, relative to itself.
+    if (values.has("cutter.file")) {
+        values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
+        if (!has_steel) recorded.set("cutter.file", values.text("cutter.file"));
+    }
     Mistakes mistakes(file.string());
     mistakes.add(check_same_flow(recorded, values, file));
     mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
-    return mistakes.take();
-}
-
-/// Takes what belongs to the recorded flow.
-void take_flow(const ParameterValues& recorded, ParameterValues& values) {
     for (const Parameter& parameter : study_table())
         if (belongs_to_flow(parameter, recorded) && recorded.has(parameter.key)) values.set(parameter.key, *recorded.find(parameter.key));
+    mistakes.add(check_file_rules(values, file));
+    return {std::move(values), mistakes.take()};
 }
 
 /// The rock of another study in a run's flow.
 void take_study(RecordedRun& run, const fs::path& file) {
-    ParameterValues values = read_parameters(rock_study_table(run.values), file);
-    make_cutter_absolute(values, file);
-    Mistakes mistakes(file.string());
-    mistakes.add(rock_study_mistakes(run.values, values, file));
-    take_flow(run.values, values);
-    mistakes.add(check_file_rules(values, file));
-    mistakes.refuse();
-    run.values = resolve_study(values, run.head.size);
+    RockStudy study = read_rock_study(run.values, file, true);
+    if (!study.mistakes.empty()) throw UserError(std::move(study.mistakes));
+    run.values = resolve_study(study.values, run.head.size);
 }
 
 /// The study of one replay. \param index  from 1 on; 0 is the run's own placement
@@ -368,14 +366,8 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
     return mistakes;
 }
 
-std::vector<Mistake> check_rock_study(ParameterValues planned, const fs::path& study) {
-    ParameterValues values = read_parameters(rock_study_table(planned), study);
-    make_cutter_absolute(values, study);
-    if (values.has("cutter.file")) planned.set("cutter.file", values.text("cutter.file"));
-    std::vector<Mistake> mistakes = rock_study_mistakes(planned, values, study);
-    take_flow(planned, values);
-    for (Mistake& mistake : check_file_rules(values, study)) mistakes.push_back(std::move(mistake));
-    return mistakes;
+std::vector<Mistake> check_rock_study(const ParameterValues& planned, const fs::path& study) {
+    return read_rock_study(planned, study, false).mistakes;
 }
 
 std::string replays_csv(const std::vector<ReplayedSetting>& settings) {

@@ -48,7 +48,7 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
 
 /// Mistakes of a study whose rock is to be replayed in the flow of a study that has not run yet. The cutter's file is not compared.
 /// \throws UserError  as read_parameters
-std::vector<Mistake> check_rock_study(ParameterValues planned, const std::filesystem::path& study);
+std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std::filesystem::path& study);
 
 /// Runs every replay and writes replays.csv and replays.json into the folder.
 /// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, and as RunDirectory

@@ -327,16 +327,20 @@ void Visibility::release(SamplePoint& point) {
 
 /// Halves what is kept, or as near as it comes with all nodes of the last mesh positions: those unused for longest go first.
 void Visibility::drop_old_nodes() {
-    for (std::uint64_t age = stamp_ / 2; kept_cells_ > k_most_kept_cells / 2 && age > k_newest; age /= 2)
-        for (Lattice& lattice : nodes_)
-            for (auto i = lattice.begin(); i != lattice.end();) {
-                if (i->second.last_used + age >= stamp_) {
-                    ++i;
-                    continue;
-                }
-                release(i->second);
-                i = lattice.erase(i);
+    for (std::uint64_t age = stamp_ / 2; kept_cells_ > k_most_kept_cells / 2 && age > k_newest; age /= 2) drop_nodes_unused_for(age);
+}
+
+/// \param age  in mesh positions
+void Visibility::drop_nodes_unused_for(std::uint64_t age) {
+    for (Lattice& lattice : nodes_)
+        for (auto i = lattice.begin(); i != lattice.end();) {
+            if (i->second.last_used + age >= stamp_) {
+                ++i;
+                continue;
             }
+            release(i->second);
+            i = lattice.erase(i);
+        }
 }
 
 }  // namespace cutterflow::coupling

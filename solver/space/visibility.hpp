@@ -134,6 +134,7 @@ private:
     void find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, std::vector<std::int32_t>& hidden);
     void release(SamplePoint& point);
     void drop_old_nodes();
+    void drop_nodes_unused_for(std::uint64_t age);
 
     const CellTrees& trees_;
     std::vector<SteelTree> steel_;

@@ -128,7 +128,7 @@ std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
 
-    if (fluid_.feels_rock()) replace_void_fraction();
+    follow_set_of_rock();
     return rejected;
 }
 
@@ -145,7 +145,7 @@ void KernelCoupling::adopt_present_rock() {
         booked_.volume += volume;
         booked_.momentum += properties_.density * volume * flow[p].velocity;
     }
-    if (fluid_.feels_rock()) replace_void_fraction();
+    follow_set_of_rock();
 }
 
 void KernelCoupling::remove(gsl::span<const int> ids) {
@@ -163,6 +163,11 @@ void KernelCoupling::remove(gsl::span<const int> ids) {
         booked_.momentum -= properties_.density * volume * flow[p].velocity;
     }
     dem_.remove(ids);
+    follow_set_of_rock();
+}
+
+/// After rock came or went. A flow that does not feel rock gets its void fraction with the next sample.
+void KernelCoupling::follow_set_of_rock() {
     if (fluid_.feels_rock()) replace_void_fraction();
 }
 

@@ -83,6 +83,7 @@ public:
 
 private:
     std::vector<double> spread_present_rock();
+    void follow_set_of_rock();
     void replace_void_fraction();
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
