@@ -41,16 +41,53 @@ std::string changed_study(const std::string& study, int seed, const std::string&
     return text + end;
 }
 
-/// \param donor  the dry run of the same pour; empty for itself
-Flow run_pour(const fs::path& folder, const std::string& study, const fs::path& donor) {
-    fs::create_directories(folder);
-    write_file(folder / "study.toml", study);
-    run_study(folder, donor);
+Flow flow_of(const fs::path& folder) {
     const nlohmann::json measures = nlohmann::json::parse(read_file(folder / "run/report/measures.json"));
     const nlohmann::json& angle = measures.at("shear_angle").at("value");
     return {measures.at("rate").at("value"), measures.at("rate_of_the_middle_half").at("value"),
             angle.is_null() ? std::nullopt : std::optional<double>(angle)};
 }
+
+/// One size of the box: its studies and how many pours it takes.
+struct Rig {
+    std::string prefix;  ///< of the folders
+    std::string dry_study, wet_study;
+    int pours = 0;
+};
+
+const Rig k_small{"", "small.toml", "small_submerged.toml", 3}, k_full{"full_", "study.toml", "submerged.toml", 5};
+
+/// The pours of a setting, on all cores.
+class Pours {
+public:
+    Pours(Verification& verification, Rig rig) : verification_(verification), rig_(std::move(rig)) {}
+
+    Setting dry() const { return run("dry", rig_.dry_study, "", false); }
+    /// From the beds of the dry pours. \param closures  section of the study; empty: the defaults
+    Setting wet(const std::string& name, const std::string& closures = "") const {
+        return run(name, rig_.wet_study, closures.empty() ? "" : "\n[closures]\n" + closures, true);
+    }
+
+private:
+    Setting run(const std::string& name, const std::string& study, const std::string& end, bool from_dry) const {
+        std::vector<StudyRun> runs;
+        for (int seed = 1; seed <= rig_.pours; ++seed) {
+            runs.push_back({folder(name, seed), from_dry ? fs::absolute(folder("dry", seed) / "run") : fs::path()});
+            fs::create_directories(runs.back().folder);
+            write_file(runs.back().folder / "study.toml", changed_study(study, seed, end));
+        }
+        run_studies(runs);
+        Setting setting{name, {}};
+        for (const StudyRun& one : runs) setting.flows.push_back(flow_of(one.folder));
+        return setting;
+    }
+    fs::path folder(const std::string& name, int seed) const {
+        return verification_.folder(fmt::format("{}{}_{}", rig_.prefix, name, seed));
+    }
+
+    Verification& verification_;
+    Rig rig_;
+};
 
 /// Of 1 - wet/dry, pour by pour: each pour has one bed.
 Sample reduction(const Setting& dry, const Setting& wet, double Flow::*rate) {
@@ -108,38 +145,34 @@ void check_control(Verification& verification, const Setting& dry, const Setting
         {"exact", fmt::format("flow by the submerged weight over the inertia; standard error {:.2g}", standard_error(slower)), {}});
 }
 
-void run(Verification& verification) {
-    const bool whole = verification.wants(Effort::longest);
-    const std::string dry_study = whole ? "study.toml" : "small.toml", wet_study = whole ? "submerged.toml" : "small_submerged.toml";
-    const int pours = whole ? 5 : 3, of_switched = 3;
-    const auto folder = [&](const std::string& name, int seed) { return verification.folder(fmt::format("{}_{}", name, seed)); };
-    Setting dry{"dry", {}}, wet{"under water", {}};
-    for (int seed = 1; seed <= pours; ++seed) {
-        dry.flows.push_back(run_pour(folder("dry", seed), changed_study(dry_study, seed, ""), {}));
-        wet.flows.push_back(run_pour(folder("under_water", seed), changed_study(wet_study, seed, ""), folder("dry", seed) / "run"));
-    }
-    judge(verification, dry, wet);
-    ExhibitTable table{"Each term switched",
-                       {"setting", "pours", "rate [kg/s]", "reduction [%]", "over the middle half [%]"},
-                       {row_of(dry, dry), row_of(dry, wet)}};
-    verification.table(table);
-    if (!whole) return;
-    const auto switched = [&](const std::string& name, const std::string& closures) {
-        Setting setting{name, {}};
-        for (int seed = 1; seed <= of_switched; ++seed)
-            setting.flows.push_back(
-                run_pour(folder(name, seed), changed_study(wet_study, seed, "\n[closures]\n" + closures), folder("dry", seed) / "run"));
+/// Each term of the coupling switched, in the small rig.
+void switch_terms(Verification& verification) {
+    const Pours pours(verification, k_small);
+    const Setting dry = pours.dry();
+    ExhibitTable table{
+        "Each term switched, small rig", {"setting", "pours", "rate [kg/s]", "reduction [%]", "over the middle half [%]"}, {}};
+    const auto add = [&](const Setting& setting) {
         table.rows.push_back(row_of(dry, setting));
         verification.table(table);
         return setting;
     };
+    add(dry);
+    add(pours.wet("under_water"));
     const std::string drag_off = "drag_modifier = 1e-6\n", no_added_mass = "added_mass = 0.0\n";
-    check_control(verification, dry, switched("added_mass_alone", drag_off),
+    check_control(verification, dry, add(pours.wet("added_mass_alone", drag_off)),
                   1.0 - std::sqrt((1.0 - k_density_ratio) / (1.0 + 0.5 * k_density_ratio)));
-    check_control(verification, dry, switched("buoyancy_alone", drag_off + no_added_mass), 1.0 - std::sqrt(1.0 - k_density_ratio));
-    switched("no_hindrance", "hindrance = \"none\"\n");
-    switched("no_added_mass", no_added_mass);
-    switched("drag_times_4", "drag_modifier = 4.0\n");
+    check_control(verification, dry, add(pours.wet("buoyancy_alone", drag_off + no_added_mass)), 1.0 - std::sqrt(1.0 - k_density_ratio));
+    add(pours.wet("no_hindrance", "hindrance = \"none\"\n"));
+    add(pours.wet("no_added_mass", no_added_mass));
+    add(pours.wet("drag_times_4", "drag_modifier = 4.0\n"));
+}
+
+void run(Verification& verification) {
+    const bool whole = verification.wants(Effort::longest);
+    const Pours pours(verification, whole ? k_full : k_small);
+    const Setting dry = pours.dry();
+    judge(verification, dry, pours.wet("under_water"));
+    if (whole) switch_terms(verification);
 }
 
 }  // namespace
