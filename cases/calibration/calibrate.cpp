@@ -43,39 +43,46 @@ std::vector<Eigen::VectorXd> grid_of(const CalibrationFile& file) {
 class Places {
 public:
     Places(const CalibrationFile& file, const CalibrateSettings& settings, const std::function<void(const std::string&)>& say)
-        : file_(file), settings_(settings), say_(say) {}
+        : file_(file), settings_(settings), say_(say) {
+        cost_.budget_runs = file.budget_runs;
+        cost_.budget_core_h = file.budget_core_h;
+    }
 
     bool allows(std::size_t places) const {
-        const auto runs = static_cast<double>(cost_.runs + places * file_.studies.size() * static_cast<std::size_t>(file_.repeats));
-        return runs <= file_.budget_runs && cost_.core_h < file_.budget_core_h;
+        const std::size_t runs = cost_.runs + places * file_.runs_of_a_place() + file_.runs_of_the_answer();
+        return static_cast<double>(runs) <= file_.budget_runs && cost_.core_h < file_.budget_core_h;
     }
 
     void run(std::vector<Eigen::VectorXd> places) {
-        for (Eigen::VectorXd& place : places)
-            for (double& value : place) value = std::stod(number_text(value));  // as the studies have it
-        say_(fmt::format("{} place(s) of {} run(s) each", places.size(), file_.studies.size() * static_cast<std::size_t>(file_.repeats)));
-        std::vector<std::vector<std::vector<std::string>>> names;  // of each place, each study, each repeat
+        for (Eigen::VectorXd& place : places) place = as_studies_have(place);
+        say_(fmt::format("{} place(s) of {} run(s) each", places.size(), file_.runs_of_a_place()));
+        std::vector<Names> names;
         std::vector<SweepPoint> points;
         for (const Eigen::VectorXd& place : places) {
-            names.emplace_back();
-            for (const fs::path& study : file_.studies) {
-                names.back().emplace_back();
-                for (SweepPoint& point : settings_.access.points(study, axes_at(place), file_.repeats, folder())) {
-                    names.back().back().push_back(point.name);
-                    points.push_back(std::move(point));
-                }
-            }
+            names.emplace_back(file_.studies.size());
+            for (std::size_t study = 0; study < file_.studies.size(); ++study)
+                if (file_.is_fitted(study)) add(points, names.back()[study], points_at(study, place, file_.repeats));
         }
-        const SweepOutcome outcome = run_sweep(points, sweep_settings(), say_);
-        for (const std::string& failure : outcome.failed) say_(failure);
-        std::set<std::string> done;
-        for (const fs::path& run : outcome.done) done.insert(run.filename().string());
+        const std::set<std::string> done = run(points);
         for (std::size_t i = 0; i < places.size(); ++i) take(places[i], names[i], done);
-        cost_.runs += points.size();
-        cost_.failed_runs += outcome.failed.size();
-        for (const SweepPoint& point : points) cost_.core_h += run_core_s(folder() / point.name) / 3600.0;
     }
 
+    /// Runs of all studies at the chosen parameters, with seeds that no place had.
+    calibration::Evaluation run_answer(const Eigen::VectorXd& chosen) {
+        const Eigen::VectorXd answer = as_studies_have(chosen);
+        say_(fmt::format("the answer: {} run(s)", file_.runs_of_the_answer()));
+        Names names(file_.studies.size());
+        std::vector<SweepPoint> points;
+        for (std::size_t study = 0; study < file_.studies.size(); ++study) {
+            std::vector<SweepPoint> all = points_at(study, answer, file_.repeats + file_.repeats_at_answer);
+            all.erase(all.begin(), all.begin() + file_.repeats);
+            for (SweepPoint& point : all) point.start_donor = &point == &all.front() ? "" : all.front().name;
+            add(points, names[study], std::move(all));
+        }
+        return {answer, values_of(names, file_.measured.size(), run(points))};
+    }
+
+    const calibration::CalibrationCost& cost() const { return cost_; }
     const std::vector<calibration::Evaluation>& evaluations() const { return evaluations_; }
 
     calibration::Calibration calibration(const std::string& ended) const {
@@ -83,41 +90,70 @@ public:
             throw ToolError(Mistake{"", "no place has values of all targets", "A calibration compares runs with its targets",
                                     fmt::format("See the logs in {}", (folder() / "logs").string())});
         calibration::Calibration all{file_.name, file_.method, file_.objective, file_.ranges(), file_.targets, evaluations_, cost_, ended};
-        all.cost.budget_runs = file_.budget_runs;
-        all.cost.budget_core_h = file_.budget_core_h;
         return all;
     }
 
 private:
+    using Names = std::vector<std::vector<std::string>>;  // of the runs at one place: of each study, each repeat
+
     fs::path folder() const { return settings_.folder / k_runs; }
 
     SweepSettings sweep_settings() const {
         return {folder(), settings_.program, settings_.ranks, settings_.jobs, fs::exists(folder() / "studies"), settings_.launcher};
     }
 
-    std::vector<KeyAxis> axes_at(const Eigen::VectorXd& place) const {
+    static Eigen::VectorXd as_studies_have(Eigen::VectorXd place) {
+        for (double& value : place) value = std::stod(number_text(value));
+        return place;
+    }
+
+    std::vector<SweepPoint> points_at(std::size_t study, const Eigen::VectorXd& place, int repeats) const {
         std::vector<KeyAxis> axes;
         for (std::size_t k = 0; k < file_.parameters.size(); ++k)
             axes.push_back({file_.parameters[k].key, {number_text(place[static_cast<Eigen::Index>(k)])}});
-        return axes;
+        return settings_.access.points(file_.studies[study], axes, repeats, folder());
     }
 
-    /// \param names  of the runs of each study
-    void take(const Eigen::VectorXd& place, const std::vector<std::vector<std::string>>& names, const std::set<std::string>& done) {
-        calibration::Evaluation evaluation{place, {}};
-        for (const Measured& measured : file_.measured) {
-            evaluation.values.emplace_back();
-            for (const std::string& name : names[measured.study]) {
-                if (done.count(name) == 0) continue;
-                std::vector<double> values = run_values(folder() / name, measured);
-                if (!values.empty()) evaluation.values.back().push_back(std::move(values));
-            }
+    static void add(std::vector<SweepPoint>& points, std::vector<std::string>& names, std::vector<SweepPoint> more) {
+        for (SweepPoint& point : more) {
+            names.push_back(point.name);
+            points.push_back(std::move(point));
         }
+    }
+
+    /// \return names of the runs that are done
+    std::set<std::string> run(const std::vector<SweepPoint>& points) {
+        const SweepOutcome outcome = run_sweep(points, sweep_settings(), say_);
+        for (const std::string& failure : outcome.failed) say_(failure);
+        cost_.runs += points.size();
+        cost_.failed_runs += outcome.failed.size();
+        for (const SweepPoint& point : points) cost_.core_h += run_core_s(folder() / point.name) / 3600.0;
+        std::set<std::string> done;
+        for (const fs::path& run : outcome.done) done.insert(run.filename().string());
+        return done;
+    }
+
+    /// Of the first targets, each run that is done and has a value.
+    std::vector<std::vector<std::vector<double>>> values_of(const Names& names, std::size_t targets,
+                                                            const std::set<std::string>& done) const {
+        std::vector<std::vector<std::vector<double>>> all(targets);
+        for (std::size_t t = 0; t < targets; ++t)
+            for (const std::string& name : names[file_.measured[t].study]) {
+                if (done.count(name) == 0) continue;
+                std::vector<double> values = run_values(folder() / name, file_.measured[t]);
+                if (!values.empty()) all[t].push_back(std::move(values));
+            }
+        return all;
+    }
+
+    void take(const Eigen::VectorXd& place, const Names& names, const std::set<std::string>& done) {
+        calibration::Evaluation evaluation{place, values_of(names, file_.targets.fitted.size(), done)};
         const bool whole = std::none_of(evaluation.values.begin(), evaluation.values.end(), [](const auto& runs) { return runs.empty(); });
         if (whole)
             evaluations_.push_back(std::move(evaluation));
         else
-            say_(fmt::format("{}: left out, a target has no value", names.front().front()));
+            say_(fmt::format("{}: left out, a target has no value",
+                             std::find_if(names.begin(), names.end(), [](const auto& of_study) { return !of_study.empty(); })->front()));
     }
 
     const CalibrationFile& file_;
@@ -218,7 +254,10 @@ calibration::Outcome run_calibration(const CalibrationFile& file, const Calibrat
     const Method& method =
         *std::find_if(std::begin(k_methods), std::end(k_methods), [&](const Method& row) { return file.method == row.name; });
     const std::string ended = method.run(file, places);
-    return calibration::outcome_of(places.calibration(ended), method.fitted_minimum);
+    calibration::Outcome outcome = calibration::outcome_of(places.calibration(ended), method.fitted_minimum);
+    calibration::judge(outcome, places.run_answer(outcome.parameters));
+    outcome.calibration.cost = places.cost();
+    return outcome;
 }
 
 }  // namespace cutterflow::cases

@@ -55,6 +55,11 @@ ParameterTable make_table() {
             .at_least(1)
             .at_most(100)
             .by_default(std::int64_t{3}),
+        Row("repeats_at_answer", Kind::integer, "-",
+            "Runs of each study at the chosen parameters, with seeds of their own. Held-out targets are judged there alone.")
+            .at_least(1)
+            .at_most(100)
+            .by_default(std::int64_t{3}),
         Row("rounds", Kind::integer, "-", "Rounds of up to three further places after the grid of surface, while an interval is too wide.")
             .at_least(0)
             .at_most(50)
@@ -106,13 +111,14 @@ CalibrationPlan plan_of(const CalibrationFile& file, const StudyAccess& access) 
         for (const CalibratedParameter& parameter : file.parameters) plan.grid *= parameter.values.size();
         if (file.method == "surface") plan.further = places_of_a_round * static_cast<std::size_t>(file.rounds);
     }
-    const std::size_t of_each_study = (plan.grid + plan.further) * static_cast<std::size_t>(file.repeats);
-    plan.runs = of_each_study * file.studies.size();
+    const std::size_t places = plan.grid + plan.further;
+    plan.runs = places * file.runs_of_a_place() + file.runs_of_the_answer();
     double core_s = 0.0;
-    for (const fs::path& study : file.studies) {
-        const std::optional<double> one = access.predicted_core_s(study);
+    for (std::size_t study = 0; study < file.studies.size(); ++study) {
+        const std::optional<double> one = access.predicted_core_s(file.studies[study]);
         if (!one) return plan;
-        core_s += *one * static_cast<double>(of_each_study);
+        const std::size_t of_places = file.is_fitted(study) ? places * static_cast<std::size_t>(file.repeats) : 0;
+        core_s += *one * static_cast<double>(of_places + static_cast<std::size_t>(file.repeats_at_answer));
     }
     plan.core_h = core_s / 3600.0;
     return plan;
@@ -182,6 +188,7 @@ private:
 
     void read_budget(const ParameterValues& values) {
         found_.repeats = static_cast<int>(values.integer("repeats"));
+        found_.repeats_at_answer = static_cast<int>(values.integer("repeats_at_answer"));
         found_.rounds = static_cast<int>(values.integer("rounds"));
         found_.evaluations = static_cast<int>(values.integer("evaluations"));
         found_.budget_runs = static_cast<double>(values.integer("budget.runs"));
@@ -322,6 +329,13 @@ private:
         require_own_names(found_.targets.held_out);
         check_held_out();
         for (const Measured& measured : found_.measured) check_measure(measured);
+        for (std::size_t study = 0; study < found_.studies.size(); ++study)
+            mistakes_.require(has_target(study), fmt::format("{} has no target", found_.studies[study].string()),
+                              "The runs of each study are compared with a target", "Add a [[target]] with this study, or remove it");
+    }
+
+    bool has_target(std::size_t study) const {
+        return std::any_of(found_.measured.begin(), found_.measured.end(), [&](const Measured& one) { return one.study == study; });
     }
 
     void require_own_names(const std::vector<calibration::Target>& targets) {
@@ -389,8 +403,8 @@ private:
     void check_plan() {
         const CalibrationPlan& plan = found_.plan = plan_of(found_, access_);
         mistakes_.require(static_cast<double>(plan.runs) <= found_.budget_runs,
-                          fmt::format("the plan takes {} runs: {} places, {} studies, {} repeats", plan.runs, plan.grid + plan.further,
-                                      found_.studies.size(), found_.repeats),
+                          fmt::format("the plan takes {} runs: {} places of {}, and {} at the answer", plan.runs, plan.grid + plan.further,
+                                      found_.runs_of_a_place(), found_.runs_of_the_answer()),
                           fmt::format("budget.runs is {}", found_.budget_runs), "Take fewer values, repeats or rounds, or raise it");
         if (plan.core_h)
             mistakes_.require(*plan.core_h <= found_.budget_core_h, fmt::format("the plan takes about {:.3g} core hours", *plan.core_h),
@@ -409,6 +423,22 @@ private:
 };
 
 }  // namespace
+
+bool CalibrationFile::is_fitted(std::size_t study) const {
+    const auto end = measured.begin() + static_cast<std::ptrdiff_t>(targets.fitted.size());
+    return std::any_of(measured.begin(), end, [&](const Measured& one) { return one.study == study; });
+}
+
+std::size_t CalibrationFile::runs_of_a_place() const {
+    std::size_t fitted = 0;
+    for (std::size_t study = 0; study < studies.size(); ++study)
+        if (is_fitted(study)) ++fitted;
+    return fitted * static_cast<std::size_t>(repeats);
+}
+
+std::size_t CalibrationFile::runs_of_the_answer() const {
+    return studies.size() * static_cast<std::size_t>(repeats_at_answer);
+}
 
 std::vector<calibration::Range> CalibrationFile::ranges() const {
     std::vector<calibration::Range> all;

@@ -42,7 +42,7 @@ struct Measured {
 /// Sets of parameters that are planned at most.
 struct CalibrationPlan {
     std::size_t grid = 0, further = 0;
-    std::size_t runs = 0;          ///< of all of them
+    std::size_t runs = 0;          ///< of all of them and of the answer
     std::optional<double> core_h;  ///< none where a study has no prediction
 };
 
@@ -51,7 +51,7 @@ struct CalibrationFile {
     std::vector<std::filesystem::path> studies;
     std::string method;  ///< "grid", "surface" or "bobyqa"
     const calibration::ObjectiveFunction* objective = nullptr;
-    int repeats = 1, rounds = 0, evaluations = 0;
+    int repeats = 1, rounds = 0, evaluations = 0, repeats_at_answer = 1;
     double budget_runs = 0.0, budget_core_h = 0.0;
     std::vector<CalibratedParameter> parameters;
     calibration::Targets targets;
@@ -60,6 +60,10 @@ struct CalibrationFile {
     std::string identity;  ///< text that is the same for files that may share a folder: all but the budget
 
     std::vector<calibration::Range> ranges() const;
+    /// Whether a target of that study is fitted; else its runs are wanted at the answer alone.
+    bool is_fitted(std::size_t study) const;
+    std::size_t runs_of_a_place() const;
+    std::size_t runs_of_the_answer() const;
 };
 
 /// Every key of a calibration file.

@@ -58,8 +58,9 @@ struct CalibrateOptions {
 
 std::string plan_text(const cases::CalibrationFile& file) {
     const cases::CalibrationPlan& plan = file.plan;
-    std::string text = fmt::format("{} places at most, {} of them the grid; {} runs of {}", plan.grid + plan.further, plan.grid, plan.runs,
-                                   file.budget_runs);
+    std::string text =
+        fmt::format("{} places at most, {} of them the grid, {} run(s) each, and {} at the answer; {} runs of {}", plan.grid + plan.further,
+                    plan.grid, file.runs_of_a_place(), file.runs_of_the_answer(), plan.runs, file.budget_runs);
     text += plan.core_h ? fmt::format("; about {:.3g} core hours of {}", *plan.core_h, file.budget_core_h)
                         : fmt::format("; {} core hours at most", file.budget_core_h);
     return text;

@@ -159,7 +159,11 @@ TEST_F(Calibrate, recovers_a_hidden_value_and_predicts_what_was_held_out) {
     EXPECT_NEAR(outcome.agreements[1].model[0], 40.0 - 25.0 * 0.44, 0.8);
     EXPECT_GT(outcome.calibration.evaluations.size(), 15u) << "places of the round";
     EXPECT_LE(outcome.calibration.evaluations.size(), 15u + 3u);
-    EXPECT_EQ(outcome.calibration.cost.runs, 3u * outcome.calibration.evaluations.size());
+    EXPECT_EQ(outcome.calibration.cost.runs, 3u * outcome.calibration.evaluations.size() + 3u) << "and those of the answer";
+    EXPECT_EQ(outcome.agreements[1].runs, 3u);
+    EXPECT_TRUE(outcome.agreements[1].standard_error);
+    for (const auto& evaluation : outcome.calibration.evaluations)
+        EXPECT_EQ(evaluation.values.size(), 1u) << "the held-out one is not read";
     EXPECT_NEAR(outcome.calibration.cost.core_h, 0.01 * static_cast<double>(outcome.calibration.cost.runs), 1e-12);
     EXPECT_EQ(made(), outcome.calibration.cost.runs);
 }
@@ -171,10 +175,42 @@ TEST_F(Calibrate, shares_one_set_of_parameters_between_studies) {
             fmt::format("[[target]]\nmeasure = \"angle\"\nvalue = {}\ntolerance = 0.3\nstudy = \"big\"\n", angle(0.52) + 1.0)));
     const auto outcome = run();
     EXPECT_EQ(outcome.parameters[0], 0.5) << "the best place of the grid";
-    EXPECT_EQ(made(), 15u * 2u * 2u);
+    EXPECT_EQ(made(), 15u * 2u * 2u + 2u * 3u);
     EXPECT_EQ(outcome.agreements[0].name, "heap: angle");
     EXPECT_EQ(outcome.agreements[1].name, "big: angle");
     EXPECT_NEAR(outcome.agreements[1].model[0] - outcome.agreements[0].model[0], 1.0, 0.8);
+}
+
+TEST_F(Calibrate, runs_a_study_of_held_out_targets_at_the_answer_alone_with_new_seeds) {
+    write(
+        calibration_text("study = [\"heap.toml\", \"big.toml\"]\nmethod = \"grid\"\nrepeats = 2\nrepeats_at_answer = 4",
+                         angle_target("study = \"heap\"\n") +
+                             fmt::format("[[target]]\nmeasure = \"angle\"\nvalue = {}\ntolerance = 0.3\nstudy = \"big\"\nheld_out = true\n",
+                                         angle(0.44) + 1.0)));
+    const CalibrationFile file = read_calibration(folder_ / "calibration.toml", access());
+    EXPECT_EQ(file.plan.runs, 15u * 2u + 2u * 4u);
+    EXPECT_NEAR(*file.plan.core_h, 0.01 * static_cast<double>(file.plan.runs), 1e-12);
+    const auto outcome = run();
+    EXPECT_EQ(made(), file.plan.runs);
+    EXPECT_EQ(outcome.calibration.cost.runs, file.plan.runs);
+    ASSERT_EQ(outcome.agreements.size(), 2u);
+    for (const auto& agreement : outcome.agreements) EXPECT_EQ(agreement.runs, 4u);
+    EXPECT_NEAR(outcome.agreements[1].model[0], angle(outcome.parameters[0]) + 1.0, 0.5);
+    const std::string runs = read_file(folder_ / "made");
+    for (const char* name : {"big", "heap"}) {
+        EXPECT_THAT(runs, HasSubstr("_repeat6\n")) << name;
+        EXPECT_THAT(runs, ::testing::Not(HasSubstr("_repeat7\n")));
+    }
+    EXPECT_THAT(runs, ::testing::Not(::testing::ContainsRegex("big[^\n]*_repeat[12]\n"))) << "those seeds belong to the places";
+    // The best place of the grid was chosen by its own runs: the answer's are others.
+    const auto best = std::min_element(outcome.objectives.begin(), outcome.objectives.end()) - outcome.objectives.begin();
+    EXPECT_EQ(outcome.answer->parameters, outcome.calibration.evaluations[static_cast<std::size_t>(best)].parameters);
+    EXPECT_NE(outcome.answer->values[0][0], outcome.calibration.evaluations[static_cast<std::size_t>(best)].values[0][0]);
+}
+
+TEST_F(Calibrate, refuses_a_study_without_a_target) {
+    EXPECT_THAT(refusal(calibration_text("study = [\"heap.toml\", \"big.toml\"]", angle_target("study = \"heap\"\n"))),
+                HasSubstr("big.toml has no target"));
 }
 
 TEST_F(Calibrate, makes_no_run_twice_when_resumed) {
@@ -208,7 +244,7 @@ TEST_F(Calibrate, leaves_out_runs_that_fail_and_places_without_any) {
     const auto outcome = run();
     EXPECT_EQ(outcome.calibration.evaluations.size(), 14u);
     EXPECT_EQ(outcome.calibration.cost.failed_runs, 4u);
-    EXPECT_EQ(outcome.calibration.cost.runs, 45u);
+    EXPECT_EQ(outcome.calibration.cost.runs, 45u + 3u);
     EXPECT_THAT(lines_, HasSubstr("left out, a target has no value"));
     std::size_t with_two = 0;
     for (const auto& evaluation : outcome.calibration.evaluations)
@@ -225,8 +261,8 @@ TEST_F(Calibrate, is_refused_when_no_place_has_values) {
 TEST_F(Calibrate, stops_when_its_core_hours_are_spent) {
     std::string text = calibration_text("study = [\"heap.toml\"]\nrounds = 5", angle_target());
     text.replace(text.find("core_h = 10"), 11, "core_h = 0.66");
-    // 15 places of 3 runs are 0.45 core hours, 15 more of the rounds 0.45: refused as a plan.
-    EXPECT_THAT(refusal(text), AllOf(HasSubstr("about 0.9 core hours"), HasSubstr("budget.core_h is 0.66")));
+    // 15 places of 3 runs are 0.45 core hours, 15 more of the rounds 0.45, the answer 0.03: refused as a plan.
+    EXPECT_THAT(refusal(text), AllOf(HasSubstr("about 0.93 core hours"), HasSubstr("budget.core_h is 0.66")));
     StudyAccess cheap = access();
     cheap.predicted_core_s = [](const fs::path&) { return std::optional<double>(); };  // as cutters: known only when they run
     CalibrateSettings how = settings();
@@ -235,7 +271,7 @@ TEST_F(Calibrate, stops_when_its_core_hours_are_spent) {
     const auto outcome = run_calibration(file, how, [](const std::string&) {});
     EXPECT_EQ(outcome.calibration.ended, "the budget is spent");
     EXPECT_GE(outcome.calibration.cost.core_h, 0.66);
-    EXPECT_LT(outcome.calibration.cost.core_h, 0.66 + 0.09) << "no round is begun once it is spent";
+    EXPECT_LT(outcome.calibration.cost.core_h, 0.66 + 0.09 + 0.03) << "no round is begun once it is spent, the answer is run";
 }
 
 TEST_F(Calibrate, takes_a_profile_from_a_file) {
@@ -388,7 +424,8 @@ TEST_F(Calibrate, refuses_held_out_targets_in_the_objective_unknown_names_and_pl
     EXPECT_THAT(refusal(text), HasSubstr("bodies.density_kg_m3"));
     text = calibration_text(head, angle_target());
     text.replace(text.find("runs = 200"), 10, "runs = 60");
-    EXPECT_THAT(refusal(text), AllOf(HasSubstr("the plan takes 63 runs: 21 places, 1 studies, 3 repeats"), HasSubstr("budget.runs is 60")));
+    EXPECT_THAT(refusal(text),
+                AllOf(HasSubstr("the plan takes 66 runs: 21 places of 3, and 3 at the answer"), HasSubstr("budget.runs is 60")));
     EXPECT_THAT(refusal(calibration_text(head + "\nmethod = \"bobyqa\"", angle_target())), "") << "30 places of 3 runs";
     EXPECT_THAT(refusal(calibration_text(head, "")), HasSubstr("no [[target]] is fitted"));
     EXPECT_THAT(refusal(calibration_text("study = \"heap.toml\"", angle_target())), HasSubstr("It must be a list of texts"));

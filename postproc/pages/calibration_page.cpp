@@ -170,12 +170,21 @@ Figure profile_figure(const Outcome& outcome, std::size_t k) {
             fmt::format("Objective against {}: all places, with the standard deviation of single runs.", html::escape(range.name)), ""};
 }
 
-/// What a target's measure does along a parameter.
+/// Adds the mean and the scatter of a target's runs at one place.
+void add_runs(Series& series, const Evaluation& evaluation, std::size_t t, std::size_t k) {
+    std::vector<double> values;
+    for (const std::vector<double>& repeat : evaluation.values[t]) values.push_back(repeat.front());
+    const double mean = sample_of(values).mean, half = deviation(values);
+    series.x.push_back(evaluation.parameters[static_cast<Eigen::Index>(k)]);
+    series.y.push_back(mean);
+    series.y_low.push_back(mean - half);
+    series.y_high.push_back(mean + half);
+}
+
+/// What a fitted target's measure does along a parameter.
 Figure target_figure(const Outcome& outcome, std::size_t t, std::size_t k) {
     const Calibration& calibration = outcome.calibration;
-    const std::size_t fitted = calibration.targets.fitted.size();
-    const bool held_out = t >= fitted;
-    const Target& target = held_out ? calibration.targets.held_out[t - fitted] : calibration.targets.fitted[t];
+    const Target& target = calibration.targets.fitted[t];
     const Range& range = calibration.ranges[k];
     Plot plot;
     plot.name = fmt::format("target_{}_{}", t, k);
@@ -190,32 +199,27 @@ Figure target_figure(const Outcome& outcome, std::size_t t, std::size_t k) {
                           {value - target.tolerance, value - target.tolerance},
                           {value + target.tolerance, value + target.tolerance}});
     if (outcome.estimate) {
-        const Surface surface(calibration.ranges, {target}, calibration.evaluations, t);
+        const Surface surface(calibration.ranges, calibration.targets.fitted, calibration.evaluations);
         Series fit = line("fit through the chosen parameters", palette::sucked_up, 1.6);
         Eigen::VectorXd parameters = outcome.parameters;
         for (std::size_t i = 0; i < k_slice_points; ++i) {
             const double x = range.low + (range.high - range.low) * static_cast<double>(i) / (k_slice_points - 1);
             parameters[static_cast<Eigen::Index>(k)] = x;
             fit.x.push_back(x);
-            fit.y.push_back(surface.model(scaled(calibration.ranges, parameters))[0][0]);
+            fit.y.push_back(surface.model(scaled(calibration.ranges, parameters))[t][0]);
         }
         plot.series.push_back(std::move(fit));
     }
     Series runs = points("runs, with the scatter of repeats", palette::ink, Mark::ring, 7.0);
-    for (const Evaluation& evaluation : calibration.evaluations) {
-        std::vector<double> values;
-        for (const std::vector<double>& repeat : evaluation.values[t]) values.push_back(repeat.front());
-        const double mean = sample_of(values).mean, half = deviation(values);
-        runs.x.push_back(evaluation.parameters[static_cast<Eigen::Index>(k)]);
-        runs.y.push_back(mean);
-        runs.y_low.push_back(mean - half);
-        runs.y_high.push_back(mean + half);
-    }
+    for (const Evaluation& evaluation : calibration.evaluations) add_runs(runs, evaluation, t, k);
     plot.series.push_back(std::move(runs));
+    if (outcome.answer && !outcome.answer->values[t].empty()) {
+        Series answer = points("runs at the chosen parameters", palette::spilled, Mark::diamond, 11.0);
+        add_runs(answer, *outcome.answer, t, k);
+        plot.series.push_back(std::move(answer));
+    }
     return {std::move(plot),
-            fmt::format("{}{} against {}: mean and standard deviation of repeats.", held_out ? "Held out: " : "", html::escape(target.name),
-                        html::escape(range.name)),
-            ""};
+            fmt::format("{} against {}: mean and standard deviation of repeats.", html::escape(target.name), html::escape(range.name)), ""};
 }
 
 Figure heights_figure(const Agreement& agreement, std::size_t t) {
@@ -223,13 +227,15 @@ Figure heights_figure(const Agreement& agreement, std::size_t t) {
     plot.name = fmt::format("profile_{}", t);
     plot.x = {"place of the profile [-]", {".0f", ""}};
     plot.y = {"height [m]", {".4g", " m"}};
-    Series target = line("target", palette::outflow, 2.0), model = line("chosen parameters", palette::sucked_up, 1.6, true);
-    for (std::size_t i = 0; i < agreement.target.size(); ++i) {
-        target.x.push_back(static_cast<double>(i + 1));
-        target.y.push_back(agreement.target[i]);
-        model.x.push_back(static_cast<double>(i + 1));
-        model.y.push_back(agreement.model[i]);
-    }
+    Series target = line("target", palette::outflow, 2.0), model = line("runs at the chosen parameters", palette::sucked_up, 1.6, true);
+    const auto add = [](Series& series, const std::vector<double>& heights) {
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            series.x.push_back(static_cast<double>(i + 1));
+            series.y.push_back(heights[i]);
+        }
+    };
+    add(target, agreement.target);
+    add(model, agreement.model);
     plot.series = {std::move(target), std::move(model)};
     return {std::move(plot), fmt::format("{}: heights of the target and at the chosen parameters.", html::escape(agreement.name)), ""};
 }
@@ -260,16 +266,21 @@ std::string agreement_table(const Outcome& outcome, bool held_out) {
     for (const Agreement& agreement : outcome.agreements) {
         if (agreement.held_out != held_out) continue;
         const bool single = agreement.target.size() == 1;
-        rows.push_back({html::escape(agreement.name), single ? fmt::format("{:.4g}", agreement.target[0]) : "profile",
-                        fmt::format("{:.3g}", agreement.tolerance), single ? fmt::format("{:.4g}", agreement.model[0]) : "",
-                        agreement.standard_error ? fmt::format("{:.2g}", *agreement.standard_error) : "",
+        const auto first = [&](const std::vector<double>& values) {
+            return single && !values.empty() ? fmt::format("{:.4g}", values[0]) : std::string();
+        };
+        const auto error = [](const std::optional<double>& value) { return value ? fmt::format("{:.2g}", *value) : std::string(); };
+        rows.push_back({html::escape(agreement.name), single ? first(agreement.target) : "profile",
+                        fmt::format("{:.3g}", agreement.tolerance), fmt::format("{}", agreement.runs), first(agreement.model),
+                        error(agreement.standard_error),
                         agreement.relative_error ? fmt::format("{:.1f} %", 100.0 * *agreement.relative_error) : "",
-                        fmt::format("{:.2f}", agreement.in_tolerances)});
+                        agreement.in_tolerances ? fmt::format("{:.2f}", *agreement.in_tolerances) : "", first(agreement.fit),
+                        error(agreement.fit_standard_error)});
     }
     if (rows.empty()) return "<p>None.</p>";
-    return html::scrolling(html::table(
-        {"target", "measured", "tolerance", "at the chosen parameters", "standard error", "relative error", "error in tolerances"}, rows,
-        true));
+    return html::scrolling(html::table({"target", "measured", "tolerance", "runs", "their mean", "standard error", "relative error",
+                                        "error in tolerances", "by the fit", "standard error of the fit"},
+                                       rows, true));
 }
 
 std::string direction_text(const Direction& direction, const std::vector<Range>& ranges) {
@@ -323,6 +334,7 @@ std::vector<Figure> calibration_figures(const Outcome& outcome) {
             figures.push_back(heights_figure(outcome.agreements[t], t));
             continue;
         }
+        if (outcome.agreements[t].held_out) continue;  // known at the chosen parameters alone
         for (std::size_t k = 0; k < calibration.ranges.size(); ++k) figures.push_back(target_figure(outcome, t, k));
     }
     return figures;
@@ -341,8 +353,9 @@ fs::path write_calibration(const Outcome& outcome, const fs::path& folder) {
     const std::string title = html::escape(outcome.calibration.name);
     const std::string body =
         fmt::format("<header><h1>{}</h1></header>\n", title) + answers(outcome) +
-        html::section("Targets", agreement_table(outcome, false)) +
-        html::section("Held-out targets", "<p>They took no part in the choice of the parameters.</p>" + agreement_table(outcome, true)) +
+        html::section("Targets", "<p>Runs at the chosen parameters that had no part in the choice, beside the fit.</p>" +
+                                     agreement_table(outcome, false)) +
+        html::section("Held-out targets", "<p>They were run at the chosen parameters alone.</p>" + agreement_table(outcome, true)) +
         html::section("What the targets determine", determined_section(outcome)) +
         html::section("Runs", "<div class=\"figures\">" + plots + "</div>") + html::section("Cost", cost_section(outcome));
     page.write(outcome.calibration.name, body, "");

@@ -227,19 +227,20 @@ Eigen::VectorXd unscaled(const std::vector<Range>& ranges, const Eigen::VectorXd
     return parameters;
 }
 
+std::vector<double> mean_of(const std::vector<std::vector<double>>& repeats) {
+    std::vector<double> mean(repeats.front().size(), 0.0);
+    for (const std::vector<double>& values : repeats)
+        for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += values[i] / static_cast<double>(repeats.size());
+    return mean;
+}
+
 std::vector<std::vector<double>> means_of(const Evaluation& evaluation) {
     std::vector<std::vector<double>> means;
-    for (const auto& repeats : evaluation.values) {
-        std::vector<double> mean(repeats.front().size(), 0.0);
-        for (const std::vector<double>& values : repeats)
-            for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += values[i] / static_cast<double>(repeats.size());
-        means.push_back(std::move(mean));
-    }
+    for (const auto& repeats : evaluation.values) means.push_back(mean_of(repeats));
     return means;
 }
 
-Surface::Surface(const std::vector<Range>& ranges, const std::vector<Target>& targets, const std::vector<Evaluation>& evaluations,
-                 std::size_t first)
+Surface::Surface(const std::vector<Range>& ranges, const std::vector<Target>& targets, const std::vector<Evaluation>& evaluations)
     : targets_(targets) {
     for (std::size_t t = 0; t < targets.size(); ++t) {
         std::vector<Response> places;
@@ -247,7 +248,7 @@ Surface::Surface(const std::vector<Range>& ranges, const std::vector<Target>& ta
             std::vector<Repeats> points;
             for (const Evaluation& evaluation : evaluations) {
                 points.push_back({scaled(ranges, evaluation.parameters), {}});
-                for (const std::vector<double>& values : evaluation.values[first + t]) points.back().values.push_back(values[i]);
+                for (const std::vector<double>& values : evaluation.values[t]) points.back().values.push_back(values[i]);
             }
             places.emplace_back(points);
         }

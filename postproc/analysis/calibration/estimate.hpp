@@ -28,9 +28,13 @@ Eigen::VectorXd unscaled(const std::vector<Range>& ranges, const Eigen::VectorXd
 /// Runs at one set of parameters.
 struct Evaluation {
     Eigen::VectorXd parameters;
-    /// Of each target (the fitted ones, then the held-out ones), each repeat, each place of a profile.
+    /// Of each target, each repeat, each place of a profile. Of the places that are searched the fitted targets; at the answer the
+    /// held-out ones too, after the fitted.
     std::vector<std::vector<std::vector<double>>> values;
 };
+
+/// Mean over the repeats of one target, of each place of a profile.
+std::vector<double> mean_of(const std::vector<std::vector<double>>& repeats);
 
 /// Means over the repeats: of each target, each place of a profile.
 std::vector<std::vector<double>> means_of(const Evaluation& evaluation);
@@ -38,10 +42,8 @@ std::vector<std::vector<double>> means_of(const Evaluation& evaluation);
 /// Quadratic responses of targets.
 class Surface {
 public:
-    /// \param first  index in Evaluation::values of the first of `targets`
     /// \pre the evaluations determine every term
-    Surface(const std::vector<Range>& ranges, const std::vector<Target>& targets, const std::vector<Evaluation>& evaluations,
-            std::size_t first = 0);
+    Surface(const std::vector<Range>& ranges, const std::vector<Target>& targets, const std::vector<Evaluation>& evaluations);
 
     /// Of each target at scaled parameters.
     std::vector<std::vector<double>> model(const Eigen::VectorXd& at) const;

@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/statistics/sample.hpp"
 
 namespace cutterflow::postproc::calibration {
 
 namespace {
-
-using Values = std::vector<std::vector<double>>;  // of each target, each place
 
 std::vector<Eigen::VectorXd> scaled_places(const Calibration& calibration) {
     std::vector<Eigen::VectorXd> places;
@@ -19,28 +18,43 @@ std::vector<Eigen::VectorXd> scaled_places(const Calibration& calibration) {
     return places;
 }
 
-Agreement agreement_of(const Target& target, bool held_out, const std::vector<double>& model) {
-    Agreement found{target.name, held_out, target.values, model, target.tolerance, std::nullopt, std::nullopt, 0.0};
-    found.in_tolerances = std::sqrt(find_objective("squared_misfit")->misfit(target, model));
-    const bool has_zero = std::any_of(target.values.begin(), target.values.end(), [](double value) { return value == 0.0; });
-    if (!has_zero) found.relative_error = find_objective("relative_error")->misfit(target, model);
-    return found;
+Agreement agreement_of(const Target& target, bool held_out) {
+    Agreement agreement;
+    agreement.name = target.name;
+    agreement.held_out = held_out;
+    agreement.target = target.values;
+    agreement.tolerance = target.tolerance;
+    return agreement;
 }
 
-/// Of the fitted or the held-out targets, at chosen parameters.
-void add_agreements(Outcome& outcome, bool held_out, const Evaluation* chosen) {
+/// The fitted targets as the quadratic has them at the chosen parameters.
+std::vector<Agreement> agreements_of_fit(const Outcome& outcome) {
     const Calibration& calibration = outcome.calibration;
-    const std::vector<Target>& targets = held_out ? calibration.targets.held_out : calibration.targets.fitted;
-    const std::size_t first = held_out ? calibration.targets.fitted.size() : 0;
-    std::optional<Surface> surface;
+    std::vector<Agreement> agreements;
+    for (const Target& target : calibration.targets.fitted) agreements.push_back(agreement_of(target, false));
+    if (!outcome.estimate) return agreements;
+    const Surface surface(calibration.ranges, calibration.targets.fitted, calibration.evaluations);
     const Eigen::VectorXd at = scaled(calibration.ranges, outcome.parameters);
-    if (outcome.estimate) surface.emplace(calibration.ranges, targets, calibration.evaluations, first);
-    const Values model = chosen ? means_of(*chosen) : Values{};
-    for (std::size_t t = 0; t < targets.size(); ++t) {
-        outcome.agreements.push_back(agreement_of(targets[t], held_out, chosen ? model[first + t] : surface->model(at)[t]));
-        if (surface && targets[t].values.size() == 1)
-            outcome.agreements.back().standard_error = std::sqrt(surface->response(t).variance(at));
+    const std::vector<std::vector<double>> fit = surface.model(at);
+    for (std::size_t t = 0; t < agreements.size(); ++t) {
+        agreements[t].fit = fit[t];
+        if (fit[t].size() == 1) agreements[t].fit_standard_error = std::sqrt(surface.response(t).variance(at));
     }
+    return agreements;
+}
+
+/// \param runs  of each run at the answer, each place of a profile
+void judge_target(Agreement& agreement, const Target& target, const std::vector<std::vector<double>>& runs) {
+    agreement.runs = runs.size();
+    if (runs.empty()) return;
+    agreement.model = mean_of(runs);
+    agreement.in_tolerances = std::sqrt(find_objective("squared_misfit")->misfit(target, agreement.model));
+    const bool has_zero = std::count(target.values.begin(), target.values.end(), 0.0) > 0;
+    if (!has_zero) agreement.relative_error = find_objective("relative_error")->misfit(target, agreement.model);
+    if (target.values.size() > 1 || runs.size() < 2) return;
+    std::vector<double> values;
+    for (const std::vector<double>& run : runs) values.push_back(run.front());
+    agreement.standard_error = std::sqrt(sample_of(values).variance / static_cast<double>(values.size()));
 }
 
 nlohmann::json numbers(const Eigen::VectorXd& values) {
@@ -96,6 +110,17 @@ nlohmann::json estimate_json(const ParameterEstimate& estimate) {
             {"directions", directions}};
 }
 
+/// "held out: large disc: 20.4 +- 0.3 of 3 runs for 20.8, 0.30 tolerances off".
+std::string agreement_text(const Agreement& agreement) {
+    std::string text = fmt::format("{}{}: ", agreement.held_out ? "held out: " : "", agreement.name);
+    if (agreement.model.empty()) return text + "no run at the answer has a value\n";
+    const bool single = agreement.target.size() == 1;
+    if (single) text += fmt::format("{:.4g}", agreement.model.front());
+    if (agreement.standard_error) text += fmt::format(" +- {:.2g}", *agreement.standard_error);
+    if (single) text += fmt::format(" of {} run(s) for {:.4g}, ", agreement.runs, agreement.target.front());
+    return text + fmt::format("{:.2f} tolerances off\n", *agreement.in_tolerances);
+}
+
 double number_at(const nlohmann::json& value) {
     return value.get<double>();
 }
@@ -117,14 +142,21 @@ Outcome outcome_of(Calibration calibration, bool fitted_minimum) {
         static_cast<std::size_t>(std::min_element(outcome.objectives.begin(), outcome.objectives.end()) - outcome.objectives.begin());
     outcome.calibration = std::move(calibration);
     const bool takes_fit = fitted_minimum && outcome.estimate.has_value();
-    const Evaluation* chosen = takes_fit ? nullptr : &outcome.calibration.evaluations[best];
-    outcome.parameters = takes_fit ? outcome.estimate->parameters : chosen->parameters;
-    add_agreements(outcome, false, chosen);
-    add_agreements(outcome, true, chosen);
+    outcome.parameters = takes_fit ? outcome.estimate->parameters : outcome.calibration.evaluations[best].parameters;
+    outcome.agreements = agreements_of_fit(outcome);
     if (outcome.estimate)
         for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k)
             if (!outcome.estimate->intervals[k].determined()) outcome.undetermined.push_back(outcome.calibration.ranges[k].name);
     return outcome;
+}
+
+void judge(Outcome& outcome, Evaluation answer) {
+    const Targets& targets = outcome.calibration.targets;
+    for (const Target& target : targets.held_out) outcome.agreements.push_back(agreement_of(target, true));
+    std::vector<Target> all = targets.fitted;
+    all.insert(all.end(), targets.held_out.begin(), targets.held_out.end());
+    for (std::size_t t = 0; t < all.size(); ++t) judge_target(outcome.agreements[t], all[t], answer.values[t]);
+    outcome.answer = std::move(answer);
 }
 
 nlohmann::json to_json(const Outcome& outcome) {
@@ -141,11 +173,16 @@ nlohmann::json to_json(const Outcome& outcome) {
         agreements.push_back({{"name", agreement.name},
                               {"held_out", agreement.held_out},
                               {"target", agreement.target},
-                              {"model", agreement.model},
                               {"tolerance", agreement.tolerance},
+                              {"fit", agreement.fit},
+                              {"fit_standard_error", optional_json(agreement.fit_standard_error)},
+                              {"runs", agreement.runs},
+                              {"model", agreement.model},
                               {"standard_error", optional_json(agreement.standard_error)},
                               {"relative_error", optional_json(agreement.relative_error)},
-                              {"in_tolerances", agreement.in_tolerances}});
+                              {"in_tolerances", optional_json(agreement.in_tolerances)}});
+    nlohmann::json answer;
+    if (outcome.answer) answer = {{"parameters", numbers(outcome.answer->parameters)}, {"values", outcome.answer->values}};
     return {{"schema", k_calibration_schema},
             {"name", calibration.name},
             {"method", calibration.method},
@@ -156,6 +193,7 @@ nlohmann::json to_json(const Outcome& outcome) {
             {"agreements", agreements},
             {"estimate", outcome.estimate ? estimate_json(*outcome.estimate) : nlohmann::json()},
             {"evaluations", evaluations},
+            {"answer", answer},
             {"cost",
              {{"runs", calibration.cost.runs},
               {"failed_runs", calibration.cost.failed_runs},
@@ -168,17 +206,16 @@ nlohmann::json to_json(const Outcome& outcome) {
 void certify_objectives(const nlohmann::json& calibration) {
     const ObjectiveFunction* function = find_objective(calibration.at("objective_function").get<std::string>());
     std::vector<Target> fitted;
-    std::vector<std::size_t> places;
-    const nlohmann::json& targets = calibration.at("targets");
-    for (std::size_t t = 0; t < targets.size(); ++t) {
-        if (targets[t].at("held_out").get<bool>()) continue;
-        fitted.push_back(
-            {targets[t].at("name"), targets[t].at("values"), number_at(targets[t].at("tolerance")), number_at(targets[t].at("weight"))});
-        places.push_back(t);
-    }
+    for (const nlohmann::json& target : calibration.at("targets"))
+        if (!target.at("held_out").get<bool>())
+            fitted.push_back({target.at("name"), target.at("values"), number_at(target.at("tolerance")), number_at(target.at("weight"))});
     for (const nlohmann::json& row : calibration.at("evaluations")) {
         Evaluation evaluation;
-        for (const std::size_t t : places) evaluation.values.push_back(row.at("values")[t]);
+        evaluation.values = row.at("values").get<std::vector<std::vector<std::vector<double>>>>();
+        if (evaluation.values.size() != fitted.size())
+            throw CheckFailure({"", fmt::format("a place with values of {} targets", evaluation.values.size()),
+                                fmt::format("Before the choice the {} fitted targets are looked at, and no held-out one", fitted.size()),
+                                "Report this defect"});
         const double expected = objective_of(*function, fitted, means_of(evaluation)), written = number_at(row.at("objective"));
         if (!(std::abs(written - expected) <= 1e-9 * std::max(std::abs(expected), 1e-12)))
             throw CheckFailure({"", fmt::format("an objective of {} where the fitted targets give {}", written, expected),
@@ -197,11 +234,7 @@ std::string outcome_text(const Outcome& outcome) {
         }
         text += '\n';
     }
-    for (const Agreement& agreement : outcome.agreements) {
-        text += fmt::format("{}{}: ", agreement.held_out ? "held out: " : "", agreement.name);
-        if (agreement.target.size() == 1) text += fmt::format("{:.4g} for {:.4g}, ", agreement.model.front(), agreement.target.front());
-        text += fmt::format("{:.2f} tolerances off\n", agreement.in_tolerances);
-    }
+    for (const Agreement& agreement : outcome.agreements) text += agreement_text(agreement);
     return text + fmt::format("{} runs, {:.3g} core hours; {}\n", outcome.calibration.cost.runs, outcome.calibration.cost.core_h,
                               outcome.calibration.ended);
 }

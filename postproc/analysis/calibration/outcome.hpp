@@ -1,5 +1,5 @@
 #pragma once
-/// \file What a calibration found: calibration.json (schema cutterflow.calibration/1), and the certificate of its objective.
+/// \file What a calibration found: calibration.json (schema cutterflow.calibration/2), and the certificate of its objective.
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace cutterflow::postproc::calibration {
 
-inline constexpr const char* k_calibration_schema = "cutterflow.calibration/1";
+inline constexpr const char* k_calibration_schema = "cutterflow.calibration/2";
 
 struct CalibrationCost {
     std::size_t runs = 0, failed_runs = 0;
@@ -22,11 +22,15 @@ struct CalibrationCost {
 struct Agreement {
     std::string name;
     bool held_out = false;
-    std::vector<double> target, model;
+    std::vector<double> target;
     double tolerance = 0.0;
-    std::optional<double> standard_error;  ///< of a single value: scatter of the fit and misfit of the quadratic; none without a fit
-    std::optional<double> relative_error;  ///< mean of |model - target|/|target|; none with a target of 0
-    double in_tolerances = 0.0;            ///< root mean square of (model - target)/tolerance
+    std::vector<double> fit;                   ///< of a fitted target, by the quadratic; empty without one
+    std::optional<double> fit_standard_error;  ///< of a single value: scatter of the fit and misfit of the quadratic
+    std::size_t runs = 0;                      ///< at the answer that have a value
+    std::vector<double> model;                 ///< mean of those runs; empty without any
+    std::optional<double> standard_error;      ///< of the mean of a single value, from two runs on
+    std::optional<double> relative_error;      ///< mean of |model - target|/|target|; none with a target of 0
+    std::optional<double> in_tolerances;       ///< root mean square of (model - target)/tolerance
 };
 
 struct Calibration {
@@ -44,21 +48,28 @@ struct Outcome {
     Eigen::VectorXd parameters;                 ///< chosen ones
     std::vector<double> objectives;             ///< of each evaluation, at the means of its repeats
     std::optional<ParameterEstimate> estimate;  ///< none when the evaluations do not determine the quadratic
-    std::vector<Agreement> agreements;          ///< fitted targets, then the held-out ones
+    std::optional<Evaluation> answer;           ///< runs at the chosen parameters, of all targets: no part of the fit
+    std::vector<Agreement> agreements;          ///< fitted targets; with the answer then the held-out ones
     std::vector<std::string> undetermined;      ///< names of parameters that the targets do not determine
 };
 
 /// The fit through all evaluations; none when they do not determine it. It sees no held-out target.
 std::optional<ParameterEstimate> estimate_of(const Calibration& calibration);
 
+/// Chooses the parameters.
 /// \param fitted_minimum  whether the least value of the fit is chosen; else the best evaluation
 /// \pre one evaluation or more
 Outcome outcome_of(Calibration calibration, bool fitted_minimum);
 
+/// Judges all targets by runs at the chosen parameters that had no part in the choice.
+/// \param answer  of the fitted, then of the held-out targets; a target without any value is told so
+void judge(Outcome& outcome, Evaluation answer);
+
 nlohmann::json to_json(const Outcome& outcome);
 
 /// Recomputes every objective of a calibration.json from the values of the targets that it says were fitted, and those alone.
-/// \throws CheckFailure  when one differs by more than 1e-9 of itself: something else entered it, such as a held-out target
+/// \throws CheckFailure  when one differs by more than 1e-9 of itself, or a place has values of other targets: something else entered it,
+/// such as a held-out target
 void certify_objectives(const nlohmann::json& calibration);
 
 /// The answer in a few lines of plain text.

@@ -69,7 +69,17 @@ Calibration with_held_out(double held_out_value) {
     calibration.targets.held_out = {calibration.targets.fitted.back()};
     calibration.targets.held_out[0].values[0] = held_out_value;
     calibration.targets.fitted.pop_back();
+    for (Evaluation& evaluation : calibration.evaluations) evaluation.values.pop_back();
     return calibration;
+}
+
+/// Judged by three runs at the chosen parameters.
+Outcome judged(Calibration calibration) {
+    Outcome outcome = outcome_of(std::move(calibration), true);
+    Box box;
+    box.random.seed(77);
+    judge(outcome, evaluate(box, outcome.parameters[0], outcome.parameters[1], 3));
+    return outcome;
 }
 
 }  // namespace
@@ -184,7 +194,7 @@ TEST(CalibrationFit, runs_next_in_the_region_where_the_responses_get_better_know
     double before = 0.0, after = 0.0;
     const auto squared_error = [](const Outcome& outcome) {
         const double mu = outcome.parameters[1];
-        return std::pow(outcome.agreements[0].model[0] - (34.0 + 18.0 * mu - 9.0 * mu * mu), 2);
+        return std::pow(outcome.agreements[0].fit[0] - (34.0 + 18.0 * mu - 9.0 * mu * mu), 2);
     };
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         Box box;
@@ -256,33 +266,67 @@ TEST(CalibrationFit, chooses_the_best_run_where_there_are_too_few_for_a_fit) {
 }
 
 TEST(HeldOut, changes_neither_objective_nor_parameters_and_is_reported) {
-    const Outcome one = outcome_of(with_held_out(25.0), true), other = outcome_of(with_held_out(60.0), true);
+    const Outcome one = judged(with_held_out(25.0)), other = judged(with_held_out(60.0));
     EXPECT_EQ(one.parameters, other.parameters);
     EXPECT_EQ(one.objectives, other.objectives);
     EXPECT_EQ(one.estimate->intervals[1].low, other.estimate->intervals[1].low);
     ASSERT_EQ(one.agreements.size(), 3u);
     EXPECT_TRUE(one.agreements[2].held_out);
     EXPECT_NEAR(one.agreements[2].model[0], 30.0 * std::exp(-0.6 * 0.33), 1.5);
-    EXPECT_GT(other.agreements[2].in_tolerances, 100.0);
+    EXPECT_TRUE(one.agreements[2].fit.empty()) << "no fit has seen it";
+    EXPECT_GT(*other.agreements[2].in_tolerances, 100.0);
     EXPECT_THAT(outcome_text(other), HasSubstr("held out: rate"));
 }
 
+TEST(Answer, is_judged_by_runs_that_had_no_part_in_the_fit) {
+    Calibration calibration = with_held_out(25.0);
+    Outcome outcome = outcome_of(calibration, true);
+    const std::vector<double> fit = outcome.agreements[0].fit;
+    EXPECT_EQ(outcome.agreements.size(), 2u) << "a held-out target is known at the answer alone";
+    EXPECT_THAT(outcome_text(outcome), HasSubstr("no run at the answer has a value"));
+    // Runs that lie 3 above the fit: the answer says so, whatever the fit says.
+    const double target = outcome.agreements[0].target[0];
+    judge(outcome, {outcome.parameters, {{{target + 2.0}, {target + 4.0}, {target + 3.0}}, {{50.0}, {52.0}}, {}}});
+    const Agreement& agreement = outcome.agreements[0];
+    EXPECT_EQ(agreement.fit, fit);
+    EXPECT_EQ(agreement.runs, 3u);
+    EXPECT_NEAR(agreement.model[0], target + 3.0, 1e-12);
+    EXPECT_NEAR(*agreement.standard_error, 1.0 / std::sqrt(3.0), 1e-12);
+    EXPECT_NEAR(*agreement.in_tolerances, 3.0 / agreement.tolerance, 1e-12);
+    EXPECT_NEAR(*agreement.relative_error, 3.0 / target, 1e-12);
+    // A target without values at the answer is told so.
+    ASSERT_EQ(outcome.agreements.size(), 3u);
+    EXPECT_EQ(outcome.agreements[2].runs, 0u);
+    EXPECT_FALSE(outcome.agreements[2].in_tolerances);
+    EXPECT_THAT(outcome_text(outcome), HasSubstr("held out: rate: no run at the answer has a value"));
+    const nlohmann::json json = to_json(outcome);
+    EXPECT_EQ(json.at("answer").at("values").size(), 3u);
+    EXPECT_TRUE(json.at("agreements")[2].at("in_tolerances").is_null());
+    EXPECT_EQ(json.at("evaluations")[0].at("values").size(), 2u);
+}
+
 TEST(HeldOut, that_enters_an_objective_is_caught) {
-    const Outcome outcome = outcome_of(with_held_out(25.0), true);
+    const Outcome outcome = judged(with_held_out(25.0));
     nlohmann::json honest = to_json(outcome);
     EXPECT_NO_THROW(certify_objectives(honest));
     // A calibration that lies: the third target is said to be held out, and was added.
     nlohmann::json lie = honest;
     std::vector<Target> all = outcome.calibration.targets.fitted;
     all.push_back(outcome.calibration.targets.held_out[0]);
-    for (std::size_t i = 0; i < outcome.calibration.evaluations.size(); ++i)
-        lie["evaluations"][i]["objective"] =
-            objective_of(*outcome.calibration.objective, all, means_of(outcome.calibration.evaluations[i]));
+    for (std::size_t i = 0; i < outcome.calibration.evaluations.size(); ++i) {
+        std::vector<std::vector<double>> model = means_of(outcome.calibration.evaluations[i]);
+        model.push_back({26.0});
+        lie["evaluations"][i]["objective"] = objective_of(*outcome.calibration.objective, all, model);
+    }
     EXPECT_THROW(certify_objectives(lie), CheckFailure);
     // One that calls it fitted afterwards.
     lie = honest;
     lie["targets"][2]["held_out"] = false;
     lie["targets"][2]["weight"] = 1.0;
+    EXPECT_THROW(certify_objectives(lie), CheckFailure);
+    // One whose places have values of the held-out target.
+    lie = honest;
+    lie["evaluations"][0]["values"].push_back({{26.0}});
     EXPECT_THROW(certify_objectives(lie), CheckFailure);
 }
 
