@@ -89,8 +89,7 @@ public:
         if (evaluations_.empty())
             throw ToolError(Mistake{"", "no place has values of all targets", "A calibration compares runs with its targets",
                                     fmt::format("See the logs in {}", (folder() / "logs").string())});
-        calibration::Calibration all{file_.name, file_.method, file_.objective, file_.ranges(), file_.targets, evaluations_, cost_, ended};
-        return all;
+        return {file_.name, file_.method, file_.objective, file_.ranges(), file_.targets, evaluations_, cost_, ended};
     }
 
 private:
