@@ -1,5 +1,7 @@
 #include "solver/app/models_in_use.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "solver/coupling/coupling_methods.hpp"
@@ -13,16 +15,25 @@ void add_pair(const std::string& other, const coupling::PairSettings& pair, cons
                      "rock.contact.pairs." + (coupling::k_pair_with_rock + other)});
     if (pair.rolling_friction > 0.0)
         notes.push_back({fmt::format("rolling friction of rock on {}: {:.3g}, {}", other, pair.rolling_friction, rolling_law),
-                         "rock is no sphere: it comes to rest"});
+                         "a couple, so that what rolls comes to rest"});
+}
+
+/// Whether rock can touch that material: rock itself, or of a wall.
+bool is_touched(const std::string& material, const coupling::DemSettings& dem) {
+    const auto& sides = dem.domain.side_is_wall;
+    const bool has_sides = std::find(sides.begin(), sides.end(), true) != sides.end();
+    return material == "rock" || (has_sides && dem.domain.material == material) ||
+           std::any_of(dem.walls.begin(), dem.walls.end(), [&](const coupling::WallSettings& wall) { return wall.material == material; });
 }
 
 void add_contact_models(const coupling::DemSettings& dem, std::vector<coupling::ModelNote>& notes) {
     const coupling::ContactSettings& contact = dem.contact;
     notes.push_back(
-        {fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa", contact.youngs_modulus), "rock hits rock and steel"});
+        {fmt::format("contact: Hertz-Mindlin with micro-slip, E = {:.3g} Pa", contact.youngs_modulus), "rock hits rock and walls"});
     for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
-        add_pair(pair.other, contact.*pair.settings, contact.rolling_law, notes);
-    for (const auto& [material, pair] : contact.rock_on_others) add_pair(material, pair, contact.rolling_law, notes);
+        if (is_touched(pair.other, dem)) add_pair(pair.other, contact.*pair.settings, contact.rolling_law, notes);
+    for (const auto& [material, pair] : contact.rock_on_others)
+        if (is_touched(material, dem)) add_pair(material, pair, contact.rolling_law, notes);
     if (contact.wet_restitution) notes.push_back({"wet restitution after Legendre", "the fluid in the gap damps slow impacts"});
 }
 
