@@ -22,8 +22,9 @@ std::string fed_text(const FedReplays& fed) {
     std::string text =
         fmt::format("fed         {:.3g} kg/s; hold-up {:.3g} kg, settled in {} of {} replays\n", fed.fed, fed.held, fed.steady, fed.count);
     if (fed.steady < fed.count)
-        text += fmt::format("bounds      {:.1f} to {:.1f} %, spilled/fed and 1 - delivered/fed: hold-up has not settled\n",
-                            100.0 * fed.spillage_min, 100.0 * fed.spillage_max);
+        text += fmt::format("bounds      {:.1f} to {:.1f} %, spilled/fed and 1 - delivered/fed: hold-up has not settled{}\n",
+                            100.0 * fed.spillage_min, 100.0 * fed.spillage_max,
+                            fed.spillage_max > 1.0 ? " (above 100 %: it falls, more is spilled than fed)" : "");
     if (fed.own_interval)
         text += fmt::format("each        +- {:.1f} points (95 %) at most, by batches of a replay's own revolutions\n",
                             100.0 * *fed.own_interval);

@@ -133,6 +133,12 @@ TEST(FedReplays, have_bounds_in_order_where_hold_up_falls) {
     const FedReplays fed = fed_replays_of({head(20.0, 12.0, 10.0, false)});
     const std::string text = replay_text(estimate_spillage({0.4}, {}), fed);
     EXPECT_NE(text.find("40.0 to 50.0 %"), std::string::npos) << text;
+    EXPECT_EQ(text.find("above 100 %"), std::string::npos) << text;
+    const FedReplays empties = fed_replays_of({head(20.0, 0.0, 24.0, false)});
+    EXPECT_NE(replay_text(estimate_spillage({1.0}, {}), empties)
+                  .find("100.0 to 120.0 %, spilled/fed and 1 - delivered/fed: hold-up has not "
+                        "settled (above 100 %: it falls, more is spilled than fed)"),
+              std::string::npos);
 }
 
 TEST(FedReplays, have_no_bounds_where_all_have_settled) {
