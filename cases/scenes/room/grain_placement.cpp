@@ -182,6 +182,7 @@ private:
             neighbours.add(*place, grains.girth * diameter);
             placed += volume_of(diameter);
             grains_.push_back({++last_id_, time_, *place, diameter, grains.density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
+            if (!deposits_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth * diameter);
         }
         return placed;
     }
@@ -193,6 +194,11 @@ private:
             if (neighbours.has_room(*place, diameter) && places_.clear_of_solids(*place, diameter)) return place;
         }
         return std::nullopt;
+    }
+
+    std::optional<Vec3> place_at_top(const Vec3& place, double top, double diameter) const {
+        const Vec3 above(place.x(), place.y(), top - 0.5 * diameter);
+        return places_.clear_of_solids(above, diameter) ? std::optional<Vec3>(above) : std::nullopt;
     }
 
     /// Bulk volume [m3] that earlier pours may have left in a region, at their loosest.
@@ -287,12 +293,18 @@ std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::
 
 std::string grain_feed_csv(const std::vector<PlacedGrain>& grains) {
     const bool shaped = std::any_of(grains.begin(), grains.end(), [](const PlacedGrain& g) { return !g.shape.empty(); });
+    const bool several = std::any_of(grains.begin(), grains.end(), [](const PlacedGrain& g) { return g.above.has_value(); });
     std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s";
-    text += shaped ? ",shape\n" : "\n";
-    for (const PlacedGrain& g : grains) {
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", g.id, g.time, g.position.x(), g.position.y(), g.position.z(), g.diameter,
-                            g.density, g.velocity.x(), g.velocity.y(), g.velocity.z());
+    text += fmt::format("{}{}\n", several ? ",place" : "", shaped ? ",shape" : "");
+    const auto add = [&](const PlacedGrain& g, const Vec3& position, int place) {
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", g.id, g.time, position.x(), position.y(), position.z(), g.diameter, g.density,
+                            g.velocity.x(), g.velocity.y(), g.velocity.z());
+        if (several) text += fmt::format(",{}", place);
         text += shaped ? "," + g.shape + "\n" : "\n";
+    };
+    for (const PlacedGrain& g : grains) {
+        add(g, g.position, 0);
+        if (g.above) add(g, *g.above, 1);
     }
     return text;
 }

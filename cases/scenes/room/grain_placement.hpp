@@ -2,6 +2,7 @@
 /// \file Where and when the grains of a pour or of a feed begin.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ struct PlacedGrain {
     double diameter = 0.0;
     double density = 0.0;
     Vec3 velocity = Vec3::Zero();
-    std::string shape{};  ///< name of a kind of grains that are clumps; empty: a sphere
+    std::string shape{};          ///< name of a kind of grains that are clumps; empty: a sphere
+    std::optional<Vec3> above{};  ///< where it begins as long as its place is taken
 };
 
 /// Diameters of grains, drawn until their mass is reached: the last one may exceed it by less than half of its own.
@@ -25,7 +27,9 @@ std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::m
 std::vector<double> draw_diameters(const RoomGrains& grains, std::size_t count, std::mt19937_64& random);
 
 /// Pours one after the other. A pour's grains begin at random places, in batches: each fills at most a share of 0.3 of the free part of the
-/// region, above what has come down, and moves down at 1 m/s. The next batch comes when the one before it has had time to fall twice.
+/// region, above what has come down, and moves down at 1 m/s. The next batch comes when the one before it has had time to fall twice. Where
+/// a grain that bounced takes a place then, the other grains of the batch may bury it; so grains of later batches may begin at the top of
+/// their region, above their places.
 class Pouring {
 public:
     /// \param scene, random  must outlive the object

@@ -194,8 +194,7 @@ void run(Verification& verification) {
     Pours pours(verification, whole ? k_full : k_small);
     const Setting dry = pours.dry(), wet = pours.wet("under_water");
     judge(verification, dry, wet);
-    double core_s = pours.core_s();
-    if (whole) core_s += switch_terms(verification);
+    const double core_s = pours.core_s() + switch_terms(verification);
     verification.report("core time of the runs", "s", core_s, {}, {"exact", "beds included; of all starts of the case", {}});
 }
 
