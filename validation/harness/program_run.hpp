@@ -19,15 +19,6 @@ ChildResult run_cutterflow(const std::filesystem::path& folder, const std::vecto
 /// \return report/results.json
 nlohmann::json run_study(const std::filesystem::path& folder, const std::filesystem::path& start_from = {});
 
-/// A study.toml to run, see run_study.
-struct StudyRun {
-    std::filesystem::path folder, start_from;
-};
-
-/// Runs studies of one rank each, as many at a time as there are cores.
-/// \throws what the first one that failed threw, once those that had begun have ended; no further one is begun
-void run_studies(const std::vector<StudyRun>& runs);
-
 /// Core seconds of a stage of a run, from its manifest.
 double stage_core_s(const std::filesystem::path& run, const std::string& stage);
 

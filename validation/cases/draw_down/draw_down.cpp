@@ -10,6 +10,7 @@
 #include "geometry/base/installation.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "validation/harness/program_run.hpp"
+#include "validation/harness/side_by_side.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -85,19 +86,19 @@ public:
 private:
     /// \param end  further sections of the study
     Setting run(const std::string& name, const std::string& study, const std::string& end, bool from_dry) {
-        std::vector<StudyRun> runs;
-        for (int seed = 1; seed <= rig_.pours; ++seed) {
-            runs.push_back({folder(name, seed), from_dry ? fs::absolute(folder("dry", seed) / "run") : fs::path()});
-            fs::create_directories(runs.back().folder);
+        side_by_side(static_cast<std::size_t>(rig_.pours), [&](std::size_t pour) {
+            const int seed = static_cast<int>(pour) + 1;
+            const fs::path own = folder(name, seed);
             const std::string text = study_text(study, seed);
-            write_file(runs.back().folder / "study.toml",
-                       (rig_.end_s > 0.0 ? with_line(text, "end_s", fmt::format("{}", rig_.end_s)) : text) + end);
-        }
-        run_studies(runs);
+            fs::create_directories(own);
+            write_file(own / "study.toml", (rig_.end_s > 0.0 ? with_line(text, "end_s", fmt::format("{}", rig_.end_s)) : text) + end);
+            run_study(own, from_dry ? folder("dry", seed) / "run" : fs::path());
+        });
         Setting setting{name, {}};
-        for (const StudyRun& one : runs) {
-            setting.flows.push_back(flow_of(one.folder));
-            core_s_ += stage_core_s(one.folder / "run", "run") + (from_dry ? 0.0 : stage_core_s(one.folder / "run", "bed"));
+        for (int seed = 1; seed <= rig_.pours; ++seed) {
+            const fs::path own = folder(name, seed);
+            setting.flows.push_back(flow_of(own));
+            core_s_ += stage_core_s(own / "run", "run") + (from_dry ? 0.0 : stage_core_s(own / "run", "bed"));
         }
         return setting;
     }
