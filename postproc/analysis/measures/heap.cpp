@@ -85,8 +85,12 @@ std::optional<SlopeSide> fit_side(const Profile& side, const SlopeSearch& search
     }
     if (x.size() < k_fewest_diameters * k_columns_per_d) return std::nullopt;
     fitted.line = fit_line(x, y);
-    fitted.line.r2 = fit_line(means_over_diameters(x), means_over_diameters(y)).r2;
+    const LineFit smooth = fit_line(means_over_diameters(x), means_over_diameters(y));
+    fitted.line.r2 = smooth.r2;
+    fitted.line.residual = smooth.residual;
     fitted.angle_deg = degrees(-fitted.line.slope);
+    const bool rises = std::abs(fitted.line.slope) * (x.back() - x.front()) >= k_least_rise * diameter;
+    fitted.is_straight = smooth.r2 >= k_straight || (rises && smooth.residual <= diameter / std::sqrt(12.0));
     return fitted;
 }
 
@@ -185,8 +189,11 @@ Slopes slopes_of(const Grains& grains, const SlopeSearch& search) {
     slopes.spread_deg = std::sqrt(squares / (n - 1.0));
     slopes.r2 = lower_quartile(r2);
     slopes.rises_outwards = mean < 0.0;
-    if (slopes.r2 < k_straight) {
-        slopes.reason = fmt::format("no angle: a quarter of the slopes is not straight, R2 {:.3f} below {}", slopes.r2, k_straight);
+    const auto crooked = std::count_if(slopes.sides.begin(), slopes.sides.end(), [](const SlopeSide& side) { return !side.is_straight; });
+    if (static_cast<std::size_t>(crooked) > slopes.sides.size() / 4) {
+        slopes.reason = fmt::format(
+            "no angle: a quarter of the slopes is not straight, R2 {:.3f} below {}, and no line to the random height of a grain", slopes.r2,
+            k_straight);
         return slopes;
     }
     slopes.angle_deg = std::abs(mean);

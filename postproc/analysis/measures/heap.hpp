@@ -40,14 +40,16 @@ struct SlopeSearch {
 };
 
 inline constexpr int k_views = 8;                   ///< over half a turn: a silhouette has two sides
-inline constexpr double k_straight = 0.95;          ///< least R2 of a straight slope
+inline constexpr double k_straight = 0.95;          ///< R2 from which a slope is straight
+inline constexpr double k_least_rise = 2.0;         ///< in diameters, of a slope that is straight but for its roughness
 inline constexpr std::size_t k_columns_per_d = 10;  ///< of a silhouette
 
 /// One side of a silhouette.
 struct SlopeSide {
-    double view_deg = 0.0;   ///< direction, from the x axis, in which the side falls or rises outwards
-    double radius = 0.0;     ///< end of the slope [m]
-    LineFit line;            ///< height over distance from the axis, both in m; its r2 is that of means over one diameter
+    double view_deg = 0.0;  ///< direction, from the x axis, in which the side falls or rises outwards
+    double radius = 0.0;    ///< end of the slope [m]
+    LineFit line;           ///< height over distance from the axis, both in m; its r2 and residual are those of means over one diameter
+    bool is_straight = false;
     double angle_deg = 0.0;  ///< positive where the slope falls outwards
 };
 

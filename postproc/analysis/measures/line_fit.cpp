@@ -1,5 +1,7 @@
 #include "postproc/analysis/measures/line_fit.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace cutterflow::postproc {
@@ -14,7 +16,7 @@ LineFit fit_line(const std::vector<double>& x, const std::vector<double>& y) {
         yy += (y[i] - mean_y) * (y[i] - mean_y);
     }
     const double slope = xy / xx;
-    return {slope, mean_y - slope * mean_x, yy > 0.0 ? slope * xy / yy : 0.0, x.size()};
+    return {slope, mean_y - slope * mean_x, yy > 0.0 ? slope * xy / yy : 0.0, std::sqrt(std::max(0.0, yy - slope * xy) / n), x.size()};
 }
 
 }  // namespace cutterflow::postproc

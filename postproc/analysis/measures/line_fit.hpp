@@ -7,7 +7,8 @@ namespace cutterflow::postproc {
 /// y = intercept + slope x
 struct LineFit {
     double slope = 0.0, intercept = 0.0;
-    double r2 = 0.0;  ///< 1 - sum of squared residuals over that about the mean; 0 when y does not vary
+    double r2 = 0.0;        ///< 1 - sum of squared residuals over that about the mean; 0 when y does not vary
+    double residual = 0.0;  ///< root mean square, in the unit of y
     std::size_t points = 0;
 };
 

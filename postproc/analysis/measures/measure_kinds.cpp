@@ -374,6 +374,8 @@ MeasureOutcome measure_angle(const MeasureSource& source, const MeasureValues& v
         sides.push_back({{"view_deg", rounded(side.view_deg)},
                          {"angle_deg", rounded(side.angle_deg)},
                          {"r2", rounded(side.line.r2)},
+                         {"residual_m", rounded(side.line.residual)},
+                         {"straight", side.is_straight},
                          {"slope", rounded(side.line.slope)},
                          {"intercept_m", rounded(side.line.intercept)},
                          {"from_m", rounded(search.inner_radius + search.window_from * length)},

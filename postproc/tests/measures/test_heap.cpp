@@ -1,5 +1,6 @@
 /// Angles and profiles of heaps whose shapes are known.
 #include <cmath>
+#include <random>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -50,6 +51,41 @@ TEST(Heap, of_the_size_of_a_repose_test_still_has_an_angle) {
     }
 }
 
+/// A row of grains on a slope from the axis on to both sides, with heights at random by up to `rough` diameters.
+Grains rough_row(double angle_deg, int count, double rough, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> height(-rough * k_d, rough * k_d);
+    Grains grains;
+    for (int i = -count; i <= count; ++i)
+        grains.add({i * k_d, 0.0, k_d * (3.0 + std::abs(i) * std::tan(angle_deg * k_pi / 180.0)) + height(random)}, Vec3::Zero(), k_d,
+                   2650.0);
+    return grains;
+}
+
+/// R2 of a low slope falls with its roughness, which is that of its grains, though no line fits better.
+TEST(Heap, that_is_low_has_an_angle_though_single_grains_make_it_rough) {
+    SlopeSearch search;
+    search.around = false;
+    search.radius = 13.0 * k_d;
+    int straight = 0, rough = 0, crooked = 0;
+    double sum = 0.0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        if (!slopes_of(rough_row(15.0, 14, 1.5, seed), search).angle_deg) ++crooked;
+        const Slopes slopes = slopes_of(rough_row(15.0, 14, 0.5, seed), search);
+        if (!slopes.angle_deg) continue;
+        ++straight;
+        sum += *slopes.angle_deg;
+        if (slopes.r2 < k_straight) ++rough;
+    }
+    RecordProperty("straight", straight);
+    RecordProperty("rough", rough);
+    RecordProperty("crooked", crooked);
+    EXPECT_GE(straight, 30);
+    EXPECT_NEAR(sum / straight, 15.0, 1.0);
+    EXPECT_GE(rough, 10) << "R2 alone leaves these without an angle";
+    EXPECT_GE(crooked, 36) << "rougher than grains are";
+}
+
 TEST(Heap, with_two_bumps_has_no_angle) {
     const double radius = 12.0 * k_d, slope = std::tan(30.0 * k_pi / 180.0);
     for (const double apart : {1.0, 0.5}) {
@@ -72,6 +108,13 @@ TEST(Heap, that_is_flat_or_absent_has_no_angle) {
     Grains one;
     one.add({0.0, 0.0, 0.5 * k_d}, Vec3::Zero(), k_d, 2650.0);
     EXPECT_FALSE(slopes_of(one, {}).angle_deg);
+    const Grains bed = testing::packed_grains({-25.0 * k_d, -25.0 * k_d, 0.0}, {25.0 * k_d, 25.0 * k_d, 6.0 * k_d}, k_d, 1,
+                                              [](const Vec3&) { return true; });
+    SlopeSearch search;
+    search.radius = 20.0 * k_d;
+    const Slopes flat = slopes_of(bed, search);
+    EXPECT_FALSE(flat.angle_deg);
+    EXPECT_THAT(flat.reason, HasSubstr("not straight"));
 }
 
 TEST(Heap, does_not_count_grains_that_fell_below_its_base) {
