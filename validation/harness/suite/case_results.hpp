@@ -54,7 +54,8 @@ struct VerifiedCase {
     Exhibits exhibits;
     std::string reason;  ///< why the case as a whole was skipped or failed; empty otherwise
     bool failed_as_a_whole = false;
-    double core_s = 0.0, wall_s = 0.0;
+    double core_s = 0.0;   ///< of all starts whose work the last one went on with
+    double wall_s = 0.0;   ///< of the last start
     std::string date;      ///< UTC, as 2026-01-31 12:34
     std::string machine;   ///< processor and cores
     std::string programs;  ///< SHA-256 over the programs that made it

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr const char* k_mark = "verification";  // marks a folder of results as ours
 constexpr const char* k_programs = "programs";  // in a case's folder: with which it was begun
 constexpr const char* k_written = "written";    // in a case's folder: the files that its program left there
+constexpr const char* k_spent = "core_s";       // in a case's folder: core seconds of the starts with which it goes on
 constexpr double k_unknown_cost = 20.0;         // core seconds of a case that was never run, for the ETA
 constexpr const char* k_words[] = {"fast", "standard", "long"};
 
@@ -158,7 +159,7 @@ std::map<std::string, std::string> files_in(const fs::path& work) {
     std::map<std::string, std::string> files;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(work)) {
         const std::string name = entry.path().lexically_relative(work).string();
-        if ((entry.is_directory() && !entry.is_symlink()) || name == k_programs || name == k_written) continue;
+        if ((entry.is_directory() && !entry.is_symlink()) || name == k_programs || name == k_written || name == k_spent) continue;
         files[name] = entry.is_regular_file() && !entry.is_symlink()
                           ? fmt::format("{} {}", entry.file_size(), entry.last_write_time().time_since_epoch().count())
                           : "special";
@@ -202,6 +203,7 @@ public:
         found_ = files_in(path_);
         fs::remove(path_ / k_written);
         fs::remove(quantities());
+        if (!goes_on) fs::remove(path_ / k_spent);
     }
     WorkFolder(const WorkFolder&) = delete;
     WorkFolder& operator=(const WorkFolder&) = delete;
@@ -214,6 +216,14 @@ public:
 
     const fs::path& path() const { return path_; }
     fs::path quantities() const { return path_ / "quantities.json"; }
+
+    /// Core seconds [s] of this start and of those whose work it went on with; a start that was killed with the suite is not known.
+    double add_core_s(double core_s) const {
+        const fs::path file = path_ / k_spent;
+        const double all = core_s + (fs::exists(file) ? std::stod(read_file(file)) : 0.0);
+        write_file(file, fmt::format("{}\n", all));
+        return all;
+    }
 
 private:
     void note_files() const {
@@ -241,7 +251,7 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
                                settings.folder / (one.name + ".log"),
                                {}};
     const ChildResult ended = run_child(command);
-    result.core_s = ended.core_s;
+    result.core_s = work.add_core_s(ended.core_s);
     result.wall_s = ended.wall_s;
     if (ended.exit_code == static_cast<int>(ExitCode::user_input)) throw UserError({failure_of(command, ended)});
     const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) || ended.exit_code == static_cast<int>(ExitCode::check_failed);

@@ -110,6 +110,22 @@ TEST_F(VerificationRun, resume_keeps_what_the_same_programs_finished) {
     EXPECT_EQ(times_run("two"), 4u);
 }
 
+TEST_F(VerificationRun, counts_the_cost_of_all_starts_that_went_on) {
+    add_case("goes_on", fmt::format("echo '[{}]' > $2/quantities.json", quantity("pass")), "- class: fast\n- resumes: yes\n");
+    run();
+    const auto core_s = [&] { return read_verification(settings_.folder).at(0).core_s; };
+    const fs::path spent = settings_.folder / "goes_on/core_s";
+    EXPECT_NEAR(std::stod(read_file(spent)), core_s(), 1e-9);
+    write_file(spent, "1000\n");
+    settings_.resume = true;
+    fs::remove(settings_.folder / "goes_on.json");
+    run();
+    EXPECT_GT(core_s(), 1000.0);
+    settings_.resume = false;
+    run();
+    EXPECT_LT(core_s(), 1000.0) << "it began anew";
+}
+
 TEST_F(VerificationRun, replaces_no_result_with_one_of_less_effort) {
     add_case_with("one", "pass");
     settings_.effort = Effort::standard;
