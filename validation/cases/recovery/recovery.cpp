@@ -1,4 +1,4 @@
-/// \file Friction and restitution that nobody told are looked for by `cutterflow calibrate`, from a draw-down made with them.
+/// \file Parameters of gravel that nobody told are looked for by `cutterflow calibrate`, from draw-downs made with them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/installation.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "validation/harness/program_run.hpp"
 #include "validation/harness/reference_table.hpp"
@@ -22,18 +23,29 @@ namespace fs = std::filesystem;
 
 constexpr int k_pours = 3;
 constexpr double k_least_tolerance = 0.01;  // of a target
-const char* const k_friction = "contact.gravel-gravel.friction";
-const char* const k_restitution = "contact.gravel-gravel.restitution";
 
-struct Hidden {
-    double friction, restitution;
+/// A parameter that is hidden.
+struct Unknown {
+    const char *name, *key;
+    double low, high;        ///< range of the search
+    double hidden_from, to;  ///< where the hidden value lies
+    double tolerance;        ///< half of an interval that is narrow enough
+    double hidden = 0.0;
 };
 
-Hidden draw() {
-    std::mt19937 random(20);
-    std::uniform_real_distribution<double> between(0.3, 0.7);
-    const double friction = between(random);
-    return {friction, between(random)};
+/// A draw-down with its unknowns.
+struct Trial {
+    std::string folder, study;  ///< text of the study, which ends in [run]
+    std::vector<const char*> measures;
+    std::vector<Unknown> unknowns;
+    int repeats = 1, rounds = 0;
+};
+
+/// Values off every grid.
+void hide(Trial& trial, unsigned seed) {
+    std::mt19937 random(seed);
+    for (Unknown& unknown : trial.unknowns)
+        unknown.hidden = std::uniform_real_distribution<double>(unknown.hidden_from, unknown.to)(random);
 }
 
 struct Target {
@@ -48,36 +60,42 @@ void begin_or_resume(const fs::path& folder, const std::string& output, std::vec
 }
 
 /// Pours with other seeds than those of the calibration.
-std::vector<Target> measured(const fs::path& folder, const Hidden& hidden) {
-    write_file(folder / "hidden.toml", read_file(case_file("recovery/rig.toml")) + "seed = 1001\n");
-    begin_or_resume(folder, "hidden",
-                    {"sweep", "hidden.toml", "--set", fmt::format("{}={}", k_friction, hidden.friction), "--set",
-                     fmt::format("{}={}", k_restitution, hidden.restitution), "--repeats", std::to_string(k_pours)});
-    std::vector<Target> targets{{"left"}, {"middle"}, {"rate"}};
-    for (Target& target : targets) {
+std::vector<Target> measured(const fs::path& folder, const Trial& trial) {
+    write_file(folder / "hidden.toml", trial.study + "seed = 1001\n");
+    std::vector<std::string> arguments = {"sweep", "hidden.toml", "--repeats", std::to_string(k_pours)};
+    for (const Unknown& unknown : trial.unknowns)
+        arguments.insert(arguments.end(), {"--set", fmt::format("{}={}", unknown.key, unknown.hidden)});
+    begin_or_resume(folder, "hidden", arguments);
+    std::vector<Target> targets;
+    for (const char* measure : trial.measures) {
         std::vector<double> values;
         for (const fs::directory_entry& run : fs::directory_iterator(folder / "hidden")) {
             const fs::path file = run.path() / "report/measures.json";
-            if (fs::exists(file)) values.push_back(nlohmann::json::parse(read_file(file)).at(target.measure).at("value"));
+            if (!fs::exists(file)) continue;
+            const nlohmann::json value = nlohmann::json::parse(read_file(file)).at(measure).at("value");
+            if (!value.is_null()) values.push_back(value);
         }
         const Sample sample = sample_of(values);
-        target.value = sample.mean;
-        target.tolerance = std::max(half_interval(sample), k_least_tolerance * target.value);
+        if (sample.count > 1)
+            targets.push_back({measure, sample.mean, std::max(half_interval(sample), k_least_tolerance * std::abs(sample.mean))});
     }
     return targets;
 }
 
-std::string parameter(const std::string& name, const char* key) {
-    return fmt::format("[[parameter]]\nname = \"{}\"\nkey = \"{}\"\nrange = [0.2, 0.8]\nvalues = [0.2, 0.5, 0.8]\ntolerance = 0.05\n", name,
-                       key);
+std::string parameter(const Unknown& unknown) {
+    return fmt::format("[[parameter]]\nname = \"{}\"\nkey = \"{}\"\nrange = [{}, {}]\nvalues = [{}, {}, {}]\ntolerance = {}\n",
+                       unknown.name, unknown.key, unknown.low, unknown.high, unknown.low, 0.5 * (unknown.low + unknown.high), unknown.high,
+                       unknown.tolerance);
 }
 
-nlohmann::json calibrate(const fs::path& folder, const std::vector<Target>& targets) {
-    std::string text = "name = \"recovery\"\nstudy = [\"rig.toml\"]\nrepeats = 2\nrounds = 1\n[budget]\nruns = 30\ncore_h = 1\n";
-    text += parameter("friction", k_friction) + parameter("restitution", k_restitution);
+nlohmann::json calibrate(const fs::path& folder, const Trial& trial, const std::vector<Target>& targets) {
+    std::string text =
+        fmt::format("name = \"recovery\"\nstudy = [\"rig.toml\"]\nrepeats = {}\nrounds = {}\n[budget]\nruns = 30\ncore_h = 20\n",
+                    trial.repeats, trial.rounds);
+    for (const Unknown& unknown : trial.unknowns) text += parameter(unknown);
     for (const Target& target : targets)
         text += fmt::format("[[target]]\nmeasure = \"{}\"\nvalue = {}\ntolerance = {}\n", target.measure, target.value, target.tolerance);
-    write_file(folder / "rig.toml", read_file(case_file("recovery/rig.toml")));
+    write_file(folder / "rig.toml", trial.study);
     write_file(folder / "calibration.toml", text);
     begin_or_resume(folder, "calibration", {"calibrate", "calibration.toml"});
     return nlohmann::json::parse(read_file(folder / "calibration/calibration.json"));
@@ -89,23 +107,64 @@ double outside(const nlohmann::json& interval, double value) {
     return std::max({0.0, interval.at(0).get<double>() - value, value - interval.at(1).get<double>()});
 }
 
-void run(Verification& verification) {
-    const fs::path folder = verification.folder("draw_down");
-    const Hidden hidden = draw();
-    const nlohmann::json found = calibrate(folder, measured(folder, hidden));
-    const nlohmann::json &friction = found.at("parameters").at(0), &restitution = found.at("parameters").at(1);
-    const double value = friction.at("value");
-    const std::string runs =
-        fmt::format("{} runs, {:.2g} core h", found.at("cost").at("runs").get<int>(), found.at("cost").at("core_h").get<double>());
-    verification.absolute("friction that was found", "-", value, hidden.friction, 0.05, {"exact", runs, {}});
-    verification.at_least("distance of the friction found from the hidden one", "-", std::abs(value - hidden.friction), 1e-9,
+nlohmann::json recover(const Verification& verification, const Trial& trial) {
+    const fs::path folder = verification.folder(trial.folder);
+    return calibrate(folder, trial, measured(folder, trial));
+}
+
+std::string runs_of(const nlohmann::json& found) {
+    return fmt::format("{} runs, {:.2g} core h", found.at("cost").at("runs").get<int>(), found.at("cost").at("core_h").get<double>());
+}
+
+void check_interval(Verification& verification, const std::string& name, const nlohmann::json& found, double hidden) {
+    verification.at_most("hidden " + name + " outside its 95 % interval by", "-", outside(found.at("interval_95"), hidden), 0.0,
+                         {"exact", "interval " + found.at("interval_95").dump(), {}});
+}
+
+void check_friction(Verification& verification, const std::string& name, const nlohmann::json& found, double hidden,
+                    const std::string& runs) {
+    const double value = found.at("value");
+    verification.absolute(name + " that was found", "-", value, hidden, 0.05, {"exact", runs, {}});
+    verification.at_least("distance of the " + name + " found from the hidden one", "-", std::abs(value - hidden), 1e-9,
                           {"exact", "0 would be the target's own pour", {}});
-    verification.at_most("hidden friction outside its 95 % interval by", "-", outside(friction.at("interval_95"), hidden.friction), 0.0,
-                         {"exact", "interval " + friction.at("interval_95").dump(), {}});
-    verification.at_most("hidden restitution outside its 95 % interval by", "-", outside(restitution.at("interval_95"), hidden.restitution),
-                         0.0, {"exact", "interval " + restitution.at("interval_95").dump(), {}});
-    verification.report("restitution that was found", "-", restitution.at("value"), hidden.restitution,
+    check_interval(verification, name, found, hidden);
+}
+
+/// Friction and restitution of dry gravel in a small box.
+void recover_dry(Verification& verification) {
+    Trial trial{"draw_down", read_file(case_file("recovery/rig.toml")), {"left", "middle", "rate"}, {}, 2, 1};
+    trial.unknowns = {{"friction", "contact.gravel-gravel.friction", 0.2, 0.8, 0.3, 0.7, 0.05},
+                      {"restitution", "contact.gravel-gravel.restitution", 0.2, 0.8, 0.3, 0.7, 0.05}};
+    hide(trial, 20);
+    const nlohmann::json found = recover(verification, trial);
+    const nlohmann::json &friction = found.at("parameters").at(0), &restitution = found.at("parameters").at(1);
+    check_friction(verification, "friction", friction, trial.unknowns[0].hidden, runs_of(found));
+    check_interval(verification, "restitution", restitution, trial.unknowns[1].hidden);
+    verification.report("restitution that was found", "-", restitution.at("value"), trial.unknowns[1].hidden,
                         {"exact", "a draw-down hardly feels it", {}});
+}
+
+/// Friction and the modifier of the drag of gravel under water, in the small rig of the example.
+void recover_under_water(Verification& verification) {
+    std::string study = read_file(installation().data / "cases/examples/draw_down/small_submerged.toml");
+    study.insert(study.find("[run]\n"),
+                 "[[measure]]\nname = \"middle\"\nwhat = \"mass_in\"\n"
+                 "region = { box = { lower_m = [-0.3, -0.075, 0], upper_m = [0.3, 0.075, 0.95] } }\n\n");
+    Trial trial{"under_water", study, {"rate", "rate_of_the_middle_half", "shear_angle", "middle"}, {}, 1, 1};
+    trial.unknowns = {{"friction", "contact.gravel-gravel.friction", 0.2, 0.8, 0.35, 0.65, 0.05},
+                      {"drag modifier", "closures.drag_modifier", 1.0, 4.0, 1.5, 3.5, 0.3}};
+    hide(trial, 21);
+    const nlohmann::json found = recover(verification, trial);
+    const nlohmann::json &friction = found.at("parameters").at(0), &modifier = found.at("parameters").at(1);
+    check_friction(verification, "friction under water", friction, trial.unknowns[0].hidden, runs_of(found));
+    verification.relative("drag modifier that was found", "-", modifier.at("value"), trial.unknowns[1].hidden, 0.15,
+                          {"exact", runs_of(found), {}});
+    check_interval(verification, "drag modifier", modifier, trial.unknowns[1].hidden);
+}
+
+void run(Verification& verification) {
+    recover_dry(verification);
+    if (verification.wants(Effort::longest)) recover_under_water(verification);
 }
 
 }  // namespace
