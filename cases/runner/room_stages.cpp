@@ -33,8 +33,20 @@ namespace fs = std::filesystem;
 using Say = std::function<void(const std::string&)>;
 using namespace room_stage;
 
+/// What grains meet at the sides, by the side: a bed does not know the number of a table [[boundary]], nor those that are about the flow.
+void name_by_side(const ParameterValues& values, std::map<std::string, std::string>& inputs) {
+    for (auto input = inputs.begin(); input != inputs.end();)
+        input = input->first.rfind("boundary.", 0) == 0 ? inputs.erase(input) : std::next(input);
+    for (const ParameterValues& table : values.tables("boundary"))
+        if (table.has("boundary.grains"))
+            inputs[fmt::format("boundary.{}.grains", table.text("boundary.on"))] = table.text("boundary.grains");
+}
+
 std::map<std::string, std::string> inputs_of(const ParameterValues& values, const std::string& stage) {
-    return table_inputs(room_table(), values, [&](const Parameter& parameter) { return parameter.stage == stage; });
+    std::map<std::string, std::string> inputs =
+        table_inputs(room_table(), values, [&](const Parameter& parameter) { return parameter.stage == stage; });
+    if (stage == k_bed) name_by_side(values, inputs);
+    return inputs;
 }
 
 void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {

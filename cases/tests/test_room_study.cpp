@@ -138,6 +138,21 @@ TEST_F(RoomStudy, poured_grains_have_room) {
     }
 }
 
+/// A bed knows what grains meet at the sides, not where its study says so.
+TEST_F(RoomStudy, beds_are_the_same_whatever_else_the_boundaries_say) {
+    const auto inputs_with = [&](const std::string& boundaries) {
+        return bed_inputs(parse_parameters(room_table(), changed("[run]\n", boundaries + "\n[run]\n"), "room.toml"));
+    };
+    const std::string side = "[[boundary]]\non = \"y_min\"\ngrains = \"frictionless\"\n";
+    const std::string top = "[[boundary]]\non = \"top\"\nflow = \"pressure\"\n", slip = "flow = \"slip\"\n";
+    const auto inputs = inputs_with(side);
+    EXPECT_EQ(inputs.at("boundary.y_min.grains"), "frictionless");
+    EXPECT_EQ(inputs_with(top + side), inputs);
+    EXPECT_EQ(inputs_with(side + slip + top), inputs);
+    EXPECT_NE(inputs_with(top), inputs);
+    EXPECT_NE(inputs_with("[[boundary]]\non = \"x_min\"\ngrains = \"frictionless\"\n"), inputs) << "another side";
+}
+
 TEST_F(RoomStudy, seeds_draw_other_grains_and_the_same_seed_the_same) {
     const auto grains_of = [&](const std::string& text) { return read_room_request(write(text)).pieces.at(0).grains; };
     const auto a = grains_of(room_template("heap")), b = grains_of(room_template("heap")),
