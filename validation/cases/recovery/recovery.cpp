@@ -21,7 +21,6 @@ using namespace cutterflow;
 using namespace cutterflow::validation;
 namespace fs = std::filesystem;
 
-constexpr int k_pours = 3;
 constexpr double k_least_tolerance = 0.01;  // of a target
 
 /// A parameter that is hidden.
@@ -38,7 +37,7 @@ struct Trial {
     std::string folder, study;  ///< text of the study, which ends in [run]
     std::vector<const char*> measures;
     std::vector<Unknown> unknowns;
-    int repeats = 1, rounds = 0;
+    int measured_pours = 0, repeats = 1, rounds = 0;
 };
 
 /// Values off every grid.
@@ -62,7 +61,7 @@ void begin_or_resume(const fs::path& folder, const std::string& output, std::vec
 /// Pours with other seeds than those of the calibration.
 std::vector<Target> measured(const fs::path& folder, const Trial& trial) {
     write_file(folder / "hidden.toml", trial.study + "seed = 1001\n");
-    std::vector<std::string> arguments = {"sweep", "hidden.toml", "--repeats", std::to_string(k_pours)};
+    std::vector<std::string> arguments = {"sweep", "hidden.toml", "--repeats", std::to_string(trial.measured_pours)};
     for (const Unknown& unknown : trial.unknowns)
         arguments.insert(arguments.end(), {"--set", fmt::format("{}={}", unknown.key, unknown.hidden)});
     begin_or_resume(folder, "hidden", arguments);
@@ -90,7 +89,7 @@ std::string parameter(const Unknown& unknown) {
 
 nlohmann::json calibrate(const fs::path& folder, const Trial& trial, const std::vector<Target>& targets) {
     std::string text =
-        fmt::format("name = \"recovery\"\nstudy = [\"rig.toml\"]\nrepeats = {}\nrounds = {}\n[budget]\nruns = 30\ncore_h = 20\n",
+        fmt::format("name = \"recovery\"\nstudy = [\"rig.toml\"]\nrepeats = {}\nrounds = {}\n[budget]\nruns = 60\ncore_h = 20\n",
                     trial.repeats, trial.rounds);
     for (const Unknown& unknown : trial.unknowns) text += parameter(unknown);
     for (const Target& target : targets)
@@ -132,7 +131,7 @@ void check_friction(Verification& verification, const std::string& name, const n
 
 /// Friction and restitution of dry gravel in a small box.
 void recover_dry(Verification& verification) {
-    Trial trial{"draw_down", read_file(case_file("recovery/rig.toml")), {"left", "middle", "rate"}, {}, 2, 1};
+    Trial trial{"draw_down", read_file(case_file("recovery/rig.toml")), {"left", "middle", "rate"}, {}, 10, 4, 1};
     trial.unknowns = {{"friction", "contact.gravel-gravel.friction", 0.2, 0.8, 0.3, 0.7, 0.05},
                       {"restitution", "contact.gravel-gravel.restitution", 0.2, 0.8, 0.3, 0.7, 0.05}};
     hide(trial, 20);
@@ -150,7 +149,7 @@ void recover_under_water(Verification& verification) {
     study.insert(study.find("[run]\n"),
                  "[[measure]]\nname = \"middle\"\nwhat = \"mass_in\"\n"
                  "region = { box = { lower_m = [-0.3, -0.075, 0], upper_m = [0.3, 0.075, 0.95] } }\n\n");
-    Trial trial{"under_water", study, {"rate", "rate_of_the_middle_half", "shear_angle", "middle"}, {}, 1, 1};
+    Trial trial{"under_water", study, {"rate", "rate_of_the_middle_half", "shear_angle", "middle"}, {}, 3, 1, 1};
     trial.unknowns = {{"friction", "contact.gravel-gravel.friction", 0.2, 0.8, 0.35, 0.65, 0.05},
                       {"drag modifier", "closures.drag_modifier", 1.0, 4.0, 1.5, 3.5, 0.3}};
     hide(trial, 21);
