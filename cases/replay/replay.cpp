@@ -1,12 +1,9 @@
 #include "cases/replay/replay.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +18,7 @@
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
+#include "geometry/base/process/side_by_side.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
@@ -197,10 +195,10 @@ public:
     }
 
     std::vector<Replay> take_all() {
-        std::vector<std::thread> workers;
-        for (int job = 0; job < settings_.jobs; ++job) workers.emplace_back([this] { work(); });
-        for (std::thread& worker : workers) worker.join();
-        if (failure_) std::rethrow_exception(failure_);
+        side_by_side(tasks_.size(), settings_.jobs, [this](std::size_t n) {
+            take(n);
+            tell_progress();
+        });
         progress_.finish();
         return replays_;
     }
@@ -223,21 +221,10 @@ private:
         replays_.push_back(replay);
     }
 
-    void work() {
-        for (std::size_t n = next_++; n < tasks_.size(); n = next_++) {
-            try {
-                take(n);
-            } catch (...) {
-                const std::lock_guard<std::mutex> lock(mutex_);
-                if (!failure_) failure_ = std::current_exception();
-                next_ = tasks_.size();
-                return;
-            }
-            const std::lock_guard<std::mutex> lock(mutex_);
-            ++done_;
-            progress_.update(static_cast<double>(done_) / static_cast<double>(tasks_.size()),
-                             fmt::format("{} of {}", done_, tasks_.size()));
-        }
+    void tell_progress() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        ++done_;
+        progress_.update(static_cast<double>(done_) / static_cast<double>(tasks_.size()), fmt::format("{} of {}", done_, tasks_.size()));
     }
 
     void take(std::size_t n) {
@@ -256,9 +243,7 @@ private:
     const std::vector<RecordedRun>& runs_;
     std::vector<Task> tasks_;
     std::vector<Replay> replays_;
-    std::atomic<std::size_t> next_{0};
     std::mutex mutex_;
-    std::exception_ptr failure_;
     std::size_t done_ = 0;
     Progress progress_{"replays"};
 };

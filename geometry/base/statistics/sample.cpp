@@ -26,9 +26,12 @@ Sample sample_of(const std::vector<double>& values) {
     return sample;
 }
 
+double standard_error(const Sample& sample) {
+    return std::sqrt(sample.variance / static_cast<double>(sample.count));
+}
+
 double half_interval(const Sample& sample) {
-    const auto n = static_cast<double>(sample.count);
-    return student_factor(n - 1.0) * std::sqrt(sample.variance / n);
+    return student_factor(static_cast<double>(sample.count) - 1.0) * standard_error(sample);
 }
 
 double half_interval_of_two(const Sample& a, const Sample& b) {

@@ -13,6 +13,9 @@ struct Sample {
 
 Sample sample_of(const std::vector<double>& values);
 
+/// Of the mean. \pre one value or more
+double standard_error(const Sample& sample);
+
 /// Half the 95 % interval of the mean, by Student's t. \pre two values or more
 double half_interval(const Sample& sample);
 

@@ -54,7 +54,7 @@ void judge_target(Agreement& agreement, const Target& target, const std::vector<
     if (target.values.size() > 1 || runs.size() < 2) return;
     std::vector<double> values;
     for (const std::vector<double>& run : runs) values.push_back(run.front());
-    agreement.standard_error = std::sqrt(sample_of(values).variance / static_cast<double>(values.size()));
+    agreement.standard_error = standard_error(sample_of(values));
 }
 
 nlohmann::json numbers(const Eigen::VectorXd& values) {

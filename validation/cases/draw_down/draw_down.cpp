@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/runner/machine.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
+#include "geometry/base/process/side_by_side.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "validation/harness/program_run.hpp"
-#include "validation/harness/side_by_side.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -86,7 +87,7 @@ public:
 private:
     /// \param end  further sections of the study
     Setting run(const std::string& name, const std::string& study, const std::string& end, bool from_dry) {
-        side_by_side(static_cast<std::size_t>(rig_.pours), [&](std::size_t pour) {
+        side_by_side(static_cast<std::size_t>(rig_.pours), cases::available_cores(), [&](std::size_t pour) {
             const int seed = static_cast<int>(pour) + 1;
             const fs::path own = folder(name, seed);
             const std::string text = study_text(study, seed);
@@ -116,10 +117,6 @@ Sample reduction(const Setting& dry, const Setting& wet, double Flow::*rate) {
     std::vector<double> values;
     for (std::size_t k = 0; k < wet.flows.size(); ++k) values.push_back(1.0 - wet.flows[k].*rate / (dry.flows[k].*rate));
     return sample_of(values);
-}
-
-double standard_error(const Sample& sample) {
-    return std::sqrt(sample.variance / static_cast<double>(sample.count));
 }
 
 /// Of wet less dry, of the pours that have both angles.

@@ -1,15 +1,14 @@
-#include "validation/harness/side_by_side.hpp"
+#include "geometry/base/process/side_by_side.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-namespace cutterflow::validation {
+namespace cutterflow {
 
-void side_by_side(std::size_t count, const std::function<void(std::size_t)>& task) {
+void side_by_side(std::size_t count, int jobs, const std::function<void(std::size_t)>& task) {
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
     std::exception_ptr failure;
@@ -25,10 +24,10 @@ void side_by_side(std::size_t count, const std::function<void(std::size_t)>& tas
         }
     };
     std::vector<std::thread> workers;
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    for (unsigned core = 0; core < cores; ++core) workers.emplace_back(work);
+    workers.reserve(static_cast<std::size_t>(jobs));
+    for (int job = 0; job < jobs; ++job) workers.emplace_back(work);
     for (std::thread& worker : workers) worker.join();
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace cutterflow::validation
+}  // namespace cutterflow
