@@ -277,10 +277,15 @@ std::string agreement_table(const Outcome& outcome, bool held_out) {
                         agreement.in_tolerances ? fmt::format("{:.2f}", *agreement.in_tolerances) : "", first(agreement.fit),
                         error(agreement.fit_standard_error)});
     }
-    if (rows.empty()) return "<p>None.</p>";
     return html::scrolling(html::table({"target", "measured", "tolerance", "runs", "their mean", "standard error", "relative error",
                                         "error in tolerances", "by the fit", "standard error of the fit"},
                                        rows, true));
+}
+
+std::string held_out_section(const Outcome& outcome) {
+    const bool any = std::any_of(outcome.agreements.begin(), outcome.agreements.end(), [](const Agreement& one) { return one.held_out; });
+    if (!any) return "<p>No target was held out, so no run tests the chosen parameters on what they were not fitted to.</p>";
+    return "<p>They were run at the chosen parameters alone.</p>" + agreement_table(outcome, true);
 }
 
 std::string direction_text(const Direction& direction, const std::vector<Range>& ranges) {
@@ -355,7 +360,7 @@ fs::path write_calibration(const Outcome& outcome, const fs::path& folder) {
         fmt::format("<header><h1>{}</h1></header>\n", title) + answers(outcome) +
         html::section("Targets", "<p>Runs at the chosen parameters that had no part in the choice, beside the fit.</p>" +
                                      agreement_table(outcome, false)) +
-        html::section("Held-out targets", "<p>They were run at the chosen parameters alone.</p>" + agreement_table(outcome, true)) +
+        html::section("Held-out targets", held_out_section(outcome)) +
         html::section("What the targets determine", determined_section(outcome)) +
         html::section("Runs", "<div class=\"figures\">" + plots + "</div>") + html::section("Cost", cost_section(outcome));
     page.write(outcome.calibration.name, body, "");

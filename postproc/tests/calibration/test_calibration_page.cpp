@@ -103,6 +103,9 @@ TEST(CalibrationPage, has_intervals_what_is_not_determined_held_out_errors_and_c
     EXPECT_NEAR(document.at("agreements")[0].at("fit")[0].get<double>(), 21.0, 1e-3);
     EXPECT_NEAR(document.at("agreements")[1].at("model")[0].get<double>(), 7.7, 1e-12);
     EXPECT_NEAR(document.at("agreements")[1].at("standard_error").get<double>(), 0.1 / std::sqrt(3.0), 1e-12);
+    Outcome fitted_alone = outcome();
+    fitted_alone.agreements.erase(fitted_alone.agreements.begin() + 1);
+    EXPECT_THAT(read_file(write_calibration(fitted_alone, folder)), HasSubstr("No target was held out"));
     Outcome lie = outcome();
     lie.objectives[4] += 0.5;
     EXPECT_THROW(write_calibration(lie, folder), CheckFailure);
