@@ -72,6 +72,7 @@ public:
     bool write_if_due();  ///< \return true when it wrote
     void write_now();
 
+    Foam::dynamicFvMesh& mesh() { return mesh_; }
     const Foam::dynamicFvMesh& mesh() const { return mesh_; }
     const Foam::volVectorField& velocity() const { return U_; }
     const Foam::volScalarField& pressure() const { return p_; }

@@ -9,6 +9,7 @@
 #include <nanoflann.hpp>
 
 #include "solver/foam/session/foam_conversions.hpp"
+#include "solver/foam/single_phase/fields.hpp"
 
 #include "fvcGrad.H"
 
@@ -70,7 +71,7 @@ private:
     Tree tree_;
 };
 
-VelocitySampler::VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving)
+VelocitySampler::VelocitySampler(Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving)
     : mesh_(mesh), cells_(cells), moving_(moving.begin(), moving.end()) {
     for (coupling::Zone zone = 0; zone <= moving_.size(); ++zone) trees_.push_back(std::make_unique<ZoneTree>(cells, zone));
 }
@@ -121,13 +122,14 @@ std::vector<Foam::label> VelocitySampler::own_cells(gsl::span<const Vec3> points
 
 void VelocitySampler::sample(const Foam::volVectorField& velocity, double time, coupling::Communicator& communicator,
                              gsl::span<const Vec3> points, gsl::span<Vec3> result) const {
-    const Foam::volTensorField gradient(Foam::fvc::grad(velocity));
+    const KeptGradients gradients(mesh_);
+    const Foam::tmp<Foam::volTensorField> gradient = Foam::fvc::grad(velocity);
     const std::vector<Foam::label> cells = own_cells(points, time, Given::at_present, communicator);
     std::vector<double> values(3 * points.size(), 0.0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const Foam::label cell = cells[i];
         if (cell < 0) continue;
-        const Foam::vector at_point = velocity[cell] + ((to_foam(points[i]) - mesh_.C()[cell]) & gradient[cell]);
+        const Foam::vector at_point = velocity[cell] + ((to_foam(points[i]) - mesh_.C()[cell]) & gradient()[cell]);
         for (Foam::direction component = 0; component < 3; ++component) values[3 * i + component] = at_point[component];
     }
     communicator.sum(values);
@@ -149,7 +151,8 @@ void VelocitySampler::watch(const coupling::WatchedPlaces& places, double time, 
 
 std::vector<double> VelocitySampler::watched_means(const Foam::volVectorField& velocity, double time,
                                                    coupling::Communicator& communicator) const {
-    const Foam::volTensorField gradient(Foam::fvc::grad(velocity));
+    const KeptGradients gradients(mesh_);
+    const Foam::tmp<Foam::volTensorField> gradient = Foam::fvc::grad(velocity);
     std::vector<double> means(groups_, 0.0);
     for (const Place& place : places_) {
         const Vec3 at_centre = to_vec3(velocity[place.cell]);
@@ -161,7 +164,7 @@ std::vector<double> VelocitySampler::watched_means(const Foam::volVectorField& v
             offset = rotate_about(turn, motion.angle(time), offset);
             direction = rotate_about(turn, motion.angle(time), direction);
         }
-        const Vec3 carried = to_vec3(to_foam(offset) & gradient[place.cell]);
+        const Vec3 carried = to_vec3(to_foam(offset) & gradient()[place.cell]);
         means[place.group] += (at_centre + carried).dot(direction) / static_cast<double>(per_group_);
     }
     communicator.sum(means);

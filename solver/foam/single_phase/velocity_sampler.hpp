@@ -15,7 +15,7 @@ namespace cutterflow::foam {
 class VelocitySampler {
 public:
     /// \param mesh  moved to time t whenever sample or watch is called with time t
-    VelocitySampler(const Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving);
+    VelocitySampler(Foam::fvMesh& mesh, const coupling::Cells& cells, gsl::span<const coupling::ZoneMotion> moving);
     ~VelocitySampler();
 
     /// Velocity at points of the absolute frame (the same points on every rank; collective): value of the cell that holds the point, or
@@ -44,7 +44,7 @@ private:
     };
 
     class ZoneTree;
-    const Foam::fvMesh& mesh_;
+    Foam::fvMesh& mesh_;
     coupling::Cells cells_;
     std::vector<coupling::ZoneMotion> moving_;
     std::vector<std::unique_ptr<ZoneTree>> trees_;  // by zone
