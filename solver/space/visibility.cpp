@@ -77,6 +77,14 @@ CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
     }
 }
 
+void CellTrees::find(Zone zone, const Vec3& point, double reach, NearbyCells& nearby) const {
+    std::vector<Neighbour> found;
+    trees_[zone].within(point, reach, found);
+    nearby = {point, reach, {}};
+    nearby.cells.reserve(found.size());
+    for (const Neighbour& n : found) nearby.cells.push_back(n.index);
+}
+
 Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, NodeView view)
     : trees_(trees),
       frames_(frames),
@@ -268,7 +276,7 @@ const std::vector<std::int32_t>& Visibility::hidden_cells(Zone steel, SamplePoin
     point.hidden.resize(trees_.zones());
     HiddenCells& list = point.hidden[cells];
     const bool moves = cells != steel;
-    kept_cells_ -= list.cells.size();
+    kept_cells_ -= list.size();
     if (moves && list.stamp != stamp_) {
         list.cells.clear();
         list.reach = -1.0;
@@ -276,15 +284,15 @@ const std::vector<std::int32_t>& Visibility::hidden_cells(Zone steel, SamplePoin
     }
     if (list.reach < reach) {
         const double outer = moves ? reach : point.clearance_limit;
-        find_hidden(steel, point, cells, std::max(list.reach, point.clearance), outer, list.cells);
+        find_hidden(steel, point, cells, std::max(list.reach, point.clearance), outer, list);
         list.reach = outer;
     }
-    kept_cells_ += list.cells.size();
+    kept_cells_ += list.size();
     return list.cells;
 }
 
 /// Appends the cells that a point does not see, of those at a distance of `inner` or more and less than `outer` [m].
-void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, std::vector<std::int32_t>& hidden) {
+void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, HiddenCells& list) {
     if (trees_.of(cells).size() == 0) return;
     const ZoneFrames::Change change = frames_.between(cells, steel);
     const Eigen::Matrix3d extent_of_turned = change.turn.cwiseAbs();
@@ -300,28 +308,38 @@ void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double 
         point.shadows.emplace(steel_[steel], point.position, point.clearance_limit);
         kept_cells_ += k_cells_per_shade * point.shadows->size();
     }
-    // Where steel is all around, as over a bank, asking costs more than it leaves out.
-    int asked = 0, left_out = 0;
-    const auto is_worth_leaving_out = [&](const Box& box) {
-        if (asked >= k_tries && left_out < k_least_left_out * asked) return false;
-        ++asked;
-        const bool sees_all = sees_all_of(box);
-        left_out += sees_all ? 1 : 0;
-        return sees_all;
-    };
-    found_.clear();
-    trees_.of(cells).between(centre, inner, outer, is_worth_leaving_out, found_);
-    for (const Neighbour& n : found_) {
-        const Vec3 offset = change(trees_.centre(n.index)) - point.position;
-        if (point.shadows->is_clear(offset)) continue;
+    const auto test = [&](std::int32_t place) {
+        const Vec3 offset = change(trees_.centre(place)) - point.position;
+        if (point.shadows->is_clear(offset)) return;
         ++tests_;
-        if (point.shadows->blocks(offset)) hidden.push_back(n.index);
+        if (point.shadows->blocks(offset)) list.cells.push_back(place);
+    };
+    if (cells == steel) {
+        // Where steel is all around, as over a bank, asking costs more than it leaves out.
+        int asked = 0, left_out = 0;
+        const auto is_worth_leaving_out = [&](const Box& box) {
+            if (asked >= k_tries && left_out < k_least_left_out * asked) return false;
+            ++asked;
+            const bool sees_all = sees_all_of(box);
+            left_out += sees_all ? 1 : 0;
+            return sees_all;
+        };
+        found_.clear();
+        trees_.of(cells).between(centre, inner, outer, is_worth_leaving_out, found_);
+        for (const Neighbour& n : found_) test(n.index);
+    } else {
+        // Cells pass a point by little from one position of the mesh to the next.
+        if (!list.passing.hold_all(centre, outer)) trees_.find(cells, centre, k_list_margin * outer, list.passing);
+        for (const std::int32_t place : list.passing.cells) {
+            const double squared = (trees_.centre(place) - centre).squaredNorm();
+            if (squared >= inner * inner && squared < outer * outer) test(place);
+        }
     }
     if (trees_.zones() == 1) drop_shadows(point);  // no cell will come again
 }
 
 void Visibility::release(SamplePoint& point) {
-    for (const HiddenCells& list : point.hidden) kept_cells_ -= list.cells.size();
+    for (const HiddenCells& list : point.hidden) kept_cells_ -= list.size();
     drop_shadows(point);
 }
 

@@ -36,6 +36,8 @@ public:
     std::int32_t number(std::int32_t place) const { return numbers_[static_cast<std::size_t>(place)]; }
     double volume(std::int32_t place) const { return volumes_[static_cast<std::size_t>(place)]; }
     const Vec3& centre(std::int32_t place) const { return centres_[static_cast<std::size_t>(place)]; }
+    /// Finds the cells of a zone nearer than `reach` [m] to a point [m, zone's frame].
+    void find(Zone zone, const Vec3& point, double reach, NearbyCells& nearby) const;
 
 private:
     Cells cells_;
@@ -56,9 +58,9 @@ enum class NodeView : std::uint8_t {
 /// The rock is sampled at the nodes of a lattice that is fixed in the frame of the steel: at the eight nodes around its centre with
 /// trilinear weights, or at one of them. A cell is hidden from a node when a triangle intersects the line
 /// between them. Nodes, steel and cells of one zone do not move relative to each other, so a node's hidden cells are computed once and
-/// stored; those of other zones are computed for every mesh position. A node that is hidden from part of the rock's surroundings
-/// (beyond a blade, inside steel) loses weight in proportion to that part; the other nodes take it over. The visible fraction is the
-/// product over the steel of all zones. Without steel within reach all cells are visible.
+/// stored; those of other zones are computed for every mesh position, from the cells that pass near by. A node that is hidden from part of
+/// the rock's surroundings (beyond a blade, inside steel) loses weight in proportion to that part; the other nodes take it over. The
+/// visible fraction is the product over the steel of all zones. Without steel within reach all cells are visible.
 class Visibility {
 public:
     Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, NodeView view = NodeView::all_nodes);
@@ -93,6 +95,8 @@ private:
         double reach = -1.0;              // that the list is complete for
         std::uint64_t stamp = 0;          // of the mesh position that it holds for (cells of the other zone)
         std::vector<std::int32_t> cells;  // their places
+        NearbyCells passing;              // cells of the other zone about the point, of which these are hidden
+        std::size_t size() const { return cells.size() + passing.cells.size(); }
     };
     struct SamplePoint {
         Vec3 position;
@@ -131,7 +135,7 @@ private:
     double seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const SamplePoint& node) const;
     void add_hidden(Zone steel, SamplePoint& point, double weight, double reach);
     const std::vector<std::int32_t>& hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach);
-    void find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, std::vector<std::int32_t>& hidden);
+    void find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, HiddenCells& list);
     void release(SamplePoint& point);
     void drop_old_nodes();
     void drop_nodes_unused_for(std::uint64_t age);

@@ -244,14 +244,8 @@ void Mapping::forget_vicinities(std::size_t rocks) {
 const NearbyCells& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const {
     vicinity.kernel.resize(frames_.zones());
     NearbyCells& nearby = vicinity.kernel[zone];
-    if (nearby.hold_all(point, physics::k_kernel_reach * width)) return nearby;
-    nearby.centre = point;
-    nearby.reach = (physics::k_kernel_reach + k_skin) * width;
-    nearby.cells.clear();
-    std::vector<Neighbour> found;
-    trees_.of(zone).within(point, nearby.reach, found);
-    nearby.cells.reserve(found.size());
-    for (const Neighbour& n : found) nearby.cells.push_back(n.index);
+    if (!nearby.hold_all(point, physics::k_kernel_reach * width))
+        trees_.find(zone, point, (physics::k_kernel_reach + k_skin) * width, nearby);
     return nearby;
 }
 
