@@ -16,7 +16,8 @@ constexpr std::uint64_t k_newest = 2;
 /// After so many tries boxes of cells are asked whether all of them are in view only while this share of them was.
 constexpr int k_tries = 8;
 constexpr double k_least_left_out = 0.25;
-/// A stored list reaches this much further than requested, because a rock's kernel widens gradually into coarser cells.
+/// A stored list reaches this much further than requested, because a rock's kernel widens gradually into coarser cells and those of the
+/// other zone pass.
 constexpr double k_list_margin = 1.1;
 
 /// The vertices of an icosahedron on the unit sphere and its centre: view points around a rock.
@@ -308,34 +309,37 @@ void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double 
         point.shadows.emplace(steel_[steel], point.position, point.clearance_limit);
         kept_cells_ += k_cells_per_shade * point.shadows->size();
     }
-    const auto test = [&](std::int32_t place) {
-        const Vec3 offset = change(trees_.centre(place)) - point.position;
-        if (point.shadows->is_clear(offset)) return;
-        ++tests_;
-        if (point.shadows->blocks(offset)) list.cells.push_back(place);
+    // Where steel is all around, as over a bank, asking costs more than it leaves out.
+    int asked = 0, left_out = 0;
+    const auto is_worth_leaving_out = [&](const Box& box) {
+        if (asked >= k_tries && left_out < k_least_left_out * asked) return false;
+        ++asked;
+        const bool sees_all = sees_all_of(box);
+        left_out += sees_all ? 1 : 0;
+        return sees_all;
     };
-    if (cells == steel) {
-        // Where steel is all around, as over a bank, asking costs more than it leaves out.
-        int asked = 0, left_out = 0;
-        const auto is_worth_leaving_out = [&](const Box& box) {
-            if (asked >= k_tries && left_out < k_least_left_out * asked) return false;
-            ++asked;
-            const bool sees_all = sees_all_of(box);
-            left_out += sees_all ? 1 : 0;
-            return sees_all;
-        };
-        found_.clear();
+    found_.clear();
+    if (cells == steel)
         trees_.of(cells).between(centre, inner, outer, is_worth_leaving_out, found_);
-        for (const Neighbour& n : found_) test(n.index);
-    } else {
-        // Cells pass a point by little from one position of the mesh to the next.
-        if (!list.passing.hold_all(centre, outer)) trees_.find(cells, centre, k_list_margin * outer, list.passing);
-        for (const std::int32_t place : list.passing.cells) {
-            const double squared = (trees_.centre(place) - centre).squaredNorm();
-            if (squared >= inner * inner && squared < outer * outer) test(place);
-        }
+    else
+        find_passing(cells, centre, inner, outer, list.passing);
+    for (const Neighbour& n : found_) {
+        const Vec3 offset = change(trees_.centre(n.index)) - point.position;
+        if (point.shadows->is_clear(offset)) continue;
+        ++tests_;
+        if (point.shadows->blocks(offset)) list.cells.push_back(n.index);
     }
     if (trees_.zones() == 1) drop_shadows(point);  // no cell will come again
+}
+
+/// Appends the cells of a zone that turns past a point, of those at a distance of `inner` or more and less than `outer` [m], to what was
+/// found. They pass by little from one position of the mesh to the next. \param centre  the point in the cells' frame
+void Visibility::find_passing(Zone cells, const Vec3& centre, double inner, double outer, NearbyCells& passing) {
+    if (!passing.hold_all(centre, outer)) trees_.find(cells, centre, k_list_margin * outer, passing);
+    for (const std::int32_t place : passing.cells) {
+        const double squared = (trees_.centre(place) - centre).squaredNorm();
+        if (squared >= inner * inner && squared < outer * outer) found_.push_back({place, squared});
+    }
 }
 
 void Visibility::release(SamplePoint& point) {

@@ -136,6 +136,7 @@ private:
     void add_hidden(Zone steel, SamplePoint& point, double weight, double reach);
     const std::vector<std::int32_t>& hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach);
     void find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, HiddenCells& list);
+    void find_passing(Zone cells, const Vec3& centre, double inner, double outer, NearbyCells& passing);
     void release(SamplePoint& point);
     void drop_old_nodes();
     void drop_nodes_unused_for(std::uint64_t age);

@@ -3,41 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/space/visibility.hpp"
 
 namespace cutterflow::coupling {
 namespace {
 
 /// A still and a turning zone of 4,000 random cells each, with a random facet of steel here and there in both.
-struct TurningMesh {
-    std::vector<Vec3> centres;
-    std::vector<double> volumes, sizes;
-    std::vector<std::uint8_t> zone;
-    std::vector<std::int64_t> ids;
-    std::vector<SteelTriangle> still_steel, turning_steel;
-    std::vector<ZoneMotion> moving{{{Vec3(0.1, 0.0, 0.0), Vec3(0.0, 0.6, 0.8)}, 1.0, "rotor"}};
-
-    TurningMesh() {
-        std::mt19937 random(11);
-        std::uniform_real_distribution<double> place(-1.0, 1.0), size(-0.3, 0.3);
-        const auto point = [&](auto& distribution) { return Vec3(distribution(random), distribution(random), distribution(random)); };
-        for (int c = 0; c < 8000; ++c) {
-            centres.push_back(point(place));
-            volumes.push_back(1e-3);
-            sizes.push_back(0.1);
-            zone.push_back(c % 2 == 0 ? 0 : 1);
-            ids.push_back(c);
+testing::SyntheticMesh random_mesh() {
+    testing::SyntheticMesh mesh;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), size(-0.3, 0.3);
+    const auto point = [&](auto& distribution) { return Vec3(distribution(random), distribution(random), distribution(random)); };
+    for (int c = 0; c < 8000; ++c) mesh.add_cell(point(place), 1e-3, 0.1, c % 2 != 0);
+    for (std::vector<SteelTriangle>* steel : {&mesh.stator_steel, &mesh.rotor_steel})
+        for (int t = 0; t < 40; ++t) {
+            const Vec3 a = point(place);
+            steel->push_back({a, a + point(size), a + point(size)});
         }
-        for (std::vector<SteelTriangle>* steel : {&still_steel, &turning_steel})
-            for (int t = 0; t < 40; ++t) {
-                const Vec3 a = point(place);
-                steel->push_back({a, a + point(size), a + point(size)});
-            }
-    }
-    Cells cells() const { return {centres, volumes, sizes, zone, ids}; }
-    Steel steel() const { return {{still_steel, turning_steel}}; }
-    ZoneFrames at(double time) const { return {moving, time}; }
-};
+    return mesh;
+}
 
 /// Visible fraction of every cell from a place, the nearer ones than `reach`.
 std::vector<double> seen_from(Visibility& visibility, const CellTrees& trees, const ZoneFrames& frames, const Vec3& place, double reach) {
@@ -53,12 +38,13 @@ std::vector<double> seen_from(Visibility& visibility, const CellTrees& trees, co
 
 // Small turns, by which the cells near a node stay the same, one large turn, and a turn back.
 TEST(Visibility, of_cells_that_pass_is_that_of_a_mesh_just_made) {
-    const TurningMesh mesh;
+    const testing::SyntheticMesh mesh = random_mesh();
+    const std::vector<ZoneMotion> moving{{{Vec3(0.1, 0.0, 0.0), Vec3(0.0, 0.6, 0.8)}, 1.0, "rotor"}};
     const CellTrees trees(mesh.cells(), 2);
-    Visibility kept(mesh.steel(), trees, mesh.at(0.0));
+    Visibility kept(mesh.steel(), trees, ZoneFrames(moving, 0.0));
     int dimmed = 0;
     for (const double time : {0.0, 0.01, 0.02, 0.03, 0.08, 0.5, 0.51, 0.02}) {
-        const ZoneFrames frames = mesh.at(time);
+        const ZoneFrames frames(moving, time);
         kept.set_frames(frames);
         Visibility fresh(mesh.steel(), trees, frames);
         for (const double reach : {0.35, 0.45})  // the second look asks for more of the same nodes
@@ -76,29 +62,19 @@ TEST(Visibility, of_cells_that_pass_is_that_of_a_mesh_just_made) {
 
 // A cell at the node's side of the steel is in view, one behind it is not, at every turn.
 TEST(Visibility, of_a_turning_plate_hides_what_is_behind_it) {
-    std::vector<Vec3> centres;
-    std::vector<double> volumes, sizes;
-    std::vector<std::uint8_t> zone;
-    std::vector<std::int64_t> ids;
+    testing::SyntheticMesh mesh;
     for (int i = -10; i <= 10; ++i)
-        for (int j = -10; j <= 10; ++j) {
-            centres.emplace_back(0.1 * i, 0.1 * j, 0.013);
-            volumes.push_back(1e-3);
-            sizes.push_back(0.1);
-            zone.push_back(0);
-            ids.push_back(static_cast<std::int64_t>(ids.size()));
-        }
-    const std::vector<SteelTriangle> plate{{Vec3(0.0, -9.0, -9.0), Vec3(0.0, 9.0, -9.0), Vec3(0.0, 0.0, 18.0)}}, none;
-    const std::vector<ZoneMotion> moving{{{Vec3::Zero(), Vec3::UnitZ()}, 1.0, "rotor"}};
-    const CellTrees trees({centres, volumes, sizes, zone, ids}, 2);
-    Visibility visibility({{none, plate}}, trees, ZoneFrames(moving, 0.0));
+        for (int j = -10; j <= 10; ++j) mesh.add_cell(Vec3(0.1 * i, 0.1 * j, 0.013), 1e-3, 0.1, false);
+    mesh.rotor_steel.push_back({Vec3(0.0, -9.0, -9.0), Vec3(0.0, 9.0, -9.0), Vec3(0.0, 0.0, 18.0)});
+    const CellTrees trees(mesh.cells(), 2);
+    Visibility visibility(mesh.steel(), trees, ZoneFrames(testing::unit_turn(), 0.0));
     for (int step = 0; step < 60; ++step) {
         const double angle = 0.02 * step;
-        const ZoneFrames frames(moving, angle);
+        const ZoneFrames frames(testing::unit_turn(), angle);
         visibility.set_frames(frames);
         const Vec3 normal(std::cos(angle), std::sin(angle), 0.0), rock = 0.5 * normal;
         visibility.look_from(rock, 0.9, 0.05);
-        for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(centres.size()); ++cell) {
+        for (std::int32_t cell = 0; cell < static_cast<std::int32_t>(mesh.size()); ++cell) {
             const Vec3& centre = trees.centre(cell);
             const double height = centre.dot(normal);
             if ((centre - rock).norm() >= 0.9 || std::abs(height) < 1e-9) continue;
