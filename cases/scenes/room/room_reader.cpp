@@ -1071,6 +1071,31 @@ private:
         }
         for (const char* key : {"measure.upstream_m", "measure.downstream_m"})
             if (measure.has(key)) require_place(measure, key, vec3_of(measure, key), vec3_of(measure, key));
+        check_levels(measure);
+    }
+
+    /// Levels and the axis of a heap are in the room, and so is a part of a profile.
+    void check_levels(const ParameterValues& measure) {
+        for (const char* key : {"measure.base_m", "measure.undisturbed_m"})
+            if (measure.has(key)) require_interval(measure, key, 2, measure.number(key), measure.number(key));
+        if (measure.has("measure.centre_m"))
+            for (int axis = 0; axis < 2; ++axis) {
+                const double at = measure.numbers("measure.centre_m")[axis];
+                require_interval(measure, "measure.centre_m", axis, at, at);
+            }
+        const int along = measure.has("measure.along") && measure.text("measure.along") == "y" ? 1 : 0;
+        if (measure.has("measure.from_m"))
+            require_interval(measure, "measure.from_m", along, measure.number("measure.from_m"), scene_.upper()[along]);
+        if (measure.has("measure.to_m"))
+            require_interval(measure, "measure.to_m", along, scene_.lower()[along], measure.number("measure.to_m"));
+    }
+
+    /// \param from,to  what the key places along an axis, 0 to 2
+    void require_interval(const ParameterValues& measure, const char* key, int axis, double from, double to) {
+        const double allowed = 1e-6 * scene_.size.maxCoeff();
+        if (from <= to && from <= scene_.upper()[axis] + allowed && to >= scene_.lower()[axis] - allowed) return;
+        refuse(measure.where(key), fmt::format("{} of {} lies outside the room along {}", key, measure.text("measure.name"), "xyz"[axis]),
+               room_rule(), "Correct it");
     }
 
     /// \param lower,upper  corners of the box around what the key places
