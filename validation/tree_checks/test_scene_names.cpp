@@ -83,7 +83,7 @@ TEST(SceneNames, stand_in_studies_and_verification_cases_alone) {
 TEST(SceneNames, are_found_where_they_stand) {
     EXPECT_EQ(scene_in("solver/app/cutter_foam.cpp", "void run_raceway();"), "raceway");
     EXPECT_EQ(scene_in("cases/cli/kinds/room_kind.cpp", "if (scene == \"draw_down\") fill();"), "draw_down");
-    EXPECT_EQ(scene_in("cases/scenes/room/room_reader.cpp", "SuctionPipe suction_pipe;"), "suction_pipe");
+    EXPECT_EQ(scene_in("cases/scenes/room/reader/read_solids.cpp", "SuctionPipe suction_pipe;"), "suction_pipe");
     EXPECT_EQ(scene_in("cases/scenes/room/room_case.cpp", "case Scene::hopper:"), "hopper");
     EXPECT_EQ(scene_in("cases/scenes/room/solid_generators.cpp", "{\"hopper\", hopper}"), "");
     EXPECT_EQ(scene_in("cases/scenes/cutter/case_builder.cpp", "{\"suction_pipe\", false}"), "");

@@ -86,4 +86,9 @@ const RoomSolid* RoomScene::find_solid(const std::string& wanted) const {
     return found == solids.end() ? nullptr : &*found;
 }
 
+const RoomGate* RoomScene::find_gate(const std::string& wanted) const {
+    const auto found = std::find_if(gates.begin(), gates.end(), [&](const RoomGate& one) { return one.name == wanted; });
+    return found == gates.end() ? nullptr : &*found;
+}
+
 }  // namespace cutterflow::cases

@@ -260,6 +260,7 @@ struct RoomScene {
     double largest_grain() const;   ///< diameter [m]; 0 without grains
     const RoomGrains* find_grains(const std::string& name) const;
     const RoomSolid* find_solid(const std::string& name) const;
+    const RoomGate* find_gate(const std::string& name) const;
 };
 
 }  // namespace cutterflow::cases

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/scenes/room/vec3_of.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
 #include "geometry/surface/simple_solids.hpp"
@@ -122,11 +123,6 @@ Parameter angle(const char* name, const char* help) {
 }
 
 }  // namespace
-
-Vec3 vec3_of(const ParameterValues& values, const std::string& key) {
-    const std::vector<double>& numbers = values.numbers(key);
-    return {numbers.at(0), numbers.at(1), numbers.at(2)};
-}
 
 const std::vector<SolidGenerator>& solid_generators() {
     static const std::vector<SolidGenerator> table{

@@ -32,7 +32,4 @@ const SolidGenerator* find_solid_generator(const std::string& name);
 /// Rows of every key that a generator has, for the table of the study.
 ParameterTable solid_size_rows();
 
-/// Three numbers of a key.
-Vec3 vec3_of(const ParameterValues& values, const std::string& key);
-
 }  // namespace cutterflow::cases

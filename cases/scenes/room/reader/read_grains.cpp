@@ -1,0 +1,87 @@
+/// \file Tables [[grains]].
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/room/reader/room_readers.hpp"
+#include "cases/scenes/room/reader/room_reading.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/clump/clump_file.hpp"
+#include "geometry/clump/unit_clump.hpp"
+
+namespace cutterflow::cases {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool read_sizes(RoomReading& room, const ParameterValues& values, RoomGrains& grains) {
+    const bool one = values.has("grains.diameter_m"), uniform = values.has("grains.diameter_m.uniform_by_number");
+    const auto& classes = values.tables("grains.class");
+    const std::string where = values.where("grains.name");
+    if (one + uniform + !classes.empty() != 1) {
+        room.refuse(
+            where,
+            fmt::format("the grains {} have {} diameter", grains.name, one + uniform + !classes.empty() == 0 ? "no" : "more than one"),
+            "Give diameter_m, diameter_m = { uniform_by_number = [a, b] }, or [[grains.class]]", "Correct it");
+        return false;
+    }
+    if (one) grains.sizes = std::vector<GrainClass>{{values.number("grains.diameter_m"), 1.0}};
+    if (uniform) {
+        const std::vector<double>& range = values.numbers("grains.diameter_m.uniform_by_number");
+        if (range[0] >= range[1]) {
+            room.refuse(values.where("grains.diameter_m.uniform_by_number"),
+                        fmt::format("uniform_by_number = [{:g}, {:g}]", range[0], range[1]), "The smaller diameter comes first",
+                        "Exchange them");
+            return false;
+        }
+        grains.sizes = UniformByNumber{range[0], range[1]};
+    }
+    if (classes.empty()) return true;
+    double sum = 0.0;
+    for (const ParameterValues& one_class : classes) sum += one_class.number("grains.class.mass_share");
+    std::vector<GrainClass> made;
+    for (const ParameterValues& one_class : classes)
+        made.push_back({one_class.number("grains.class.diameter_m"), one_class.number("grains.class.mass_share") / sum});
+    grains.sizes = made;
+    return true;
+}
+
+void read_grains(RoomReading& room, const ParameterValues& values) {
+    RoomGrains grains;
+    grains.name = values.text("grains.name");
+    const std::string where = values.where("grains.name");
+    if (room.scene.find_grains(grains.name) != nullptr)
+        room.refuse(where, fmt::format("grains.name = \"{}\" is given twice", grains.name), "Every kind of grains has a name of its own",
+                    "Change one");
+    grains.density = values.number("grains.density_kg_m3");
+    const std::string material = values.text("grains.material");
+    room.require_name(material, "grains.material", values.where("grains.material"));
+    if (room.scene.grain_material.empty()) {
+        room.scene.grain_material = material;
+        read_elasticity(room, values.where("grains.material"));
+    } else if (material != room.scene.grain_material) {
+        room.refuse(values.where("grains.material"), fmt::format("grains.material = \"{}\"", material),
+                    fmt::format("All grains of a room have one material, here {}", room.scene.grain_material), "Use it for all");
+    }
+    if (values.has("grains.shape")) {
+        grains.clump = room.folder / values.text("grains.shape");
+        if (!fs::exists(grains.clump))
+            room.refuse(values.where("grains.shape"), fmt::format("{} does not exist", grains.clump.string()),
+                        "grains.shape names the file of a clump", "Check the path");
+        else
+            room.mistakes.gather([&] {
+                grains.girth = 2.0 * geometry::unit_clump(geometry::read_clump(grains.clump)).reach();
+                grains.clump_text = read_file(grains.clump);
+            });
+    }
+    if (read_sizes(room, values, grains)) room.scene.grains.push_back(std::move(grains));
+}
+
+}  // namespace
+
+void read_all_grains(RoomReading& room) {
+    for (const ParameterValues& grains : room.values.tables("grains")) read_grains(room, grains);
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,127 @@
+/// \file Tables [[measure]], by themselves and in their room.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/room/reader/room_readers.hpp"
+#include "cases/scenes/room/reader/room_reading.hpp"
+#include "cases/scenes/room/room_measures.hpp"
+#include "cases/scenes/room/vec3_of.hpp"
+
+namespace cutterflow::cases {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_wall(const RoomReading& room, const std::string& name) {
+    if (room.solid_names.count(name) > 0) return true;
+    const auto side = std::find(coupling::k_domain_sides.begin(), coupling::k_domain_sides.end(), name);
+    if (side == coupling::k_domain_sides.end()) return false;
+    return room.scene.sides[static_cast<std::size_t>(side - coupling::k_domain_sides.begin())] != SideForGrains::open;
+}
+
+/// \param from,to  what the key places along an axis, 0 to 2
+void require_interval(RoomReading& room, const ParameterValues& measure, const char* key, int axis, double from, double to) {
+    const double allowed = 1e-6 * room.scene.size.maxCoeff();
+    if (from <= to && from <= room.scene.upper()[axis] + allowed && to >= room.scene.lower()[axis] - allowed) return;
+    room.refuse(measure.where(key), fmt::format("{} of {} lies outside the room along {}", key, measure.text("measure.name"), "xyz"[axis]),
+                room.room_rule(), "Correct it");
+}
+
+/// \param lower,upper  corners of the box around what the key places
+void require_place(RoomReading& room, const ParameterValues& measure, const char* key, const Vec3& lower, const Vec3& upper) {
+    const double allowed = 1e-6 * room.scene.size.maxCoeff();
+    if ((lower.array() <= room.scene.upper().array() + allowed).all() && (upper.array() >= room.scene.lower().array() - allowed).all())
+        return;
+    room.refuse(measure.where(key),
+                fmt::format("{} = {} of {} lies outside the room", key, text_of(vec3_of(measure, key)), measure.text("measure.name")),
+                room.room_rule(), "Correct it");
+}
+
+/// Levels and the axis of a heap are in the room, and so is a part of a profile.
+void check_levels(RoomReading& room, const ParameterValues& measure) {
+    for (const char* key : {"measure.base_m", "measure.undisturbed_m"})
+        if (measure.has(key)) require_interval(room, measure, key, 2, measure.number(key), measure.number(key));
+    if (measure.has("measure.centre_m"))
+        for (int axis = 0; axis < 2; ++axis) {
+            const double at = measure.numbers("measure.centre_m")[axis];
+            require_interval(room, measure, "measure.centre_m", axis, at, at);
+        }
+    const int along = measure.has("measure.along") && measure.text("measure.along") == "y" ? 1 : 0;
+    if (measure.has("measure.from_m"))
+        require_interval(room, measure, "measure.from_m", along, measure.number("measure.from_m"), room.scene.upper()[along]);
+    if (measure.has("measure.to_m"))
+        require_interval(room, measure, "measure.to_m", along, room.scene.lower()[along], measure.number("measure.to_m"));
+}
+
+/// Region, gate and points of a measure are in the room; gates and points may lie on its sides.
+void check_places(RoomReading& room, const ParameterValues& measure) {
+    const std::string& name = measure.text("measure.name");
+    if (const std::optional<Region> region = room.read_region(measure, "measure.region", measure.where("measure.name")))
+        room.require_in_room(*region, "measure." + name, place_of(measure, "measure.region", "measure.name"));
+    if (measure.has("measure.gate.disc_m")) {
+        const RoomGate& gate = *room.scene.find_gate(name);
+        const Vec3 reach = gate.radius * (1.0 - gate.normal.array().square()).max(0.0).sqrt().matrix();
+        require_place(room, measure, "measure.gate.disc_m", gate.centre - reach, gate.centre + reach);
+    }
+    if (measure.has("measure.gate.lower_m")) {
+        const RoomGate& gate = *room.scene.find_gate(name);
+        require_place(room, measure, "measure.gate.lower_m", gate.lower.cwiseMin(gate.upper), gate.lower.cwiseMax(gate.upper));
+    }
+    for (const char* key : {"measure.upstream_m", "measure.downstream_m"})
+        if (measure.has(key)) require_place(room, measure, key, vec3_of(measure, key), vec3_of(measure, key));
+    check_levels(room, measure);
+}
+
+void check_measure(RoomReading& room, const ParameterValues& measure) {
+    const std::string &name = measure.text("measure.name"), where = measure.where("measure.name");
+    if (measure.text("measure.what") == "pressure_drop" && !room.scene.medium.present())
+        room.refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
+                    "Remove the measure, or choose a room.medium");
+    if (measure.has("measure.against") && !fs::is_regular_file(room.folder / measure.text("measure.against")))
+        room.refuse(measure.where("measure.against"),
+                    fmt::format("measure.against: there is no file {}", (room.folder / measure.text("measure.against")).string()),
+                    "It is a CSV file of a profile; its path is relative to the study", "Correct the path, or put the file there");
+    check_places(room, measure);
+    for (const char* key : {"measure.at_s", "measure.from_s"})
+        if (measure.has(key)) room.require_in_run(measure.number(key), key, measure);
+    if (room.scene.find_gate(name) != nullptr) room.require_name(name, "measure.name", where);
+    if (measure.has("measure.gate") && room.scene.find_gate(measure.text("measure.gate")) == nullptr &&
+        room.wrong_measures.count(measure.text("measure.gate")) == 0)
+        room.refuse(measure.where("measure.gate"), fmt::format("measure.gate = \"{}\"", measure.text("measure.gate")),
+                    "It names a measure that places a gate, or places one itself",
+                    "Correct it, or write gate = { disc_m = [x, y, z], radius_m = r }");
+    if (measure.has("measure.wall") && !is_wall(room, measure.text("measure.wall")))
+        room.refuse(measure.where("measure.wall"), fmt::format("measure.wall = \"{}\"", measure.text("measure.wall")),
+                    "It names a solid, or a side of the room that is a wall", "Correct it");
+}
+
+}  // namespace
+
+/// The rules of every table by itself, then those of the sound ones in their room.
+void read_measures(RoomReading& room) {
+    std::set<std::string> names;
+    std::vector<const ParameterValues*> sound;
+    room.scene.measures = nlohmann::json::array();
+    for (const ParameterValues& measure : room.values.tables("measure")) {
+        const std::string &name = measure.text("measure.name"), where = measure.where("measure.name");
+        if (!names.insert(name).second)
+            room.refuse(where, fmt::format("measure.name = \"{}\" is given twice", name), "Every measure has a name of its own",
+                        "Change one");
+        const std::vector<Mistake> mistakes = measure_mistakes(measure);
+        room.mistakes.add(mistakes);
+        if (!mistakes.empty()) {
+            room.wrong_measures.insert(name);
+            continue;
+        }
+        sound.push_back(&measure);
+        room.scene.measures.push_back(measure_json(measure));
+    }
+    room.scene.gates = gates_of(room.scene.measures);
+    for (const ParameterValues* measure : sound) check_measure(room, *measure);
+}
+
+}  // namespace cutterflow::cases

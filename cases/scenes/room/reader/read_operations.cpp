@@ -1,0 +1,209 @@
+/// \file Tables [[prepare]] and [[event]]: what is done to the grains, before the run and in it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/room/grain_placement.hpp"
+#include "cases/scenes/room/reader/room_readers.hpp"
+#include "cases/scenes/room/reader/room_reading.hpp"
+#include "cases/scenes/room/vec3_of.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+constexpr double k_longest_settling = 20.0;  // [s]
+constexpr double k_most_fed = 1e6;           // grains
+
+const RoomGrains* grains_of(RoomReading& room, const ParameterValues& values, const std::string& key, const std::string& where) {
+    if (!values.has(key)) {
+        room.refuse(where, fmt::format("{} is missing", key), "It names a kind of grains", "Add it");
+        return nullptr;
+    }
+    const RoomGrains* grains = room.scene.find_grains(values.text(key));
+    if (grains == nullptr) {
+        std::vector<std::string> names;
+        for (const ParameterValues& one : room.values.tables("grains")) names.push_back(one.text("grains.name"));
+        room.refuse_unknown(values, key, names, "grains");
+    }
+    return grains;
+}
+
+/// A box or upright cylinder, in which grains begin; the room without one.
+std::optional<Region> region_for_grains(RoomReading& room, const std::optional<Region>& given, const std::string& where) {
+    if (!given) return RegionBox{room.scene.lower(), room.scene.upper()};
+    if (const auto* box = std::get_if<RegionBox>(&*given)) {
+        if (const RegionBox cut{box->lower.cwiseMax(room.scene.lower()), box->upper.cwiseMin(room.scene.upper())};
+            (cut.lower.array() < cut.upper.array()).all())
+            return cut;
+    } else if (const auto* cylinder = std::get_if<RegionCylinder>(&*given)) {
+        const bool upright = cylinder->from.head<2>() == cylinder->to.head<2>();
+        if (upright && cylinder->from.z() < cylinder->to.z() && room.meets_room(*given)) return given;
+        if (!upright || cylinder->from.z() > cylinder->to.z()) {
+            room.refuse(where, fmt::format("a cylinder from {} to {}", text_of(cylinder->from), text_of(cylinder->to)),
+                        "Grains begin in an upright cylinder, from below to above", "Correct it");
+            return std::nullopt;
+        }
+    } else {
+        room.refuse(where, "grains begin in a region of this kind", "They begin in a box or an upright cylinder", "Use one of them");
+        return std::nullopt;
+    }
+    room.require_in_room(*given, "do", where);
+    return std::nullopt;
+}
+
+std::optional<Region> region_of_step(RoomReading& room, const ParameterValues& values, const std::string& where) {
+    const bool has_above = values.has("prepare.above_m"), has_below = values.has("prepare.below_m");
+    std::optional<Region> region = room.read_region(values, "prepare.region", where);
+    if (has_above + has_below + region.has_value() > 1) {
+        room.refuse(where, "more than one of region, above_m and below_m", "A step has one region", "Remove all but one");
+        return std::nullopt;
+    }
+    if (has_above) region = above(values.number("prepare.above_m"));
+    if (has_below) region = below(values.number("prepare.below_m"));
+    return region;
+}
+
+/// Null with a mistake, or when the solid's own mistakes are told.
+const RoomSolid* pressed_solid(RoomReading& room, const ParameterValues& values, const std::string& where) {
+    if (!values.has("prepare.solid")) {
+        room.refuse(where, "do = \"compress\" without solid", "A solid presses on the grains", "Name it");
+        return nullptr;
+    }
+    const RoomSolid* solid = room.scene.find_solid(values.text("prepare.solid"));
+    if (solid == nullptr)
+        room.refuse_unknown(values, "prepare.solid", {room.solid_names.begin(), room.solid_names.end()}, "solids");
+    else
+        room.refuse_in_medium(*solid, values.where("prepare.solid"), "is pressed");
+    return solid;
+}
+
+void read_compress(RoomReading& room, const ParameterValues& values, const std::string& where) {
+    const auto pressure = room.required(values, "prepare.pressure_pa", "do = \"compress\"", "prepare.do");
+    const RoomSolid* solid = pressed_solid(room, values, where);
+    const Vec3 given = values.has("prepare.direction") ? vec3_of(values, "prepare.direction") : Vec3(-Vec3::UnitZ());
+    if (given.norm() == 0.0)
+        room.refuse(values.where("prepare.direction"), "prepare.direction = [0, 0, 0]", "It must not be zero", "Correct it");
+    if (!pressure || solid == nullptr || given.norm() == 0.0) return;
+    const Vec3 direction = given.normalized();
+    room.scene.preparation.emplace_back(CompressStep{solid->name, direction, *pressure,
+                                                     *pressure * geometry::area_seen_along(solid->surface, direction),
+                                                     number_or(values, "prepare.longest_s", k_longest_settling)});
+}
+
+void read_pour(RoomReading& room, const ParameterValues& values, const std::optional<Region>& given, const std::string& where) {
+    const RoomGrains* grains = grains_of(room, values, "prepare.grains", where);
+    const std::optional<Region> region = region_for_grains(room, given, where);
+    const bool depth = values.has("prepare.depth_m"), mass = values.has("prepare.mass_kg"), count = values.has("prepare.count");
+    if (depth + mass + count != 1)
+        return room.refuse(where, fmt::format("a pour with {} of depth_m, mass_kg and count", depth + mass + count), "It has one of them",
+                           "Correct it");
+    if (grains == nullptr || !region) return;
+    PourStep pour{grains->name, *region, 0.0, where};
+    if (depth) pour.mass = grains->density * k_packed_share * area_of(*region) * values.number("prepare.depth_m");
+    if (mass) pour.mass = values.number("prepare.mass_kg");
+    if (count) {
+        pour.count = static_cast<std::size_t>(values.integer("prepare.count"));
+        pour.mass = static_cast<double>(*pour.count) * grains->density * grains->mean_volume();
+    }
+    const double bulk = pour.mass / (grains->density * k_packed_share), place = area_of(*region) * height_of(*region);
+    if (bulk > place)
+        return room.refuse(where, fmt::format("poured grains fill {:.3g} m3", bulk), fmt::format("Their region holds {:.3g} m3", place),
+                           "Pour less, or give a larger region");
+    room.scene.preparation.emplace_back(pour);
+}
+
+void read_step(RoomReading& room, const ParameterValues& values) {
+    const std::string& what = values.text("prepare.do");
+    const std::string where = values.where("prepare.do");
+    if (what != "pour")
+        room.refuse_keys(values, {"prepare.grains", "prepare.depth_m", "prepare.mass_kg", "prepare.count"}, "It belongs to do = \"pour\"");
+    if (what != "settle" && what != "compress")
+        room.refuse_keys(values, {"prepare.longest_s"}, "It belongs to do = \"settle\" and \"compress\"");
+    if (what != "compress")
+        room.refuse_keys(values, {"prepare.solid", "prepare.direction", "prepare.pressure_pa"}, "It belongs to do = \"compress\"");
+    if (what == "settle") {
+        room.refuse_keys(values, {"prepare.above_m", "prepare.below_m", "prepare.region"}, "All grains settle");
+        room.scene.preparation.emplace_back(SettleStep{number_or(values, "prepare.longest_s", k_longest_settling)});
+        return;
+    }
+    if (what == "compress") {
+        room.refuse_keys(values, {"prepare.above_m", "prepare.below_m", "prepare.region"}, "A solid compresses what is in its way");
+        return read_compress(room, values, where);
+    }
+    const std::optional<Region> region = region_of_step(room, values, where);
+    if (what == "pour") return read_pour(room, values, region, where);
+    if (!region)
+        return room.refuse(where, fmt::format("do = \"{}\" without a region", what), "It is about a part of the room",
+                           "Add above_m, below_m or region");
+    room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
+    if (what == "trim") room.scene.preparation.emplace_back(TrimStep{*region});
+    if (what == "freeze") room.scene.preparation.emplace_back(FreezeStep{*region});
+}
+
+void require_ordered_preparation(RoomReading& room) {
+    bool poured = false;
+    const auto& steps = room.values.tables("prepare");
+    for (const ParameterValues& step : steps) {
+        const std::string& what = step.text("prepare.do");
+        if (what != "pour" && !poured) {
+            room.refuse(step.where("prepare.do"), fmt::format("do = \"{}\" before anything is poured", what), "The first step pours",
+                        "Move it");
+            return;
+        }
+        poured = true;
+    }
+}
+
+void read_event(RoomReading& room, const ParameterValues& values) {
+    const std::string& what = values.text("event.do");
+    const std::string where = values.where("event.do");
+    const bool lasting = what == "feed" || what == "extract";
+    if (lasting)
+        room.refuse_keys(values, {"event.at_s"}, fmt::format("do = \"{}\" lasts from from_s to to_s", what));
+    else
+        room.refuse_keys(values, {"event.from_s", "event.to_s", "event.rate_kg_s"}, fmt::format("do = \"{}\" happens at at_s", what));
+    if (what != "feed") room.refuse_keys(values, {"event.grains"}, "It belongs to do = \"feed\"");
+    const std::optional<Region> region = room.read_region(values, "event.region", where);
+    if (!region && values.where("event.region").empty() && what != "feed")
+        room.refuse(where, fmt::format("do = \"{}\" without a region", what), "It is about a part of the room", "Add region");
+    if (region) room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
+    if (!lasting) {
+        const auto at = room.required(values, "event.at_s", fmt::format("do = \"{}\"", what), "event.do");
+        if (at) room.require_in_run(*at, "event.at_s", values);
+        if (at && region) room.scene.events.emplace_back(RegionEvent{what, *at, *region});
+        return;
+    }
+    const auto from = room.required(values, "event.from_s", what, "event.do"), to = room.required(values, "event.to_s", what, "event.do"),
+               rate = room.required(values, "event.rate_kg_s", what, "event.do");
+    if (from) room.require_in_run(*from, "event.from_s", values);
+    if (from && to && *from >= *to)
+        room.refuse(values.where("event.to_s"), fmt::format("event.to_s = {:g}", *to), fmt::format("It is after from_s = {:g}", *from),
+                    "Correct one of them");
+    if (!from || !to || !rate) return;
+    if (what == "extract") {
+        if (region) room.scene.events.emplace_back(ExtractEvent{*from, *to, *rate, *region});
+        return;
+    }
+    const RoomGrains* grains = grains_of(room, values, "event.grains", where);
+    const std::optional<Region> place = region_for_grains(room, region, where);
+    if (grains == nullptr || !place) return;
+    const double fed = *rate * (*to - *from) / (grains->density * grains->mean_volume());
+    if (fed > k_most_fed)
+        return room.refuse(values.where("event.rate_kg_s"), fmt::format("a feed of {:.3g} grains", fed),
+                           fmt::format("A feed has at most {:g}", k_most_fed), "Feed less, or larger grains");
+    room.scene.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place});
+}
+
+}  // namespace
+
+void read_preparation(RoomReading& room) {
+    for (const ParameterValues& step : room.values.tables("prepare")) read_step(room, step);
+    require_ordered_preparation(room);
+}
+
+void read_events(RoomReading& room) {
+    for (const ParameterValues& event : room.values.tables("event")) read_event(room, event);
+}
+
+}  // namespace cutterflow::cases

@@ -1,0 +1,79 @@
+/// \file Table [run].
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cases/scenes/room/reader/room_readers.hpp"
+#include "cases/scenes/room/reader/room_reading.hpp"
+
+namespace cutterflow::cases {
+
+namespace {
+
+constexpr double k_look_per_fall = 0.1;  // longest step over sqrt(d/g)
+constexpr double k_most_outputs = 1e4;
+constexpr double k_pictures = 50.0, k_checkpoints = 5.0;
+
+/// The gate of a measure: its own, or the one that it names; empty without one.
+std::string gate_of(const RoomReading& room, const std::string& measure) {
+    if (room.scene.find_gate(measure) != nullptr) return measure;
+    for (const ParameterValues& table : room.values.tables("measure"))
+        if (table.text("measure.name") == measure && table.has("measure.gate")) return table.text("measure.gate");
+    return "";
+}
+
+void read_stop(RoomReading& room) {
+    const bool idle = room.values.has("run.stop.measure") || room.values.has("run.stop.idle_s");
+    const bool settled = room.values.has("run.stop.settled") && room.values.boolean("run.stop.settled");
+    const std::string where = room.values.where("run.stop");
+    if (idle && settled) return room.refuse(where, "run.stop with a measure and settled", "A run has one stop rule", "Remove one of them");
+    if (settled) room.scene.run.stop = StopWhenAtRest{};
+    if (!idle) return;
+    if (!room.values.has("run.stop.measure") || !room.values.has("run.stop.idle_s"))
+        return room.refuse(where, "run.stop has only one of measure and idle_s", "Nothing passes the gate of a measure for a time",
+                           "Give both");
+    const std::string name = gate_of(room, room.values.text("run.stop.measure"));
+    if (room.wrong_measures.count(room.values.text("run.stop.measure")) > 0) return;  // its gate was not read
+    if (name.empty())
+        return room.refuse(where, fmt::format("run.stop.measure = \"{}\"", room.values.text("run.stop.measure")),
+                           "It names a measure with a gate", "Correct it");
+    room.scene.run.stop = StopWhenIdle{name, room.values.number("run.stop.idle_s")};
+}
+
+}  // namespace
+
+void read_run(RoomReading& room) {
+    RoomRun& run = room.scene.run;
+    run.end = room.values.number("run.end_s");
+    run.write_interval = number_or(room.values, "run.write_interval_s", run.end / k_pictures);
+    run.checkpoint_interval = number_or(room.values, "run.checkpoint_interval_s", run.end / k_checkpoints);
+    for (const char* key : {"run.write_interval_s", "run.checkpoint_interval_s"})
+        if (room.values.has(key) && room.values.number(key) > run.end)
+            room.refuse(room.values.where(key), fmt::format("{} = {:g}", key, room.values.number(key)),
+                        fmt::format("The run ends at {:g} s", run.end), "Correct one of them");
+    for (const char* key : {"run.write_interval_s", "run.checkpoint_interval_s"})
+        if (room.values.has(key) && room.values.number(key) < run.end / k_most_outputs)
+            room.refuse(room.values.where(key), fmt::format("{} = {:g} in a run of {:g} s", key, room.values.number(key), run.end),
+                        fmt::format("A run has at most {:g} of them", k_most_outputs), "Write less often");
+    const double fall = room.scene.grains.empty() || room.scene.gravity.norm() == 0.0
+                            ? 1.0
+                            : std::sqrt(room.scene.smallest_grain() / room.scene.gravity.norm());
+    room.scene.bed_step = number_or(room.values, "dem.longest_step_s", k_look_per_fall * fall);
+    run.longest_step = std::min(room.scene.bed_step, run.write_interval);
+    run.seed = static_cast<std::uint64_t>(room.values.integer("run.seed"));
+    read_stop(room);
+}
+
+void require_something(RoomReading& room) {
+    if (room.values.tables("grains").empty())
+        room.refuse(room.values.where("room.size_m"), "The room has no grains",
+                    "Rooms are studies of grains; a flow alone is any OpenFOAM case", "Add [[grains]]");
+    const bool comes = std::any_of(room.scene.events.begin(), room.scene.events.end(),
+                                   [](const RoomEvent& event) { return std::holds_alternative<FeedEvent>(event); });
+    if (!room.values.tables("grains").empty() && room.values.tables("prepare").empty() && !comes && room.values.tables("event").empty())
+        room.refuse(room.values.tables("grains").front().where("grains.name"), "No grains come into the room",
+                    "They are poured before the run or fed in it", "Add [[prepare]] with do = \"pour\", or [[event]] with do = \"feed\"");
+}
+
+}  // namespace cutterflow::cases
