@@ -186,6 +186,15 @@ void PointTree::within(const Vec3& centre, double radius, std::vector<Neighbour>
         centre, 0.0, radius, [](const Box&) { return false; }, found);
 }
 
+NearbyPoints PointTree::about(const Vec3& centre, double reach) const {
+    std::vector<Neighbour> found;
+    within(centre, reach, found);
+    NearbyPoints nearby{centre, reach, {}};
+    nearby.indices.reserve(found.size());
+    for (const Neighbour& n : found) nearby.indices.push_back(n.index);
+    return nearby;
+}
+
 void PointTree::between(const Vec3& centre, double inner, double outer, const std::function<bool(const Box&)>& leaves_out,
                         std::vector<Neighbour>& found) const {
     if (!index_->tree) return;

@@ -18,6 +18,15 @@ struct Neighbour {
     double squared_distance;  ///< [m2]
 };
 
+/// Points of a tree about a place that travels: they are looked for anew when it has come too far.
+struct NearbyPoints {
+    Vec3 centre = Vec3::Zero();         ///< [m]
+    double reach = -1.0;                ///< [m]; `indices` are all points of the tree nearer than this to the centre
+    std::vector<std::int32_t> indices;  ///< in the order of memory
+    /// Every point nearer than this [m] to a place is among them.
+    double known_about(const Vec3& place) const { return reach - (place - centre).norm(); }
+};
+
 /// Points in the order of a k-d tree (nanoflann): neighbours in space are neighbours in memory. The tree finds the nearest points; for all
 /// points within a radius, which may be thousands, runs of points are taken together.
 class PointTree {
@@ -39,6 +48,9 @@ public:
 
     /// Appends every point nearer than `radius` [m] to `found`, in the order of memory.
     void within(const Vec3& centre, double radius, std::vector<Neighbour>& found) const;
+
+    /// Every point nearer than `reach` [m], which may be infinite.
+    NearbyPoints about(const Vec3& centre, double reach) const;
 
     /// Appends every point at a distance [m] of `inner` or more and less than `outer`, in the order of memory, but for boxes of points of
     /// which `leaves_out` says that none is wanted. It is asked of boxes no larger than the ball.

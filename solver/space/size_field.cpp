@@ -94,10 +94,10 @@ bool SizeField::nearest_of(const Vicinity& vicinity, const ZoneFrames& frames, c
     cells.clear();
     double known = std::numeric_limits<double>::infinity();  // no cell nearer than this is missing [m]
     for (Zone zone = 0; zone < trees_.size(); ++zone) {
-        const Vicinity::Part& part = vicinity.zones[zone];
+        const NearbyPoints& nearby = vicinity.zones[zone];
         const Vec3 here = frames.from_absolute(zone, point);
-        known = std::min(known, part.reach - (here - part.centre).norm());
-        for (const std::int32_t c : part.cells)
+        known = std::min(known, nearby.known_about(here));
+        for (const std::int32_t c : nearby.indices)
             cells.push_back({(centres_[zone][static_cast<std::size_t>(c)] - here).squaredNorm(), zone, c});
     }
     if (cells.size() < std::min(k_neighbours, count_)) return false;
@@ -119,16 +119,12 @@ void SizeField::renew(const ZoneFrames& frames, const Vec3& point, Vicinity& vic
     }
     std::sort(squared.begin(), squared.end());
     const double reach = k_vicinity * std::sqrt(squared[std::min(k_neighbours, squared.size()) - 1]);
-    vicinity.zones.resize(trees_.size());
-    for (Zone zone = 0; zone < trees_.size(); ++zone) {
-        Vicinity::Part& part = vicinity.zones[zone];
-        part.centre = frames.from_absolute(zone, point);
-        part.reach = count_ <= k_neighbours ? std::numeric_limits<double>::infinity() : std::max(reach, first[zone]);
-        found.clear();
-        trees_[zone].within(part.centre, std::min(part.reach, std::numeric_limits<double>::max()), found);
-        part.cells.clear();
-        for (const Neighbour& n : found) part.cells.push_back(n.index);
-    }
+    vicinity.zones.clear();
+    vicinity.zones.reserve(trees_.size());
+    for (Zone zone = 0; zone < trees_.size(); ++zone)
+        vicinity.zones.push_back(trees_[zone].about(frames.from_absolute(zone, point), count_ <= k_neighbours
+                                                                                           ? std::numeric_limits<double>::infinity()
+                                                                                           : std::max(reach, first[zone])));
 }
 
 Vec3 SizeField::nearest_centre(const ZoneFrames& frames, const Vec3& point) const {

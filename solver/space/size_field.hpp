@@ -23,12 +23,7 @@ public:
     };
     /// Cells about a point that travels: those that can be the nearest ones until it leaves their reach.
     struct Vicinity {
-        struct Part {
-            Vec3 centre;                      ///< [m], in the zone's frame
-            double reach;                     ///< [m]; `cells` are all cells of the zone nearer than this to the centre
-            std::vector<std::int32_t> cells;  ///< in the order of the zone's tree
-        };
-        std::vector<Part> zones;  ///< none: not known yet
+        std::vector<NearbyPoints> zones;  ///< centres of cells, in each zone's frame; none: not known yet
     };
     /// \param point     [m], absolute
     /// \param vicinity  of the point where it was before; made anew when it does not hold any more. The result does not depend on it

@@ -78,14 +78,6 @@ CellTrees::CellTrees(const Cells& cells, std::size_t zones) : cells_(cells) {
     }
 }
 
-void CellTrees::find(Zone zone, const Vec3& point, double reach, NearbyCells& nearby) const {
-    std::vector<Neighbour> found;
-    trees_[zone].within(point, reach, found);
-    nearby = {point, reach, {}};
-    nearby.cells.reserve(found.size());
-    for (const Neighbour& n : found) nearby.cells.push_back(n.index);
-}
-
 Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFrames& frames, NodeView view)
     : trees_(trees),
       frames_(frames),
@@ -334,9 +326,9 @@ void Visibility::find_hidden(Zone steel, SamplePoint& point, Zone cells, double 
 
 /// Appends the cells of a zone that turns past a point, of those at a distance of `inner` or more and less than `outer` [m], to what was
 /// found. They pass by little from one position of the mesh to the next. \param centre  the point in the cells' frame
-void Visibility::find_passing(Zone cells, const Vec3& centre, double inner, double outer, NearbyCells& passing) {
-    if (!passing.hold_all(centre, outer)) trees_.find(cells, centre, k_list_margin * outer, passing);
-    for (const std::int32_t place : passing.cells) {
+void Visibility::find_passing(Zone cells, const Vec3& centre, double inner, double outer, NearbyPoints& passing) {
+    if (passing.known_about(centre) < outer) passing = trees_.of(cells).about(centre, k_list_margin * outer);
+    for (const std::int32_t place : passing.indices) {
         const double squared = (trees_.centre(place) - centre).squaredNorm();
         if (squared >= inner * inner && squared < outer * outer) found_.push_back({place, squared});
     }

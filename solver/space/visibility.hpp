@@ -15,15 +15,6 @@
 
 namespace cutterflow::coupling {
 
-/// Cells of a zone about a point that travels.
-struct NearbyCells {
-    Vec3 centre = Vec3::Zero();       ///< [m], in the zone's frame
-    double reach = -1.0;              ///< [m]; `cells` are all cells of the zone nearer than this to the centre
-    std::vector<std::int32_t> cells;  ///< in the order of the zone's tree
-    /// Whether every cell within `radius` [m] of a point is among them.
-    bool hold_all(const Vec3& point, double radius) const { return (point - centre).norm() + radius <= reach; }
-};
-
 /// This rank's cells for searches: one tree per zone, in the zone's own frame, built once. What a search finds are places: numbers of the
 /// cells in the order of the trees, in which neighbours in space are neighbours in memory.
 class CellTrees {
@@ -36,8 +27,6 @@ public:
     std::int32_t number(std::int32_t place) const { return numbers_[static_cast<std::size_t>(place)]; }
     double volume(std::int32_t place) const { return volumes_[static_cast<std::size_t>(place)]; }
     const Vec3& centre(std::int32_t place) const { return centres_[static_cast<std::size_t>(place)]; }
-    /// Finds the cells of a zone nearer than `reach` [m] to a point [m, zone's frame].
-    void find(Zone zone, const Vec3& point, double reach, NearbyCells& nearby) const;
 
 private:
     Cells cells_;
@@ -95,8 +84,8 @@ private:
         double reach = -1.0;              // that the list is complete for
         std::uint64_t stamp = 0;          // of the mesh position that it holds for (cells of the other zone)
         std::vector<std::int32_t> cells;  // their places
-        NearbyCells passing;              // cells of the other zone about the point, of which these are hidden
-        std::size_t size() const { return cells.size() + passing.cells.size(); }
+        NearbyPoints passing;             // cells of the other zone about the point, of which these are hidden
+        std::size_t size() const { return cells.size() + passing.indices.size(); }
     };
     struct SamplePoint {
         Vec3 position;
@@ -136,7 +125,7 @@ private:
     void add_hidden(Zone steel, SamplePoint& point, double weight, double reach);
     const std::vector<std::int32_t>& hidden_cells(Zone steel, SamplePoint& point, Zone cells, double reach);
     void find_hidden(Zone steel, SamplePoint& point, Zone cells, double inner, double outer, HiddenCells& list);
-    void find_passing(Zone cells, const Vec3& centre, double inner, double outer, NearbyCells& passing);
+    void find_passing(Zone cells, const Vec3& centre, double inner, double outer, NearbyPoints& passing);
     void release(SamplePoint& point);
     void drop_old_nodes();
     void drop_nodes_unused_for(std::uint64_t age);

@@ -241,11 +241,11 @@ void Mapping::forget_vicinities(std::size_t rocks) {
 }
 
 /// Cells of a zone within the kernel's reach of a point [m, zone's frame], and some more.
-const NearbyCells& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const {
+const NearbyPoints& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const {
     vicinity.kernel.resize(frames_.zones());
-    NearbyCells& nearby = vicinity.kernel[zone];
-    if (!nearby.hold_all(point, physics::k_kernel_reach * width))
-        trees_.find(zone, point, (physics::k_kernel_reach + k_skin) * width, nearby);
+    NearbyPoints& nearby = vicinity.kernel[zone];
+    if (nearby.known_about(point) < physics::k_kernel_reach * width)
+        nearby = trees_.of(zone).about(point, (physics::k_kernel_reach + k_skin) * width);
     return nearby;
 }
 
@@ -260,9 +260,9 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double thro
     std::size_t entries = stencils.cell.size();
     for (Zone zone = 0; zone < frames_.zones(); ++zone) {
         const Vec3 here = frames_.from_absolute(zone, rocks.position[rock]);
-        const NearbyCells& nearby = nearby_cells(vicinities_[rocks.id[rock]], zone, here, width);
-        stencils.resize_entries(entries + nearby.cells.size());
-        for (const std::int32_t place : nearby.cells) {
+        const NearbyPoints& nearby = nearby_cells(vicinities_[rocks.id[rock]], zone, here, width);
+        stencils.resize_entries(entries + nearby.indices.size());
+        for (const std::int32_t place : nearby.indices) {
             const double squared_distance = (trees_.centre(place) - here).squaredNorm();
             if (squared_distance >= reach2) continue;
             const double in_view = sees_all ? 1.0 : visibility_.visible_fraction(place);

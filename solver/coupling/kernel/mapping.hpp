@@ -116,10 +116,10 @@ private:
     /// Cells about a rock, found when it was near by.
     struct KnownVicinity {
         SizeField::Vicinity sizes;
-        std::vector<NearbyCells> kernel;  // by zone
+        std::vector<NearbyPoints> kernel;  // by zone
         std::uint64_t last_build = 0;
     };
-    const NearbyCells& nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const;
+    const NearbyPoints& nearby_cells(KnownVicinity& vicinity, Zone zone, const Vec3& point, double width) const;
     std::unordered_map<int, KnownVicinity> vicinities_;  // by the rock's id
     std::uint64_t builds_ = 0;
 };
