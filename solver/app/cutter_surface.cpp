@@ -19,7 +19,7 @@
 #include "geometry/base/progress.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
 #include "solver/free_surface/output/surface_recorder.hpp"
-#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/scene_file/scene_file.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 
 namespace {

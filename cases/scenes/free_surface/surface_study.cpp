@@ -10,7 +10,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/progress.hpp"
-#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/scene_file/scene_file.hpp"
 
 namespace cutterflow::cases {
 

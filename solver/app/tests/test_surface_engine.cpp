@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/free_surface/output/surface_checkpoint.hpp"
-#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/scene_file/scene_file.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
 
 namespace cutterflow::free_surface {

@@ -5,7 +5,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
-#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/scene_file/scene_file.hpp"
 
 namespace cutterflow::free_surface {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/scene_file/scene_file.hpp"
 #include "solver/physics/contact.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/cylinder_column.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
-#include "solver/free_surface/scene_file.hpp"
+#include "solver/free_surface/scene_file/scene_file.hpp"
 #include "solver/free_surface/surface_run.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/cylinder_column.hpp"
