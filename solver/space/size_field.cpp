@@ -121,10 +121,10 @@ void SizeField::renew(const ZoneFrames& frames, const Vec3& point, Vicinity& vic
     const double reach = k_vicinity * std::sqrt(squared[std::min(k_neighbours, squared.size()) - 1]);
     vicinity.zones.clear();
     vicinity.zones.reserve(trees_.size());
-    for (Zone zone = 0; zone < trees_.size(); ++zone)
-        vicinity.zones.push_back(trees_[zone].about(frames.from_absolute(zone, point), count_ <= k_neighbours
-                                                                                           ? std::numeric_limits<double>::infinity()
-                                                                                           : std::max(reach, first[zone])));
+    for (Zone zone = 0; zone < trees_.size(); ++zone) {
+        const double known = count_ <= k_neighbours ? std::numeric_limits<double>::infinity() : std::max(reach, first[zone]);
+        vicinity.zones.push_back(trees_[zone].about(frames.from_absolute(zone, point), known));
+    }
 }
 
 Vec3 SizeField::nearest_centre(const ZoneFrames& frames, const Vec3& point) const {

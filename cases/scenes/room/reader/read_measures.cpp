@@ -23,19 +23,25 @@ bool is_wall(const RoomReading& room, const std::string& name) {
     return room.scene.sides[static_cast<std::size_t>(side - coupling::k_domain_sides.begin())] != SideForGrains::open;
 }
 
+/// Whether a box and the room have a place in common; on the room's sides counts.
+bool meets_box(const RoomReading& room, const Vec3& lower, const Vec3& upper) {
+    const double allowed = 1e-6 * room.scene.size.maxCoeff();
+    return (lower.array() <= room.scene.upper().array() + allowed).all() && (upper.array() >= room.scene.lower().array() - allowed).all();
+}
+
 /// \param from,to  what the key places along an axis, 0 to 2
 void require_interval(RoomReading& room, const ParameterValues& measure, const char* key, int axis, double from, double to) {
-    const double allowed = 1e-6 * room.scene.size.maxCoeff();
-    if (from <= to && from <= room.scene.upper()[axis] + allowed && to >= room.scene.lower()[axis] - allowed) return;
+    Vec3 lower = room.scene.lower(), upper = room.scene.upper();
+    lower[axis] = from;
+    upper[axis] = to;
+    if (from <= to && meets_box(room, lower, upper)) return;
     room.refuse(measure.where(key), fmt::format("{} of {} lies outside the room along {}", key, measure.text("measure.name"), "xyz"[axis]),
                 room.room_rule(), "Correct it");
 }
 
 /// \param lower,upper  corners of the box around what the key places
 void require_place(RoomReading& room, const ParameterValues& measure, const char* key, const Vec3& lower, const Vec3& upper) {
-    const double allowed = 1e-6 * room.scene.size.maxCoeff();
-    if ((lower.array() <= room.scene.upper().array() + allowed).all() && (upper.array() >= room.scene.lower().array() - allowed).all())
-        return;
+    if (meets_box(room, lower, upper)) return;
     room.refuse(measure.where(key),
                 fmt::format("{} = {} of {} lies outside the room", key, text_of(vec3_of(measure, key)), measure.text("measure.name")),
                 room.room_rule(), "Correct it");
