@@ -17,11 +17,13 @@ const char* scheme_text(ConvectionScheme scheme) {
     return scheme == ConvectionScheme::upwind ? "Gauss upwind" : "Gauss linearUpwindV grad(U)";
 }
 
-/// Conjugate gradients with two V-cycles an iteration; docs/design/007-flow-settings.md has the cost of the alternatives.
+/// Conjugate gradients, by cutterFoam's own multigrid or with two of OpenFOAM's V-cycles an iteration for other programs;
+/// docs/design/007-flow-settings.md has the cost of the alternatives.
 meshing::FoamDictionary pressure_solver(double tolerance, double relative) {
     return meshing::FoamDictionary()
         .add("solver", "PCG")
         .add("preconditioner", multigrid("preconditioner"))
+        .add("cutterFoamPreconditioner", "aggregationMultigrid")
         .add("tolerance", tolerance)
         .add("relTol", relative);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/foam/mesh_motion/sliding_interface.hpp"
+#include "solver/foam/multigrid/aggregation_multigrid.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 
 #include "GAMGAgglomeration.H"
@@ -100,7 +101,7 @@ void update_overlaps(const lduInterfacePtrsList& fine, const lduInterfacePtrsLis
 
 /// The clusters of cells of the pressure's multigrid, if it has one: they depend on the angle at which they are looked for.
 void make_multigrid(const fvMesh& mesh) {
-    const dictionary& solver = mesh.solverDict("p");
+    const dictionary solver(own_linear_solver(mesh.solverDict("p")));
     const auto is = [](const dictionary& dict, const word& key, const word& value) {
         return dict.lookupOrDefault<word>(key, value) == value;
     };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/foam/multigrid/aggregation_multigrid.hpp"
+
 #include "adjustPhi.H"
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -55,7 +57,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
         fvScalarMatrix pressure(fvm::laplacian(alpha_rAtUf, p_));
         pressure -= outflow;
         pressure.setReference(p_ref_cell_, p_ref_value_);
-        pressure.solve(mesh_.solver(p_.select(pimple_.finalInnerIter())));
+        pressure.solve(own_linear_solver(mesh_.solver(p_.select(pimple_.finalInnerIter()))));
         if (pimple_.finalNonOrthogonalIter()) phi_ = phiHbyA - pressure.flux() / alphaf_;
     }
     report_continuity();

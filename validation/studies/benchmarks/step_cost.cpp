@@ -1,6 +1,7 @@
 /// What a step costs on the mesh of a run: flow with its rock, flow alone, and stock pimpleFoam, each on one and on two ranks, with the
-/// same time step, schemes and linear solvers from the same start. The unit is the processor second, user and system, of all ranks between
-/// the steps' first lines of output. Variants take turns; the least of the rounds counts.
+/// same time step, schemes and tolerances from the same start. Linear solvers are the case's; pimpleFoam takes OpenFOAM's where cutterFoam
+/// takes its own. The unit is the processor second, user and system, of all ranks between the steps' first lines of output. Variants take
+/// turns; the least of the rounds counts.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
