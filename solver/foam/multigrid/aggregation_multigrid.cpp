@@ -80,13 +80,21 @@ public:
         : first_(clusters.toGlobal(0)), own_(graph.cells), right_side_(clusters.size()) {
         Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(clusters.size(), clusters.size());
         for (int row = 0; row < own_; ++row) dense(first_ + row, first_ + row) = matrix.diagonal[static_cast<std::size_t>(row)];
-        const auto add = [&](int row, int column, double value) {  // a sliding interface gives the two elements of a pair different values
-            dense(row, column) += 0.5 * value;
-            dense(column, row) += 0.5 * value;
-        };
-        for (std::size_t face = 0; face < graph.faces(); ++face)
-            add(first_ + graph.lower[face], first_ + graph.upper[face], 2.0 * matrix.coupling[face]);
-        for (const PatchElement& element : couplings) add(first_ + element.row, element.column, element.value);
+        for (std::size_t face = 0; face < graph.faces(); ++face) {
+            const int lower = first_ + graph.lower[face], upper = first_ + graph.upper[face];
+            dense(lower, upper) += matrix.coupling[face];
+            dense(upper, lower) += matrix.coupling[face];
+        }
+        // A sliding interface gives the two elements of a pair different values. Their mean, with rows that add up to what they did, leaves
+        // the matrix definite, in a closed domain too.
+        for (const PatchElement& element : couplings) {
+            const int row = first_ + element.row;
+            const double half = 0.5 * element.value;
+            dense(row, element.column) += half;
+            dense(element.column, row) += half;
+            dense(row, row) += half;
+            dense(element.column, element.column) -= half;
+        }
         ranks_.sum({dense.data(), static_cast<std::size_t>(dense.size())});
         sign_ = dense.trace() < 0.0 ? -1.0 : 1.0;  // OpenFOAM's Laplacian is negative
         factor_.compute(sign_ * dense);

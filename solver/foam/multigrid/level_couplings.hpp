@@ -34,10 +34,28 @@ public:
     std::vector<PatchElement> gather(const std::vector<int>& clusters, int first) const;
 
 private:
-    Foam::labelList rows_, columns_;  ///< columns in the order that exchange_ makes
-    std::vector<float> values_;
+    struct Element {
+        int row = 0, column = 0;  ///< column of this rank's rows, or of those received
+        float value = 0.0F;
+    };
+    /// With another rank: rows whose values it takes, and where its own go.
+    struct Messages {
+        int rank = 0;
+        Foam::labelList sent, received;
+        std::vector<float> out, in;
+    };
+    void make_messages();
+    void send(const std::vector<float>& x) const;
+    void receive() const;
+
+    Foam::label own_ = 0;  ///< rows of this rank
+    std::vector<Element> inside_, across_;
+    Foam::labelList rows_, columns_;  ///< of all elements; columns in the order that exchange_ makes
     std::vector<double> exact_;
     std::unique_ptr<Foam::mapDistribute> exchange_;  ///< none on one rank
+    mutable std::vector<Messages> messages_;
+    mutable std::vector<float> received_;
+    mutable Foam::label first_request_ = 0;
 };
 
 }  // namespace cutterflow::foam

@@ -143,7 +143,8 @@ struct Thrown {
 
 Thrown thrown(const std::string& name, int cells, const std::string& linear_solver) {
     testing::TurningCylinder shape;
-    shape.cells_around_quarter = shape.stator_cells_around_quarter = shape.cells_in_stator = shape.cells_high = cells;
+    shape.cells_around_quarter = shape.cells_in_stator = shape.cells_high = cells;
+    shape.stator_cells_around_quarter = cells / 2 + 1;
     shape.cells_in_rotor_ring = cells / 2;
     testing::TinyCase tiny = testing::laminar_case(name, testing::block_mesh(shape), 2e-3, 0.01);
     tiny.files["constant/dynamicMeshDict"] = testing::turning(2.0 * k_pi);
