@@ -144,14 +144,10 @@ public:
 
     /// w = M^-1 r.
     void precondition(scalarField& w, const scalarField& r, const direction = 0) const override {
-        const bool small = levels_.empty();
-        std::vector<float>& b = small ? last_b_ : levels_.front().b;
-        const std::vector<float>& x = small ? last_x_ : levels_.front().x;
+        std::vector<float>& b = right_side(0);
+        const std::vector<float>& x = solution(0);
         for (std::size_t cell = 0; cell < b.size(); ++cell) b[cell] = static_cast<float>(r[static_cast<label>(cell)]);
-        if (small)
-            last_level_.solve(b, last_x_);
-        else
-            cycle(0);
+        is_last(0) ? last_level_.solve(last_b_, last_x_) : cycle(0);
         for (std::size_t cell = 0; cell < x.size(); ++cell) w[static_cast<label>(cell)] = static_cast<scalar>(x[cell]);
     }
 
@@ -177,22 +173,23 @@ private:
         return couplings.gather(numbers, first);
     }
 
+    bool is_last(std::size_t number) const { return number == levels_.size(); }
+    std::vector<float>& right_side(std::size_t number) const { return is_last(number) ? last_b_ : levels_[number].b; }
+    const std::vector<float>& solution(std::size_t number) const { return is_last(number) ? last_x_ : levels_[number].x; }
+
     /// x of a level from its b, which it uses up.
     void cycle(std::size_t number) const {
         Level& level = levels_[number];
         level.matrix.sweep_forward(level.b, level.x, level.r);
         level.couplings.subtract(level.x, level.r);
 
-        const bool last = number + 1 == levels_.size();
-        std::vector<float>& of_clusters = last ? last_b_ : levels_[number + 1].b;
-        const std::vector<float>& correction = last ? last_x_ : levels_[number + 1].x;
+        const std::size_t next = number + 1;
+        std::vector<float>& of_clusters = right_side(next);
+        const std::vector<float>& correction = solution(next);
         const std::vector<int>& cluster = clusters_.clusters(number).of_cells;
         std::fill(of_clusters.begin(), of_clusters.end(), 0.0F);
         for (std::size_t cell = 0; cell < cluster.size(); ++cell) of_clusters[static_cast<std::size_t>(cluster[cell])] += level.r[cell];
-        if (last)
-            last_level_.solve(last_b_, last_x_);
-        else
-            cycle_twice(number + 1);
+        is_last(next) ? last_level_.solve(last_b_, last_x_) : cycle_twice(next);
         for (std::size_t cell = 0; cell < cluster.size(); ++cell) level.x[cell] += correction[static_cast<std::size_t>(cluster[cell])];
 
         level.couplings.subtract(level.x, level.b);

@@ -15,10 +15,7 @@ constexpr double k_enough = k_weak / k_same;  // a quarter, whatever the roundin
 struct CellFaces {
     std::vector<int> start, face;
 
-    explicit CellFaces(const FaceGraph& graph) : start(static_cast<std::size_t>(graph.cells) + 1, 0), face(2 * graph.faces()) {
-        for (const std::vector<int>* cells : {&graph.lower, &graph.upper})
-            for (const int cell : *cells) ++start[static_cast<std::size_t>(cell) + 1];
-        std::partial_sum(start.begin(), start.end(), start.begin());
+    explicit CellFaces(const FaceGraph& graph) : start(graph.starts()), face(2 * graph.faces()) {
         std::vector<int> next(start.begin(), start.end() - 1);
         for (const std::vector<int>* cells : {&graph.upper, &graph.lower})
             for (std::size_t k = 0; k < cells->size(); ++k)
@@ -83,6 +80,14 @@ Clusters joined(const FaceGraph& cells, std::vector<int> cluster_of_cells, int c
 }
 
 }  // namespace
+
+std::vector<int> FaceGraph::starts() const {
+    std::vector<int> start(static_cast<std::size_t>(cells) + 1, 0);
+    for (const std::vector<int>* side : {&lower, &upper})
+        for (const int cell : *side) ++start[static_cast<std::size_t>(cell) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    return start;
+}
 
 void Clusters::gather(const FaceGraph& cells, const FaceMatrix& of_cells_in, FaceMatrix& of_clusters) const {
     of_clusters.diagonal.assign(static_cast<std::size_t>(graph.cells), 0.0);

@@ -10,6 +10,8 @@ struct FaceGraph {
     std::vector<int> lower, upper;  ///< the two cells of each face, lower < upper
 
     std::size_t faces() const { return lower.size(); }
+    /// Number of the first of each cell's faces when all cells list theirs in turn, and how many they list in all.
+    std::vector<int> starts() const;
 };
 
 /// A symmetric matrix on such a graph.

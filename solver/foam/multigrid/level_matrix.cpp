@@ -1,14 +1,9 @@
 #include "solver/foam/multigrid/level_matrix.hpp"
 
-#include <numeric>
-
 namespace cutterflow::foam {
 
 RowLayout::RowLayout(const FaceGraph& graph)
-    : start(static_cast<std::size_t>(graph.cells) + 1, 0), column(2 * graph.faces()), of_lower(graph.faces()), of_upper(graph.faces()) {
-    for (const std::vector<int>* cells : {&graph.lower, &graph.upper})
-        for (const int cell : *cells) ++start[static_cast<std::size_t>(cell) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
+    : start(graph.starts()), column(2 * graph.faces()), of_lower(graph.faces()), of_upper(graph.faces()) {
     upper.assign(start.begin(), start.end() - 1);
     for (std::size_t face = 0; face < graph.faces(); ++face) {
         of_upper[face] = upper[static_cast<std::size_t>(graph.upper[face])]++;
