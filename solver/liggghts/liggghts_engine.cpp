@@ -60,7 +60,8 @@ constexpr const char* k_remedy = "Remove this checkpoint folder; the run then re
 constexpr const char* k_clumps = "clumps";
 constexpr const char* k_motion = "rock_motion";
 constexpr const char* k_contact_memory = "contact_memory";
-constexpr int k_this_contact_memory = 2;        // 1, without the key: speeds of impacts in place of their radii
+// 1, without the key: speeds of impacts in place of their radii; 2: the springs of a contact one after the other.
+constexpr int k_this_contact_memory = 3;
 constexpr const char* k_pressed = "pressed_m";  // of a wall in a checkpoint
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_wall_rolling = "wall_rolling";

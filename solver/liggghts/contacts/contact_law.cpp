@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "solver/liggghts/contacts/slip_springs.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts {
@@ -12,24 +13,6 @@ namespace cutterflow::liggghts {
 namespace {
 
 constexpr double k_rolling_damping = 0.3;  // zeta, share of critical
-
-/// Part of the contact's radius that one spring covers [m].
-struct Part {
-    double inner = 0.0, outer = 0.0;
-    double length() const { return outer - inner; }
-};
-
-Part covered_by(int spring, double width, double contact_radius) {
-    const double inner = std::min(spring * width, contact_radius);
-    const double outer = spring + 1 < k_springs ? std::min((spring + 1) * width, contact_radius) : contact_radius;
-    return {inner, outer};
-}
-
-/// Share of the normal force: the integral of 3/2 (1 - x^2) over x = inner/a to outer/a. \param per_radius  1/a [1/m]
-double pressure_share(const Part& part, double per_radius) {
-    const double x = part.inner * per_radius, y = part.outer * per_radius;
-    return 1.5 * (y - x) - 0.5 * (y * y * y - x * x * x);
-}
 
 /// A vector of the tangent plane after a turn about the normal by `angle` [rad], its length unchanged.
 Vec3 turned(const Vec3& vector, const Vec3& normal, double angle) {
@@ -39,7 +22,7 @@ Vec3 turned(const Vec3& vector, const Vec3& normal, double angle) {
 
 /// Force [N] of one spring and its damper, at most `limit` [N]; of an angle and a spin the couple [N m]. What slips carries the limit in
 /// the spring alone.
-Vec3 spring_force(double stiffness, double damping, const Vec3& slip_velocity, double limit, Vec3& stretch) {
+[[gnu::always_inline]] inline Vec3 spring_force(double stiffness, double damping, const Vec3& slip_velocity, double limit, Vec3& stretch) {
     const double limit_squared = limit * limit;  // roots are taken of what slips alone
     const Vec3 elastic = -stiffness * stretch;
     const double elastic_squared = elastic.squaredNorm();
@@ -71,23 +54,18 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
     const double damping = contact.damping_factor * std::sqrt(contact.mass * normal_stiffness);
     const double normal_force = std::max(0.0, normal_stiffness * contact.overlap - damping * contact.normal_speed);
 
-    const double width = contact.impact_radius / k_springs, per_radius = 1.0 / contact_radius;
-    const double slip_damping = std::min(damping, contact.most_slip_damping) * per_radius;
-    const double slip_stiffness = 8.0 * contact.elastic.shear, slip_limit = contact.friction * normal_force;
-    SlipMemory now;
-    now.contact_radius = contact_radius;
-    Vec3 force = normal_force * contact.normal;
-    for (int i = 0; i < k_springs; ++i) {
-        const Part part = covered_by(i, width, contact_radius);
-        if (part.length() <= 0.0) continue;
-        const double kept = std::min(1.0, covered_by(i, width, memory.contact_radius).length() / part.length());
-        Vec3 stretch = kept * Vec3(memory.stretch[i]) + contact.slip_velocity * time_step;
-        stretch -= contact.normal * contact.normal.dot(stretch);
-        force += spring_force(slip_stiffness * part.length(), slip_damping * part.length(), contact.slip_velocity,
-                              slip_limit * pressure_share(part, per_radius), stretch);
-        std::copy_n(stretch.data(), 3, now.stretch[i]);
+    if (contact_radius <= 0.0) {
+        if (time_step > 0.0) memory = {};
+        return Vec3::Zero();
     }
-    if (time_step > 0.0) memory = now;
+    SlipSprings springs;
+    springs.contact_radius = contact_radius;
+    springs.width = contact.impact_radius / k_springs;
+    springs.stiffness = 8.0 * contact.elastic.shear;
+    springs.damping = std::min(damping, contact.most_slip_damping) * (1.0 / contact_radius);
+    springs.limit = contact.friction * normal_force;
+    Vec3 force = normal_force * contact.normal;
+    add_slip_force(springs, contact.normal, contact.slip_velocity, time_step, memory, force);
     return force;
 }
 
@@ -117,12 +95,12 @@ Vec3 linear_contact_force(const LinearLaw& law, const Contact& contact, double t
     const double stiffness = law.stiffness * contact.mass, damping = 2.0 * law.damping * contact.mass * std::sqrt(law.stiffness);
     const double pull = stiffness * contact.overlap - damping * contact.normal_speed;
     const double normal_force = law.may_pull ? pull : std::max(0.0, pull);
-    const Vec3 before = law.accumulated_shear ? Vec3(memory.stretch[0]) : Vec3::Zero();
+    const Vec3 before = law.accumulated_shear ? memory.stretch_of(0) : Vec3(Vec3::Zero());
     Vec3 stretch = before + contact.slip_velocity * time_step;
     stretch -= contact.normal * contact.normal.dot(stretch);
     const Vec3 shear = spring_force(law.shear * stiffness, std::sqrt(law.shear) * damping, contact.slip_velocity,
                                     contact.friction * std::abs(normal_force), stretch);
-    if (time_step > 0.0) std::copy_n(stretch.data(), 3, memory.stretch[0]);
+    if (time_step > 0.0) memory.set_stretch(0, stretch);
     return normal_force * contact.normal + shear;
 }
 

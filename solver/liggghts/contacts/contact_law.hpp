@@ -47,7 +47,12 @@ inline constexpr int k_springs = 4;
 /// History of a contact's tangential motion; only doubles, because LIGGGHTS stores them in its histories.
 struct SlipMemory {
     double contact_radius = 0.0;        ///< a of the previous step [m]
-    double stretch[k_springs][3] = {};  ///< s of each spring [m]
+    double stretch[3][k_springs] = {};  ///< s [m]: x of all springs, then y, then z
+
+    Vec3 stretch_of(int spring) const { return {stretch[0][spring], stretch[1][spring], stretch[2][spring]}; }
+    void set_stretch(int spring, const Vec3& value) {
+        for (int axis = 0; axis < 3; ++axis) stretch[axis][spring] = value[axis];
+    }
 };
 
 /// Force [N] on the rock, with the contact's radius a = sqrt(R* delta):

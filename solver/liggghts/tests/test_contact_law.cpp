@@ -170,9 +170,9 @@ TEST(ContactLaw, the_springs_stay_in_the_plane) {
     Contact contact = rock_on_steel();
     SlipMemory memory;
     memory.contact_radius = contact_radius_of(contact);
-    memory.stretch[k_springs - 1][2] = 5e-5;  // from a plane that has turned since
+    memory.stretch[2][k_springs - 1] = 5e-5;  // from a plane that has turned since
     slip_by(0.0, contact, memory);
-    EXPECT_EQ(memory.stretch[k_springs - 1][2], 0.0);
+    EXPECT_EQ(memory.stretch[2][k_springs - 1], 0.0);
 }
 
 TEST(ContactLaw, no_step_leaves_the_memory) {

@@ -40,8 +40,9 @@ public:
         history->add_history_value("last_touch", "0");
         history->add_history_value("damping_factor", "0");
         history->add_history_value("contact_radius", "0");
-        for (int k = 0; k < cutterflow::liggghts::k_springs; ++k)
-            for (const char axis : {'x', 'y', 'z'}) history->add_history_value("stretch_" + std::to_string(k) + axis, "1");
+        for (const char axis : {'x', 'y', 'z'})
+            for (int k = 0; k < cutterflow::liggghts::k_springs; ++k)
+                history->add_history_value(std::string("stretch_") + axis + std::to_string(k), "1");
         if (!context_.rock_rock.resists_rolling()) return;
         history->add_history_value("rolling_radius", "0");
         for (const char axis : {'x', 'y', 'z'}) history->add_history_value(std::string("rolling_angle_") + axis, "1");
