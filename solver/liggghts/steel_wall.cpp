@@ -69,7 +69,8 @@ void SteelWall::press(const Vec3& force, double step) {
 }
 
 const std::vector<Triangle>& SteelWall::near(Neighbourhood& last, const Vec3& centre, double radius) const {
-    if ((centre - last.centre).norm() + radius > last.reach) {
+    const double allowed = last.reach - radius;
+    if (allowed < 0.0 || (centre - last.centre).squaredNorm() > allowed * allowed) {
         const double reach = (1.0 + k_skin_in_radii) * radius;
         last = {centre, reach, surface_.near(centre, reach)};
     }

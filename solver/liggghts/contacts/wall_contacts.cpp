@@ -65,49 +65,50 @@ const WallContactRecord* known(const Records& records, int body, double step) {
 }  // namespace
 
 void WallContacts::resolve() {
-    const auto by_rock_and_depth = [](const WallTouch& a, const WallTouch& b) {
-        return a.rock != b.rock ? a.rock < b.rock : a.overlap > b.overlap;
-    };
-    std::stable_sort(touches_.begin(), touches_.end(), by_rock_and_depth);
-    for (auto first = touches_.begin(); first != touches_.end();) {
-        const auto last = std::find_if(first, touches_.end(), [&](const WallTouch& touch) { return touch.rock != first->rock; });
-        apply(merge({first, last}));
+    order_.clear();
+    for (const WallTouch& touch : touches_) order_.push_back(&touch);
+    std::stable_sort(order_.begin(), order_.end(), [](const WallTouch* a, const WallTouch* b) {
+        return a->rock != b->rock ? a->rock < b->rock : a->overlap > b->overlap;
+    });
+    for (auto first = order_.begin(); first != order_.end();) {
+        const auto last = std::find_if(first, order_.end(), [&](const WallTouch* touch) { return touch->rock != (*first)->rock; });
+        merge({first, last});
+        apply_merged();
         first = last;
     }
     touches_.clear();
 }
 
 /// \param touches  of one rock, the deepest first
-std::vector<WallContacts::Weighted> WallContacts::merge(std::vector<WallTouch> touches) {
-    std::vector<Weighted> contacts;
-    for (const WallTouch& touch : touches) {
+void WallContacts::merge(const Touches& touches) {
+    merged_.clear();
+    for (auto touch = touches.first; touch != touches.last; ++touch) {
         double weight = 1.0;
-        for (const Weighted& deeper : contacts) weight *= share_beside(touch.normal.dot(deeper.touch.normal));
-        if (weight > 0.0 && contacts.size() < max_contacts) contacts.push_back({touch, weight});
+        for (const Weighted& deeper : merged_) weight *= share_beside((*touch)->normal.dot(deeper.touch->normal));
+        if (weight > 0.0 && merged_.size() < max_contacts) merged_.push_back({*touch, weight});
     }
-    return contacts;
 }
 
-/// \param contacts  of one rock
-void WallContacts::apply(const std::vector<Weighted>& contacts) {
+/// Of one rock.
+void WallContacts::apply_merged() {
     const double step = static_cast<double>(lammps_->update->ntimestep);
-    const int rock = contacts.front().touch.rock;
+    const int rock = merged_.front().touch->rock;
     auto* row = reinterpret_cast<WallContactRecord*>(records_->array_atom[rock]);
     auto* rolling_row = rolling_ ? reinterpret_cast<RollMemory*>(rolling_->array_atom[rock]) : nullptr;
     const auto roll_of = [&](const WallContactRecord* record) { return rolling_row ? rolling_row + (record - row) : nullptr; };
     Records records{}, taken{};
     for (int k = 0; k < max_contacts; ++k) records[k] = row + k;
 
-    for (std::size_t k = 0; k < contacts.size(); ++k) taken[k] = continued(records, taken, contacts[k].touch, step);
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
+    for (std::size_t k = 0; k < merged_.size(); ++k) taken[k] = continued(records, taken, *merged_[k].touch, step);
+    for (std::size_t k = 0; k < merged_.size(); ++k) {
         if (taken[k]) continue;
-        const WallTouch& touch = contacts[k].touch;
+        const WallTouch& touch = *merged_[k].touch;
         const WallContactRecord begun = begin(touch, known(records, touch.body, step));
         taken[k] = unused(records, taken, step);
         *taken[k] = begun;
         if (rolling_row) *roll_of(taken[k]) = {};
     }
-    for (std::size_t k = 0; k < contacts.size(); ++k) apply(contacts[k], *taken[k], roll_of(taken[k]));
+    for (std::size_t k = 0; k < merged_.size(); ++k) apply(merged_[k], *taken[k], roll_of(taken[k]));
 }
 
 /// \param known  an existing contact between the touched body and the rock, whose impact counts; null without one
@@ -138,7 +139,7 @@ Rolling WallContacts::rolling_of(const WallTouch& touch) const {
 /// \param roll  null when nothing resists rolling
 void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, RollMemory* roll) {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
-    const WallTouch& touch = weighted.touch;
+    const WallTouch& touch = *weighted.touch;
     const int rock = touch.rock;
     const double radius = atom.radius[rock];
     const double lever = context_.half_gap > 0.0 ? context_.radius_of(radius) : radius - 0.5 * touch.overlap;

@@ -54,12 +54,15 @@ public:
 
 private:
     struct Weighted {
-        WallTouch touch;
+        const WallTouch* touch;
         double weight;
     };
+    struct Touches {
+        std::vector<const WallTouch*>::const_iterator first, last;
+    };
 
-    static std::vector<Weighted> merge(std::vector<WallTouch> touches);
-    void apply(const std::vector<Weighted>& contacts);
+    void merge(const Touches& touches);
+    void apply_merged();
     void apply(const Weighted& contact, WallContactRecord& record, RollMemory* roll);
     WallContactRecord begin(const WallTouch& touch, const WallContactRecord* known) const;
     Rolling rolling_of(const WallTouch& touch) const;
@@ -69,6 +72,8 @@ private:
     LAMMPS_NS::FixPropertyAtom* records_;
     LAMMPS_NS::FixPropertyAtom* rolling_;
     std::vector<WallTouch> touches_;
+    std::vector<const WallTouch*> order_;  ///< by rock and depth
+    std::vector<Weighted> merged_;         ///< of one rock
 };
 
 }  // namespace cutterflow::liggghts
