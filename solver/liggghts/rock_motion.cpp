@@ -37,9 +37,15 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     for (int i = 0; i < atom->nlocal; ++i) {
         if (bodies_.hold(atom->tag[i])) continue;
         const auto of_this_rock = std::lower_bound(rocks.id.begin(), rocks.id.end(), context_.rock_of(atom->tag[i]));
-        states_[i].index = static_cast<std::size_t>(of_this_rock - rocks.id.begin());
-        states_[i].hydrodynamic = law(states_[i].index, Vec3(atom->v[i]));
-        states_[i].impulse = states_[i].contact_impulse = Vec3::Zero();
+        const double mass = atom->rmass[i], radius = atom->radius[i];
+        State& state = states_[i];
+        state.index = static_cast<std::size_t>(of_this_rock - rocks.id.begin());
+        state.mass = context_.mass_with_added_mass(mass, radius, atom->density[i]);
+        state.submerged_mass = mass - context_.fluid.density * sphere_volume(2.0 * radius);
+        state.inertia = context_.inertia_of(mass, context_.radius_of(radius));
+        state.hydrodynamic = law(state.index, Vec3(atom->v[i]));
+        state.accelerations = accelerations(i);
+        state.impulse = state.contact_impulse = Vec3::Zero();
     }
 }
 
@@ -47,21 +53,16 @@ bool RockMotion::is_frozen(int rock) const {
     return atom->type[rock] == k_frozen;
 }
 
-/// Less buoyancy [N].
-Vec3 RockMotion::weight(int rock) const {
-    return (atom->rmass[rock] - context_.fluid.density * sphere_volume(2.0 * atom->radius[rock])) * gravity_;
-}
-
 /// From contact (LIGGGHTS' force), hydrodynamic force and submerged weight.
-Vec3 RockMotion::acceleration(int rock) const {
-    return (Vec3(atom->f[rock]) + states_[rock].hydrodynamic + weight(rock)) /
-           context_.mass_with_added_mass(atom->rmass[rock], atom->radius[rock], atom->density[rock]);
+RockMotion::Accelerations RockMotion::accelerations(int rock) const {
+    const State& state = states_[rock];
+    return {(Vec3(atom->f[rock]) + state.hydrodynamic + weight(state)) / state.mass, Vec3(atom->torque[rock]) / state.inertia};
 }
 
 /// Half a step's.
 void RockMotion::add_impulses(int rock) {
     State& state = states_[rock];
-    const Vec3 other = is_frozen(rock) ? Vec3(-state.hydrodynamic - weight(rock)) : Vec3(atom->f[rock]);
+    const Vec3 other = is_frozen(rock) ? Vec3(-state.hydrodynamic - weight(state)) : Vec3(atom->f[rock]);
     state.impulse += 0.5 * update->dt * state.hydrodynamic;
     state.contact_impulse += 0.5 * update->dt * other;
 }
@@ -83,10 +84,6 @@ void RockMotion::press_walls() {
     }
 }
 
-Vec3 RockMotion::spin_acceleration(int rock) const {
-    return Vec3(atom->torque[rock]) / context_.inertia_of(atom->rmass[rock], context_.radius_of(atom->radius[rock]));
-}
-
 /// Runs after the planes' post_force, because the planes were declared before.
 void RockMotion::post_force(int) {
     for (SteelWall& wall : walls_) wall.find_touches(*atom, context_.time, *context_.wall_contacts);
@@ -101,13 +98,11 @@ void RockMotion::initial_integrate(int) {
         if (bodies_.hold(atom->tag[i])) continue;
         add_impulses(i);
         if (is_frozen(i)) continue;
-        State& state = states_[i];
+        const Accelerations& present = states_[i].accelerations;
         Eigen::Map<Vec3> position(atom->x[i]), velocity(atom->v[i]), spin(atom->omega[i]);
-        state.acceleration = acceleration(i);
-        state.spin_acceleration = spin_acceleration(i);
-        position += step * (velocity + 0.5 * step * state.acceleration);
-        velocity += step * state.acceleration;
-        spin += step * state.spin_acceleration;
+        position += step * (velocity + 0.5 * step * present.centre);
+        velocity += step * present.centre;
+        spin += step * present.spin;
     }
     add_impulses_of_walls();
     press_walls();
@@ -125,8 +120,10 @@ void RockMotion::final_integrate() {
         state.hydrodynamic = (*force_)(state.index, velocity);
         add_impulses(i);
         if (is_frozen(i)) continue;
-        velocity += 0.5 * step * (acceleration(i) - state.acceleration);
-        spin += 0.5 * step * (spin_acceleration(i) - state.spin_acceleration);
+        const Accelerations at_end = accelerations(i);
+        velocity += 0.5 * step * (at_end.centre - state.accelerations.centre);
+        spin += 0.5 * step * (at_end.spin - state.accelerations.spin);
+        state.accelerations = at_end;
     }
     add_impulses_of_walls();
 }
@@ -142,23 +139,26 @@ void RockMotion::set_arrays(int rock) {
 }
 
 int RockMotion::pack_exchange(int rock, double* buffer) {
-    std::copy_n(states_[rock].hydrodynamic.data(), 3, buffer);
-    std::copy_n(states_[rock].acceleration.data(), 3, buffer + 3);
-    std::copy_n(states_[rock].spin_acceleration.data(), 3, buffer + 6);
-    std::copy_n(states_[rock].impulse.data(), 3, buffer + 9);
-    std::copy_n(states_[rock].contact_impulse.data(), 3, buffer + 12);
-    buffer[15] = static_cast<double>(states_[rock].index);
-    return 16;
+    const State& state = states_[rock];
+    double* end = buffer;
+    for (const Vec3* vector :
+         {&state.hydrodynamic, &state.accelerations.centre, &state.accelerations.spin, &state.impulse, &state.contact_impulse})
+        end = std::copy_n(vector->data(), 3, end);
+    for (const double number : {static_cast<double>(state.index), state.mass, state.submerged_mass, state.inertia}) *end++ = number;
+    return static_cast<int>(end - buffer);
 }
 
 int RockMotion::unpack_exchange(int rock, double* buffer) {
-    std::copy_n(buffer, 3, states_[rock].hydrodynamic.data());
-    std::copy_n(buffer + 3, 3, states_[rock].acceleration.data());
-    std::copy_n(buffer + 6, 3, states_[rock].spin_acceleration.data());
-    std::copy_n(buffer + 9, 3, states_[rock].impulse.data());
-    std::copy_n(buffer + 12, 3, states_[rock].contact_impulse.data());
-    states_[rock].index = static_cast<std::size_t>(buffer[15]);
-    return 16;
+    State& state = states_[rock];
+    const double* next = buffer;
+    for (Vec3* vector :
+         {&state.hydrodynamic, &state.accelerations.centre, &state.accelerations.spin, &state.impulse, &state.contact_impulse}) {
+        std::copy_n(next, 3, vector->data());
+        next += 3;
+    }
+    state.index = static_cast<std::size_t>(*next++);
+    for (double* number : {&state.mass, &state.submerged_mass, &state.inertia}) *number = *next++;
+    return static_cast<int>(next - buffer);
 }
 
 }  // namespace cutterflow::liggghts

@@ -54,23 +54,29 @@ public:
     int unpack_exchange(int rock, double* buffer) override;
 
 private:
-    /// Of one rock of this rank; follows it to other ranks.
+    struct Accelerations {
+        Vec3 centre = Vec3::Zero();  ///< [m/s2]
+        Vec3 spin = Vec3::Zero();    ///< [rad/s2]
+    };
+
+    /// Of one rock of this rank; follows it to other ranks. What does not change is of begin().
     struct State {
-        std::size_t index = 0;                  ///< in rocks_
-        Vec3 hydrodynamic = Vec3::Zero();       ///< force [N]
-        Vec3 acceleration = Vec3::Zero();       ///< at the step's start [m/s2]
-        Vec3 spin_acceleration = Vec3::Zero();  ///< [rad/s2]
-        Vec3 impulse = Vec3::Zero();            ///< since begin() [N s]
+        std::size_t index = 0;             ///< in rocks_
+        double mass = 0.0;                 ///< with added mass [kg]
+        double submerged_mass = 0.0;       ///< less that of the fluid in its place [kg]
+        double inertia = 0.0;              ///< [kg m2]
+        Vec3 hydrodynamic = Vec3::Zero();  ///< force [N]
+        Accelerations accelerations;       ///< at the step's start
+        Vec3 impulse = Vec3::Zero();       ///< since begin() [N s]
         Vec3 contact_impulse = Vec3::Zero();
     };
 
     bool is_frozen(int rock) const;
-    Vec3 weight(int rock) const;
-    Vec3 acceleration(int rock) const;
+    Vec3 weight(const State& state) const { return state.submerged_mass * gravity_; }
+    Accelerations accelerations(int rock) const;
     void add_impulses(int rock);
     void add_impulses_of_walls();
     void press_walls();
-    Vec3 spin_acceleration(int rock) const;
 
     ContactContext& context_;
     std::vector<SteelWall>& walls_;

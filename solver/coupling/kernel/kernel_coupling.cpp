@@ -249,16 +249,19 @@ Vec3 KernelCoupling::steady_force(const physics::RockInFluid& rock, const FlowAt
 
 const DemStep& KernelCoupling::move() {
     before_ = dem_.rocks();
-    std::vector<physics::RockInFluid> rock(before_.size());
-    std::vector<Vec3> steady(before_.size());
+    struct AtRock {  // what each of the DEM's steps reads lies together
+        Vec3 flow_velocity, steady;
+        physics::RockInFluid rock;
+    };
+    std::vector<AtRock> at(before_.size());
     for (std::size_t p = 0; p < before_.size(); ++p) {
-        rock[p] = rock_in_fluid(before_, p, flow_[p]);
-        steady[p] = steady_force(rock[p], flow_[p]);
+        const physics::RockInFluid rock = rock_in_fluid(before_, p, flow_[p]);
+        at[p] = {flow_[p].velocity, steady_force(rock, flow_[p]), rock};
     }
     const HydrodynamicForce force = [&](std::size_t p, const Vec3& velocity) -> Vec3 {
-        const Vec3 slip = flow_[p].velocity - velocity;
-        Vec3 total = drag_per_slip(rock[p], slip.norm()) * slip + steady[p];
-        if (lift_ != nullptr) total += physics::lift_force(rock[p], slip, flow_[p].vorticity, lift_);
+        const Vec3 slip = at[p].flow_velocity - velocity;
+        Vec3 total = drag_per_slip(at[p].rock, slip.norm()) * slip + at[p].steady;
+        if (lift_ != nullptr) total += physics::lift_force(at[p].rock, slip, flow_[p].vorticity, lift_);
         return total;
     };
     step_ = dem_.advance(fluid_.time_step(), force);

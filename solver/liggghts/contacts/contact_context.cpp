@@ -68,19 +68,6 @@ double ContactContext::mass_of(double radius, double density) const {
     return shape == coupling::RockShape::cylinder ? density * k_pi * radius * radius * cylinder_length : sphere_mass(2.0 * radius, density);
 }
 
-double ContactContext::inertia_of(double mass, double radius) const {
-    return shape == coupling::RockShape::cylinder ? 0.5 * mass * radius * radius : sphere_inertia(2.0 * radius, mass);
-}
-
-double ContactContext::mass_with_added_mass(double mass, double radius, double density) const {
-    return mass + added_mass * fluid.density * volume_of(mass, radius, density);
-}
-
-double ContactContext::rolling_inertia(double mass, double radius, double density) const {
-    const double equivalent = has_clumps ? std::cbrt(0.75 / k_pi * volume_of(mass, radius, density)) : radius;
-    return inertia_of(mass, equivalent) + mass_with_added_mass(mass, radius, density) * radius * radius;
-}
-
 double ContactContext::shortest_contact_time(double radius, double mass, double density) const {
     const physics::Impact on_rock{0.5 * mass, 0.5 * radius, rock_rock.elastic.youngs, max_speed};
     const physics::Impact on_steel{mass, radius, steel.youngs, max_speed};

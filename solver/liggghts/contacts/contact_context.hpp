@@ -88,7 +88,9 @@ struct ContactContext {
     /// Mass [kg] of a rock of this radius [m].
     double mass_of(double radius, double density) const;
     /// Of inertia about its centre, along a cylinder about its axis [kg m2].
-    double inertia_of(double mass, double radius) const;
+    double inertia_of(double mass, double radius) const {
+        return shape == coupling::RockShape::cylinder ? 0.5 * mass * radius * radius : sphere_inertia(2.0 * radius, mass);
+    }
     /// Force of the law in use. `mass` of a pair: see pair_mass.
     Vec3 force(const Contact& touch, double time_step, SlipMemory& memory) const {
         return linear ? linear_contact_force(*linear, touch, time_step, memory) : contact_force(touch, time_step, memory);
@@ -112,10 +114,15 @@ struct ContactContext {
     double volume_of(double mass, double radius, double density) const { return has_clumps ? mass / density : sphere_volume(2.0 * radius); }
 
     /// Mass [kg] with added mass of a rock, by mass [kg], radius [m] and density [kg/m3] of its particle.
-    double mass_with_added_mass(double mass, double radius, double density) const;
+    double mass_with_added_mass(double mass, double radius, double density) const {
+        return mass + added_mass * fluid.density * volume_of(mass, radius, density);
+    }
 
     /// Inertia [kg m2] of a rock about a point of its surface, with the added mass; a clump's as of the sphere of its volume.
-    double rolling_inertia(double mass, double radius, double density) const;
+    double rolling_inertia(double mass, double radius, double density) const {
+        const double equivalent = has_clumps ? std::cbrt(0.75 / k_pi * volume_of(mass, radius, density)) : radius;
+        return inertia_of(mass, equivalent) + mass_with_added_mass(mass, radius, density) * radius * radius;
+    }
 
     /// Diameter [m] in the Stokes number of an impact, which is M v / (6 pi mu R^2): of a sphere its own, of a clump's sphere of diameter
     /// d_s d^3/d_s^2 with the equivalent diameter d of the whole.
