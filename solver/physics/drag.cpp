@@ -27,10 +27,10 @@ double no_hindrance(double /*void_fraction*/, double /*particle_reynolds*/) {
 }
 
 double drag_coefficient_per_slip(const RockInFluid& rock, double slip_speed, DragLaw drag, HindranceLaw hindrance, double modifier) {
-    const double reynolds = std::max(slip_speed * rock.diameter / rock.kinematic_viscosity, k_smallest_reynolds);
+    const double reynolds_per_speed = rock.diameter / rock.kinematic_viscosity, speed_per_reynolds = 1.0 / reynolds_per_speed;
+    const double reynolds = std::max(slip_speed * reynolds_per_speed, k_smallest_reynolds);
     // Cd |slip| written with Re, so that no slip gives Stokes' limit instead of infinity times zero.
-    const double cd_times_slip =
-        drag({reynolds, rock.void_fraction, rock.sphericity}) * reynolds * rock.kinematic_viscosity / rock.diameter;
+    const double cd_times_slip = drag({reynolds, rock.void_fraction, rock.sphericity}) * reynolds * speed_per_reynolds;
     const double area = k_pi / 4.0 * rock.diameter * rock.diameter;
     return modifier * 0.5 * rock.fluid_density * area * cd_times_slip * hindrance(rock.void_fraction, rock.void_fraction * reynolds);
 }
