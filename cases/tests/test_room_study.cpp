@@ -202,6 +202,12 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
     for (const CaseText& file : files) EXPECT_NE(file.path, "constant/rockFeed.csv");
 }
 
+TEST_F(RoomStudy, a_run_is_at_rest_while_its_bed_still_rings) {
+    const RoomRequest request = read_room_request(write(room_template("heap")));
+    EXPECT_THAT(bed_case(request.scene, request.pieces.front(), "", "../../").front().text, ContainsRegex("energy +1e-06;"));
+    EXPECT_THAT(grain_files(request.scene, "bed", 1).front().text, ContainsRegex("energy +1e-05;"));
+}
+
 TEST_F(RoomStudy, grains_may_be_clumps_and_begin_with_room_for_any_orientation) {
     const std::string two =
         "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"

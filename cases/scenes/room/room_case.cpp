@@ -24,7 +24,8 @@ constexpr int k_checkpoints_kept = 2;
 constexpr double k_retry = 0.02;                                // until a grain without room is tried again [s]
 constexpr std::uint64_t k_feed_sequence = 0x9e3779b97f4a7c15u;  // added to the seed: other numbers than the preparation's
 constexpr double k_rest_energy = 1e-6, k_rest_speed = 0.01;
-constexpr double k_calming_energy = 1e-4;  // mean of v^2/(2 g d) from which down a preparation is calmed
+constexpr double k_rest_energy_of_run = 1e-5;  // nothing calms a bed there, which rings for seconds after its grains have come to lie
+constexpr double k_calming_energy = 1e-4;      // mean of v^2/(2 g d) from which down a preparation is calmed
 
 /// A section with every key of the struct's table.
 template <class Settings>
@@ -169,8 +170,8 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
         .add("domain", domain_section(scene, !moves));
 }
 
-FoamDictionary at_rest() {
-    return FoamDictionary().add("atRest", FoamDictionary().add("energy", k_rest_energy).add("speed", k_rest_speed));
+FoamDictionary at_rest(double energy) {
+    return FoamDictionary().add("atRest", FoamDictionary().add("energy", energy).add("speed", k_rest_speed));
 }
 
 FoamDictionary event_section(const RegionEvent& event) {
@@ -219,7 +220,7 @@ CaseText text_of(const FoamFile& file) {
 }
 
 FoamDictionary stop_section(const RoomScene& scene) {
-    if (std::holds_alternative<StopWhenAtRest>(scene.run.stop)) return at_rest();
+    if (std::holds_alternative<StopWhenAtRest>(scene.run.stop)) return at_rest(k_rest_energy_of_run);
     const auto* idle = std::get_if<StopWhenIdle>(&scene.run.stop);
     if (idle == nullptr) return {};
     return FoamDictionary().add("idle", FoamDictionary().add("gate", idle->gate).add("duration", idle->idle));
@@ -252,7 +253,7 @@ std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, co
         for (const RegionEvent& event : piece.events) events.emplace_back(event_section(event));
         coupling.add("events", FoamValue::list(events));
     }
-    coupling.add("stop", at_rest()).add("checkpoint", checkpoint_section(k_bed_checkpoints));
+    coupling.add("stop", at_rest(k_rest_energy)).add("checkpoint", checkpoint_section(k_bed_checkpoints));
     std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling),
                                 text_of(gravity_file(scene.upright_gravity())),
                                 dry_control(piece.end(), std::min(scene.bed_step, k_bed_pictures), k_bed_pictures)};
