@@ -186,6 +186,21 @@ std::vector<double> KernelCoupling::spread_present_rock() {
                         communicator_)[0];
 }
 
+namespace {
+
+/// Sum of a field's values over the cells of a rock's kernel, by their share of what the rock samples.
+template <typename Value>
+Value sum_over_kernel(const Stencils& stencils, std::size_t rock, gsl::span<const double> volumes, gsl::span<const Value> field,
+                      Value sum) {
+    for (std::size_t i = stencils.first[rock]; i < stencils.first[rock + 1]; ++i) {
+        const auto c = static_cast<std::size_t>(stencils.cell[i]);
+        sum += stencils.sample[i] * volumes[c] * field[c];
+    }
+    return sum;
+}
+
+}  // namespace
+
 void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const {
     const FluidFields fields = fluid_.fields();
     const gsl::span<const double> volumes = mapping_.cells().volumes;
@@ -196,16 +211,11 @@ void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRoc
     const std::size_t n = 3 * vectors.size() + 1;
     std::vector<double> sums(n * stencils.size(), 0.0);
     for (std::size_t p = 0; p < stencils.size(); ++p) {
-        FlowAtRock sum;
-        sum.void_fraction = 0.0;
-        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
-            const auto c = static_cast<std::size_t>(stencils.cell[i]);
-            const double weight = stencils.sample[i] * volumes[c];
-            for (const auto& [field, member] : vectors) sum.*member += weight * field[c];
-            sum.void_fraction += weight * fields.void_fraction[c];
+        for (std::size_t k = 0; k < vectors.size(); ++k) {
+            const Vec3 sum = sum_over_kernel(stencils, p, volumes, vectors[k].first, Vec3(Vec3::Zero()));
+            std::copy_n(sum.data(), 3, &sums[n * p + 3 * k]);
         }
-        for (std::size_t k = 0; k < vectors.size(); ++k) std::copy_n((sum.*vectors[k].second).data(), 3, &sums[n * p + 3 * k]);
-        sums[n * p + n - 1] = sum.void_fraction;
+        sums[n * p + n - 1] = sum_over_kernel(stencils, p, volumes, fields.void_fraction, 0.0);
     }
     communicator_.sum(sums);
     flow.assign(stencils.size(), {});
@@ -346,19 +356,25 @@ void KernelCoupling::map() {
 /// \param drag  D_p / rho_f [m3/s]
 void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
     const gsl::span<const Vec3> velocity = fluid_.fields().velocity;
-    const auto relative = [&](std::size_t p, std::size_t c) -> Vec3 { return velocity[c] - flow_[index_before_[p]].velocity; };
+    const gsl::span<const double> volumes = mapping_.cells().volumes;
     std::vector<double> mean(3 * drag.size(), 0.0);
-    for (std::size_t p = 0; p < drag.size(); ++p)
+    for (std::size_t p = 0; p < drag.size(); ++p) {
+        const Vec3 seen = flow_[index_before_[p]].velocity;
+        Vec3 sum = Vec3::Zero();
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
-            Eigen::Map<Vec3>(&mean[3 * p]) += present_.deposit[i] * mapping_.cells().volumes[c] * relative(p, c);
+            sum += present_.deposit[i] * volumes[c] * (velocity[c] - seen);
         }
+        std::copy_n(sum.data(), 3, &mean[3 * p]);
+    }
     present_.shared.sum(mean, 3, communicator_);
-    for (std::size_t p = 0; p < drag.size(); ++p)
+    for (std::size_t p = 0; p < drag.size(); ++p) {
+        const Vec3 seen = flow_[index_before_[p]].velocity, mean_of_rock(&mean[3 * p]);
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
-            source_[c] += present_.deposit[i] * drag[p] * (Eigen::Map<const Vec3>(&mean[3 * p]) - relative(p, c));
+            source_[c] += present_.deposit[i] * drag[p] * (mean_of_rock - (velocity[c] - seen));
         }
+    }
 }
 
 /// The old void fraction on the present cells. Walls move by sweeping cells: with the void fraction alpha_c beside the wall the fluid they
@@ -371,7 +387,8 @@ std::vector<double> KernelCoupling::void_fraction_before(std::vector<double> vol
     const gsl::span<const double> retreat = fluid_.wall_retreat();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
     std::vector<double> solid_fraction(carry_.size(), 0.0), beyond(volume.size(), 0.0);
-    for (std::size_t p = 0; p < present_.size(); ++p)
+    const bool walls_move = std::any_of(retreat.begin(), retreat.end(), [](double speed) { return speed != 0.0; });
+    for (std::size_t p = 0; walls_move && p < present_.size(); ++p)
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
             const double swept = fluid_.time_step() * retreat[c] / cell_volume[c];
