@@ -13,12 +13,19 @@ namespace {
 constexpr double k_skin_in_radii = 0.25;  // a rock's neighbourhood serves until it has moved by this in the wall's frame
 constexpr double k_same_point_in_radii = 1e-6;
 
+bool plane_is_beyond(const Triangle& triangle, const Vec3& point, double distance) {
+    const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    const double height = normal.dot(point - triangle[0]);
+    return height * height > distance * distance * normal.squaredNorm();
+}
+
 }  // namespace
 
 std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius) {
     std::vector<SteelPoint> reached;
     std::vector<const Triangle*> owners;
     for (const Triangle& triangle : triangles) {
+        if (plane_is_beyond(triangle, centre, radius)) continue;
         const Vec3 place = nearest_point(triangle, centre);
         const double distance = (centre - place).norm();
         if (distance >= radius) continue;
