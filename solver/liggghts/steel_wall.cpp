@@ -13,6 +13,7 @@ namespace {
 constexpr double k_skin_in_radii = 0.25;  // a rock's neighbourhood serves until it has moved by this in the wall's frame
 constexpr double k_same_point_in_radii = 1e-6;
 
+/// Whether a triangle's plane is farther from a point than `distance` [m]; never of one without area.
 bool plane_is_beyond(const Triangle& triangle, const Vec3& point, double distance) {
     const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     const double height = normal.dot(point - triangle[0]);

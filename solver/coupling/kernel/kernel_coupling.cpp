@@ -71,6 +71,17 @@ void require_room(double largest_solid_fraction, const KernelSettings& kernel) {
                         "Place less rock there, or widen kernel.gamma"});
 }
 
+/// Sum of a field's values over the cells of a rock's kernel, by their share of what the rock samples.
+template <typename Value>
+Value sum_over_kernel(const Stencils& stencils, std::size_t rock, gsl::span<const double> volumes, gsl::span<const Value> field,
+                      Value sum) {
+    for (std::size_t i = stencils.first[rock]; i < stencils.first[rock + 1]; ++i) {
+        const auto c = static_cast<std::size_t>(stencils.cell[i]);
+        sum += stencils.sample[i] * volumes[c] * field[c];
+    }
+    return sum;
+}
+
 }  // namespace
 
 KernelCoupling::KernelCoupling(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine& dem,
@@ -185,21 +196,6 @@ std::vector<double> KernelCoupling::spread_present_rock() {
     return redistribute(stencils, volumes_of(dem_.rocks()), mapping_.cells().volumes, redistribution_limit(settings_.kernel),
                         communicator_)[0];
 }
-
-namespace {
-
-/// Sum of a field's values over the cells of a rock's kernel, by their share of what the rock samples.
-template <typename Value>
-Value sum_over_kernel(const Stencils& stencils, std::size_t rock, gsl::span<const double> volumes, gsl::span<const Value> field,
-                      Value sum) {
-    for (std::size_t i = stencils.first[rock]; i < stencils.first[rock + 1]; ++i) {
-        const auto c = static_cast<std::size_t>(stencils.cell[i]);
-        sum += stencils.sample[i] * volumes[c] * field[c];
-    }
-    return sum;
-}
-
-}  // namespace
 
 void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const {
     const FluidFields fields = fluid_.fields();

@@ -366,20 +366,25 @@ void Mapping::make_room_for_cramped(const RockShapes& rocks, Stencils& stencils,
     lay_again(cramped, lay, stencils, sums);
 }
 
-void deposit(const Stencils& stencils, gsl::span<const double> amount, gsl::span<double> cell_values) {
+namespace {
+
+template <typename Value>
+void deposit_values(const Stencils& stencils, gsl::span<const Value> amount, gsl::span<Value> cell_values) {
     for (std::size_t p = 0; p < stencils.size(); ++p) {
-        const double of_rock = amount[p];
+        const Value of_rock = amount[p];
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i)
             cell_values[static_cast<std::size_t>(stencils.cell[i])] += stencils.deposit[i] * of_rock;
     }
 }
 
+}  // namespace
+
+void deposit(const Stencils& stencils, gsl::span<const double> amount, gsl::span<double> cell_values) {
+    deposit_values(stencils, amount, cell_values);
+}
+
 void deposit(const Stencils& stencils, gsl::span<const Vec3> amount, gsl::span<Vec3> cell_values) {
-    for (std::size_t p = 0; p < stencils.size(); ++p) {
-        const Vec3 of_rock = amount[p];
-        for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i)
-            cell_values[static_cast<std::size_t>(stencils.cell[i])] += stencils.deposit[i] * of_rock;
-    }
+    deposit_values(stencils, amount, cell_values);
 }
 
 namespace {

@@ -62,7 +62,7 @@ Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory)
     springs.contact_radius = contact_radius;
     springs.width = contact.impact_radius / k_springs;
     springs.stiffness = 8.0 * contact.elastic.shear;
-    springs.damping = std::min(damping, contact.most_slip_damping) * (1.0 / contact_radius);
+    springs.damping = std::min(damping, contact.most_slip_damping);
     springs.limit = contact.friction * normal_force;
     Vec3 force = normal_force * contact.normal;
     add_slip_force(springs, contact.normal, contact.slip_velocity, time_step, memory, force);

@@ -127,9 +127,10 @@ __attribute__((target_clones("avx2", "default"))) void add_slip_force(const Slip
     fill(velocities, slip_velocity);
     load(stretch, memory.stretch);
     stretch_springs(before, now, normals, velocities, time_step, stretch);
+    const double per_radius = 1.0 / springs.contact_radius;
     Lanes share;
-    share_pressure(now, 1.0 / springs.contact_radius, share);
-    resist(springs.stiffness * now.length, springs.damping * now.length, springs.limit * share, velocities, stretch, of_each);
+    share_pressure(now, per_radius, share);
+    resist(springs.stiffness * now.length, springs.damping * per_radius * now.length, springs.limit * share, velocities, stretch, of_each);
     for (int spring = 0; spring < k_springs; ++spring) force += Vec3(of_each.x[spring], of_each.y[spring], of_each.z[spring]);
     if (time_step <= 0.0) return;
     memory.contact_radius = springs.contact_radius;

@@ -9,7 +9,7 @@ struct SlipSprings {
     double contact_radius = 0.0;  ///< a [m], above 0
     double width = 0.0;           ///< of the part that a spring covers [m]; the last one covers all beyond
     double stiffness = 0.0;       ///< 8 G* [Pa]: of a spring over the length l_i that it covers
-    double damping = 0.0;         ///< of a spring over l_i [kg/(s m)]
+    double damping = 0.0;         ///< min(eta, eta_m) of them all [kg/s], which they share by l_i / a
     double limit = 0.0;           ///< mu F_n [N]
 };
 

@@ -46,7 +46,7 @@ void add_one_by_one(const SlipSprings& springs, const Vec3& normal, const Vec3& 
         const double share = bounded(of_spring, limit);
         stretch *= share;
         if (share == 1.0) {
-            of_spring -= springs.damping * part.length() * slip_velocity;
+            of_spring -= springs.damping * per_radius * part.length() * slip_velocity;
             bounded(of_spring, limit);
         }
         force += of_spring;
@@ -64,7 +64,7 @@ public:
         springs.width = 1e-4;
         springs.contact_radius = std::clamp(springs.contact_radius + 2e-5 * normal_(random_), 1e-5, 6e-4);
         springs.stiffness = 3e6;
-        springs.damping = 20.0;
+        springs.damping = 20.0 * springs.contact_radius;
         springs.limit = 0.3 * springs.contact_radius / 1e-4;
         normal = (normal + 0.02 * vector()).normalized();
         slip_velocity = speed * vector();
