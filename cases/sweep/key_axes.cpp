@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -57,6 +58,9 @@ bool is_called(const ParameterValues& values, const std::string& array, const st
     return pair.size() == 2 && (name == pair[0] + "-" + pair[1] || name == pair[1] + "-" + pair[0]);
 }
 
+/// The largest that a double tells from its neighbours: 2^53.
+constexpr double k_largest_integer = 9007199254740992.0;
+
 /// The row of a key; null when the table has none.
 const Parameter* find_parameter(const ParameterTable& table, const std::string& key) {
     const auto found = std::find_if(table.begin(), table.end(), [&](const Parameter& parameter) { return parameter.key == key; });
@@ -82,7 +86,7 @@ int set_in_tables(ParameterValues& values, const ParameterTable& table, const st
 /// A value as it counts: 0.1 and 0.10 are one. A text that is no value, of which key_settings tells, stays as it is.
 ParameterValue counted(const std::optional<KeyPath>& key, const std::string& text) {
     try {
-        if (key) return value_of_text(*key->parameter, text);
+        if (key) return value_of_text(key->parameter->key, *key->parameter, text);
     } catch (const UserError&) {
     }
     return text;
@@ -157,8 +161,8 @@ int set_key(ParameterValues& values, const ParameterTable& table, const KeyPath&
     return count;
 }
 
-ParameterValue value_of_text(const Parameter& parameter, const std::string& text) {
-    const auto refuse = [&](const char* rule) { throw UserError(fmt::format("--set {}={}", parameter.key, text), rule, "Correct it"); };
+ParameterValue value_of_text(const std::string& key, const Parameter& parameter, const std::string& text) {
+    const auto refuse = [&](const char* rule) { throw UserError(fmt::format("--set {}={}", key, text), rule, "Correct it"); };
     const std::optional<double> number = number_of(text);
     switch (parameter.kind) {
         case ParameterKind::path:
@@ -173,7 +177,7 @@ ParameterValue value_of_text(const Parameter& parameter, const std::string& text
             if (!number) refuse("The value is a number");
             return *number;
         case ParameterKind::integer:
-            if (!number || *number != static_cast<double>(static_cast<std::int64_t>(*number))) refuse("The value is a number");
+            if (!number || *number != std::trunc(*number) || std::abs(*number) > k_largest_integer) refuse("The value is a whole number");
             return static_cast<std::int64_t>(*number);
         case ParameterKind::numbers: {
             const std::optional<std::vector<double>> numbers = numbers_of(text);
@@ -194,7 +198,7 @@ std::vector<KeySetting> key_settings(const ParameterTable& table, const Paramete
         for (const KeySetting& setting : settings)
             for (const std::string& text : axis.values) {
                 KeySetting one = setting;
-                const ParameterValue value = value_of_text(*key.parameter, text);
+                const ParameterValue value = value_of_text(axis.key, *key.parameter, text);
                 if (set_key(one.values, table, key, [&](const ParameterValues&) { return value; }) == 0)
                     throw UserError(key.member.empty()
                                         ? fmt::format("--set {}: no table of the study gives this key", axis.key)

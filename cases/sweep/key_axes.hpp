@@ -37,8 +37,9 @@ std::optional<KeyPath> find_key(const ParameterTable& table, const std::string& 
 int set_key(ParameterValues& values, const ParameterTable& table, const KeyPath& key,
             const std::function<ParameterValue(const ParameterValues&)>& value);
 
+/// \param key  as the user wrote it, for messages
 /// \throws UserError  when the text is no value of the parameter's kind
-ParameterValue value_of_text(const Parameter& parameter, const std::string& text);
+ParameterValue value_of_text(const std::string& key, const Parameter& parameter, const std::string& text);
 
 /// A study with some keys changed.
 struct KeySetting {

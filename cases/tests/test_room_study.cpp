@@ -317,7 +317,9 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
         return std::string();
     };
     EXPECT_THAT(text_of("contact.glass-wood.friction=1"), HasSubstr("no table [[contact]] is called glass-wood"));
+    EXPECT_THAT(text_of("contact.glass-glass.friction=abc"), HasSubstr("--set contact.glass-glass.friction=abc. The value is a number"));
     EXPECT_THAT(text_of("solid.tube.velocity_m_s=1"), HasSubstr("in brackets"));
+    for (const char* seed : {"run.seed=1.5", "run.seed=1e300"}) EXPECT_THAT(text_of(seed), HasSubstr("a whole number"));
     EXPECT_THAT(text_of("contact.glass-glass.frictoin=1"), HasSubstr("there is no such key"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.1"), HasSubstr("friction has 0.1 twice"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.10"), HasSubstr("friction has 0.10 twice"));

@@ -166,7 +166,7 @@ TEST_F(SurfaceStudy, sweep_names_wrong_keys_and_values) {
     EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"solid.hole_m=0"}, "params"), 1); }),
                 HasSubstr("no table"));
     EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"contact.friction=much"}, "params"), 1); }),
-                HasSubstr("a number"));
+                HasSubstr("--set contact.friction=much. The value is a number"));
     EXPECT_THAT(text_of([&] { surface_sweep_points(study, key_axes(surface_study_table(), {"contact.gap_m=0.00001"}, "params"), 1); }),
                 HasSubstr("quarter of a cell"));
 }

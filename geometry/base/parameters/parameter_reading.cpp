@@ -49,6 +49,7 @@ std::string toml_of(const toml::node& node) {
         for (auto&& [key, value] : *table) parts.push_back(fmt::format("{} = {}", std::string_view(key.str()), toml_of(value)));
         return fmt::format("{{ {} }}", fmt::join(parts, ", "));
     }
+    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());  // toml++ writes 0.015 with 17 digits
     std::ostringstream stream;
     stream << toml::toml_formatter(node, toml::format_flags::none);
     return stream.str();

@@ -342,6 +342,7 @@ TEST(Parameter, reads_lists_and_tables_in_the_place_of_a_key_and_writes_them_bac
 TEST(Parameter, lists_have_a_length_a_type_and_bounds) {
     expect_contains(mistakes_with_lists("room.size_m = [1, 2]\n"), "a list of 3 numbers in m");
     expect_contains(mistakes_with_lists("room.size_m = [1, 2, \"x\"]\n"), "has the wrong type");
+    expect_contains(mistakes_with_lists("room.size_m = [0, 0.015]\n"), "room.size_m = [0, 0.015] has the wrong type");
     expect_contains(mistakes_with_lists("room.size_m = [1, 2, 0]\n"), "room.size_m = [1, 2, 0] is too low");
     expect_contains(mistakes_with_lists("room.size_m = 1\n"), "has the wrong type");
     expect_contains(mistakes_with_lists("room.size_m = [1, 2, 3]\n[[contact]]\npair = [\"a\"]\n"), "a list of 2 texts in quotes");
