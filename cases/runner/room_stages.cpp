@@ -86,6 +86,13 @@ std::map<std::string, std::string> inputs_with_overrides(const ParameterValues& 
     return inputs;
 }
 
+/// Of the case. A measure makes the report alone anew, but the gate that stops a run is one of a measure.
+std::map<std::string, std::string> case_inputs(const RoomRequest& request, const RunDirectory& directory) {
+    std::map<std::string, std::string> inputs = inputs_with_overrides(request.values, k_case, directory, false);
+    if (const auto* idle = std::get_if<StopWhenIdle>(&request.scene.run.stop)) inputs["run.stop.gate"] = idle->gate;
+    return inputs;
+}
+
 /// A room's run directory.
 class RoomWork {
 public:
@@ -150,11 +157,7 @@ public:
     StageOutcome make_case() const {
         std::vector<CaseText> files = grain_files(scene_, pieces_.empty() ? "" : bed_start(), first_fed_id());
         for (CaseText& file : mesh_ ? flow_files(scene_, *mesh_) : dry_files(scene_)) files.push_back(std::move(file));
-        files.push_back({k_measures, scene_.measures.dump(2) + "\n"});
-        files.push_back({postproc::k_room_file, room_json().dump(2) + "\n"});
-        files.push_back(
-            {names::resolved_study, "# The study as it was computed. Written by cutterflow: change the study, not this file.\n\n" +
-                                        plain_toml(room_table(), values_)});
+        for (CaseText& file : descriptions()) files.push_back(std::move(file));
         write_texts(directory_.path(), files);
         StageOutcome outcome;
         for (const CaseText& file : files) outcome.outputs.push_back(file.path);
@@ -167,14 +170,31 @@ public:
         return {{}, run_cutter_foam(directory_.path(), solver_, "  run", scene_.run.end)};
     }
 
+    /// \pre the case is made
     StageOutcome report() const {
+        StageOutcome outcome;
+        const std::vector<std::string> own = overrides_of(directory_, false);
+        for (const CaseText& file : descriptions()) {
+            outcome.outputs.push_back(file.path);
+            if (std::find(own.begin(), own.end(), file.path) == own.end()) write_file(directory_.file(file.path), file.text);
+        }
         postproc::write_room_report(directory_.path());
-        return {};
+        return outcome;
     }
+
+    /// Files that the report alone reads: a change of name or measures writes them anew.
+    static std::vector<std::string> rewritten_by_report() { return {k_measures, postproc::k_room_file, names::resolved_study}; }
 
 private:
     static constexpr const char* k_done = "done";
     static constexpr const char* k_measures = "measures.json";
+
+    std::vector<CaseText> descriptions() const {
+        return {{k_measures, scene_.measures.dump(2) + "\n"},
+                {postproc::k_room_file, room_json().dump(2) + "\n"},
+                {names::resolved_study, "# The study as it was computed. Written by cutterflow: change the study, not this file.\n\n" +
+                                            plain_toml(room_table(), values_)}};
+    }
 
     /// Files of the user over those of the mesh stage, or of the case.
     void apply_overrides(bool of_mesh, std::vector<std::string>& outputs) const {
@@ -356,10 +376,10 @@ meshing::RoomMeshPlan mesh_plan_of(const RoomRequest& request) {
 
 }  // namespace
 
-RoomRequest read_room_request(const fs::path& study) {
+RoomRequest room_request(const ParameterValues& values, const fs::path& folder) {
     RoomRequest request;
-    request.values = read_placed_room(study);
-    request.scene = room_scene(request.values, study.parent_path());
+    request.values = values;
+    request.scene = room_scene(request.values, folder);
     Mistakes mistakes;
     mistakes.gather([&] { request.pieces = bed_pieces(request.scene); });
     std::mt19937_64 random(request.scene.run.seed);
@@ -367,6 +387,10 @@ RoomRequest read_room_request(const fs::path& study) {
     if (request.scene.medium.present()) mistakes.gather([&] { request.mesh = mesh_plan_of(request); });
     mistakes.refuse();
     return request;
+}
+
+RoomRequest read_room_request(const fs::path& study) {
+    return room_request(read_placed_room(study), study.parent_path());
 }
 
 std::map<std::string, std::string> bed_inputs(const ParameterValues& values) {
@@ -393,10 +417,10 @@ std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest&
         stages.push_back({k_mesh, inputs_with_overrides(request.values, k_mesh, directory, true), {}, false, [room](bool) {
                               return room->make_mesh();
                           }});
-    stages.push_back(
-        {k_case, inputs_with_overrides(request.values, k_case, directory, false), {}, false, [room](bool) { return room->make_case(); }});
+    stages.push_back({k_case, case_inputs(request, directory), {}, false, [room](bool) { return room->make_case(); }});
     stages.push_back({"run", {}, {}, true, [room](bool resume) { return room->run(resume); }});
-    stages.push_back({k_report, inputs_of(request.values, k_report), {}, false, [room](bool) { return room->report(); }});
+    stages.push_back(
+        {k_report, inputs_of(request.values, k_report), RoomWork::rewritten_by_report(), false, [room](bool) { return room->report(); }});
     return stages;
 }
 

@@ -21,6 +21,9 @@ struct RoomRequest {
     std::optional<meshing::RoomMeshPlan> mesh;  ///< with a medium
 };
 
+/// \param values  whose files are named relative to `folder` \throws UserError  with every mistake
+RoomRequest room_request(const ParameterValues& values, const std::filesystem::path& folder);
+
 /// \throws UserError  with every mistake of the file
 RoomRequest read_room_request(const std::filesystem::path& study);
 

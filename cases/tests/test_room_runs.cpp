@@ -278,6 +278,22 @@ TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
     other.replace(other.find("friction = 0.5"), 14, "friction = 0.6");
     write_file(folder_ / "other.toml", other);
     EXPECT_NE(call({"run", "other.toml", "-o", "heap"}, 2).find("contact.plastic-plastic.friction (0.5 -> 0.6)"), std::string::npos);
+
+    // Another name and another measure make the report anew and keep the run; a gate that the run did not record does not.
+    const std::string study = read_file(folder_ / "heap.toml");
+    std::string renamed = study;
+    renamed.replace(renamed.find("a small heap"), 12, "the same heap");
+    write_file(folder_ / "more.toml", renamed +
+                                          "[[measure]]\nname = \"everywhere\"\nwhat = \"mass_in\"\nregion = { half_space = { point_m = [0, "
+                                          "0, -1], normal = [0, 0, 1] } }\n");
+    EXPECT_NE(call({"run", "more.toml", "-o", "heap"}).find("run: already done"), std::string::npos);
+    EXPECT_NEAR(json_of("heap/report/measures.json").at("everywhere").at("value").get<double>(), poured, 1e-6 * poured);
+    EXPECT_EQ(json_of("heap/room.json").at("name"), "the same heap");
+    EXPECT_NE(read_file(folder_ / "heap/study.resolved.toml").find("everywhere"), std::string::npos);
+    EXPECT_NE(call({"run", "more.toml", "-o", "heap"}).find("report: already done"), std::string::npos);
+    write_file(folder_ / "more.toml",
+               study + "[[measure]]\nname = \"door\"\nwhat = \"passed_mass\"\ngate = { disc_m = [0, 0, 0.02], radius_m = 0.01 }\n");
+    EXPECT_NE(call({"run", "more.toml", "-o", "heap"}, 2).find("measure.door.gate.disc_m"), std::string::npos);
 }
 
 TEST_F(RoomRuns, a_study_that_nobody_foresaw_runs) {
@@ -428,7 +444,7 @@ TEST_F(RoomRuns, commands_refuse_what_rooms_have_no_use_for) {
     call({"new", "room.toml", "--kind", "room"});
     EXPECT_NE(call({"new", "cut.toml", "--kind", "room", "--cutter", "a.stl"}, 2).find("Such a study has no cutter"), std::string::npos);
     EXPECT_NE(call({"run", "room.toml", "--ranks", "2"}, 2).find("runs on one core"), std::string::npos);
-    EXPECT_NE(call({"sweep", "room.toml", "--rpm", "30"}, 2).find("They belong to cutters"), std::string::npos);
+    EXPECT_NE(call({"sweep", "room.toml", "--rpm", "30"}, 2).find("--rpm in a sweep of a room. It belongs to cutters"), std::string::npos);
     EXPECT_NE(call({"params", "--kind", "room"}).find("[[solid]]"), std::string::npos);
     write_file(folder_ / "typo.toml", "[scene]\nkind = \"rooom\"\n");
     EXPECT_NE(call({"check", "typo.toml"}, 2).find("Did you mean \"room\"?"), std::string::npos);

@@ -22,6 +22,7 @@ namespace cutterflow::cases {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -57,6 +58,9 @@ protected:
 
     fs::path folder_;
 };
+
+const char* const k_end = "[run]\n";
+const char* const k_dry = "medium = \"none\"              # weight and contacts alone\n";
 
 double mass_of(const std::vector<PlacedGrain>& grains) {
     double mass = 0.0;
@@ -323,10 +327,23 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     EXPECT_THAT(text_of("contact.glass-glass.frictoin=1"), HasSubstr("there is no such key"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.1"), HasSubstr("friction has 0.1 twice"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.10"), HasSubstr("friction has 0.10 twice"));
-    EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,-2"), HasSubstr("room_glass-glass.friction_-2: contact.friction = -2"));
+    EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,-2"), HasSubstr("--set contact.glass-glass.friction = -2 is too low"));
+    EXPECT_THAT(text_of("contact.glass-glass.friction=abc,-2"), AllOf(HasSubstr("friction=abc"), HasSubstr("friction = -2 is too low")));
     EXPECT_THAT(text_of("run.seed=1,1.0"), HasSubstr("run.seed has 1.0 twice"));
     EXPECT_THAT(text_of("solid.tube.velocity_m_s=[0,0,0.03],[0, 0, 3e-2]"), HasSubstr("has [0, 0, 3e-2] twice"));
     EXPECT_THROW(axes({"run.end_s=1", "run.end_s=2"}), UserError);
+    // The later of two keys of one table would decide alone.
+    for (const auto& words : {std::vector<std::string>{"contact.glass-glass.friction=0.1,0.2", "contact.friction=0.3"},
+                              {"contact.glass-steel.friction=0.1", "contact.steel-glass.friction=0.2"}})
+        try {
+            room_sweep_points(study, axes(words), 1);
+            ADD_FAILURE() << words.front();
+        } catch (const UserError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("set the same key of one table"));
+        }
+    EXPECT_EQ(room_sweep_points(study, axes({"contact.glass-glass.friction=0.1", "contact.glass-steel.friction=0.2"}), 1).size(), 1u);
+    // Placement is checked as well, before anything is run.
+    EXPECT_THAT(text_of("prepare.depth_m=0.06,0.13"), HasSubstr("Their region holds"));
     EXPECT_NO_THROW(room_sweep_points(study, axes({"run.seed=1,2"}), 1));
     EXPECT_THROW(room_sweep_points(study, axes({"run.seed=1,2"}), 2), UserError);
 }
@@ -399,9 +416,6 @@ TEST_P(BadRoom, is_refused_with_what_value_rule_and_remedy) {
     EXPECT_THAT(mistakes, HasSubstr("room.toml:"));
 }
 
-const char* const k_end = "[run]\n";
-const char* const k_dry = "medium = \"none\"              # weight and contacts alone\n";
-
 INSTANTIATE_TEST_SUITE_P(
     Rooms, BadRoom,
     ::testing::Values(
@@ -435,7 +449,21 @@ INSTANTIATE_TEST_SUITE_P(
             "region = { box = { lower_m = [-0.01, -0.01, 0.1], upper_m = [0.01, 0.01, 0.15] } }\n\n[run]\n",
             "A feed has at most 1e+06"},
         Bad{"depth_m = 0.06", "depth_m = 0.06\ncount = 10", "a pour with 2 of depth_m, mass_kg and count"},
-        Bad{"radius_m = 0.02 } }", "radius_m = 0.0018 } }", "find no place in the region of their pour"},
+        Bad{"radius_m = 0.02 } }", "radius_m = 0.0018 } }", "grains of up to 0.0042 m in a region of 0.0036 m"},
+        Bad{"depth_m = 0.06\nregion = { cylinder = { from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 } }",
+            "depth_m = 0.004\nregion = { box = { lower_m = [-0.01, -0.01, 0.021], upper_m = [0.01, 0.01, 0.029] } }",
+            "find no place in the region of their pour"},
+        Bad{"uniform_by_number = [0.0038, 0.0042]", "uniform_by_number = [0.00002, 0.000021]", "A pour has at most 1e+06"},
+        Bad{"radius_m = 0.02 } }", "radius_m = 0.06 } }", "a cylinder of radius 0.06 m about (0, 0, 0.03) reaches out of the room"},
+        Bad{"from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02", "from_m = [9, 0, 0.03], to_m = [9, 0, 0.15], radius_m = 0.02",
+            "prepare.region is about a region outside the room"},
+        Bad{"to_s = 4.0\n",
+            "to_s = 4.0\nremoved_at_s = 2\n\n[[measure]]\nname = \"x\"\nwhat = \"wall_force\"\nwall = \"tube\"\nfrom_s = 2.5\n",
+            "tube is taken away at 2 s, and the measure begins at 2.5 s"},
+        Bad{"stop = { settled = true }",
+            "stop = { measure = \"x\", idle_s = 1 }\n\n[[measure]]\nname = \"through\"\nwhat = \"rate\"\n"
+            "gate = { disc_m = [0, 0, 0.1], radius_m = 0.01 }",
+            "Measures with a gate are through"},
         Bad{"[[prepare]]\ndo = \"pour\"", "[[prepare]]\ndo = \"settle\"\n\n[[prepare]]\ndo = \"pour\"", "before anything is poured"},
         Bad{k_end, "[[prepare]]\ndo = \"freeze\"\nabove_m = 0.2\n\n[run]\n", "a region outside the room"},
         Bad{k_end, "[[prepare]]\ndo = \"trim\"\nabove_m = 0.1\nbelow_m = 0.2\n\n[run]\n", "A step has one region"},
@@ -473,7 +501,8 @@ INSTANTIATE_TEST_SUITE_P(
             "measure.from_m of x lies outside the room along y"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angle\"\nat_s = 9\n\n[run]\n", "measure.at_s = 9. The run ends at 4 s"},
         Bad{"name = \"tube\"", "name = \"tube\"\nremoved_at_s = 4.5", "solid.removed_at_s = 4.5. The run ends at 4 s"},
-        Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }", "It names a measure with a gate"},
+        Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }",
+            "It names a measure with a gate, and the study has none"},
         Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},
         Bad{k_dry, "medium = \"none\"\ncell_m = 0.01\n", "Without a medium there are neither flow nor mesh"},
         Bad{k_dry, "medium = \"water\"\n", "room.cell_m is missing"},
@@ -483,6 +512,40 @@ INSTANTIATE_TEST_SUITE_P(
             "boundary.inside = \"disc\""},
         Bad{k_dry, "medium = \"none\"\n\n[[boundary]]\non = \"top\"\nflow = \"pressure\"\n", "boundary.flow in a room without a medium"},
         Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n", "The mesh stands still"}));
+
+TEST_F(RoomStudy, a_misspelt_key_is_told_once_and_hides_no_other_mistake) {
+    const std::string misspelt = mistakes_of(changed("end_s = 4", "ennd_s = 4"));
+    EXPECT_THAT(misspelt, HasSubstr("Did you mean run.end_s?"));
+    EXPECT_THAT(misspelt, Not(HasSubstr("is missing")));
+    std::string text = changed("to_m = [0, 0, 0.15]", "to_m = [0, 0, 0.17]");
+    text.replace(text.find("poisson"), 7, "x_key = 1\npoisson");
+    const std::string both = mistakes_of(text);
+    EXPECT_LT(both.find("It must lie in the room"), both.find("x_key"));  // as the file has them
+    EXPECT_NE(both.find("x_key"), std::string::npos);
+}
+
+TEST_F(RoomStudy, a_missing_file_of_a_solid_is_its_only_mistake) {
+    std::string text =
+        changed(k_dry, "medium = \"water\"\ncell_m = 0.01\n\n[[boundary]]\non = \"top\"\ninside = \"tube\"\nflow = \"pressure\"\n");
+    text.replace(text.find("generate = \"tube\""), 17, "fluid = true\nfile = \"gone.stl\"");
+    const std::string mistakes = mistakes_of(text);
+    EXPECT_THAT(mistakes, ContainsRegex("room.toml:[0-9]+: .*gone.stl: the file does not exist"));
+    EXPECT_THAT(mistakes, Not(HasSubstr("boundary.inside")));
+}
+
+TEST_F(RoomStudy, warns_of_a_solid_that_goes_through_a_closed_side) {
+    const auto warnings = [&](const std::string& text) {
+        const RoomRequest request = read_room_request(write(text));
+        return room_warnings(request.values, request.scene, request.mesh);
+    };
+    EXPECT_TRUE(warnings(room_template("heap")).empty());  // up, where the room is open
+    const std::string way = "velocity_m_s = [0, 0, 0.03]";
+    const auto through_floor = warnings(changed(way, "velocity_m_s = [0, 0, -0.03]"));
+    ASSERT_EQ(through_floor.size(), 1u);
+    EXPECT_THAT(through_floor[0].text(), HasSubstr("tube moves 0.0899 m through a side of the room"));
+    EXPECT_TRUE(warnings(changed(way, "removed_at_s = 0.5\nvelocity_m_s = [0, 0, -0.03]")).empty());  // gone before it gets there
+    EXPECT_EQ(warnings(changed(way, "turn_rpm = 5\nturn_axis = [1, 0, 0]\nturn_origin_m = [0, 0, 0.03]")).size(), 1u);
+}
 
 TEST_F(RoomStudy, grains_without_a_way_into_the_room_are_refused) {
     std::string text = room_template("heap");

@@ -158,7 +158,10 @@ TEST(StageInputs, of_a_room_belong_to_the_stage_that_every_row_names) {
                                                       {"grains.class.mass_share", "bed"},
                                                       {"prepare.region.sphere.radius_m", "bed"},
                                                       {"event.rate_kg_s", "case"},
-                                                      {"measure.what", "case"},
+                                                      {"measure.what", "report"},
+                                                      {"measure.seed_m", "report"},
+                                                      {"measure.gate.disc_m", "case"},
+                                                      {"measure.upstream_m", "case"},
                                                       {"run.end_s", "case"},
                                                       {"run.seed", "bed"}};
     for (const auto& [key, stage] : expected) EXPECT_EQ(stage_of.at(key), stage) << key;

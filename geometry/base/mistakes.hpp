@@ -1,6 +1,8 @@
 #pragma once
 /// \file Collects the rules that an input breaks, so that all of them are reported at once.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,5 +61,17 @@ private:
     std::string where_;
     std::vector<Mistake> mistakes_;
 };
+
+/// As the user's file has them, from above; those without a line ("file:line") go last.
+inline std::vector<Mistake> in_order_of_lines(std::vector<Mistake> mistakes) {
+    const auto line_of = [](const Mistake& mistake) {
+        const std::size_t colon = mistake.where.rfind(':');
+        const std::string digits = colon == std::string::npos ? "" : mistake.where.substr(colon + 1);
+        const bool is_line = !digits.empty() && digits.size() < 9 && digits.find_first_not_of("0123456789") == std::string::npos;
+        return is_line ? std::stoi(digits) : std::numeric_limits<int>::max();
+    };
+    std::stable_sort(mistakes.begin(), mistakes.end(), [&](const Mistake& a, const Mistake& b) { return line_of(a) < line_of(b); });
+    return mistakes;
+}
 
 }  // namespace cutterflow

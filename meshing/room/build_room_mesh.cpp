@@ -1,8 +1,11 @@
 #include "meshing/room/build_room_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
@@ -52,16 +55,17 @@ std::vector<FoamStep> steps_of(const RoomMeshPlan& plan) {
     return steps;
 }
 
-int missing_patches(const RoomMeshPlan& plan, const CheckMeshSize& size) {
-    int missing = 0;
-    for (const RoomMeshPatch& patch : plan.input.patches) missing += size.has_patch(patch.name) ? 0 : 1;
-    for (const RoomMeshSolid& solid : plan.input.solids) missing += size.has_patch(solid.name) ? 0 : 1;
+std::vector<std::string> missing_patches(const RoomMeshPlan& plan, const CheckMeshSize& size) {
+    std::vector<std::string> names = names_of_solids(plan), missing;
+    for (const RoomMeshPatch& patch : plan.input.patches) names.push_back(patch.name);
+    std::copy_if(names.begin(), names.end(), std::back_inserter(missing), [&](const std::string& name) { return !size.has_patch(name); });
     return missing;
 }
 
 }  // namespace
 
 std::vector<MeshGate> check_room_mesh(const RoomMeshPlan& plan, const CheckMeshFigures& quality, const CheckMeshSize& size) {
+    const std::vector<std::string> missing = missing_patches(plan, size);
     const std::string finer = "Take smaller cells near the solids ([[room.refine]])";
     return {
         {"failed checks of checkMesh", static_cast<double>(quality.failed_checks), 0.0, false,
@@ -70,8 +74,8 @@ std::vector<MeshGate> check_room_mesh(const RoomMeshPlan& plan, const CheckMeshF
         {"skewness", quality.skewness_max, k_most_skew, false, finer},
         {"number of parts that no face connects", static_cast<double>(size.regions), 1.0, false,
          "Take smaller cells where the medium is narrow, or fill the part by a solid"},
-        {"missing patches", static_cast<double>(missing_patches(plan, size)), 0.0, false,
-         "A boundary has no face, or the solid no cell beside it: take smaller cells there, or do not cover it by a later boundary"},
+        {"missing patches", static_cast<double>(missing.size()), 0.0, false,
+         fmt::format("No face belongs to {}: take smaller cells there, or do not cover it by a later boundary", fmt::join(missing, ", "))},
         {"relative error of the medium's volume", std::abs(size.volume / plan.medium_volume - 1.0),
          k_volume_error + k_solid_volume_error * plan.solid_volume / plan.medium_volume, false,
          "Check that no part of the room is closed off, and that solids do not overlap; or take smaller cells near them"},

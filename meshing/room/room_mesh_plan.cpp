@@ -84,6 +84,43 @@ Vec3 place_in_medium(const RoomMeshInput& input) {
     return best;
 }
 
+/// Corners of the box around a part.
+std::pair<Vec3, Vec3> bounds_of(const MeshPart& part) {
+    if (const auto* box = std::get_if<MeshBox>(&part)) return {box->lower, box->upper};
+    const auto& cylinder = std::get<MeshCylinder>(part);
+    const Vec3 margin = Vec3::Constant(cylinder.radius);
+    return {cylinder.from.cwiseMin(cylinder.to) - margin, cylinder.from.cwiseMax(cylinder.to) + margin};
+}
+
+/// Whether the centre of a face of one side lies in the patch's part. Where solids cut the cells this is an estimate.
+bool has_face(const RoomMeshPlan& plan, const RoomMeshPatch& patch, std::size_t side) {
+    const auto axis = static_cast<Eigen::Index>(side / 2), a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const auto [from, to] = bounds_of(*patch.part);
+    Vec3 place = 0.5 * (from + to);
+    place[axis] = (side % 2 == 0 ? plan.input.lower : plan.input.upper)[axis];
+    const Vec3 face = plan.cell_size * std::ldexp(1.0, -level_at(plan, place));
+    const auto first = [&](Eigen::Index along) { return std::floor((from[along] - plan.input.lower[along]) / face[along]) + 0.5; };
+    for (double i = first(a); plan.input.lower[a] + i * face[a] <= to[a]; ++i)
+        for (double j = first(b); plan.input.lower[b] + j * face[b] <= to[b]; ++j) {
+            place[a] = plan.input.lower[a] + i * face[a];
+            place[b] = plan.input.lower[b] + j * face[b];
+            if (contains(*patch.part, place)) return true;
+        }
+    return false;
+}
+
+/// \throws UserError  with every patch that is too small for the cells
+void require_faces(const RoomMeshPlan& plan) {
+    std::vector<Mistake> mistakes;
+    for (const RoomMeshPatch& patch : plan.input.patches) {
+        const auto found = [&](std::size_t side) { return has_face(plan, patch, side); };
+        if (!patch.part || std::any_of(patch.sides.begin(), patch.sides.end(), found)) continue;
+        mistakes.push_back({"", fmt::format("{} is too small for the cells", patch.name), "A boundary has the centre of a face in it",
+                            "Take smaller cells there ([[room.refine]]), or make it larger"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+}
+
 }  // namespace
 
 bool contains(const MeshPart& part, const Vec3& place) {
@@ -115,6 +152,8 @@ RoomMeshPlan plan_room_mesh(const RoomMeshInput& input) {
         plan.cells[axis] = std::max(1, static_cast<int>(std::lround(size[axis] / input.cell)));
         plan.cell_size[axis] = size[axis] / plan.cells[axis];
     }
+    if (plan.cells[0] * plan.cells[1] * plan.cells[2] == 1)
+        throw UserError(fmt::format("the mesh is one cell of {:g} m", input.cell), "A room has several", "Make room.cell_m smaller");
     for (const RoomMeshRefinement& one : input.refinements) plan.levels.push_back(level_of(plan.background_cell(), one.cell));
     for (const RoomMeshSolid& solid : input.solids) plan.solid_volume += geometry::volume_of(solid.surface);
     plan.medium_volume = size.prod() - plan.solid_volume;
@@ -122,6 +161,7 @@ RoomMeshPlan plan_room_mesh(const RoomMeshInput& input) {
     refuse_above(plan.predicted_cells);
     plan.predicted_core_s = k_stage_s + plan.predicted_cells * (plan.is_cut() ? k_cut_s_per_cell : k_plain_s_per_cell);
     if (plan.is_cut()) plan.place = place_in_medium(input);
+    require_faces(plan);
     return plan;
 }
 

@@ -96,6 +96,22 @@ TEST(RoomMeshPlan, refuses_too_many_cells_and_a_room_without_medium) {
                 HasSubstr("leave no place for its medium"));
 }
 
+TEST(RoomMeshPlan, refuses_a_single_cell_and_boundaries_without_a_face) {
+    EXPECT_THAT(refusal([] { plan_room_mesh(box_of(0.4, 0.4, 0.4, 40.0)); }), HasSubstr("the mesh is one cell"));
+    RoomMeshInput input = box_of(0.4, 0.4, 0.4, 0.02);  // corners of faces at 0, centres at 0.01
+    const auto with_disc = [&](double x, double radius) {
+        input.patches = {{"hole", false, {5}, MeshCylinder{Vec3(x, 0.01, 0.399), Vec3(x, 0.01, 0.401), radius}}};
+        return refusal([&] { plan_room_mesh(input); });
+    };
+    EXPECT_THAT(with_disc(0.0, 0.008), HasSubstr("hole is too small for the cells"));
+    EXPECT_EQ(with_disc(0.01, 0.008), "");
+    EXPECT_EQ(with_disc(0.0, 0.012), "");
+    input.refinements = {{MeshBox{Vec3(-0.1, -0.1, 0.3), Vec3(0.1, 0.1, 0.4)}, 0.01}};  // centres at 0.005 and 0.015
+    EXPECT_EQ(with_disc(0.0, 0.008), "");
+    input.patches = {{"band", false, {0, 1}, MeshBox{Vec3(-0.2, -0.2, 0.1), Vec3(0.2, 0.2, 0.105)}}};
+    EXPECT_THAT(refusal([&] { plan_room_mesh(input); }), HasSubstr("band is too small"));
+}
+
 TEST(RoomMeshPlan, warns_of_solids_thinner_than_cells) {
     RoomMeshInput input = box_of(0.4, 0.4, 0.4, 0.02);
     input.solids = {block(Vec3(0.2, 0.2, 0.012), Vec3(0.0, 0.0, 0.2))};
@@ -196,6 +212,12 @@ TEST(RoomMeshReport, gates_each_see_their_own_fault) {
     EXPECT_EQ(failed(plan, skew, size), (std::vector<std::string>{"skewness"}));
     input.patches = {{"hole", false, {5}, std::nullopt}};
     EXPECT_EQ(failed(plan_room_mesh(input), good, size), (std::vector<std::string>{"missing patches"}));
+    try {
+        require_gates(check_room_mesh(plan_room_mesh(input), good, size));
+        FAIL() << "passed";
+    } catch (const CheckFailure& failure) {
+        EXPECT_THAT(failure.what(), HasSubstr("No face belongs to hole"));
+    }
     EXPECT_THROW(require_gates(check_room_mesh(plan, good, lost)), CheckFailure);
 }
 

@@ -120,9 +120,14 @@ void report(const ReportOptions& options) {
 }
 
 std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::path&) {
-    if (!options.axes.speeds.empty() || !options.axes.discharges.empty() || !options.axes.designs.empty() || options.ranks != 1)
-        throw UserError("--rpm, --discharge, --design or --ranks in a sweep of a room", "They belong to cutters",
-                        "Use --set KEY=a,b and --repeats");
+    Mistakes mistakes;
+    for (const auto& [given, option] : {std::pair(!options.axes.speeds.empty(), "--rpm"),
+                                        {!options.axes.discharges.empty(), "--discharge"},
+                                        {!options.axes.designs.empty(), "--design"},
+                                        {options.ranks != 1, "--ranks"}})
+        mistakes.require(!given, fmt::format("{} in a sweep of a room", option), "It belongs to cutters",
+                         "Use --set KEY=a,b and --repeats");
+    mistakes.refuse();
     return cases::room_sweep_points(options.study, cases::key_axes(cases::room_table(), options.set, k_room_kind.params),
                                     options.axes.repeats);
 }

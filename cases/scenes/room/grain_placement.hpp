@@ -53,6 +53,8 @@ std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::
 /// constant/rockFeed.csv.
 std::string grain_feed_csv(const std::vector<PlacedGrain>& grains);
 
+inline constexpr double k_most_grains = 1e6;  ///< of one pour or feed
+
 /// A pour's share of the volume of a bed that has come down.
 inline constexpr double k_packed_share = 0.60;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cases/scenes/room/room_study.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
 #include "geometry/base/parameters/parameter_words.hpp"
 #include "postproc/analysis/measures/measure_table.hpp"
@@ -16,6 +17,10 @@ constexpr const char* k_array = "measure";
 
 Parameter numbers(const std::string& key, std::size_t length, const std::string& help) {
     return ParameterRow(key, ParameterKind::numbers, "m", help).of_length(length).optional();
+}
+/// What the run itself records: rock at a gate, the pressure at two points.
+Parameter recorded(const Parameter& row) {
+    return ParameterRow(row).stage(room_stage::k_case);
 }
 Parameter number(const std::string& key, const std::string& help) {
     return ParameterRow(key, ParameterKind::number, "m", help).optional();
@@ -38,15 +43,17 @@ ParameterTable rows_of(const postproc::MeasureKey& measured) {
                     numbers(key + ".half_space.normal", 3, "Direction into the half space.")};
         case MeasureShape::gate:
             return {ParameterRow(key, ParameterKind::text, "-", of_kind.help).optional().repeated(),
-                    numbers(key + ".disc_m", 3, "Centre of a disc."),
-                    number(key + ".radius_m", "Of the disc."),
-                    numbers(key + ".lower_m", 3, "Lower corner of a rectangle."),
-                    numbers(key + ".upper_m", 3, "Upper corner of the rectangle."),
-                    numbers(key + ".normal", 3, "Direction in which passing counts.")};
+                    recorded(numbers(key + ".disc_m", 3, "Centre of a disc.")),
+                    recorded(number(key + ".radius_m", "Of the disc.")),
+                    recorded(numbers(key + ".lower_m", 3, "Lower corner of a rectangle.")),
+                    recorded(numbers(key + ".upper_m", 3, "Upper corner of the rectangle.")),
+                    recorded(numbers(key + ".normal", 3, "Direction in which passing counts."))};
         case MeasureShape::pair:
             return {ParameterRow(key, ParameterKind::numbers, of_kind.unit, of_kind.help).of_length(2).optional().repeated()};
-        case MeasureShape::point:
-            return {ParameterRow(key, ParameterKind::numbers, of_kind.unit, of_kind.help).of_length(3).optional().repeated()};
+        case MeasureShape::point: {
+            const Parameter row = ParameterRow(key, ParameterKind::numbers, of_kind.unit, of_kind.help).of_length(3).optional().repeated();
+            return {of_kind.key == "upstream_m" || of_kind.key == "downstream_m" ? recorded(row) : row};
+        }
         case MeasureShape::single:
             break;
     }

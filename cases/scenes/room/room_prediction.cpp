@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,8 @@ constexpr double k_rest = 0.5;                            // of a small bed [s]
 constexpr double k_seconds_per_cell_and_step = 5.9e-6 * 1.41, k_seconds_per_mapped_grain = 30e-6;
 constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
 constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
+constexpr int k_looks = 20;                      // at a solid on its way
+constexpr double k_allowed_reach = 1e-6;         // out of the room, over its size
 
 double mass_of(const PlacedGrain& grain) {
     return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
@@ -113,6 +116,53 @@ std::vector<std::string> models_of(const RoomScene& scene) {
     return on;
 }
 
+/// By how much points lie beyond the sides that are closed to grains [m].
+double reach_out_of(const RoomScene& scene, const geometry::TriangleSurface& surface, const std::function<Vec3(const Vec3&)>& moved) {
+    double reach = 0.0;
+    for (const Vec3& point : surface.points) {
+        const Vec3 place = moved(point), below = scene.lower() - place, above = place - scene.upper();
+        for (std::size_t side = 0; side < scene.sides.size(); ++side)
+            if (scene.sides[side] != SideForGrains::open)
+                reach = std::max(reach, (side % 2 == 0 ? below : above)[static_cast<Eigen::Index>(side / 2)]);
+    }
+    return reach;
+}
+
+/// The farthest that a solid gets through closed sides on its way, looked at in k_looks places.
+double reach_on_the_way(const RoomScene& scene, const RoomSolid& solid) {
+    const double last = std::min(scene.run.end, solid.removed_at.value_or(scene.run.end));
+    double farthest = 0.0;
+    for (int i = 1; i <= k_looks; ++i) {
+        const double share = static_cast<double>(i) / k_looks;
+        if (solid.travel) {
+            const Vec3 way = share * std::max(0.0, std::min(solid.travel->end, last) - solid.travel->begin) * solid.travel->velocity;
+            farthest = std::max(farthest, reach_out_of(scene, solid.surface, [&](const Vec3& p) -> Vec3 { return p + way; }));
+        }
+        if (solid.turn) {
+            const Eigen::AngleAxisd turn(solid.turn->angle(solid.turn->begin + share * (last - solid.turn->begin)),
+                                         solid.turn->axis.direction);
+            const Vec3& origin = solid.turn->axis.origin;
+            farthest =
+                std::max(farthest, reach_out_of(scene, solid.surface, [&](const Vec3& p) -> Vec3 { return origin + turn * (p - origin); }));
+        }
+    }
+    return farthest;
+}
+
+/// Solids that go through sides of the room that grains cannot pass.
+std::vector<Mistake> motion_warnings(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Mistake> warnings;
+    for (const ParameterValues& table : values.tables("solid")) {
+        const RoomSolid* solid = scene.find_solid(table.text("solid.name"));
+        if (solid == nullptr) continue;
+        const double reach = reach_on_the_way(scene, *solid);
+        if (reach > k_allowed_reach * scene.size.maxCoeff())
+            warnings.push_back({table.where("solid.name"), fmt::format("{} moves {:.3g} m through a side of the room", solid->name, reach),
+                                "It pushes grains through the side", "Correct its motion, or make the room larger"});
+    }
+    return warnings;
+}
+
 }  // namespace
 
 RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh) {
@@ -143,8 +193,9 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
 
 std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene,
                                    const std::optional<meshing::RoomMeshPlan>& mesh) {
-    if (!mesh) return {};
-    std::vector<Mistake> warnings = meshing::room_mesh_warnings(*mesh);
+    std::vector<Mistake> warnings = motion_warnings(values, scene);
+    if (!mesh) return warnings;
+    for (Mistake& warning : meshing::room_mesh_warnings(*mesh)) warnings.push_back(std::move(warning));
     if (scene.grains.empty()) return warnings;
     for (const Mistake& warning : hindrance_warnings(values, !scene.preparation.empty())) warnings.push_back(warning);
     const double largest = scene.largest_grain();
@@ -162,8 +213,8 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
 }
 
 std::string to_text(const RoomPrediction& found) {
-    std::string text =
-        fmt::format("{}: {} solids, {} grains, {:.4g} kg, medium {}\n", found.name, found.solids, found.grains, found.mass, found.medium);
+    std::string text = fmt::format("{}: {} solid{}, {} grains, {:.4g} kg, medium {}\n", found.name, found.solids,
+                                   found.solids == 1 ? "" : "s", found.grains, found.mass, found.medium);
     if (found.contact_step > 0.0)
         text += fmt::format(
             "contact step {:.3g} s, {:.2g} steps; grains about {} on one core for a preparation of {:.2g} s and a run of {:g} s\n",

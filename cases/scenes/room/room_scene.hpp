@@ -66,7 +66,7 @@ struct RoomSolid {
     std::string material;
     std::optional<coupling::WallTravel> travel;
     std::optional<coupling::WallTurn> turn;
-    std::optional<double> removed_at;  ///< [s]; negative: it is there for the preparation alone
+    std::optional<double> removed_at;  ///< [s]; 0: it is there for the preparation alone
     std::optional<Bore> bore;
     double thinnest = 0.0;  ///< its thinnest part, for the mesh [m]; 0: not known, as of a file
     double opening = 0.0;   ///< diameter or width of the one in its floor or of its spout [m]; 0: none

@@ -1,6 +1,7 @@
 /// \file The one declaration of every key of a room's study.
 #include <fmt/format.h>
 
+#include "cases/scenes/room/grain_placement.hpp"
 #include "cases/scenes/room/room_measures.hpp"
 #include "cases/scenes/room/room_study.hpp"
 #include "cases/scenes/room/solid_generators.hpp"
@@ -251,7 +252,7 @@ ParameterTable prepare_rows() {
         text("prepare.grains", "What is poured.").optional().repeated(),
         length("prepare.depth_m", "Depth of the poured bed; give this, mass_kg or count.").optional().repeated(),
         number("prepare.mass_kg", "kg", "Poured mass.").above(0.0).at_most(1e9).optional().repeated(),
-        Row("prepare.count", ParameterKind::integer, "-", "Poured grains.").at_least(1.0).at_most(1e8).optional().repeated(),
+        Row("prepare.count", ParameterKind::integer, "-", "Poured grains.").at_least(1.0).at_most(k_most_grains).optional().repeated(),
         duration("prepare.longest_s", "Settle and compress: by when grains must have come to rest.").derived("20 s").repeated(),
         text("prepare.solid", "Compress: the solid that is pressed on the grains until they bear it; then it stands.")
             .optional()
@@ -330,7 +331,7 @@ const ParameterTable& room_table() {
         add(all, k_case, coupling_rows());
         add(all, k_bed, prepare_rows());
         add(all, k_case, event_rows());
-        add(all, k_case, measure_rows());
+        add(all, k_report, measure_rows());
         return all;
     }();
     return table;

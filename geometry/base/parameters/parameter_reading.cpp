@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -206,6 +207,7 @@ private:
     void report_unknown(const std::string& key, const toml::node& node) {
         const bool section = node.is_table() || node.is_array_of_tables();
         const std::string nearest = section ? nearest_word(key, sections_of(table_)) : nearest_key(key);
+        meant_.insert(nearest);
         mistakes_.push_back({where(node), fmt::format("{} {} is unknown", section ? "section" : "key", key), known_neighbours(key),
                              nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
     }
@@ -239,6 +241,8 @@ private:
         const std::string section = section_of(key);
         for (const Parameter& parameter : table_)
             if (section_of(parameter.key) == section) known.push_back(name_of(parameter.key));
+        for (const std::string& inner : sections_of(table_))
+            if (!inner.empty() && section_of(inner) == section && find_parameter(table_, inner) == nullptr) known.push_back(name_of(inner));
         if (section.empty() || known.empty()) return fmt::format("The file's sections are {}", join(named_sections(), ", "));
         return fmt::format("The keys of {} are {}", section, join(known, ", "));
     }
@@ -258,6 +262,8 @@ private:
                 continue;
             if (parameter.default_value) {
                 values.set(parameter.key, *parameter.default_value);
+            } else if (!parameter.optional && meant_.count(parameter.key) > 0) {
+                complete_ = false;  // it is told of the key that is misspelt
             } else if (!parameter.optional) {
                 add(place, fmt::format("{} is missing", parameter.key), "It is required and has no default: " + parameter.help,
                     fmt::format("Add {} ({}) {}", name_of(parameter.key), kind_with_unit(parameter), place_of(parameter)));
@@ -268,6 +274,7 @@ private:
     const ParameterTable& table_;
     std::string name_;
     std::vector<Mistake> mistakes_;
+    std::set<std::string> meant_;  // keys of which unknown ones are a misspelling
     bool complete_ = true;
 };
 

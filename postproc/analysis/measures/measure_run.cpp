@@ -1,6 +1,7 @@
 #include "postproc/analysis/measures/measure_run.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -59,18 +60,15 @@ json to_json(const MeasureValues& values, const MeasureOutcome& outcome) {
             {"detail", outcome.detail},   {"series", outcome.series}};
 }
 
-}  // namespace
+/// Receives a measure that the run's files do not allow. \return its result, if it shall have one
+using OnRefusal = std::function<std::optional<MeasureOutcome>(const MeasureValues&, const UserError&)>;
 
-bool has_measures(const fs::path& run_directory) {
-    return fs::is_regular_file(run_directory / k_measures);
-}
-
-json measure_run(const fs::path& run_directory, const std::optional<std::string>& name) {
+/// \throws UserError  with every mistake of measures.json
+json made(const fs::path& run_directory, const std::optional<std::string>& name, Mistakes& mistakes, const OnRefusal& refused) {
     const MeasureSource source(run_directory);
     const fs::path file = run_directory / k_measures;
     const json measures = read_list(file);
     json results = json::object();
-    Mistakes mistakes;
     mistakes.add(check_measures(measures, file.string()));
     if (!measures.is_array()) mistakes.refuse();
     if (measures.empty())
@@ -83,25 +81,58 @@ json measure_run(const fs::path& run_directory, const std::optional<std::string>
         try {
             results[values.name()] = to_json(values, values.kind().measure(source, values));
         } catch (const UserError& error) {
-            for (Mistake mistake : error.mistakes()) {
-                mistake.what = fmt::format("measure.{}: {}", values.name(), mistake.what);
-                mistakes.add(std::move(mistake));
-            }
+            if (const auto outcome = refused(values, error)) results[values.name()] = to_json(values, *outcome);
         }
     }
     mistakes.refuse();
     return results;
 }
 
-json write_measures(const fs::path& run_directory, const std::optional<std::string>& name) {
+/// Replaces those of one name in the file, or the whole file.
+void write_results(const fs::path& run_directory, const std::optional<std::string>& name, json& results) {
     const fs::path file = run_directory / k_measure_results;
-    json results = measure_run(run_directory, name);
     if (name && fs::exists(file)) {
         json all = read_measures(run_directory);
         all[*name] = results[*name];
         results = std::move(all);
     }
     write_file(file, results.dump(1) + "\n");
+}
+
+}  // namespace
+
+bool has_measures(const fs::path& run_directory) {
+    return fs::is_regular_file(run_directory / k_measures);
+}
+
+json measure_run(const fs::path& run_directory, const std::optional<std::string>& name) {
+    Mistakes mistakes;
+    json results = made(run_directory, name, mistakes, [&](const MeasureValues& values, const UserError& error) {
+        for (Mistake mistake : error.mistakes()) {
+            mistake.what = fmt::format("measure.{}: {}", values.name(), mistake.what);
+            mistakes.add(std::move(mistake));
+        }
+        return std::nullopt;
+    });
+    mistakes.refuse();
+    return results;
+}
+
+json write_measures(const fs::path& run_directory, const std::optional<std::string>& name) {
+    json results = measure_run(run_directory, name);
+    write_results(run_directory, name, results);
+    return results;
+}
+
+json write_possible_measures(const fs::path& run_directory) {
+    Mistakes mistakes;
+    json results = made(run_directory, std::nullopt, mistakes, [](const MeasureValues& values, const UserError& error) {
+        MeasureOutcome none;
+        none.unit = values.kind().unit;
+        none.detail = {{"reason", fmt::format("{}: {}", error.mistakes().front().what, error.mistakes().front().rule)}};
+        return none;
+    });
+    write_results(run_directory, std::nullopt, results);
     return results;
 }
 

@@ -24,6 +24,11 @@ nlohmann::json measure_run(const std::filesystem::path& run_directory, const std
 /// \return all results
 nlohmann::json write_measures(const std::filesystem::path& run_directory, const std::optional<std::string>& name = std::nullopt);
 
+/// As write_measures, for the report of a run that is done: a measure that the run's files do not allow has no value, and its
+/// `detail.reason` says why.
+/// \throws UserError  with all mistakes of measures.json
+nlohmann::json write_possible_measures(const std::filesystem::path& run_directory);
+
 /// The results of report/measures.json. \throws UserError  when there are none
 nlohmann::json read_measures(const std::filesystem::path& run_directory);
 

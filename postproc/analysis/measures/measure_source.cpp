@@ -118,8 +118,9 @@ void MeasureSource::require_gate(const std::string& gate) const {
     const nlohmann::json gates = read_json_document(room, {}, k_run_again).value("gates", nlohmann::json());
     if (!gates.is_array()) return;  // of an older version
     if (std::find(gates.begin(), gates.end(), gate) != gates.end()) return;
-    throw UserError({{directory_.string(), fmt::format("the run has no gate {}", gate), fmt::format("Its gates are {}", gates.dump()),
-                      "Name one of them"}});
+    throw UserError({{directory_.string(), fmt::format("the run has no gate {}", gate),
+                      gates.empty() ? std::string("It has none") : fmt::format("Its gates are {}", gates.dump()),
+                      gates.empty() ? "Give the study a measure with a gate, and run it anew" : "Name one of them"}});
 }
 
 PassedMass MeasureSource::through_gate(const std::string& gate) const {

@@ -127,14 +127,15 @@ std::string models_and_cost(const fs::path& run, const nlohmann::json& results) 
 
 std::vector<RunQuantity> quantities_of(const fs::path& run) {
     if (!is_room_run(run))
-        throw UserError(fmt::format("{} is no run of a room", run.string()), fmt::format("It has a {}", k_room_file),
-                        "Compare runs of one kind");
+        throw UserError(fmt::format("{} {}", run.string(), fs::exists(run) ? "is no run of a room" : "does not exist"),
+                        fmt::format("It has a {}", k_room_file), "Compare runs of one kind");
     std::vector<RunQuantity> quantities;
     const nlohmann::json measures = read_measures(run);
     for (const auto& [name, measure] : measures.items()) {
         const nlohmann::json& value = measure.at("value");
         quantities.push_back({name, fmt::format("{} ({})", name, measure.at("what").get<std::string>()), measure.value("unit", "-"),
-                              value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN()});
+                              value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN(), false,
+                              measure.at("detail").value("reason", "")});
     }
     return quantities;
 }
@@ -150,7 +151,7 @@ fs::path write_room_report(const fs::path& run) {
     const MeasureSource source(run);
     const std::size_t last = source.picture_near(std::nullopt);
     const nlohmann::json results = results_of(run, room, source.grains(last), source.picture_times().at(last));
-    const nlohmann::json measures = has_measures(run) ? write_measures(run) : nlohmann::json::object();
+    const nlohmann::json measures = has_measures(run) ? write_possible_measures(run) : nlohmann::json::object();
     write_file(run / names::results_json, results.dump(2) + "\n");
     const fs::path file = run / names::report_page;
     const Page page(file, PageForm::live);

@@ -227,7 +227,15 @@ TEST_F(MeasuredRun, tells_all_that_it_cannot_measure_at_once) {
                                         HasSubstr("measure.c"), HasSubstr("no picture"), HasSubstr("measure.d")));
         EXPECT_EQ(error.code(), ExitCode::user_input);
     }
+    // A report is written all the same.
+    const json possible = write_possible_measures(run_);
+    EXPECT_EQ(possible, read_measures(run_));
+    EXPECT_TRUE(possible["b"]["value"].is_null());
+    EXPECT_EQ(possible["b"]["unit"], "N");
+    EXPECT_THAT(possible["b"]["detail"]["reason"].get<std::string>(), HasSubstr("walls.csv"));
+    EXPECT_NO_THROW(measure_figures(possible));
     write(k_measures, R"([{"name": "a", "what": "passed_masss", "gate": "outlet"}, {"what": "cavity"}])");
+    EXPECT_THROW(write_possible_measures(run_), UserError);
     try {
         measure_run(run_);
         FAIL() << "the measures have mistakes";

@@ -123,6 +123,7 @@ std::optional<SidePart> part_inside(RoomReading& room, const ParameterValues& va
     const std::string& name = values.text("boundary.inside");
     const auto solid =
         std::find_if(room.scene.solids.begin(), room.scene.solids.end(), [&](const RoomSolid& one) { return one.name == name; });
+    if (solid == room.scene.solids.end() && room.solid_names.count(name) > 0) return std::nullopt;  // its own mistakes are told
     if (solid == room.scene.solids.end() || !solid->bore) {
         room.refuse(values.where("boundary.inside"), fmt::format("boundary.inside = \"{}\"", name),
                     "It names a solid that is a pipe, a tube or a ring", "Correct it");

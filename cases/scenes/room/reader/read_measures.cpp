@@ -47,6 +47,16 @@ void require_place(RoomReading& room, const ParameterValues& measure, const char
                 room.room_rule(), "Correct it");
 }
 
+/// A solid that is taken away has a force as long as it stands, from the measure's from_s on.
+void require_standing(RoomReading& room, const ParameterValues& measure) {
+    const RoomSolid* solid = room.scene.find_solid(measure.text("measure.wall"));
+    const double from = number_or(measure, "measure.from_s", 0.0);
+    if (solid == nullptr || !solid->removed_at || *solid->removed_at > from) return;
+    room.refuse(measure.where("measure.wall"), fmt::format("measure.wall = \"{}\" of {}", solid->name, measure.text("measure.name")),
+                fmt::format("{} is taken away at {:g} s, and the measure begins at {:g} s", solid->name, *solid->removed_at, from),
+                "Measure another wall, or take the solid away later");
+}
+
 /// Levels and the axis of a heap are in the room, and so is a part of a profile.
 void check_levels(RoomReading& room, const ParameterValues& measure) {
     for (const char* key : {"measure.base_m", "measure.undisturbed_m"})
@@ -103,6 +113,7 @@ void check_measure(RoomReading& room, const ParameterValues& measure) {
     if (measure.has("measure.wall") && !is_wall(room, measure.text("measure.wall")))
         room.refuse(measure.where("measure.wall"), fmt::format("measure.wall = \"{}\"", measure.text("measure.wall")),
                     "It names a solid, or a side of the room that is a wall", "Correct it");
+    if (measure.has("measure.wall")) require_standing(room, measure);
 }
 
 }  // namespace

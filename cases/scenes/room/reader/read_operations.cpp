@@ -13,7 +13,7 @@ namespace cutterflow::cases {
 namespace {
 
 constexpr double k_longest_settling = 20.0;  // [s]
-constexpr double k_most_fed = 1e6;           // grains
+constexpr double k_tolerance = 1e-6;         // of the room's size
 
 const RoomGrains* grains_of(RoomReading& room, const ParameterValues& values, const std::string& key, const std::string& where) {
     if (!values.has(key)) {
@@ -29,8 +29,43 @@ const RoomGrains* grains_of(RoomReading& room, const ParameterValues& values, co
     return grains;
 }
 
+/// Of a box or an upright cylinder [m].
+double narrowest(const Region& region) {
+    if (const auto* box = std::get_if<RegionBox>(&region)) return (box->upper - box->lower).minCoeff();
+    const auto& cylinder = std::get<RegionCylinder>(region);
+    return std::min(2.0 * cylinder.radius, cylinder.to.z() - cylinder.from.z());
+}
+
+/// Whether one pour or feed is small enough.
+bool require_few_enough(RoomReading& room, const RoomGrains& grains, double mass, const char* what, const std::string& where) {
+    const double count = mass / (grains.density * grains.mean_volume());
+    if (count <= k_most_grains) return true;
+    room.refuse(where, fmt::format("a {} of {:.3g} grains", what, count), fmt::format("A {} has at most {:g}", what, k_most_grains),
+                fmt::format("{} less, or larger grains", std::string(what) == "pour" ? "Pour" : "Feed"));
+    return false;
+}
+
+/// Its ends are cut to the room, as a box is; its side is not.
+std::optional<Region> cylinder_in_room(RoomReading& room, RegionCylinder cylinder, const std::string& key, const std::string& where) {
+    const Vec3 lower = room.scene.lower(), upper = room.scene.upper();
+    const double reach = cylinder.radius - k_tolerance * room.scene.size.maxCoeff();
+    if ((cylinder.from.head<2>().array() - reach < lower.head<2>().array()).any() ||
+        (cylinder.from.head<2>().array() + reach > upper.head<2>().array()).any()) {
+        room.refuse(
+            where,
+            fmt::format("{}: a cylinder of radius {:g} m about {} reaches out of the room", key, cylinder.radius, text_of(cylinder.from)),
+            room.room_rule(), "Move it, or give a smaller radius");
+        return std::nullopt;
+    }
+    cylinder.from.z() = std::max(cylinder.from.z(), lower.z());
+    cylinder.to.z() = std::min(cylinder.to.z(), upper.z());
+    return cylinder;
+}
+
 /// A box or upright cylinder, in which grains begin; the room without one.
-std::optional<Region> region_for_grains(RoomReading& room, const std::optional<Region>& given, const std::string& where) {
+/// \param key  that gives it, for messages
+std::optional<Region> region_for_grains(RoomReading& room, const std::optional<Region>& given, const std::string& key,
+                                        const std::string& where) {
     if (!given) return RegionBox{room.scene.lower(), room.scene.upper()};
     if (const auto* box = std::get_if<RegionBox>(&*given)) {
         if (const RegionBox cut{box->lower.cwiseMax(room.scene.lower()), box->upper.cwiseMin(room.scene.upper())};
@@ -38,17 +73,17 @@ std::optional<Region> region_for_grains(RoomReading& room, const std::optional<R
             return cut;
     } else if (const auto* cylinder = std::get_if<RegionCylinder>(&*given)) {
         const bool upright = cylinder->from.head<2>() == cylinder->to.head<2>();
-        if (upright && cylinder->from.z() < cylinder->to.z() && room.meets_room(*given)) return given;
         if (!upright || cylinder->from.z() > cylinder->to.z()) {
             room.refuse(where, fmt::format("a cylinder from {} to {}", text_of(cylinder->from), text_of(cylinder->to)),
                         "Grains begin in an upright cylinder, from below to above", "Correct it");
             return std::nullopt;
         }
+        if (room.meets_room(*given)) return cylinder_in_room(room, *cylinder, key, where);
     } else {
         room.refuse(where, "grains begin in a region of this kind", "They begin in a box or an upright cylinder", "Use one of them");
         return std::nullopt;
     }
-    room.require_in_room(*given, "do", where);
+    room.require_in_room(*given, key, where);
     return std::nullopt;
 }
 
@@ -93,7 +128,7 @@ void read_compress(RoomReading& room, const ParameterValues& values, const std::
 
 void read_pour(RoomReading& room, const ParameterValues& values, const std::optional<Region>& given, const std::string& where) {
     const RoomGrains* grains = grains_of(room, values, "prepare.grains", where);
-    const std::optional<Region> region = region_for_grains(room, given, where);
+    const std::optional<Region> region = region_for_grains(room, given, "prepare.region", where);
     const bool depth = values.has("prepare.depth_m"), mass = values.has("prepare.mass_kg"), count = values.has("prepare.count");
     if (depth + mass + count != 1)
         return room.refuse(where, fmt::format("a pour with {} of depth_m, mass_kg and count", depth + mass + count), "It has one of them",
@@ -106,6 +141,10 @@ void read_pour(RoomReading& room, const ParameterValues& values, const std::opti
         pour.count = static_cast<std::size_t>(values.integer("prepare.count"));
         pour.mass = static_cast<double>(*pour.count) * grains->density * grains->mean_volume();
     }
+    if (!require_few_enough(room, *grains, pour.mass, "pour", where)) return;
+    if (const double widest = grains->girth * grains->largest(); widest > narrowest(*region))
+        return room.refuse(where, fmt::format("grains of up to {:.3g} m in a region of {:.3g} m", widest, narrowest(*region)),
+                           "A grain begins in its region as a whole", "Pour smaller grains, or give a larger region");
     const double bulk = pour.mass / (grains->density * k_packed_share), place = area_of(*region) * height_of(*region);
     if (bulk > place)
         return room.refuse(where, fmt::format("poured grains fill {:.3g} m3", bulk), fmt::format("Their region holds {:.3g} m3", place),
@@ -167,7 +206,7 @@ void read_event(RoomReading& room, const ParameterValues& values) {
     const std::optional<Region> region = room.read_region(values, "event.region", where);
     if (!region && values.where("event.region").empty() && what != "feed")
         room.refuse(where, fmt::format("do = \"{}\" without a region", what), "It is about a part of the room", "Add region");
-    if (region) room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
+    if (region && what != "feed") room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
     if (!lasting) {
         const auto at = room.required(values, "event.at_s", fmt::format("do = \"{}\"", what), "event.do");
         if (at) room.require_in_run(*at, "event.at_s", values);
@@ -186,12 +225,9 @@ void read_event(RoomReading& room, const ParameterValues& values) {
         return;
     }
     const RoomGrains* grains = grains_of(room, values, "event.grains", where);
-    const std::optional<Region> place = region_for_grains(room, region, where);
+    const std::optional<Region> place = region_for_grains(room, region, "event.region", where);
     if (grains == nullptr || !place) return;
-    const double fed = *rate * (*to - *from) / (grains->density * grains->mean_volume());
-    if (fed > k_most_fed)
-        return room.refuse(values.where("event.rate_kg_s"), fmt::format("a feed of {:.3g} grains", fed),
-                           fmt::format("A feed has at most {:g}", k_most_fed), "Feed less, or larger grains");
+    if (!require_few_enough(room, *grains, *rate * (*to - *from), "feed", values.where("event.rate_kg_s"))) return;
     room.scene.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place});
 }
 

@@ -1,6 +1,9 @@
 /// \file From the values of a room's study to its scene; every mistake is found.
 #include "cases/scenes/room/reader/room_readers.hpp"
 #include "cases/scenes/room/room_study.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 
 namespace cutterflow::cases {
 
@@ -20,7 +23,7 @@ RoomScene room_scene(const ParameterValues& values, const fs::path& folder) {
     read_run(room);
     read_events(room);
     require_something(room);
-    room.mistakes.refuse();
+    if (!room.mistakes.empty()) throw UserError(in_order_of_lines(room.mistakes.take()));
     return std::move(room.scene);
 }
 
@@ -28,8 +31,16 @@ RoomScene read_room(const fs::path& study) {
     return room_scene(read_parameters(room_table(), study), study.parent_path());
 }
 
+/// What is unknown in a study does not hide what is wrong with the rest.
 ParameterValues read_placed_room(const fs::path& study) {
-    ParameterValues values = read_parameters(room_table(), study);
+    ReadParameters read = parse_with_mistakes(room_table(), read_file(study), study.string());
+    if (!read.mistakes.empty()) {
+        Mistakes mistakes;
+        mistakes.add(read.mistakes);
+        if (read.complete) mistakes.gather([&] { room_scene(read.values, study.parent_path()); });
+        throw UserError(in_order_of_lines(mistakes.take()));
+    }
+    ParameterValues values = std::move(read.values);
     const auto place = [&](ParameterValues& table, const char* key) {
         if (table.has(key)) table.set(key, fs::absolute(study.parent_path() / table.text(key)).lexically_normal().string());
     };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cases/scenes/room/reader/room_readers.hpp"
 #include "cases/scenes/room/reader/room_reading.hpp"
@@ -35,9 +36,15 @@ void read_stop(RoomReading& room) {
                            "Give both");
     const std::string name = gate_of(room, room.values.text("run.stop.measure"));
     if (room.wrong_measures.count(room.values.text("run.stop.measure")) > 0) return;  // its gate was not read
-    if (name.empty())
+    if (name.empty()) {
+        std::vector<std::string> known;
+        for (const ParameterValues& table : room.values.tables("measure"))
+            if (!gate_of(room, table.text("measure.name")).empty()) known.push_back(table.text("measure.name"));
         return room.refuse(where, fmt::format("run.stop.measure = \"{}\"", room.values.text("run.stop.measure")),
-                           "It names a measure with a gate", "Correct it");
+                           known.empty() ? std::string("It names a measure with a gate, and the study has none")
+                                         : fmt::format("Measures with a gate are {}", fmt::join(known, ", ")),
+                           "Correct it");
+    }
     room.scene.run.stop = StopWhenIdle{name, room.values.number("run.stop.idle_s")};
 }
 

@@ -123,7 +123,8 @@ bool read_file_of(RoomReading& room, const ParameterValues& values, RoomSolid& s
         return true;
     } catch (const UserError& error) {
         for (Mistake mistake : error.mistakes()) {
-            if (mistake.where.empty()) mistake.where = values.where("solid.file");
+            if (!mistake.where.empty()) mistake.what = fmt::format("{}: {}", mistake.where, mistake.what);
+            mistake.where = values.where("solid.file");
             room.mistakes.add(std::move(mistake));
         }
         return false;
