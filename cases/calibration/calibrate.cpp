@@ -86,9 +86,7 @@ public:
     const std::vector<calibration::Evaluation>& evaluations() const { return evaluations_; }
 
     calibration::Calibration calibration(const std::string& ended) const {
-        if (evaluations_.empty())
-            throw ToolError(Mistake{"", "no place has values of all targets", "A calibration compares runs with its targets",
-                                    fmt::format("See the logs in {}", (folder() / "logs").string())});
+        if (evaluations_.empty()) refuse_without_values();
         return {file_.name, file_.method, file_.objective, file_.ranges(), file_.targets, evaluations_, cost_, ended};
     }
 
@@ -148,17 +146,38 @@ private:
     void take(const Eigen::VectorXd& place, const Names& names, const std::set<std::string>& done) {
         calibration::Evaluation evaluation{place, values_of(names, file_.targets.fitted.size(), done)};
         const bool whole = std::none_of(evaluation.values.begin(), evaluation.values.end(), [](const auto& runs) { return runs.empty(); });
-        if (whole)
+        if (whole) {
             evaluations_.push_back(std::move(evaluation));
-        else
-            say_(fmt::format("{}: left out, a target has no value",
-                             std::find_if(names.begin(), names.end(), [](const auto& of_study) { return !of_study.empty(); })->front()));
+            return;
+        }
+        why_left_out_ = why_incomplete(names, done, evaluation);
+        say_("left out: " + why_left_out_);
+    }
+
+    /// Of the first target without a value at a place.
+    std::string why_incomplete(const Names& names, const std::set<std::string>& done, const calibration::Evaluation& evaluation) const {
+        for (std::size_t t = 0; t < evaluation.values.size(); ++t) {
+            if (!evaluation.values[t].empty()) continue;
+            const std::string& run = names[file_.measured[t].study].front();
+            const std::string reason = done.count(run) > 0 ? missing_reason(folder() / run, file_.measured[t]) : "the run failed";
+            return fmt::format("{} has no value in {}{}", file_.targets.fitted[t].name, run, reason.empty() ? "" : ": " + reason);
+        }
+        return "";
+    }
+
+    [[noreturn]] void refuse_without_values() const {
+        const Mistake mistake{"", fmt::format("no place has values of all targets; at the last one {}", why_left_out_),
+                              "A calibration compares runs with its targets",
+                              fmt::format("Look at the reports and logs in {}", folder().string())};
+        if (cost_.failed_runs > 0) throw ToolError(mistake);
+        throw CheckFailure(mistake);
     }
 
     const CalibrationFile& file_;
     const CalibrateSettings& settings_;
     const std::function<void(const std::string&)>& say_;
     std::vector<calibration::Evaluation> evaluations_;
+    std::string why_left_out_;  // the last place that was
     calibration::CalibrationCost cost_;
 };
 

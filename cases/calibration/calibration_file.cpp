@@ -142,7 +142,11 @@ public:
     Reader(const fs::path& file, const StudyAccess& access) : path_(file), access_(access), mistakes_(file.string()) {}
 
     CalibrationFile read() {
-        const ReadParameters read = parse_with_mistakes(calibration_table(), read_file(path_), path_.string());
+        const std::string text = read_file(path_);
+        if (const auto kind = text_of_key(text, "scene.kind"))
+            throw UserError({{path_.string(), fmt::format("it is a study of kind \"{}\"", *kind), "A calibration names studies",
+                              "Name it as study of a calibration, or run it with cutterflow run"}});
+        const ReadParameters read = parse_with_mistakes(calibration_table(), text, path_.string());
         mistakes_.add(read.mistakes);
         const ParameterValues& values = read.values;
         read_method(values);
@@ -221,6 +225,9 @@ private:
         if (found_.method == "surface" && parameter.values.size() < 3)
             mistakes_.add({where, fmt::format("{} has {} value(s)", name, parameter.values.size()),
                            "A quadratic needs three values of each parameter", "Add values, or use method = \"grid\""});
+        else if (parameter.values.size() < 2)
+            mistakes_.add({where, fmt::format("{} has {} value", name, parameter.values.size()), "A grid compares values",
+                           "Add values, or write the value into the studies"});
         places_.push_back(where);
         found_.parameters.push_back(std::move(parameter));
     }
@@ -377,6 +384,18 @@ private:
             studies_are_sound_ = studies_are_sound_ && sound;
             for (std::size_t n = 0; sound && n < found_.parameters.size(); ++n)
                 if (!found_.parameters[n].key.empty()) check_parameter(study, found_.parameters[n], places_[n]);
+            if (sound && mistakes_.empty()) check_together(study);
+        }
+    }
+
+    /// The parameters set different tables.
+    void check_together(const fs::path& study) {
+        std::vector<KeyAxis> axes;
+        for (const CalibratedParameter& parameter : found_.parameters) axes.push_back({parameter.key, {number_text(parameter.range.low)}});
+        try {
+            access_.points(study, axes, 1, fs::path("runs"));
+        } catch (const UserError& error) {
+            for (const Mistake& mistake : error.mistakes()) add_of_parameter(study, places_.back(), mistake);
         }
     }
 

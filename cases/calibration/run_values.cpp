@@ -82,6 +82,14 @@ std::vector<double> run_values(const fs::path& run, const Measured& measured) {
     return fs::exists(measures) ? measure_values(measures, measured) : result_values(run / names::results_json, measured);
 }
 
+std::string missing_reason(const fs::path& run, const Measured& measured) {
+    const fs::path measures = run / "report/measures.json";
+    if (!fs::exists(measures)) return "";
+    const json document = read_json_document(measures, {}, "Run it again");
+    const json result = document.value(measured.measure, json::object());
+    return result.value("detail", json::object()).value("reason", "");
+}
+
 double run_core_s(const fs::path& run) {
     return Manifest(run / names::manifest).core_s();
 }

@@ -13,6 +13,9 @@ namespace cutterflow::cases {
 /// \throws UserError  when the run has no such measure
 std::vector<double> run_values(const std::filesystem::path& run, const Measured& measured);
 
+/// Why a run has no value for a target, in the words of its measure; empty when it does not say.
+std::string missing_reason(const std::filesystem::path& run, const Measured& measured);
+
 /// Core seconds of all stages that the run noted, shared ones too; 0 without a manifest.
 double run_core_s(const std::filesystem::path& run);
 

@@ -158,6 +158,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
         failures.insert(failures.begin(), outcome.failed.begin(), outcome.failed.end());
         std::vector<Mistake> causes;
         for (const std::string& text : failures) causes.push_back({"", text, "", ""});
+        if (outcome.refused == failures.size()) throw UserError(std::move(causes));
         throw ToolError(causes);
     }
     if (!failures.empty()) throw CheckFailure({"", fmt::format("{}", fmt::join(failures, "\n")), "", ""});

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/parameters/parameter_words.hpp"
 
 namespace cutterflow::cases {
@@ -81,6 +84,46 @@ int set_in_tables(ParameterValues& values, const ParameterTable& table, const st
         }
     }
     return count;
+}
+
+/// \throws UserError  with every text that is no value of its key, or is out of its bounds
+void require_values(const ParameterTable& table, const std::vector<KeyAxis>& axes) {
+    Mistakes mistakes;
+    for (const KeyAxis& axis : axes)
+        for (const std::string& text : axis.values)
+            mistakes.gather([&] {
+                const Parameter& parameter = *find_key(table, axis.key)->parameter;
+                if (const auto wrong = value_mistake(parameter, value_of_text(axis.key, parameter, text)))
+                    throw UserError(fmt::format("--set {}{}", axis.key, wrong->what.substr(parameter.key.size())), wrong->rule,
+                                    wrong->remedy);
+            });
+    mistakes.refuse();
+}
+
+/// Tables of a study whose key an axis sets.
+std::set<const ParameterValues*> tables_of(const ParameterTable& table, ParameterValues& values, const KeyPath& key) {
+    std::set<const ParameterValues*> found;
+    set_key(values, table, key, [&](const ParameterValues& one) {
+        found.insert(&one);
+        return ParameterValue(std::string());
+    });
+    return found;
+}
+
+/// The later of two axes would decide alone, under a point's name that tells otherwise.
+/// \throws UserError  when two axes set the same key of one table
+void require_apart(const ParameterTable& table, ParameterValues values, const std::vector<KeyAxis>& axes) {
+    std::vector<Mistake> mistakes;
+    for (auto a = axes.begin(); a != axes.end(); ++a)
+        for (auto b = a + 1; b != axes.end(); ++b) {
+            const KeyPath one = *find_key(table, a->key), other = *find_key(table, b->key);
+            if (one.parameter != other.parameter) continue;
+            const auto of_one = tables_of(table, values, one), of_other = tables_of(table, values, other);
+            if (std::any_of(of_one.begin(), of_one.end(), [&](const ParameterValues* reached) { return of_other.count(reached) > 0; }))
+                mistakes.push_back({"", fmt::format("--set {} and {} set the same key of one table", a->key, b->key),
+                                    "A key has one value at a point", "Remove one of them, or name the tables of both"});
+        }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
 /// A value as it counts: 0.1 and 0.10 are one. A text that is no value, of which key_settings tells, stays as it is.
@@ -191,6 +234,8 @@ ParameterValue value_of_text(const std::string& key, const Parameter& parameter,
 }
 
 std::vector<KeySetting> key_settings(const ParameterTable& table, const ParameterValues& base, const std::vector<KeyAxis>& axes) {
+    require_values(table, axes);
+    require_apart(table, base, axes);
     std::vector<KeySetting> settings{{"", base}};
     for (const KeyAxis& axis : axes) {
         const KeyPath key = *find_key(table, axis.key);

@@ -48,7 +48,8 @@ struct KeySetting {
 };
 
 /// All combinations of the axes' values.
-/// \throws UserError  when no table gives a key of a repeated section, or a text is no value of its key's kind
+/// \throws UserError  when no table gives a key of a repeated section, two axes set the same key of one table, or a text is no value of
+/// its key's kind
 std::vector<KeySetting> key_settings(const ParameterTable& table, const ParameterValues& base, const std::vector<KeyAxis>& axes);
 
 /// A mistake in the text of a point, without a line of it: the text is written when nothing is wrong.

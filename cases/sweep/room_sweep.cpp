@@ -47,7 +47,7 @@ std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, co
             one.values.set("name", fmt::format("{}: {}", values.text("name"), one.name));
             const std::string text = plain_toml(table, one.values);
             try {
-                room_scene(parse_parameters(table, text, one.name), study.parent_path());
+                room_request(parse_parameters(table, text, one.name), study.parent_path());
             } catch (const UserError& error) {
                 for (const Mistake& mistake : error.mistakes()) mistakes.push_back(of_point(mistake, one.name));
             }

@@ -14,7 +14,9 @@
 #include "cases/runner/manifest.hpp"
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/stages.hpp"
+#include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"
 #include "cases/sweep/slurm.hpp"
 #include "geometry/base/file_content.hpp"
@@ -118,6 +120,14 @@ public:
 private:
     std::map<std::string, geometry::Head> heads_;
 };
+
+/// Refuses what a run of the study would refuse: points that are no points, rock without a place, a bank that does not fit.
+void require_placeable(const ParameterValues& resolved, const geometry::Head& head, const fs::path& folder) {
+    const Study study = make_study(resolved, folder);
+    const HeadSize size = head_size(head);
+    if (study.report.adv_points) require_adv_points(study, size, head.surface);
+    place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
+}
 
 /// What is wrong with a design is wrong at each of its points.
 void add_once(const Mistake& mistake, std::vector<Mistake>& all) {
@@ -250,6 +260,7 @@ public:
         for (std::size_t i = 0; i < points_.size(); ++i)
             if (failures_.count(i) == 0) outcome.done.push_back(settings_.folder / points_[i].name);
         for (const auto& [index, text] : failures_) outcome.failed.push_back(text);
+        outcome.refused = refused_;
         return outcome;
     }
 
@@ -276,6 +287,7 @@ private:
                 say_(fmt::format("{}: done in {}", points_[i].name, duration_text(result.wall_s)));
             } else {
                 failures_[i] = failure_of(command, result).text();
+                refused_ += result.exit_code == static_cast<int>(ExitCode::user_input) ? 1 : 0;
                 say_(fmt::format("{}: failed, the sweep continues; see {}", points_[i].name, command.log.string()));
             }
         } catch (const Interrupted& stop) {
@@ -301,6 +313,7 @@ private:
     std::atomic<std::size_t> next_{0};
     std::mutex mutex_;
     std::map<std::size_t, std::string> failures_;
+    std::size_t refused_ = 0;
     std::optional<std::string> interrupted_;
     std::size_t finished_ = 0;
     SweepProgress progress_;
@@ -469,6 +482,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
             const geometry::Head& head = designs.head_of(values, cutter);
             // Repeats are released at angles within one passing of a blade.
             vary_release(values, combination.repeat, static_cast<double>(combination.repeat) / (axes.repeats * head.symmetry.blade_count));
+            const ParameterValues placed_here = values;
             values.set("cutter.file", from_studies(cutter, folder));
             if (values.has("report.adv_points"))
                 values.set("report.adv_points", from_studies(study.parent_path() / base.text("report.adv_points"), folder));
@@ -476,10 +490,13 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
             parse_parameters(study_table(), text, name);  // bounds of what the axes set
             points.push_back({name, text, cutter.lexically_normal().string() + shape_of(values, axes.keys),
                               combination.repeat > 0 ? first : std::string()});
-            for (Mistake mistake : check_study(resolve_study(values, head_size(head)), head_size(head))) {
+            const ParameterValues resolved = resolve_study(placed_here, head_size(head));
+            const std::vector<Mistake> wrong = check_study(resolved, head_size(head));
+            for (Mistake mistake : wrong) {
                 mistake.where = name;
                 add_once(mistake, mistakes);
             }
+            if (wrong.empty() && combination.repeat == 0) require_placeable(resolved, head, study.parent_path());
         } catch (const UserError& error) {
             for (const Mistake& mistake : error.mistakes()) add_once(of_point(mistake, name), mistakes);
         }

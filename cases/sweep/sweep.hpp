@@ -52,6 +52,7 @@ struct SweepSettings {
 struct SweepOutcome {
     std::vector<std::filesystem::path> done;  ///< run directories
     std::vector<std::string> failed;          ///< message of each failed point
+    std::size_t refused = 0;                  ///< failed points that were refused as wrong input
 };
 
 /// Runs every point to its report. A failed point is reported; the others continue. Lines for the user go to `say`.

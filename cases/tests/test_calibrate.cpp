@@ -245,7 +245,7 @@ TEST_F(Calibrate, leaves_out_runs_that_fail_and_places_without_any) {
     EXPECT_EQ(outcome.calibration.evaluations.size(), 14u);
     EXPECT_EQ(outcome.calibration.cost.failed_runs, 4u);
     EXPECT_EQ(outcome.calibration.cost.runs, 45u + 3u);
-    EXPECT_THAT(lines_, HasSubstr("left out, a target has no value"));
+    EXPECT_THAT(lines_, HasSubstr("left out: angle has no value in "));
     std::size_t with_two = 0;
     for (const auto& evaluation : outcome.calibration.evaluations)
         if (evaluation.values[0].size() == 2) ++with_two;
@@ -255,7 +255,22 @@ TEST_F(Calibrate, leaves_out_runs_that_fail_and_places_without_any) {
 TEST_F(Calibrate, is_refused_when_no_place_has_values) {
     write(calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"\nrepeats = 1",
                            "[[target]]\nmeasure = \"none\"\nvalue = 1\ntolerance = 1\n"));
+    try {
+        run();
+        FAIL() << "accepted";
+    } catch (const CheckFailure& failure) {
+        EXPECT_THAT(failure.what(), HasSubstr("no place has values of all targets; at the last one none has no value in"));
+    }
+    set_program("exit 3");
+    fs::remove_all(folder_ / "out");
     EXPECT_THROW(run(), ToolError);
+}
+
+TEST_F(Calibrate, refuses_parameters_of_one_table_grids_of_one_value_and_studies) {
+    EXPECT_THAT(refusal(calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"", angle_target()) +
+                        "[[parameter]]\nname = \"one\"\nkey = \"contact.restitution\"\nrange = [0.1, 0.5]\nvalues = [0.2]\n"),
+                HasSubstr("one has 1 value. A grid compares values"));
+    EXPECT_THAT(refusal("[scene]\nkind = \"room\"\n"), HasSubstr("it is a study of kind \"room\""));
 }
 
 TEST_F(Calibrate, stops_when_its_core_hours_are_spent) {
@@ -402,7 +417,7 @@ held_out = "no"
     EXPECT_THAT(text, ::testing::Not(HasSubstr("no [[target]] is fitted")));
     EXPECT_THAT(text, ::testing::Not(HasSubstr("quadratic")));
     // A range is wrong at its own place, not in a study that is nowhere.
-    EXPECT_THAT(text, HasSubstr("calibration.toml:17: " + (folder_ / "heap.toml").string() + ": bodies.density_kg_m3 = "));
+    EXPECT_THAT(text, HasSubstr("calibration.toml:17: " + (folder_ / "heap.toml").string() + ": parameter bodies.density_kg_m3 = "));
 }
 
 TEST_F(Calibrate, refuses_held_out_targets_in_the_objective_unknown_names_and_plans_over_the_budget) {
