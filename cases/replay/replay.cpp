@@ -62,6 +62,10 @@ void require_recordings(const std::vector<fs::path>& runs) {
     Mistakes mistakes;
     for (const fs::path& run : runs) {
         if (fs::exists(run / names::recording)) continue;
+        if (!fs::exists(run)) {
+            mistakes.add({run.string(), "there is no such folder", "A replay goes on from runs", "Correct the path"});
+            continue;
+        }
         mistakes.add({run.string(), "there is no recorded flow",
                       "A run records the flow before the rock when run.record_revolutions is above 0",
                       "Set run.record_revolutions = 1 in the study and run it in another directory"});

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/run_files.hpp"
@@ -25,10 +27,10 @@ constexpr const char* k_lock = ".lock";
 
 void require_openfoam_path(const fs::path& path) {
     const std::string text = path.string();
-    const std::size_t bad = text.find_first_of(" \t\n\r\"'`\\$(){}[];#*?|<>&!");
+    const std::size_t bad = text.find_first_of(" \t\n\r\"'`\\$(){}[];#*?|<>&!%");
     if (bad == std::string::npos) return;
     throw UserError(fmt::format("the folder \"{}\" has '{}' in its path", text, text[bad]),
-                    "OpenFOAM's programs accept no paths with spaces, quotes, brackets or other shell characters",
+                    "OpenFOAM and LIGGGHTS accept no paths with spaces, quotes, brackets, % or other shell characters",
                     "Choose a path of letters, digits, '-', '_', '.' and '/' with -o");
 }
 
@@ -41,6 +43,28 @@ bool may_hold_a_run(const fs::path& path) {
 
 namespace {
 
+/// Processes that hold a file open, as "cutterFoam, process 1234"; empty when that cannot be seen.
+std::string holders_of(const fs::path& file) {
+    std::vector<std::string> holders;
+    std::error_code unreadable;
+    for (const fs::directory_entry& process : fs::directory_iterator("/proc", unreadable)) {
+        const std::string pid = process.path().filename().string();
+        if (pid.find_first_not_of("0123456789") != std::string::npos || pid == std::to_string(::getpid())) continue;
+        for (fs::directory_iterator open(process.path() / "fd", unreadable); !unreadable && open != fs::directory_iterator();
+             open.increment(unreadable)) {
+            std::error_code gone;
+            if (fs::read_symlink(open->path(), gone) != file) continue;
+            std::ifstream name(process.path() / "comm");
+            std::string program;
+            std::getline(name, program);
+            holders.push_back(fmt::format("{}, process {}", program, pid));
+            break;
+        }
+        unreadable.clear();
+    }
+    return fmt::format("{}", fmt::join(holders, "; "));
+}
+
 int take_lock(const fs::path& path) {
     // Without O_CLOEXEC: children keep the lock.
     const int lock = ::open((path / k_lock).c_str(), O_RDWR | O_CREAT, 0666);
@@ -49,8 +73,9 @@ int take_lock(const fs::path& path) {
                         "Check its permissions, or choose another with -o");
     if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
     ::close(lock);
-    throw UserError(fmt::format("{} is in use by another process", path.string()), "Only one process may work in a run directory",
-                    "Wait for it, end it, or choose another directory with -o");
+    const std::string holders = holders_of(fs::canonical(path) / k_lock);
+    throw UserError(fmt::format("{} is in use by another process{}", path.string(), holders.empty() ? "" : fmt::format(" ({})", holders)),
+                    "Only one process may work in a run directory", "Wait for it, end it, or choose another directory with -o");
 }
 
 }  // namespace
@@ -64,7 +89,7 @@ void require_usable_run_directory(const fs::path& path) {
 
 void require_start_donor(const fs::path& folder) {
     if (fs::is_directory(folder) && may_hold_a_run(folder)) return;
-    throw UserError(fmt::format("--start-from {} is no run directory", folder.string()),
+    throw UserError(fmt::format("--start-from {} {}", folder.string(), fs::exists(folder) ? "is no run directory" : "does not exist"),
                     fmt::format("It has a {}: its frozen-rotor flow or bed is reused", names::manifest),
                     "Correct the path, or leave --start-from out");
 }

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow::geometry {
 namespace {
@@ -117,11 +116,9 @@ RevolutionContour fit_contour(const RadiusProfile& profile, double z_low, double
 }
 
 void write_contour_csv(const RevolutionContour& contour, const std::filesystem::path& file) {
-    std::ofstream out(file);
-    out << "z_m,r_m\n";
-    for (std::size_t i = 0; i < contour.z.size(); ++i) out << fmt::format("{:.7g},{:.7g}\n", contour.z[i], contour.radius[i]);
-    out.close();
-    if (!out) throw UserError(fmt::format("cannot write \"{}\"", file.string()), "The folder must exist and be writable", "");
+    std::string text = "z_m,r_m\n";
+    for (std::size_t i = 0; i < contour.z.size(); ++i) text += fmt::format("{:.7g},{:.7g}\n", contour.z[i], contour.radius[i]);
+    write_file(file, text);
 }
 
 }  // namespace cutterflow::geometry

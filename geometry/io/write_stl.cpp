@@ -1,12 +1,9 @@
 #include "geometry/io/write_stl.hpp"
 
 #include <cstring>
-#include <fstream>
 #include <string>
 
-#include <fmt/format.h>
-
-#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow::geometry {
 namespace {
@@ -34,10 +31,7 @@ void write_stl(const TriangleSurface& surface, const std::filesystem::path& file
         for (const std::uint32_t corner : triangle) append_vector(bytes, surface.points[corner]);
         bytes.append(2, '\0');
     }
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw UserError(fmt::format("cannot write \"{}\"", file.string()), "The folder must exist and be writable", "");
+    write_file(file, bytes);
 }
 
 }  // namespace cutterflow::geometry

@@ -52,6 +52,13 @@ std::string mean_text(const RepeatMean& value, const std::string& unit, bool sig
     return mean + half + (unit == "-" ? "" : " " + unit);
 }
 
+/// Why no run has a value, of the first that says so.
+std::string reason_of(const std::vector<SettingResults>& settings, std::size_t quantity) {
+    for (const SettingResults& setting : settings)
+        if (!setting.quantities[quantity].reason.empty()) return setting.quantities[quantity].reason;
+    return "";
+}
+
 bool is_known(const std::vector<SettingResults>& settings, std::size_t quantity) {
     return std::any_of(settings.begin(), settings.end(), [&](const SettingResults& setting) {
         const SettingQuantity& found = setting.quantities[quantity];
@@ -117,10 +124,13 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
             settings.push_back({name, {}, {}});
             setting = settings.end() - 1;
             for (const RunQuantity& one : quantities)
-                setting->quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}});
+                setting->quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}, {}});
         }
         setting->repeats.push_back(repeat);
-        for (std::size_t q = 0; q < quantities.size(); ++q) setting->quantities[q].each.push_back(quantities[q].value);
+        for (std::size_t q = 0; q < quantities.size(); ++q) {
+            setting->quantities[q].each.push_back(quantities[q].value);
+            if (setting->quantities[q].reason.empty()) setting->quantities[q].reason = quantities[q].reason;
+        }
     }
     for (SettingResults& setting : settings) {
         for (std::size_t q = 0; q < setting.quantities.size(); ++q) {
@@ -134,7 +144,11 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
 std::string setting_comparison_text(const std::vector<SettingResults>& settings) {
     std::string text;
     for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
-        if (!is_known(settings, q)) continue;
+        if (!is_known(settings, q)) {
+            if (const std::string reason = reason_of(settings, q); !reason.empty())
+                text += fmt::format("{}\n  no value: {}\n", settings.front().quantities[q].name, reason);
+            continue;
+        }
         text += fmt::format("{}\n", settings.front().quantities[q].name);
         for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];

@@ -27,6 +27,7 @@ struct SettingQuantity {
     std::vector<double> each;  ///< of every repeat, infinite when it never came
     RepeatMean mean;
     RepeatMean difference;  ///< from the first setting, of repeats with the same number
+    std::string reason{};   ///< why a run has no value
 };
 
 struct SettingResults {
@@ -40,6 +41,7 @@ struct RunQuantity {
     std::string key, name, unit;
     double value = 0.0;
     bool zero_is_nothing = false;  ///< a value of 0 in all runs is not shown
+    std::string reason{};          ///< why there is no value
 };
 
 /// \param quantities_of  a run: the same ones of every run
