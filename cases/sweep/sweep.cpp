@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/stages.hpp"
 #include "cases/scenes/cutter/feed.hpp"
+#include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"
@@ -125,6 +127,7 @@ private:
 void require_placeable(const ParameterValues& resolved, const geometry::Head& head, const fs::path& folder) {
     const Study study = make_study(resolved, folder);
     const HeadSize size = head_size(head);
+    if (std::vector<Mistake> wrong = bank_mistakes(resolved, study, size, head.contour); !wrong.empty()) throw UserError(std::move(wrong));
     if (study.report.adv_points) require_adv_points(study, size, head.surface);
     place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
 }
@@ -470,6 +473,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     std::vector<Mistake> mistakes = early.take();
     std::vector<SweepPoint> points;
     Designs designs;
+    std::set<std::pair<std::string, std::size_t>> placed;
     for (const Combination& combination : combinations_of(axes, settings.size())) {
         if (combination.design && !fs::exists(*combination.design)) continue;
         const fs::path cutter = combination.design.value_or((study.parent_path() / base.text("cutter.file")).string());
@@ -496,9 +500,14 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
                 mistake.where = name;
                 add_once(mistake, mistakes);
             }
-            if (wrong.empty() && combination.repeat == 0) require_placeable(resolved, head, study.parent_path());
+            // Speeds and discharges hardly move rock or bank: one placement of each design and setting of keys.
+            if (wrong.empty() && placed.emplace(cutter.string(), combination.keys).second)
+                require_placeable(resolved, head, study.parent_path());
         } catch (const UserError& error) {
-            for (const Mistake& mistake : error.mistakes()) add_once(of_point(mistake, name), mistakes);
+            for (Mistake mistake : error.mistakes()) {
+                if (mistake.where.empty()) mistake.where = name;
+                add_once(of_point(std::move(mistake), name), mistakes);
+            }
         }
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));

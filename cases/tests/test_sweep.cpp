@@ -125,6 +125,32 @@ TEST_F(Sweep, reports_the_mistakes_of_all_points_before_anything_runs) {
     EXPECT_FALSE(fs::exists(folder_ / "sweep"));
 }
 
+TEST_F(Sweep, refuses_a_point_whose_bank_the_head_cannot_cut) {
+    const std::string study = read_file(folder_ / "study.toml");
+    write_file(folder_ / "study.toml", "name = \"head\"\n" + study.substr(study.find("[cutter]")) +
+                                           "[swing]\ndirection = \"over_cut\"\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n");
+    SweepAxes axes;
+    axes.keys = key_axes(study_table(), {"bank.cut_height_m=45"}, "params");
+    try {
+        points(axes);
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("study_cut_height_m_45: bank.cut_height_m = 45. The head with picks"));
+    }
+}
+
+TEST_F(Sweep, ends_with_wrong_input_when_that_is_all_that_failed) {
+    const std::string refuse = "; case $4 in *30rpm) exit 2;; *45rpm) exit CODE;; esac";
+    const auto outcome_with = [&](const std::string& code) {
+        std::string script = k_runs + refuse;
+        script.replace(script.find("CODE"), 4, code);
+        fs::remove_all(folder_ / "sweep");
+        return run(points({{20, 30, 45}, {}, {}, 1}), settings(script));
+    };
+    EXPECT_EQ(outcome_with("2").refused, 2u);
+    EXPECT_EQ(outcome_with("3").refused, 1u);
+}
+
 TEST_F(Sweep, goes_on_past_a_point_that_fails) {
     const SweepOutcome outcome =
         run(points({{20, 30, 45}, {}, {}, 1}), settings(std::string(k_runs) + "; case $4 in *30rpm) echo broken; exit 3;; esac"));
