@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -186,8 +187,10 @@ private:
                        fmt::format("Write [[{}]] with two brackets and its keys below", key));
         for (const toml::node& item : *array) {
             ParameterValues member;
+            const std::set<std::string> outside = std::exchange(meant_, {});
             read_section(*item.as_table(), key, member);
             fill_in(member, key, where(item));
+            meant_ = outside;
             values.tables_for_writing(key).push_back(std::move(member));
         }
     }
@@ -274,7 +277,7 @@ private:
     const ParameterTable& table_;
     std::string name_;
     std::vector<Mistake> mistakes_;
-    std::set<std::string> meant_;  // keys of which unknown ones are a misspelling
+    std::set<std::string> meant_;  // of the place that is read: keys of which unknown ones are a misspelling
     bool complete_ = true;
 };
 

@@ -168,7 +168,7 @@ direction = "left"
 [[feed]]
 count = "three"
 )");
-    ASSERT_EQ(mistakes.size(), 5u);
+    ASSERT_EQ(mistakes.size(), 4u);  // a misspelt key is not told of as missing too
     EXPECT_EQ(mistakes[0].where, "study.toml:2");
     expect_contains(mistakes[0].text(), "suction.discharge_m3_s = 0 is too low. It must be above 0 m3/s.");
     EXPECT_EQ(mistakes[1].where, "study.toml:4");
@@ -178,8 +178,14 @@ count = "three"
     expect_contains(mistakes[2].text(), "one of right_handed, left_handed");
     EXPECT_EQ(mistakes[3].where, "study.toml:7");
     expect_contains(mistakes[3].text(), "feed.count = \"three\" has the wrong type. It must be a whole number");
-    EXPECT_EQ(mistakes[4].where, "study.toml");
-    expect_contains(mistakes[4].text(), "rotor.speed_rpm is missing");
+}
+
+TEST(Parameter, a_misspelling_hides_no_missing_key_of_another_table) {
+    const std::vector<Mistake> mistakes = mistakes_in("rotor.speed_rpm = 1\n[[feed]]\ncuont = 3\n[[feed]]\nseed = 2\n");
+    ASSERT_EQ(mistakes.size(), 2u);
+    expect_contains(mistakes[0].text(), "Did you mean feed.count?");
+    expect_contains(mistakes[1].text(), "feed.count is missing");
+    EXPECT_EQ(mistakes[1].where, "study.toml:4");
 }
 
 TEST(Parameter, names_a_misplaced_key_and_a_misspelt_section) {
