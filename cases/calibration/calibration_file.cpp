@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/scenes/study_kind.hpp"
 #include "geometry/base/csv_table.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -142,11 +143,10 @@ public:
     Reader(const fs::path& file, const StudyAccess& access) : path_(file), access_(access), mistakes_(file.string()) {}
 
     CalibrationFile read() {
-        const std::string text = read_file(path_);
-        if (const auto kind = text_of_key(text, "scene.kind"))
-            throw UserError({{path_.string(), fmt::format("it is a study of kind \"{}\"", *kind), "A calibration names studies",
+        if (const std::string kind = kind_named_in(path_); !kind.empty())
+            throw UserError({{path_.string(), fmt::format("it is a study of kind \"{}\"", kind), "A calibration names studies",
                               "Name it as study of a calibration, or run it with cutterflow run"}});
-        const ReadParameters read = parse_with_mistakes(calibration_table(), text, path_.string());
+        const ReadParameters read = parse_with_mistakes(calibration_table(), read_file(path_), path_.string());
         mistakes_.add(read.mistakes);
         const ParameterValues& values = read.values;
         read_method(values);
@@ -392,11 +392,7 @@ private:
     void check_together(const fs::path& study) {
         std::vector<KeyAxis> axes;
         for (const CalibratedParameter& parameter : found_.parameters) axes.push_back({parameter.key, {number_text(parameter.range.low)}});
-        try {
-            access_.points(study, axes, 1, fs::path("runs"));
-        } catch (const UserError& error) {
-            for (const Mistake& mistake : error.mistakes()) add_of_parameter(study, places_.back(), mistake);
-        }
+        require_points(study, axes, places_.back());
     }
 
     void check_parameter(const fs::path& study, const CalibratedParameter& parameter, const std::string& place) {
@@ -404,8 +400,12 @@ private:
         all.insert({parameter.range.low, parameter.range.high});
         std::vector<std::string> texts;
         for (const double value : all) texts.push_back(number_text(value));
+        require_points(study, {{parameter.key, texts}}, place);
+    }
+
+    void require_points(const fs::path& study, const std::vector<KeyAxis>& axes, const std::string& place) {
         try {
-            access_.points(study, {{parameter.key, texts}}, 1, fs::path("runs"));
+            access_.points(study, axes, 1, fs::path("runs"));
         } catch (const UserError& error) {
             for (const Mistake& mistake : error.mistakes()) add_of_parameter(study, place, mistake);
         }

@@ -17,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* k_measure_results = "report/measures.json";
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& measure, const std::vector<std::string>& known, const char* rule) {
     const std::string nearest = nearest_word(measure, known);
     throw UserError({{file.string(), fmt::format("there is no measure {}", measure),
@@ -78,12 +80,12 @@ std::vector<double> result_values(const fs::path& file, const Measured& measured
 }  // namespace
 
 std::vector<double> run_values(const fs::path& run, const Measured& measured) {
-    const fs::path measures = run / "report/measures.json";
+    const fs::path measures = run / k_measure_results;
     return fs::exists(measures) ? measure_values(measures, measured) : result_values(run / names::results_json, measured);
 }
 
 std::string missing_reason(const fs::path& run, const Measured& measured) {
-    const fs::path measures = run / "report/measures.json";
+    const fs::path measures = run / k_measure_results;
     if (!fs::exists(measures)) return "";
     const json document = read_json_document(measures, {}, "Run it again");
     const json result = document.value(measured.measure, json::object());

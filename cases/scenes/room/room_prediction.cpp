@@ -26,7 +26,6 @@ constexpr double k_seconds_per_cell_and_step = 5.9e-6 * 1.41, k_seconds_per_mapp
 constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
 constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
 constexpr int k_looks = 20;                      // at a solid on its way
-constexpr double k_allowed_reach = 1e-6;         // out of the room, over its size
 
 double mass_of(const PlacedGrain& grain) {
     return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
@@ -156,7 +155,7 @@ std::vector<Mistake> motion_warnings(const ParameterValues& values, const RoomSc
         const RoomSolid* solid = scene.find_solid(table.text("solid.name"));
         if (solid == nullptr) continue;
         const double reach = reach_on_the_way(scene, *solid);
-        if (reach > k_allowed_reach * scene.size.maxCoeff())
+        if (reach > scene.tolerance())
             warnings.push_back({table.where("solid.name"), fmt::format("{} moves {:.3g} m through a side of the room", solid->name, reach),
                                 "It pushes grains through the side", "Correct its motion, or make the room larger"});
     }

@@ -256,8 +256,9 @@ struct RoomScene {
     Vec3 upright_gravity() const { return {0.0, 0.0, -gravity.norm()}; }
     Vec3 lower() const { return {-0.5 * size.x(), -0.5 * size.y(), 0.0}; }
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
-    double smallest_grain() const;  ///< diameter [m]; infinity without grains
-    double largest_grain() const;   ///< diameter [m]; 0 without grains
+    double smallest_grain() const;                               ///< diameter [m]; infinity without grains
+    double largest_grain() const;                                ///< diameter [m]; 0 without grains
+    double tolerance() const { return 1e-6 * size.maxCoeff(); }  ///< lengths below it are rounding [m]
     const RoomGrains* find_grains(const std::string& name) const;
     const RoomSolid* find_solid(const std::string& name) const;
     const RoomGate* find_gate(const std::string& name) const;

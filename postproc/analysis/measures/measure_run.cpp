@@ -88,15 +88,8 @@ json made(const fs::path& run_directory, const std::optional<std::string>& name,
     return results;
 }
 
-/// Replaces those of one name in the file, or the whole file.
-void write_results(const fs::path& run_directory, const std::optional<std::string>& name, json& results) {
-    const fs::path file = run_directory / k_measure_results;
-    if (name && fs::exists(file)) {
-        json all = read_measures(run_directory);
-        all[*name] = results[*name];
-        results = std::move(all);
-    }
-    write_file(file, results.dump(1) + "\n");
+void write_results(const fs::path& run_directory, const json& results) {
+    write_file(run_directory / k_measure_results, results.dump(1) + "\n");
 }
 
 }  // namespace
@@ -120,7 +113,12 @@ json measure_run(const fs::path& run_directory, const std::optional<std::string>
 
 json write_measures(const fs::path& run_directory, const std::optional<std::string>& name) {
     json results = measure_run(run_directory, name);
-    write_results(run_directory, name, results);
+    if (name && fs::exists(run_directory / k_measure_results)) {
+        json all = read_measures(run_directory);
+        all[*name] = results[*name];
+        results = std::move(all);
+    }
+    write_results(run_directory, results);
     return results;
 }
 
@@ -132,7 +130,7 @@ json write_possible_measures(const fs::path& run_directory) {
         none.detail = {{"reason", fmt::format("{}: {}", error.mistakes().front().what, error.mistakes().front().rule)}};
         return none;
     });
-    write_results(run_directory, std::nullopt, results);
+    write_results(run_directory, results);
     return results;
 }
 

@@ -53,7 +53,7 @@ double distance_to_side(const RoomReading& room, const SidePart& part, coupling:
 
 /// Discs and rectangles lie on their side, bands between bottom and top.
 void require_on_sides(RoomReading& room, const RoomBoundary& boundary, const std::string& where) {
-    const double allowed = 1e-6 * room.scene.size.maxCoeff();
+    const double allowed = room.scene.tolerance();
     for (const coupling::DomainSide side : boundary.sides) {
         const RegionBox whole = bounds_of(WholeSide{}, side, room.scene), part = bounds_of(boundary.part, side, room.scene);
         const bool inside =
@@ -133,8 +133,8 @@ std::optional<SidePart> part_inside(RoomReading& room, const ParameterValues& va
     const auto axis = static_cast<Eigen::Index>(number / 2);
     const double position = (number % 2 == 0 ? room.scene.lower() : room.scene.upper())[axis];
     const Vec3 along = (solid->bore->to - solid->bore->from).normalized();
-    const bool ends_there = std::min(std::abs(solid->bore->from[axis] - position), std::abs(solid->bore->to[axis] - position)) <
-                            1e-6 * room.scene.size.maxCoeff();
+    const bool ends_there =
+        std::min(std::abs(solid->bore->from[axis] - position), std::abs(solid->bore->to[axis] - position)) < room.scene.tolerance();
     if (!ends_there || std::abs(std::abs(along[axis]) - 1.0) > 1e-6) {
         room.refuse(values.where("boundary.inside"),
                     fmt::format("{} does not meet the side {} at a right angle", name, values.text("boundary.on")),

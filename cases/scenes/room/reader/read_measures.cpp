@@ -25,7 +25,7 @@ bool is_wall(const RoomReading& room, const std::string& name) {
 
 /// Whether a box and the room have a place in common; on the room's sides counts.
 bool meets_box(const RoomReading& room, const Vec3& lower, const Vec3& upper) {
-    const double allowed = 1e-6 * room.scene.size.maxCoeff();
+    const double allowed = room.scene.tolerance();
     return (lower.array() <= room.scene.upper().array() + allowed).all() && (upper.array() >= room.scene.lower().array() - allowed).all();
 }
 

@@ -13,7 +13,6 @@ namespace cutterflow::cases {
 namespace {
 
 constexpr double k_longest_settling = 20.0;  // [s]
-constexpr double k_tolerance = 1e-6;         // of the room's size
 
 const RoomGrains* grains_of(RoomReading& room, const ParameterValues& values, const std::string& key, const std::string& where) {
     if (!values.has(key)) {
@@ -48,7 +47,7 @@ bool require_few_enough(RoomReading& room, const RoomGrains& grains, double mass
 /// Its ends are cut to the room, as a box is; its side is not.
 std::optional<Region> cylinder_in_room(RoomReading& room, RegionCylinder cylinder, const std::string& key, const std::string& where) {
     const Vec3 lower = room.scene.lower(), upper = room.scene.upper();
-    const double reach = cylinder.radius - k_tolerance * room.scene.size.maxCoeff();
+    const double reach = cylinder.radius - room.scene.tolerance();
     if ((cylinder.from.head<2>().array() - reach < lower.head<2>().array()).any() ||
         (cylinder.from.head<2>().array() + reach > upper.head<2>().array()).any()) {
         room.refuse(

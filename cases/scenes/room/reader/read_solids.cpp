@@ -144,7 +144,7 @@ bool read_surface(RoomReading& room, const ParameterValues& values, RoomSolid& s
 
 void require_inside(RoomReading& room, const RoomSolid& solid, const std::string& where) {
     const geometry::Bounds bounds = geometry::bounds_of(solid.surface);
-    const double allowed = 1e-6 * room.scene.size.maxCoeff();
+    const double allowed = room.scene.tolerance();
     const bool inside = (bounds.min.array() >= room.scene.lower().array() - allowed).all() &&
                         (bounds.max.array() <= room.scene.upper().array() + allowed).all();
     if (!inside)
