@@ -8,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
+#include "solver/coupling/kernel/redistribution.hpp"
 
 namespace cutterflow::coupling {
 namespace {

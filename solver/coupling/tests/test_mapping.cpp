@@ -8,6 +8,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/mapping.hpp"
+#include "solver/coupling/kernel/redistribution.hpp"
 #include "solver/coupling/kernel/testing/normalisation_error.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
