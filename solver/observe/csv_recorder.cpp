@@ -239,6 +239,7 @@ void CsvRecorder::picture(const RockPicture& picture) {
     if (!stream) fail_to_write(root_ / k_rock / file);
     pictures_[picture.time] = file;
     write_series();
+    flush();  // one who watches a run finds tables as far as its pictures
 }
 
 void CsvRecorder::write_series() const {

@@ -930,6 +930,15 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
+TEST(CsvRecorder, has_tables_as_far_as_its_pictures) {
+    const TemporaryFolder folder;
+    CsvRecorder recorder(folder.path(), case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), 0.0);
+    const auto rejected = folder.path() / "postProcessing/rock/0/rejected.csv";
+    recorder.rejected({7, 0.25, "no_room"});
+    recorder.picture({});
+    EXPECT_NE(text_of(rejected).find("7,0.25,no_room"), std::string::npos);
+}
+
 TEST(CsvRecorder, writes_the_files_of_the_contract) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n");
