@@ -17,8 +17,6 @@ namespace {
 
 using namespace cutterflow;
 
-constexpr int k_interrupted = 130;  // as shells count SIGINT
-
 /// Names the nearest command, which CLI11 does not do.
 void require_known_command(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
@@ -150,7 +148,7 @@ int main(int argc, char** argv) {
         return static_cast<int>(failure.code());
     } catch (const Interrupted& interrupted) {
         std::cerr << "cutterflow: " << interrupted.what() << std::endl;
-        return k_interrupted;
+        return static_cast<int>(ExitCode::interrupted);
     } catch (const std::filesystem::filesystem_error& error) {
         const UserError told(error.what(), "Every path must exist or be creatable", "Check the path and its permissions");
         std::cerr << "cutterflow: " << told.what() << std::endl;

@@ -11,8 +11,8 @@
 #include "cases/runner/disk_space.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/prediction.hpp"
-#include "cases/runner/rank_change.hpp"
 #include "cases/runner/run_progress.hpp"
+#include "cases/runner/solver_run.hpp"
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/contact_surfaces.hpp"
 #include "cases/scenes/cutter/feed.hpp"
@@ -378,15 +378,12 @@ StageOutcome Pipeline::run_solver(bool resume) {
         require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
         core_s += decompose(directory_.path(), settings_.ranks);
     }
-    const ChildCommand command = meshing::foam_command(directory_.path(), settings_.solver.string(), {}, settings_.ranks);
-    keep_older_log(command.log);
     RunProgress progress(study);
-    const ChildResult result = run_child(command, [&](const std::string& line) { progress.take(line); });
-    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
-    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    const double run_core_s =
+        cases::run_solver(directory_.path(), settings_.solver, settings_.ranks, [&](const std::string& line) { progress.take(line); });
     progress.finish();
-    if (!goes_on) say_cost(result.core_s);
-    return {{}, core_s + result.core_s};
+    if (!goes_on) say_cost(run_core_s);
+    return {{}, core_s + run_core_s};
 }
 
 StageOutcome Pipeline::make_report() {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cases/runner/run_progress.hpp"
+#include "cases/runner/solver_run.hpp"
 #include "cases/runner/table_inputs.hpp"
 #include "cases/scenes/room/room_case.hpp"
 #include "cases/scenes/room/room_mesh.hpp"
@@ -21,7 +22,6 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/io/write_stl.hpp"
-#include "meshing/dictionary/foam_command.hpp"
 #include "meshing/room/build_room_mesh.hpp"
 #include "postproc/pages/room/room_page.hpp"
 
@@ -53,20 +53,22 @@ void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
     for (const CaseText& file : files) write_file(folder / file.path, file.text);
 }
 
-/// Runs cutterFoam in a folder, from its newest checkpoint if there is one, and shows how far it is.
-double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end) {
-    if (newest_checkpoint(folder).empty())
-        remove_unfinished_run(folder);
+/// Removes what a killed run wrote after its newest checkpoint, or all of it. \return whether there is a checkpoint
+bool clear_for_run(const fs::path& folder) {
+    const bool goes_on = !newest_checkpoint(folder).empty();
+    if (goes_on)
+        drop_times_after_checkpoint(folder);
     else
-        drop_times_after_checkpoint(folder);  // what a killed run wrote after it
-    const ChildCommand command = meshing::foam_command(folder, solver.string(), {}, 1);
-    keep_older_log(command.log);
+        remove_unfinished_run(folder);
+    return goes_on;
+}
+
+/// Runs cutterFoam in a folder and shows how far it is. \return core seconds
+double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end, int ranks) {
     TimeProgress progress(what, end);
-    const ChildResult result = run_child(command, [&](const std::string& line) { progress.take(line); });
-    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
-    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    const double core_s = run_solver(folder, solver, ranks, [&](const std::string& line) { progress.take(line); });
     progress.finish();
-    return result.core_s;
+    return core_s;
 }
 
 /// Those below mesh/ belong to the mesh stage, the others to the case.
@@ -96,12 +98,13 @@ std::map<std::string, std::string> case_inputs(const RoomRequest& request, const
 /// A room's run directory.
 class RoomWork {
 public:
-    RoomWork(const RunDirectory& directory, const RoomRequest& request, fs::path solver, Say say)
+    RoomWork(const RunDirectory& directory, const RoomRequest& request, fs::path solver, int ranks, Say say)
         : directory_(directory),
           scene_(request.scene),
           pieces_(request.pieces),
           values_(request.values),
           solver_(std::move(solver)),
+          ranks_(ranks),
           say_(std::move(say)),
           bed_(bed_name(scene_, pieces_)),
           mesh_(request.mesh) {}
@@ -124,8 +127,9 @@ public:
             const fs::path folder = piece_folder(i);
             if (!fs::exists(folder / k_done)) {
                 write_texts(folder, bed_case(scene_, pieces_[i], start, "../../"));
+                clear_for_run(folder);
                 outcome.core_s +=
-                    run_cutter_foam(folder, solver_, fmt::format("  bed, part {} of {}", i + 1, pieces_.size()), pieces_[i].end());
+                    run_cutter_foam(folder, solver_, fmt::format("  bed, part {} of {}", i + 1, pieces_.size()), pieces_[i].end(), 1);
                 require_rest(i);
                 require_none_lost(i);
                 write_file(folder / k_done, "");
@@ -166,8 +170,12 @@ public:
     }
 
     StageOutcome run(bool resume) const {
-        if (resume && !newest_checkpoint(directory_.path()).empty()) say_("resuming from the last checkpoint");
-        return {{}, run_cutter_foam(directory_.path(), solver_, "  run", scene_.run.end)};
+        const bool goes_on = clear_for_run(directory_.path());
+        double core_s = 0.0;
+        if (mesh_) core_s += goes_on ? move_checkpoint_to_ranks(directory_.path(), ranks_).core_s : decompose(directory_.path(), ranks_);
+        if (resume && goes_on) say_("resuming from the last checkpoint");
+        core_s += run_cutter_foam(directory_.path(), solver_, "  run", scene_.run.end, ranks_);
+        return {{}, core_s};
     }
 
     /// \pre the case is made
@@ -358,6 +366,7 @@ private:
     const std::vector<BedPiece>& pieces_;
     const ParameterValues& values_;
     fs::path solver_;
+    int ranks_;
     Say say_;
     std::string bed_;
     const std::optional<meshing::RoomMeshPlan>& mesh_;
@@ -408,8 +417,14 @@ std::string take_bed(const fs::path& donor, const RunDirectory& directory, const
     return apart;
 }
 
-std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, Say say) {
-    const auto room = std::make_shared<const RoomWork>(directory, request, solver, std::move(say));
+void require_mesh_for_ranks(const RoomRequest& request, int ranks) {
+    if (ranks == 1 || request.mesh) return;
+    throw UserError(fmt::format("--ranks {} with room.medium = none", ranks), "Grains without a medium run on one core",
+                    "Leave it out; run several studies side by side");
+}
+
+std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const fs::path& solver, int ranks, Say say) {
+    const auto room = std::make_shared<const RoomWork>(directory, request, solver, ranks, std::move(say));
     std::vector<Stage> stages{
         {k_geometry, inputs_of(request.values, k_geometry), {}, false, [room](bool) { return room->make_geometry(); }},
         {k_bed, inputs_of(request.values, k_bed), {}, true, [room](bool) { return room->make_bed(); }}};

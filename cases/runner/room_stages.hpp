@@ -27,8 +27,12 @@ RoomRequest room_request(const ParameterValues& values, const std::filesystem::p
 /// \throws UserError  with every mistake of the file
 RoomRequest read_room_request(const std::filesystem::path& study);
 
-/// \param request  must outlive the stages, as must `directory` \param solver  cutterFoam \param say  receives lines for the user
-std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const std::filesystem::path& solver,
+/// \throws UserError  for several ranks without a medium
+void require_mesh_for_ranks(const RoomRequest& request, int ranks);
+
+/// \param request  must outlive the stages, as must `directory` \param solver  cutterFoam \param ranks  of the run; beds are made on one
+/// \param say  receives lines for the user
+std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest& request, const std::filesystem::path& solver, int ranks,
                                std::function<void(const std::string&)> say);
 
 /// Takes geometry and bed of another run, if it has finished them with the same inputs and they are as it wrote them.

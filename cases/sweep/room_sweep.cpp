@@ -31,7 +31,7 @@ void forget_single_beds(std::vector<SweepPoint>& points) {
 
 }  // namespace
 
-std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats) {
+std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats, int ranks) {
     const ParameterTable& table = room_table();
     const ParameterValues values = read_placed_room(study);  // the points lie in other folders
     require_free_seed(axes, k_seed, repeats);
@@ -47,7 +47,7 @@ std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, co
             one.values.set("name", fmt::format("{}: {}", values.text("name"), one.name));
             const std::string text = plain_toml(table, one.values);
             try {
-                room_request(parse_parameters(table, text, one.name), study.parent_path());
+                require_mesh_for_ranks(room_request(parse_parameters(table, text, one.name), study.parent_path()), ranks);
             } catch (const UserError& error) {
                 for (const Mistake& mistake : error.mistakes()) mistakes.push_back(of_point(mistake, one.name));
             }

@@ -7,7 +7,7 @@ namespace cutterflow::cases {
 
 /// All combinations of the axes' values, each `repeats` times. Repeat n has the study's seed plus n for all combinations, so that they are
 /// compared in pairs. Points whose beds are the same share one.
-/// \throws UserError  with every mistake of all points
-std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats);
+/// \param ranks  of each run \throws UserError  with every mistake of all points
+std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats, int ranks);
 
 }  // namespace cutterflow::cases

@@ -490,7 +490,7 @@ TEST_F(Calibrate, every_example_reads) {
                                 std::vector<std::string> words;
                                 for (const KeyAxis& axis : axes)
                                     words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
-                                return room_sweep_points(study, key_axes(room_table(), words, "cutterflow params --kind room"), repeats);
+                                return room_sweep_points(study, key_axes(room_table(), words, "cutterflow params --kind room"), repeats, 1);
                             },
                             [](const fs::path&) { return std::optional<double>(); },
                             [](const fs::path& study) {

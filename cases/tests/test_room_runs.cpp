@@ -3,15 +3,21 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <thread>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/runner/machine.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "postproc/run/run_table.hpp"
@@ -431,19 +437,49 @@ TEST_F(RoomRuns, water_that_is_drawn_through_a_tube_lifts_grains) {
     std::string study = read_file(folder_ / "riser.toml");
     study.replace(study.find("density_kg_m3 = 828"), 19, "density_kg_m3 = 1050");
     write_file(folder_ / "riser.toml", study);
-    call({"run", "riser.toml", "-o", "riser"});
-    const double poured = json_of("riser/room.json").at("bed").at("poured_kg").get<double>();
-    EXPECT_GT(json_of("riser/report/measures.json").at("lifted").at("value").get<double>(), 0.01 * poured);
-    const postproc::Table balance = postproc::read_joined_table(folder_ / "riser", "balance", "balance.csv",
-                                                                {{"time_s", "outlet_flow_m3_s", "momentum_error"}, {}, {}, ""});
-    EXPECT_NEAR(balance.number("outlet_flow_m3_s").back(), k_pi * 0.025 * 0.025, 1e-6 * k_pi * 0.025 * 0.025);
+    for (const int ranks : {1, 2}) {
+        if (ranks > cases::available_cores()) continue;
+        const std::string run = fmt::format("riser_{}", ranks);
+        call({"run", "riser.toml", "-o", run, "--ranks", std::to_string(ranks)});
+        EXPECT_EQ(fs::exists(folder_ / run / "processor1"), ranks == 2);
+        const double poured = json_of(run + "/room.json").at("bed").at("poured_kg").get<double>();
+        EXPECT_GT(json_of(run + "/report/measures.json").at("lifted").at("value").get<double>(), 0.01 * poured) << ranks;
+        const postproc::Table balance = postproc::read_joined_table(folder_ / run, "balance", "balance.csv",
+                                                                    {{"time_s", "outlet_flow_m3_s", "momentum_error"}, {}, {}, ""});
+        EXPECT_NEAR(balance.number("outlet_flow_m3_s").back(), k_pi * 0.025 * 0.025, 1e-6 * k_pi * 0.025 * 0.025) << ranks;
+        EXPECT_LE(largest(balance.number("momentum_error")), 1e-5) << ranks;
+    }
+}
+
+/// A run that the user stops goes on from the step at which it was stopped, not from its last checkpoint.
+TEST_F(RoomRuns, a_stopped_run_keeps_what_it_has_computed) {
+    write_file(folder_ / "riser.toml", std::string(k_riser) + "checkpoint_interval_s = 0.7\n" + k_materials);
+    const fs::path pictures = folder_ / "riser/postProcessing/rock/vtk";
+    std::thread user([&] {
+        for (int i = 0; i < 6000 && !fs::exists(pictures / "rocks_0.4.vtp"); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        ::kill(::getpid(), SIGTERM);
+    });
+    EXPECT_THROW(call({"run", "riser.toml", "-o", "riser"}), Interrupted);
+    user.join();
+    const std::string said = read_file(folder_ / "output");
+    EXPECT_NE(said.find("stopping at the end of this step"), std::string::npos) << said;
+    EXPECT_NE(said.find("resume with: cutterflow run riser.toml -o riser --resume"), std::string::npos) << said;
+    const double kept = std::stod(newest_checkpoint(folder_ / "riser").filename().string());
+    EXPECT_GE(kept, 0.4);
+    EXPECT_LT(kept, 0.7);
+    call({"run", "riser.toml", "-o", "riser", "--resume"});
+    const postproc::Table balance =
+        postproc::read_joined_table(folder_ / "riser", "balance", "balance.csv", {{"time_s", "momentum_error"}, {}, {}, ""});
+    EXPECT_NEAR(balance.number("time_s").back(), 0.8, 1e-6);
+    EXPECT_TRUE(fs::exists(folder_ / fmt::format("riser/postProcessing/balance/{:g}", kept)));
     EXPECT_LE(largest(balance.number("momentum_error")), 1e-5);
 }
 
 TEST_F(RoomRuns, commands_refuse_what_rooms_have_no_use_for) {
     call({"new", "room.toml", "--kind", "room"});
     EXPECT_NE(call({"new", "cut.toml", "--kind", "room", "--cutter", "a.stl"}, 2).find("Such a study has no cutter"), std::string::npos);
-    EXPECT_NE(call({"run", "room.toml", "--ranks", "2"}, 2).find("runs on one core"), std::string::npos);
+    EXPECT_NE(call({"run", "room.toml", "--ranks", "2"}, 2).find("run on one core"), std::string::npos);
     EXPECT_NE(call({"sweep", "room.toml", "--rpm", "30"}, 2).find("--rpm in a sweep of a room. It belongs to cutters"), std::string::npos);
     EXPECT_NE(call({"params", "--kind", "room"}).find("[[solid]]"), std::string::npos);
     write_file(folder_ / "typo.toml", "[scene]\nkind = \"rooom\"\n");

@@ -6,7 +6,7 @@
 
 namespace cutterflow {
 
-enum class ExitCode : int { done = 0, defect = 1, user_input = 2, external_program = 3, check_failed = 4 };
+enum class ExitCode : int { done = 0, defect = 1, user_input = 2, external_program = 3, check_failed = 4, interrupted = 130 };
 
 /// One mistake: what is wrong and its value, the rule it breaks, what to do.
 /// Printed as "<what>. <rule>. <remedy>."; `where` (file:line, may be empty) goes in front.

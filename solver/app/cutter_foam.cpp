@@ -1,14 +1,17 @@
 /// \file cutterFoam: the coupled solver, an ordinary OpenFOAM application. On a case without constant/couplingProperties, or without its
 /// section `rock`, it is a pure flow solver.
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
 #include "solver/coupling/coupled_run.hpp"
@@ -57,7 +60,20 @@ std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& se
 }
 
 /// Goes from the newest checkpoint, or the start, to the end of the run.
-/// \param flow  models of the fluid
+volatile std::sig_atomic_t g_stop_is_asked = 0;
+
+extern "C" void ask_to_stop(int) {
+    g_stop_is_asked = 1;
+}
+
+/// On any rank: a launcher reaches one before the other. Collective
+bool stop_is_asked(coupling::Communicator& communicator) {
+    double asked = g_stop_is_asked != 0 ? 1.0 : 0.0;
+    communicator.max(gsl::span<double>(&asked, 1));
+    return asked > 0.0;
+}
+
+/// \param flow  models of the fluid \throws Interrupted  after a checkpoint, at a request to stop
 void run_coupled(foam::FoamSession& session, foam::CouplingDictionary& dictionary, coupling::FluidEngine& fluid,
                  const coupling::FluidProperties& properties, const std::vector<coupling::ModelNote>& flow) {
     foam::PstreamCommunicator communicator;
@@ -77,7 +93,13 @@ void run_coupled(foam::FoamSession& session, foam::CouplingDictionary& dictionar
     else if (!dictionary.coupling.rock_start.empty())
         coupled.start_from(dictionary.coupling.rock_start);
 
-    while (fluid.running() && !coupled.finished()) coupled.step();
+    while (fluid.running() && !coupled.finished()) {
+        coupled.step();
+        if (stop_is_asked(communicator)) {
+            coupled.keep();
+            throw Interrupted(fmt::format("stopped on request at {:.9g} s", fluid.time()));
+        }
+    }
     coupled.finish();
 }
 
@@ -109,6 +131,7 @@ void solve(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
 void run(int argc, char** argv) {
     foam::require_openfoam_of_build();
     foam::FoamSession session(argc, argv);
+    std::signal(k_end_in_order, ask_to_stop);
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
     require_feed_in_domain(dictionary);
     if (!dictionary.coupling.has_medium)
@@ -147,6 +170,9 @@ int main(int argc, char** argv) {
     int code = static_cast<int>(ExitCode::done);
     try {
         run(argc, argv);
+    } catch (const Interrupted& stop) {
+        std::cout << "cutterFoam: " << stop.what() << std::endl;
+        code = static_cast<int>(ExitCode::interrupted);
     } catch (const std::exception& error) {
         code = explain(error);
     }

@@ -451,8 +451,12 @@ bool CoupledRun::finished() const {
     return decided || known || settled || stops_.idle(time);
 }
 
-void CoupledRun::finish() {
+void CoupledRun::keep() {
     if (settings_.checkpoint && fluid_.time() > last_checkpoint_) write_checkpoint();
+}
+
+void CoupledRun::finish() {
+    keep();
     if (fates_) recorder_.outcomes(fates_->outcomes());
     if (phases_)
         recorder_.warning(fluid_.time(), fmt::format("the flow is not recorded: the run ended before record.endTime = {:g} s",

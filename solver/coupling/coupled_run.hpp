@@ -59,6 +59,9 @@ public:
     /// Takes the rock of another run's checkpoint into a run that begins. \throws UserError  when the feed brings one of its ids
     void start_from(const std::filesystem::path& checkpoint);
 
+    /// Writes a checkpoint of the present time, when checkpoints are on.
+    void keep();
+
     /// Writes the end of the run: a checkpoint of the present time (when checkpoints are on), outcomes, cost.
     void finish();
 

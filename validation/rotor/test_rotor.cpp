@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cases/runner/rank_change.hpp"
+#include "cases/runner/solver_run.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/run_files.hpp"

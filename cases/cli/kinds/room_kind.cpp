@@ -34,8 +34,26 @@ cases::RoomPrediction prediction_of(const cases::RoomRequest& request) {
     return cases::predict(request.scene, request.pieces, request.mesh);
 }
 
+/// As one gives it again; nothing for one rank.
+std::string ranks_option(int ranks) {
+    return ranks == 1 ? std::string() : fmt::format(" --ranks {}", ranks);
+}
+
+/// \param mistakes  those found so far, told with the study's
+cases::RoomRequest read_request(const std::string& study, int ranks, Mistakes& mistakes) {
+    cases::RoomRequest request;
+    mistakes.gather([&] {
+        request = cases::read_room_request(study);
+        cases::require_mesh_for_ranks(request, ranks);
+    });
+    mistakes.refuse();
+    return request;
+}
+
 void check(const CheckOptions& options) {
-    const cases::RoomRequest request = cases::read_room_request(options.study);
+    Mistakes mistakes;
+    mistakes.gather([&] { cases::require_machine(options.ranks); });
+    const cases::RoomRequest request = read_request(options.study, options.ranks, mistakes);
     const cases::RoomPrediction prediction = prediction_of(request);
     const std::vector<Mistake> warnings = cases::room_warnings(request.values, request.scene, request.mesh);
     if (options.json) {
@@ -46,7 +64,8 @@ void check(const CheckOptions& options) {
     }
     std::cout << to_text(prediction);
     for (const Mistake& warning : warnings) std::cout << "warning: " << warning.text() << "\n";
-    std::cout << fmt::format("{} is valid; next: cutterflow run {}\n", options.study, shell_word(options.study));
+    std::cout << fmt::format("{} is valid; next: cutterflow run {}{}\n", options.study, shell_word(options.study),
+                             ranks_option(options.ranks));
 }
 
 std::optional<double> predicted_core_s(const fs::path& study) {
@@ -55,19 +74,15 @@ std::optional<double> predicted_core_s(const fs::path& study) {
 
 cases::RoomRequest begun_well(const RunOptions& options) {
     Mistakes mistakes;
-    if (options.ranks != 1)
-        mistakes.add(
-            {"", fmt::format("--ranks {}", options.ranks), "A room runs on one core", "Leave it out; run several studies side by side"});
     if (!options.start_from.empty()) mistakes.gather([&] { cases::require_start_donor(options.start_from); });
     mistakes.gather([&] { cases::require_usable_run_directory(options.folder()); });
-    mistakes.gather([&] { cases::require_machine(1); });
-    cases::RoomRequest request;
-    mistakes.gather([&] { request = cases::read_room_request(options.study); });
-    mistakes.refuse();
+    mistakes.gather([&] { cases::require_machine(options.ranks); });
+    cases::RoomRequest request = read_request(options.study, options.ranks, mistakes);
     std::vector<std::string> programs{(installation().programs / "cutterFoam").string()};
     if (request.mesh)
         for (const char* program : {"blockMesh", "surfaceFeatureExtract", "snappyHexMesh", "topoSet", "createPatch", "checkMesh"})
             programs.emplace_back(program);
+    if (options.ranks > 1) programs.insert(programs.end(), {"mpirun", "decomposePar", "reconstructPar"});
     require_programs(programs);
     for (const Mistake& warning : cases::room_warnings(request.values, request.scene, request.mesh)) say("warning: " + warning.text());
     return request;
@@ -76,7 +91,8 @@ cases::RoomRequest begun_well(const RunOptions& options) {
 /// \return the run directory's path
 fs::path go_through(const cases::RoomRequest& request, const RunOptions& options, const std::string& until) {
     const cases::RunDirectory directory(options.folder());
-    const std::vector<cases::Stage> stages = cases::room_stages(directory, request, installation().programs / "cutterFoam", say);
+    const std::vector<cases::Stage> stages =
+        cases::room_stages(directory, request, installation().programs / "cutterFoam", options.ranks, say);
     if (!options.start_from.empty() && !fs::exists(directory.file(names::manifest))) {
         const std::string apart = cases::take_bed(options.start_from, directory, stages);
         say(apart.empty() ? fmt::format("the bed is that of {}, copied from there", options.start_from)
@@ -90,8 +106,9 @@ fs::path go_through(const cases::RoomRequest& request, const RunOptions& options
         cases::run_stages(directory, manifest, stages, until, options.resume,
                           stage_lines(static_cast<std::size_t>(last - stages.begin()) + 1));
     } catch (const Interrupted& interrupted) {
-        throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {} --resume", interrupted.what(),
-                                      directory.path().string(), shell_word(options.study), shell_word(options.folder().string())));
+        throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {}{} --resume",
+                                      interrupted.what(), directory.path().string(), shell_word(options.study),
+                                      shell_word(options.folder().string()), ranks_option(options.ranks)));
     }
     return directory.path();
 }
@@ -123,13 +140,12 @@ std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::pat
     Mistakes mistakes;
     for (const auto& [given, option] : {std::pair(!options.axes.speeds.empty(), "--rpm"),
                                         {!options.axes.discharges.empty(), "--discharge"},
-                                        {!options.axes.designs.empty(), "--design"},
-                                        {options.ranks != 1, "--ranks"}})
+                                        {!options.axes.designs.empty(), "--design"}})
         mistakes.require(!given, fmt::format("{} in a sweep of a room", option), "It belongs to cutters",
                          "Use --set KEY=a,b and --repeats");
     mistakes.refuse();
     return cases::room_sweep_points(options.study, cases::key_axes(cases::room_table(), options.set, k_room_kind.params),
-                                    options.axes.repeats);
+                                    options.axes.repeats, options.ranks);
 }
 
 fs::path write_comparison(const std::vector<fs::path>& runs, const fs::path& folder) {

@@ -32,14 +32,26 @@ constexpr std::array<int, 3> k_stop_signals{SIGINT, SIGTERM, SIGHUP};
 
 // State of the signal handler; a handler must not access anything else.
 constexpr std::size_t k_most_children = 256;
-std::array<volatile std::sig_atomic_t, k_most_children> g_children{};
+struct RunningChild {
+    volatile std::sig_atomic_t pid, first_stop_signal;
+};
+std::array<RunningChild, k_most_children> g_children{};
 volatile std::sig_atomic_t g_received = 0;
+
+constexpr std::string_view k_ends_in_order = "\nstopping at the end of this step; a second time stops at once\n";
 
 extern "C" void pass_on(int signal_number) {
     const int saved_errno = errno;
+    const bool is_first = g_received == 0;
     g_received = signal_number;
-    for (const volatile std::sig_atomic_t& child : g_children)
-        if (child > 0) ::kill(static_cast<pid_t>(child), signal_number);
+    bool ends_in_order = false;
+    for (const RunningChild& child : g_children) {
+        if (child.pid <= 0) continue;
+        const bool asks = is_first && child.first_stop_signal != 0;
+        ::kill(static_cast<pid_t>(child.pid), asks ? child.first_stop_signal : signal_number);
+        ends_in_order = ends_in_order || asks;
+    }
+    if (ends_in_order && ::write(STDERR_FILENO, k_ends_in_order.data(), k_ends_in_order.size()) < 0) g_received = signal_number;
     errno = saved_errno;
 }
 
@@ -57,24 +69,25 @@ public:
     }
     ~SignalRelay() {
         const std::lock_guard<std::mutex> lock(s_mutex);
-        if (slot_ != nullptr) *slot_ = 0;
+        if (slot_ != nullptr) slot_->pid = 0;
         if (--s_relays > 0) return;
         for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &s_previous[i], nullptr);
     }
     SignalRelay(const SignalRelay&) = delete;
     SignalRelay& operator=(const SignalRelay&) = delete;
 
-    void attach(pid_t child) {
+    void attach(pid_t child, int first_stop_signal) {
         const std::lock_guard<std::mutex> lock(s_mutex);
-        slot_ = std::find(g_children.begin(), g_children.end(), 0);
+        slot_ = std::find_if(g_children.begin(), g_children.end(), [](const RunningChild& c) { return c.pid == 0; });
         Expects(slot_ != g_children.end());
-        *slot_ = child;
+        slot_->first_stop_signal = first_stop_signal;
+        slot_->pid = child;
         if (g_received != 0) ::kill(child, g_received);  // received before the child was registered
     }
     static int received() { return g_received; }
 
 private:
-    volatile std::sig_atomic_t* slot_ = nullptr;
+    RunningChild* slot_ = nullptr;
     static inline std::mutex s_mutex;
     static inline int s_relays = 0;
     static inline std::array<struct sigaction, k_stop_signals.size()> s_previous{};
@@ -318,7 +331,7 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
     SignalRelay relay;
     const pid_t pid = spawn(program, command, output.number());
     ChildGuard child(pid);
-    relay.attach(pid);
+    relay.attach(pid, command.first_stop_signal);
     output.close();
     reader.read_all(input.number());
     ChildResult result = child.wait();

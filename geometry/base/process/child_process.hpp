@@ -1,6 +1,7 @@
 #pragma once
 /// \file Programs started as children: without a shell, with their output kept in a log file.
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -12,12 +13,16 @@
 
 namespace cutterflow {
 
+/// At this signal cutterFoam writes a checkpoint at the end of its step and ends.
+inline constexpr int k_end_in_order = SIGUSR1;
+
 /// Command to start. Arguments are passed unchanged, without a shell.
 struct ChildCommand {
     std::vector<std::string> arguments;              ///< program (searched on PATH) and its arguments
     std::filesystem::path working_directory;         ///< empty: the caller's
     std::filesystem::path log;                       ///< receives standard output and error; overwritten
     std::map<std::string, std::string> environment;  ///< added to the caller's environment
+    int first_stop_signal = 0;                       ///< of a program that ends in order at it (run_child); 0: it has none
 };
 
 /// How it ended.
@@ -30,8 +35,9 @@ struct ChildResult {
 
 /// Runs a program to its end. `each_line` (may be empty) is called with every complete line of output while the program runs, after it
 /// was written to the log. Several may run in parallel, one per thread. SIGINT and SIGTERM that reach the caller are forwarded to
-/// the child, which is waited for; then the call throws Interrupted. (Every child that runs gets the signal.) \throws ToolError  when the
-/// program is not found or cannot be started (names it, its package when known, and what to do)
+/// the child, which is waited for; then the call throws Interrupted. (Every child that runs gets the signal.) A child with a first stop
+/// signal gets that one in place of the first, and the user is told; the next ones are forwarded as they are.
+/// \throws ToolError  when the program is not found or cannot be started (names it, its package when known, and what to do)
 ChildResult run_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
 
 /// As run_child, but an exit code other than 0 throws ToolError, which quotes the log's last lines and names the log.

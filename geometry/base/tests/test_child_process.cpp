@@ -124,6 +124,17 @@ TEST_F(ChildProcess, passes_a_stop_signal_on_and_waits_for_the_child) {
     EXPECT_EQ(run_child(script("true")).exit_code, 0) << "a later child is not stopped by an earlier signal";
 }
 
+TEST_F(ChildProcess, asks_a_child_with_a_first_stop_signal_once) {
+    ChildCommand command = script("trap 'echo asked' USR1; trap 'echo stopped; exit 0' TERM; echo ready; while :; do sleep 0.05; done");
+    command.first_stop_signal = SIGUSR1;
+    EXPECT_THROW(run_child(command,
+                           [&](const std::string& line) {
+                               if (line != "stopped") std::raise(SIGTERM);
+                           }),
+                 Interrupted);
+    EXPECT_EQ(read_file(folder_ / "log.sh"), "ready\nasked\nstopped\n");
+}
+
 TEST_F(ChildProcess, ends_the_child_when_the_callback_throws) {
     const ChildCommand command = script("trap 'echo gone > ended; exit 0' TERM; echo ready; while :; do sleep 0.05; done");
     EXPECT_THROW(run_child(command, [](const std::string&) { throw std::runtime_error("no"); }), std::runtime_error);

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cases/runner/rank_change.hpp"
+#include "cases/runner/solver_run.hpp"
 #include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/checkpoint_folders.hpp"

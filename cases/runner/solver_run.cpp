@@ -1,4 +1,4 @@
-#include "cases/runner/rank_change.hpp"
+#include "cases/runner/solver_run.hpp"
 
 #include <algorithm>
 #include <string>
@@ -6,9 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "cases/runner/run_progress.hpp"
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "meshing/dictionary/foam_command.hpp"
 
@@ -67,6 +69,17 @@ RankChange move_checkpoint_to_ranks(const fs::path& run_directory, int ranks) {
     remove_processor_folders(run_directory);
     change.core_s += split(run_directory, ranks, {"-time", time, "-copyUniform"});
     return change;
+}
+
+double run_solver(const fs::path& run_directory, const fs::path& solver, int ranks,
+                  const std::function<void(const std::string&)>& each_line) {
+    ChildCommand command = meshing::foam_command(run_directory, solver.string(), {}, ranks);
+    command.first_stop_signal = k_end_in_order;
+    keep_older_log(command.log);
+    const ChildResult result = run_child(command, each_line);
+    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
+    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
+    return result.core_s;
 }
 
 }  // namespace cutterflow::cases

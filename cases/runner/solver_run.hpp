@@ -1,6 +1,8 @@
 #pragma once
-/// \file Decomposition of a run's case over ranks, at its start and when it resumes on another number of them.
+/// \file cutterFoam on the ranks of a run: decomposition of its case, at its start and when it resumes on another number of them.
 #include <filesystem>
+#include <functional>
+#include <string>
 
 namespace cutterflow::cases {
 
@@ -18,5 +20,11 @@ struct RankChange {
 /// \pre there is a checkpoint
 /// \throws UserError  when the fields of the checkpoint are nowhere \throws ToolError  when a program failed
 RankChange move_checkpoint_to_ranks(const std::filesystem::path& run_directory, int ranks);
+
+/// Runs cutterFoam to its end; older logs are kept as `<log>.<n>`. When the user stops the command it writes a checkpoint and ends.
+/// \param each_line  gets each line of its log \return core seconds
+/// \throws CheckFailure  when one of its checks failed \throws ToolError  when it failed otherwise \throws Interrupted
+double run_solver(const std::filesystem::path& run_directory, const std::filesystem::path& solver, int ranks,
+                  const std::function<void(const std::string&)>& each_line);
 
 }  // namespace cutterflow::cases
