@@ -1,5 +1,6 @@
 /// \file cutterFoam: the coupled solver, an ordinary OpenFOAM application. On a case without constant/couplingProperties, or without its
 /// section `rock`, it is a pure flow solver.
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -59,11 +60,14 @@ std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& se
     return recorder;
 }
 
-/// Goes from the newest checkpoint, or the start, to the end of the run.
+constexpr std::array<int, 4> k_stop_signals{k_end_in_order, SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t g_stop_is_asked = 0;
 
+/// The next one stops at once.
 extern "C" void ask_to_stop(int) {
     g_stop_is_asked = 1;
+    for (const int number : k_stop_signals) std::signal(number, SIG_DFL);
 }
 
 /// On any rank: a launcher reaches one before the other. Collective
@@ -73,6 +77,7 @@ bool stop_is_asked(coupling::Communicator& communicator) {
     return asked > 0.0;
 }
 
+/// Goes from the newest checkpoint, or the start, to the end of the run.
 /// \param flow  models of the fluid \throws Interrupted  after a checkpoint, at a request to stop
 void run_coupled(foam::FoamSession& session, foam::CouplingDictionary& dictionary, coupling::FluidEngine& fluid,
                  const coupling::FluidProperties& properties, const std::vector<coupling::ModelNote>& flow) {
@@ -131,7 +136,7 @@ void solve(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
 void run(int argc, char** argv) {
     foam::require_openfoam_of_build();
     foam::FoamSession session(argc, argv);
-    std::signal(k_end_in_order, ask_to_stop);
+    for (const int number : k_stop_signals) std::signal(number, ask_to_stop);
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
     require_feed_in_domain(dictionary);
     if (!dictionary.coupling.has_medium)
