@@ -97,7 +97,7 @@ protected:
     }
     std::string warnings_of(const RoomRequest& of) const {
         std::string text;
-        for (const Mistake& warning : room_warnings(of.values, of.scene, of.mesh)) text += warning.text() + "\n";
+        for (const Mistake& warning : room_warnings(of.values, of.scene, of.pieces, of.mesh)) text += warning.text() + "\n";
         return text;
     }
 

@@ -533,10 +533,22 @@ TEST_F(RoomStudy, a_missing_file_of_a_solid_is_its_only_mistake) {
     EXPECT_THAT(mistakes, Not(HasSubstr("boundary.inside")));
 }
 
+TEST_F(RoomStudy, warns_of_grains_that_are_soft_for_their_bed) {
+    const auto warnings = [&](const std::string& modulus) {
+        const RoomRequest request = read_room_request(write(changed("youngs_modulus_pa = 5e6", "youngs_modulus_pa = " + modulus)));
+        return room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    };
+    EXPECT_TRUE(warnings("1e6").empty());
+    const auto soft = warnings("5000");
+    ASSERT_EQ(soft.size(), 1u);
+    EXPECT_THAT(soft[0].text(),
+                ContainsRegex("room.toml:[0-9]+: youngs_modulus_pa = 5000. Grains under the poured bed sink 0\\.[0-9]+ diam"));
+}
+
 TEST_F(RoomStudy, warns_of_a_solid_that_goes_through_a_closed_side) {
     const auto warnings = [&](const std::string& text) {
         const RoomRequest request = read_room_request(write(text));
-        return room_warnings(request.values, request.scene, request.mesh);
+        return room_warnings(request.values, request.scene, request.pieces, request.mesh);
     };
     EXPECT_TRUE(warnings(room_template("heap")).empty());  // up, where the room is open
     const std::string way = "velocity_m_s = [0, 0, 0.03]";

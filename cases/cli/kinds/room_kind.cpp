@@ -55,7 +55,7 @@ void check(const CheckOptions& options) {
     mistakes.gather([&] { cases::require_machine(options.ranks); });
     const cases::RoomRequest request = read_request(options.study, options.ranks, mistakes);
     const cases::RoomPrediction prediction = prediction_of(request);
-    const std::vector<Mistake> warnings = cases::room_warnings(request.values, request.scene, request.mesh);
+    const std::vector<Mistake> warnings = cases::room_warnings(request.values, request.scene, request.pieces, request.mesh);
     if (options.json) {
         nlohmann::json found = to_json(prediction);
         found["warnings"] = mistakes_json(warnings);
@@ -84,7 +84,8 @@ cases::RoomRequest begun_well(const RunOptions& options) {
             programs.emplace_back(program);
     if (options.ranks > 1) programs.insert(programs.end(), {"mpirun", "decomposePar", "reconstructPar"});
     require_programs(programs);
-    for (const Mistake& warning : cases::room_warnings(request.values, request.scene, request.mesh)) say("warning: " + warning.text());
+    for (const Mistake& warning : cases::room_warnings(request.values, request.scene, request.pieces, request.mesh))
+        say("warning: " + warning.text());
     return request;
 }
 

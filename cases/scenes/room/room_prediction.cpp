@@ -26,6 +26,7 @@ constexpr double k_seconds_per_cell_and_step = 5.9e-6 * 1.41, k_seconds_per_mapp
 constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
 constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
 constexpr int k_looks = 20;                      // at a solid on its way
+constexpr double k_soft_overlap = 0.05;          // of a diameter, from which a bed packs and rolls otherwise than stiff grains
 
 double mass_of(const PlacedGrain& grain) {
     return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
@@ -162,6 +163,30 @@ std::vector<Mistake> motion_warnings(const ParameterValues& values, const RoomSc
     return warnings;
 }
 
+/// Overlap over diameter of grains that bear the weight of a bed [-]: Hertz contacts of diameter d that bear a pressure p as forces p d2,
+///   delta / d = (3/2 p / E*)^(2/3),  E* = E / (2 (1 - nu^2)).
+double overlap_under_weight(const RoomScene& scene, const std::vector<BedPiece>& pieces) {
+    double mass = 0.0;
+    for (const BedPiece& piece : pieces)
+        for (const PlacedGrain& grain : piece.grains) mass += mass_of(grain);
+    const double pressure = mass * scene.gravity.norm() / (scene.size.x() * scene.size.y());
+    const double poisson = scene.contact.poisson_rock, modulus = 0.5 * scene.contact.youngs_modulus / (1.0 - poisson * poisson);
+    return std::pow(1.5 * pressure / modulus, 2.0 / 3.0);
+}
+
+/// Grains so soft that their bed sinks into itself.
+std::vector<Mistake> softness_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces) {
+    if (pieces.empty()) return {};
+    const double overlap = overlap_under_weight(scene, pieces);
+    if (overlap < k_soft_overlap) return {};
+    const ParameterValues& material = values.tables("material").front();
+    return {{material.where("material.youngs_modulus_pa"), fmt::format("youngs_modulus_pa = {:g}", scene.contact.youngs_modulus),
+             fmt::format("Grains under the poured bed sink {:.2g} diameters into each other; above {:g} a bed packs and flows otherwise "
+                         "than stiff grains",
+                         overlap, k_soft_overlap),
+             "Give the material a larger modulus; the contact step shrinks with its square root"}};
+}
+
 }  // namespace
 
 RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh) {
@@ -190,9 +215,10 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
     return found;
 }
 
-std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene,
+std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces,
                                    const std::optional<meshing::RoomMeshPlan>& mesh) {
     std::vector<Mistake> warnings = motion_warnings(values, scene);
+    for (Mistake& warning : softness_warnings(values, scene, pieces)) warnings.push_back(std::move(warning));
     if (!mesh) return warnings;
     for (Mistake& warning : meshing::room_mesh_warnings(*mesh)) warnings.push_back(std::move(warning));
     if (scene.grains.empty()) return warnings;

@@ -35,9 +35,11 @@ struct RoomPrediction {
 /// \param mesh  of the medium; none without one
 RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh);
 
-/// What a run may be asked in spite of: hindrance that counts twice or not at all, openings that kernels do not resolve or that grains may
-/// block, solids thinner than cells. Empty without a medium. \param values  of the study
-std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene, const std::optional<meshing::RoomMeshPlan>& mesh);
+/// What a run may be asked in spite of: solids that go through closed sides, grains that are soft for their bed; with a medium hindrance
+/// that counts twice or not at all, openings that kernels do not resolve or that grains may block, solids thinner than cells.
+/// \param values  of the study
+std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces,
+                                   const std::optional<meshing::RoomMeshPlan>& mesh);
 
 std::string to_text(const RoomPrediction& prediction);
 nlohmann::json to_json(const RoomPrediction& prediction);
