@@ -51,7 +51,9 @@ extern "C" void pass_on(int signal_number) {
         ::kill(static_cast<pid_t>(child.pid), asks ? child.first_stop_signal : signal_number);
         ends_in_order = ends_in_order || asks;
     }
-    if (ends_in_order && ::write(STDERR_FILENO, k_ends_in_order.data(), k_ends_in_order.size()) < 0) g_received = signal_number;
+    if (ends_in_order) {
+        [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, k_ends_in_order.data(), k_ends_in_order.size());
+    }
     errno = saved_errno;
 }
 

@@ -56,7 +56,9 @@ private:
         is_overfull_.resize(fraction_.size());
         for (std::size_t c = 0; c < fraction_.size(); ++c) {
             is_overfull_[c] = fraction_[c] > target ? 1 : 0;
-            if (is_overfull_[c] != 0) shrink_[c] = target / fraction_[c];
+            if (is_overfull_[c] == 0) continue;
+            shrink_[c] = target / fraction_[c];
+            fraction_[c] = target;
         }
         for (const std::size_t p : stencils_.shared.near()) {
             bool changes = false;
@@ -68,8 +70,6 @@ private:
             }
             if (changes) here_[p] = sum_of(p);
         }
-        for (std::size_t c = 0; c < fraction_.size(); ++c)
-            if (is_overfull_[c] != 0) fraction_[c] = target;
     }
 
     void enlarge(std::size_t rock, double factor) {
