@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace cutterflow::geometry {
@@ -11,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double k_degrees = 180.0 / k_pi;
+constexpr std::size_t k_volumes_told = 5;
 
 json vector_json(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
@@ -78,6 +80,17 @@ json head_json(const Head& head) {
             {"carrying", {{"sense", name_of_sense(head.carrying.sense)}, {"measure", head.carrying.measure}}},
             {"blade_slices", blades_json(head.blades)},
             {"contour", {{"nodes", head.contour.z.size()}, {"error_m", head.contour.error}}}};
+}
+
+/// Volumes of the largest of several components, so that one that floats beside the head is seen.
+std::string volumes_text(const std::vector<SurfaceComponent>& components) {
+    if (components.size() < 2) return "";
+    std::vector<double> volumes;
+    volumes.reserve(components.size());
+    for (const SurfaceComponent& component : components) volumes.push_back(component.volume);
+    const bool all = volumes.size() <= k_volumes_told;
+    if (!all) volumes.resize(k_volumes_told);
+    return fmt::format(" of {:.3g}{} m3", fmt::join(volumes, ", "), all ? "" : " ...");
 }
 
 /// The ladder from which on rock slides off most of the blades [rad]: the angle that half of the slices with blades exceed.
@@ -155,8 +168,8 @@ std::string to_text(const GeometryInspection& inspection) {
     const auto yes = [](bool value) { return value ? "yes" : "no"; };
     const Bounds& b = report.bounds;
     std::string text = fmt::format("file         {}\nunit         {}\n", inspection.file, inspection.unit.reason);
-    text +=
-        fmt::format("surface      {} triangles, {} points, {} component(s)\n", report.triangles, report.points, report.components.size());
+    text += fmt::format("surface      {} triangles, {} points, {} component(s){}\n", report.triangles, report.points,
+                        report.components.size(), volumes_text(report.components));
     text += fmt::format("closed {}, outward {}, self-intersections {}\n", yes(report.closed()),
                         yes(report.consistently_oriented() && report.outward()), report.self_intersections.count);
     text += fmt::format("volume       {:.5g} m3\narea         {:.5g} m2\n", report.volume, report.area);

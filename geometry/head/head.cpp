@@ -9,6 +9,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/head/narrow_places.hpp"
+#include "geometry/surface/topology.hpp"
 
 namespace cutterflow::geometry {
 namespace {
@@ -24,6 +25,10 @@ constexpr int k_blade_slices = 12;
 constexpr double k_carrying_limit = 0.02;
 constexpr double k_standing_angle = 0.02 * k_pi / 180.0;
 constexpr double k_standing_shift = 1e-4;
+constexpr double k_near_body = 0.02;      // of the largest radius, between a body and where another one comes to by a turn
+constexpr double k_like_body = 0.05;      // of its volume
+constexpr int k_turns_of_revolution = 7;  // in a circle, of a head without blades
+constexpr std::size_t k_bodies_told = 5;
 
 double radius_of(const Vec3& point) {
     return std::hypot(point.x(), point.y());
@@ -57,6 +62,54 @@ double ring_is_above(const TriangleSurface& surface) {
     };
     const auto taper = [&](auto begin, auto end) { return first_above(begin, end, k_wide) - first_above(begin, end, k_half); };
     return static_cast<double>(taper(radii.begin(), radii.end()) - taper(radii.rbegin(), radii.rend())) / k_heights;
+}
+
+/// A part of the surface that touches no other.
+struct Body {
+    double volume = 0.0;         // [m3]
+    Vec3 centre = Vec3::Zero();  // of the volume [m]
+};
+
+std::vector<Body> bodies_of(const TriangleSurface& surface) {
+    const std::vector<std::size_t> number = component_numbers(surface, sorted_edge_uses(surface));
+    const Vec3 origin = bounds_of(surface).min;
+    std::vector<Body> bodies(1 + *std::max_element(number.begin(), number.end()));
+    for (std::size_t t = 0; t < number.size(); ++t) {
+        const Triangle& corners = surface.triangles[t];
+        const Vec3 a = surface.points[corners[0]] - origin, b = surface.points[corners[1]] - origin,
+                   c = surface.points[corners[2]] - origin;
+        const double volume = a.dot(b.cross(c)) / 6.0;
+        bodies[number[t]].volume += volume;
+        bodies[number[t]].centre += volume * 0.25 * (a + b + c);
+    }
+    for (Body& body : bodies) body.centre = origin + body.centre / body.volume;
+    return bodies;
+}
+
+/// Picks that stand free of the head come once per blade. What does not is left over from drawing, and would decide where hub and ring are.
+void require_repeated_bodies(const TriangleSurface& surface, const RotationalSymmetry& symmetry) {
+    const std::vector<Body> bodies = bodies_of(surface);
+    if (bodies.size() == 1) return;
+    const double angle = 2.0 * k_pi / (symmetry.blade_count > 0 ? symmetry.blade_count : k_turns_of_revolution);
+    const Eigen::AngleAxisd turn(angle, symmetry.axis.direction);
+    const double near = k_near_body * largest_radius(transformed(surface, upright(symmetry.axis)));
+    const auto is_repeated = [&](const Body& body) {
+        const Vec3 place = symmetry.axis.origin + turn * (body.centre - symmetry.axis.origin);
+        return std::any_of(bodies.begin(), bodies.end(), [&](const Body& other) {
+            return (other.centre - place).norm() < near && std::abs(other.volume - body.volume) < k_like_body * body.volume;
+        });
+    };
+    std::vector<Mistake> mistakes;
+    for (const Body& body : bodies)
+        if (!is_repeated(body) && mistakes.size() < k_bodies_told)
+            mistakes.push_back(
+                {"",
+                 fmt::format("a separate body of {:.3g} m3 at ({:.4g}, {:.4g}, {:.4g}) m is not repeated by a turn of {:.3g} degrees",
+                             body.volume, body.centre.x(), body.centre.y(), body.centre.z(), angle * 180.0 / k_pi),
+                 fmt::format("Of the {} bodies of the file, which do not touch, each stands on the axis or comes once per blade",
+                             bodies.size()),
+                 "Remove it, or join it with the head, in CAD"});
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
 /// Points the axis from hub to ring.
@@ -117,6 +170,7 @@ Carrying carrying_sense(const TriangleSurface& surface) {
 Head understand_head(const TriangleSurface& surface) {
     Head head;
     head.symmetry = find_rotational_symmetry(surface);
+    require_repeated_bodies(surface, head.symmetry);
     head.axis = directed(surface, head.symmetry.axis);
     if (is_nearly_z_axis(head.axis, largest_radius(surface))) head.axis = RotationAxis{};
     head.axis.origin += ring_plane(transformed(surface, upright(head.axis))) * head.axis.direction;

@@ -44,8 +44,8 @@ struct Head {
 /// than at the ring's; the ring plane, z = 0, is the highest point of the steel that is farther from the axis than 0.6 of the largest
 /// radius (the ring's top face); the ring radius is the largest radius within 0.02 of the largest radius below it. The head turns by the
 /// smallest angle that makes its axis z. An axis that already is the z axis, within 0.02 degrees and 1e-4 of the radius, is taken as such:
-/// the head is shifted along z only. \pre the surface [m] is sound \throws UserError  when there is no rotational symmetry or both ends
-/// look alike
+/// the head is shifted along z only. \pre the surface [m] is sound \throws UserError  when there is no rotational symmetry, both ends
+/// look alike, or a separate body is not repeated by the blades' symmetry
 Head understand_head(const TriangleSurface& surface);
 
 }  // namespace cutterflow::geometry

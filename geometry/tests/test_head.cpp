@@ -123,6 +123,28 @@ TEST(Head, a_body_without_rotational_symmetry_is_refused) {
     }
 }
 
+TriangleSurface moved(const TriangleSurface& surface, double azimuth, const Vec3& way) {
+    return transformed(surface, Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::Translation3d(way));
+}
+
+TEST(Head, a_separate_body_that_no_turn_repeats_is_named_with_its_place) {
+    const TriangleSurface crown = generate_crown_cutter(model_crown()), crumb = testing::box(-0.01 * Vec3::Ones(), 0.01 * Vec3::Ones());
+    const Vec3 above_ring(0.45, 0.05, 0.2);
+    std::vector<TriangleSurface> parts{crown, moved(crumb, 0.0, above_ring)};
+    try {
+        understand_head(joined(parts));
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("a separate body of 8e-06 m3 at (0.45, 0.05, 0.2) m is not repeated by a turn of 60"),
+                  std::string::npos)
+            << error.what();
+    }
+    // One per blade, as picks that stand free.
+    parts = {crown};
+    for (int i = 0; i < 6; ++i) parts.push_back(moved(crumb, i * k_pi / 3.0, Vec3(0.45, 0.0, -0.1)));
+    EXPECT_NEAR(understand_head(joined(parts)).axis.direction.z(), 1.0, 1e-9);
+}
+
 TEST(Head, a_body_with_equal_ends_is_refused) {
     EXPECT_THROW(understand_head(testing::box(Vec3(-0.2, -0.2, -0.5), Vec3(0.2, 0.2, 0.5))), UserError);
 }
