@@ -10,23 +10,32 @@
 
 #include "cases/scenes/cutter/case_inputs.hpp"
 #include "cases/scenes/cutter/feed.hpp"
+#include "cases/scenes/cutter/start_flow.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/study/contact_rules.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/progress.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/ports/mapping_width.hpp"
 
 namespace cutterflow::cases {
 namespace {
 
 constexpr double k_gravity = 9.81;
-// Core time of a coupled step over that of the flow alone, and what each rank beyond the first adds to either: least rounds of
-// docs/results/step_cost.md, on one and two ranks.
-constexpr double k_rock_share = 1.41;
+// Core time of a coupled step over that of the flow alone, without what each rock adds, and what each rank beyond the first adds to
+// either: least rounds of docs/results/step_cost.md, on one and two ranks.
+constexpr double k_rock_share = 1.27;
 constexpr double k_flow_per_rank = 0.44;
 constexpr double k_rock_per_rank = 0.33;
 // Rock may travel this share of its kernel width in a step. The smallest cells that it meets at the cutter measure this share of the
 // background's (docs/design/003-meshing.md).
 constexpr double k_travel_share = 0.25;
+// What each rock adds: its mapping, by the cells in the cube of its kernel's width (0.12 ms for 20 mm on the draft mesh, 0.43 ms for 30
+// mm), and each step of its contacts, as in a dense bed.
+constexpr double k_seconds_per_mapped_cell = 23e-6, k_seconds_per_contact_step = 0.65e-6;
+constexpr double k_seconds_of_feed_at_work = 2.0;  // of a cut face: in the head, and near it before it counts as left behind
+// Core time of the stages before the run: per cell, and per cell and iteration (draft mesh of the model cutter).
+constexpr double k_mesh_seconds_per_cell = 0.24e-3, k_start_seconds_per_cell = 2.8e-6;
 constexpr double k_cell_at_rock = 0.387;
 
 // Text files of the demo (61,000 cells, two ranks): mesh in both forms, fields at the start, logs; fields with face fluxes and moved points
@@ -52,6 +61,54 @@ double smallest_rock(const Study& study) {
     for (const FeedRequest& feed : study.feeds)
         for (const FeedClass& each : feed.classes) smallest = std::min(smallest, each.diameter);
     return smallest;
+}
+
+/// Numbers of rocks of each class that are there at once: all of a batch; of a cut face that of some seconds of feed, by the rectangle of
+/// cut height and step.
+std::vector<double> rocks_at_work(const FeedRequest& feed, const Study& study) {
+    if (feed.kind == FeedKind::batch) {
+        const std::vector<std::size_t> counts = rocks_per_class(feed);
+        return {counts.begin(), counts.end()};
+    }
+    const Study::Bank& bank = *study.bank;
+    const double section = bank.cut_height * bank.step, mass = section * bank.swing_speed * bank.grain_density * (1.0 - bank.porosity) *
+                                                               feed.disintegration * k_seconds_of_feed_at_work;
+    const double shares = std::accumulate(feed.classes.begin(), feed.classes.end(), 0.0,
+                                          [](double sum, const FeedClass& rock) { return sum + rock.mass_share; });
+    std::vector<double> counts;
+    counts.reserve(feed.classes.size());
+    for (const FeedClass& rock : feed.classes) counts.push_back(mass * rock.mass_share / shares / sphere_mass(rock.diameter, rock.density));
+    return counts;
+}
+
+/// Settings of the contacts with the speed that their step allows for.
+coupling::ContactSettings contacts_of(const Study& study, double tip_speed, double mouth_speed) {
+    coupling::ContactSettings contact = study.contact;
+    contact.max_speed = tip_speed + mouth_speed;
+    return contact;
+}
+
+struct RockCost {
+    double contact_step = 0.0;     // of the smallest rock [s]; 0 without rock
+    double mapped_seconds = 0.0;   // core time of a step of the run for all rock's mapping [s]
+    double contact_seconds = 0.0;  // and for one step of all rock's contacts [s]
+    double of_step(double step) const { return contact_step > 0.0 ? mapped_seconds + contact_seconds * step / contact_step : 0.0; }
+};
+
+RockCost rock_cost(const Study& study, const coupling::ContactSettings& contact, double cell) {
+    RockCost cost;
+    for (const FeedRequest& feed : study.feeds) {
+        const std::vector<double> counts = rocks_at_work(feed, study);
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const FeedClass& rock = feed.classes[i];
+            const double step = contact_step(contact, rock.diameter, rock.density);
+            cost.contact_step = cost.contact_step > 0.0 ? std::min(cost.contact_step, step) : step;
+            const double width = coupling::mapping_width(study.kernel, rock.diameter, cell) / cell;
+            cost.mapped_seconds += counts[i] * k_seconds_per_mapped_cell * width * width * width;
+            cost.contact_seconds += counts[i] * k_seconds_per_contact_step;
+        }
+    }
+    return cost;
 }
 
 /// Longest step [s] of rock that the rotor carries, or that its cells pass, at tip speed.
@@ -93,19 +150,25 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     const double rock_revolutions = prediction.revolutions - flow_revolutions;
     const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
     prediction.steps = flow_revolutions * flow_steps + rock_revolutions * rock_steps;
-    const double core_hours_per_step =
-        machine.slowness * plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
-    prediction.core_hours_per_revolution = core_hours_per_step * (1.0 + k_flow_per_rank * (machine.ranks - 1)) * flow_steps;
-    prediction.core_hours_per_revolution_with_rock =
-        core_hours_per_step * k_rock_share * (1.0 + k_rock_per_rank * (machine.ranks - 1)) * rock_steps;
+    const double mouth = study.suction.mouth_radius;
+    prediction.tip_speed = omega * head.tip_radius;
+    prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
+    const coupling::ContactSettings contact = contacts_of(study, prediction.tip_speed, prediction.mouth_speed);
+    const RockCost cost = rock_cost(study, contact, k_cell_at_rock * plan.cell_size);
+    prediction.contact_step = cost.contact_step;
+    const double core_hours_per_step = plan.prediction.core_hours_per_revolution * plan.prediction.time_step / study.period();
+    prediction.core_hours_per_revolution =
+        machine.slowness * core_hours_per_step * (1.0 + k_flow_per_rank * (machine.ranks - 1)) * flow_steps;
+    prediction.core_hours_per_revolution_with_rock = machine.slowness *
+                                                     (core_hours_per_step * k_rock_share + cost.of_step(prediction.rock_step) / 3600.0) *
+                                                     (1.0 + k_rock_per_rank * (machine.ranks - 1)) * rock_steps;
+    prediction.mesh_seconds = machine.slowness * k_mesh_seconds_per_cell * plan.prediction.cells;
+    prediction.start_seconds = machine.slowness * k_start_seconds_per_cell * k_start_iterations * plan.prediction.cells;
     prediction.core_hours =
         flow_revolutions * prediction.core_hours_per_revolution + rock_revolutions * prediction.core_hours_per_revolution_with_rock;
     prediction.mesh_disk = k_mesh_bytes + k_mesh_bytes_per_cell * plan.prediction.cells;
     prediction.run_disk = (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells +
                           prediction.steps * k_table_bytes_per_step;
-    const double mouth = study.suction.mouth_radius;
-    prediction.tip_speed = omega * head.tip_radius;
-    prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
     prediction.flow_number = study.suction.discharge / (omega * std::pow(head.ring_radius, 3));
     prediction.froude = omega * omega * head.ring_radius / k_gravity;
     for (const FeedRequest& feed : study.feeds) {
@@ -132,9 +195,14 @@ std::string to_text(const Prediction& p) {
     text += fmt::format("memory       about {:.2g} GB for the mesh, {:.2g} GB for the run on one rank\n", 1e-9 * p.mesh.mesh_memory,
                         1e-9 * p.mesh.run_memory);
     text += fmt::format("disk         about {:.2g} GB\n", 1e-9 * (p.mesh_disk + p.run_disk));
-    text +=
-        fmt::format("cost         about {:.2g} core hours: {} on {} rank(s); this machine now takes {:.2f} times the reference's time\n",
-                    p.core_hours, duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
+    if (p.contact_step > 0.0)
+        text += fmt::format("contacts     step {:.2g} s, {:.0f} of them in a step with rock\n", p.contact_step,
+                            std::ceil(p.rock_step / p.contact_step));
+    text += fmt::format(
+        "cost         about {:.2g} core hours: mesh {}, start {}, run {} on {} rank(s); this machine now takes {:.2f} times the "
+        "reference's time\n",
+        p.core_hours + (p.mesh_seconds + p.start_seconds) / 3600.0, duration_text(p.mesh_seconds), duration_text(p.start_seconds),
+        duration_text(3600.0 * p.core_hours / p.machine.ranks), p.machine.ranks, p.machine.slowness);
     text += fmt::format("speeds       tip {:.3g} m/s, suction mouth {:.3g} m/s\n", p.tip_speed, p.mouth_speed);
     text += fmt::format("numbers      Q/(omega R^3) = {:.3g}, omega^2 R/g = {:.3g}\n", p.flow_number, p.froude);
     // Of a cut face the number follows from the bank; `run` tells it.
@@ -153,6 +221,9 @@ nlohmann::json to_json(const Prediction& p) {
             {"run_memory_bytes", p.mesh.run_memory},
             {"disk_bytes", p.mesh_disk + p.run_disk},
             {"steps", p.steps},
+            {"contact_step_s", p.contact_step},
+            {"mesh_core_s", p.mesh_seconds},
+            {"start_core_s", p.start_seconds},
             {"core_hours", p.core_hours},
             {"ranks", p.machine.ranks},
             {"machine_slowness", p.machine.slowness},

@@ -26,7 +26,9 @@ struct Prediction {
     double flow_step = 0.0;  ///< before rock is released [s]
     double rock_step = 0.0;  ///< from then on [s]; that of the flow without rock
     double steps = 0.0;
-    double core_hours = 0.0;                           ///< of the whole run
+    double contact_step = 0.0;                         ///< [s]; 0 without rock
+    double mesh_seconds = 0.0, start_seconds = 0.0;    ///< core time of these stages
+    double core_hours = 0.0;                           ///< of the stage run
     double mesh_disk = 0.0;                            ///< written by the stages before the run [bytes]
     double run_disk = 0.0;                             ///< written by the run: fields, checkpoints kept, tables [bytes]
     double first_release = 0.0;                        ///< of rock [s]; the run's end without rock

@@ -264,7 +264,7 @@ TEST_F(Cli, check_predicts_what_a_run_costs) {
 
 // Core seconds per step of docs/results/step_cost.md: the draft mesh of this cutter on the machine undisturbed.
 TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
-    study(k_feed);
+    study("[[feed]]\ncount = 368\n[[feed.class]]\ndiameter_m = 0.02\n");
     const std::map<int, std::pair<double, double>> measured{{1, {0.359, 0.506}}, {2, {0.516, 0.672}}};
     for (const auto& [ranks, core_s] : measured) {
         if (ranks > cases::available_cores()) continue;
@@ -282,6 +282,32 @@ TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
                         (p.at("revolutions").get<double>() - first) * p.at("core_hours_per_revolution_with_rock").get<double>(),
                     p.at("core_hours").get<double>(), 1e-9);
     }
+}
+
+/// Every rock is mapped and touched; a modulus 10,000 times as large needs 100 times as many steps of the contacts.
+TEST_F(Cli, check_predicts_what_many_and_stiff_rocks_cost) {
+    const auto cost = [&](const char* feed, const char* rest) {
+        study(std::string("[[feed]]\n") + feed + "[[feed.class]]\ndiameter_m = 0.02\n" + rest);
+        const Outcome outcome = call({"check", "study.toml", "--json"});
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        return nlohmann::json::parse(outcome.text).at("prediction");
+    };
+    const auto seconds = [](const nlohmann::json& p) {  // of a step with rock
+        return 3600.0 / p.at("machine_slowness").get<double>() * p.at("core_hours_per_revolution_with_rock").get<double>() *
+               p.at("time_step_with_rock_s").get<double>();
+    };
+    const nlohmann::json few = cost("count = 20\n", ""), many = cost("count = 420\n", "");
+    const auto steps_of = [](const nlohmann::json& p) {
+        return p.at("time_step_with_rock_s").get<double>() / p.at("contact_step_s").get<double>();
+    };
+    const double added = 400.0 * (0.12e-3 + 0.65e-6 * steps_of(many));
+    EXPECT_NEAR(seconds(many) - seconds(few), added, 0.05 * added);
+    const nlohmann::json stiff = cost("count = 420\n", "[rock]\nyoungs_modulus_pa = 1e11\n");
+    const double steps = steps_of(stiff) - steps_of(many);
+    EXPECT_GT(steps, 1000.0);
+    EXPECT_NEAR(seconds(stiff) - seconds(many), 420.0 * 0.65e-6 * steps, 0.1 * 420.0 * 0.65e-6 * steps);
+    EXPECT_GT(stiff.at("mesh_core_s").get<double>(), 5.0);
+    EXPECT_GT(stiff.at("start_core_s").get<double>(), 15.0);
 }
 
 TEST_F(Cli, a_name_with_spaces_and_brackets_is_a_name_like_any_other) {

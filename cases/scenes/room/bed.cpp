@@ -5,9 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "geometry/base/axis_frame.hpp"
+#include "cases/study/contact_rules.hpp"
 #include "geometry/base/mistakes.hpp"
-#include "solver/physics/contact.hpp"
 
 namespace cutterflow::cases {
 
@@ -72,15 +71,10 @@ double BedPiece::end() const {
 }
 
 double contact_step(const RoomScene& scene) {
+    if (scene.grains.empty()) return 0.0;
     double step = std::numeric_limits<double>::infinity();
-    for (const RoomGrains& kind : scene.grains) {
-        const double radius = 0.5 * kind.smallest(), mass = kind.density * 4.0 / 3.0 * k_pi * radius * radius * radius;
-        const double modulus = scene.contact.youngs_modulus / (1.0 - scene.contact.poisson_rock * scene.contact.poisson_rock);
-        const physics::Impact impact{0.5 * mass, 0.5 * radius, 0.5 * modulus, scene.contact.max_speed};
-        step = std::min({step, physics::rayleigh_time(radius, kind.density, scene.contact.youngs_modulus, scene.contact.poisson_rock),
-                         physics::hertz_time(impact)});
-    }
-    return scene.grains.empty() ? 0.0 : scene.contact.time_step_fraction * step;
+    for (const RoomGrains& kind : scene.grains) step = std::min(step, contact_step(scene.contact, kind.smallest(), kind.density));
+    return step;
 }
 
 double press_speed(const RoomScene& scene, const CompressStep& compress) {
