@@ -2,9 +2,11 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -540,9 +542,34 @@ TEST_F(RoomStudy, warns_of_grains_that_are_soft_for_their_bed) {
     };
     EXPECT_TRUE(warnings("1e6").empty());
     const auto soft = warnings("5000");
-    ASSERT_EQ(soft.size(), 1u);
-    EXPECT_THAT(soft[0].text(),
+    ASSERT_EQ(soft.size(), 2u);  // and of the tube that lifts them
+    EXPECT_THAT(soft[1].text(),
                 ContainsRegex("room.toml:[0-9]+: youngs_modulus_pa = 5000. Grains under the poured bed sink 0\\.[0-9]+ diam"));
+}
+
+/// Grains of 5 MPa, 2500 kg/m3: delta/R = (5 pi/4 rho u^2 (2 - 2 nu^2)/E)^0.4.
+TEST_F(RoomStudy, contacts_allow_for_the_speed_of_solids) {
+    const std::string way = "velocity_m_s = [0, 0, 0.03]";
+    const auto with_speed = [&](const char* speed) { return changed(way, fmt::format("velocity_m_s = [0, 0, {}]", speed)); };
+    const auto overlap = [](double speed) { return std::pow(1.25 * k_pi * 2500.0 * speed * speed * 1.875 / 5e6, 0.4); };
+    const double fall = std::sqrt(2.0 * 9.81 * read_room(write(room_template("heap"))).size.z());
+    EXPECT_NEAR(read_room(write(with_speed("0.03"))).contact.max_speed, fall, 1e-12);
+    ASSERT_LT(fall, 3.0);
+    EXPECT_NEAR(read_room(write(with_speed("3"))).contact.max_speed, 3.0, 1e-12);
+    // A turning tube of 40 mm: its rim.
+    const RoomScene turning = read_room(write(changed(way, "turn_rpm = 1000\nturn_axis = [0, 0, 1]\nturn_origin_m = [0, 0, 0]")));
+    EXPECT_NEAR(turning.contact.max_speed, rpm_to_rad_s(1000.0) * turning.solids[1].fastest() / turning.solids[1].turn->speed, 1e-9);
+    EXPECT_GT(turning.contact.max_speed, rpm_to_rad_s(1000.0) * 0.0199);
+
+    ASSERT_GT(overlap(3.0), 0.05);
+    const RoomRequest request = read_room_request(write(with_speed("3")));
+    const auto warnings = room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    EXPECT_THAT(warnings.front().text(), HasSubstr(fmt::format("sink into it by {:.2g} of their radius", overlap(3.0))));
+    ASSERT_GT(overlap(50.0), 0.5);
+    EXPECT_THAT(mistakes_of(with_speed("50")), ContainsRegex("room.toml:[0-9]+: tube moves at up to 50 m/s"));
+    std::string slow_step = with_speed("3");
+    slow_step.replace(slow_step.find(k_end), std::strlen(k_end), "[dem]\nmax_speed_m_s = 2\n\n[run]\n");
+    EXPECT_THAT(mistakes_of(slow_step), HasSubstr("impacts at up to dem.max_speed_m_s = 2"));
 }
 
 TEST_F(RoomStudy, warns_of_a_solid_that_goes_through_a_closed_side) {

@@ -102,7 +102,7 @@ const std::vector<Layer> k_layers = {
     {"cases/scenes/free_surface/", {k_base, "solver/free_surface/", "cases/scenes/free_surface/"}},
     {"cases/scenes/room/",
      {"geometry/", "meshing/", "solver/physics/", "solver/ports/", "postproc/analysis/measures/", "cases/study/study_section.hpp",
-      "cases/study/closure_rules.hpp", "cases/scenes/flow/", "cases/scenes/room/"}},
+      "cases/study/closure_rules.hpp", "cases/study/contact_rules.hpp", "cases/scenes/flow/", "cases/scenes/room/"}},
     {"cases/runner/", {"geometry/", "meshing/", "solver/ports/", "postproc/pages/", "cases/study/", "cases/scenes/", "cases/runner/"}},
     {"cases/replay/",
      {k_base, "geometry/io/", "geometry/head/", "meshing/dictionary/", "postproc/analysis/", "postproc/run/", "cases/study/",

@@ -8,6 +8,7 @@
 
 #include "cases/scenes/room/room_flow.hpp"
 #include "cases/study/closure_rules.hpp"
+#include "cases/study/contact_rules.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/progress.hpp"
 #include "solver/physics/catalogue.hpp"
@@ -174,6 +175,23 @@ double overlap_under_weight(const RoomScene& scene, const std::vector<BedPiece>&
     return std::pow(1.5 * pressure / modulus, 2.0 / 3.0);
 }
 
+/// Solids so fast that grains sink into them deeper than accepted.
+std::vector<Mistake> impact_warnings(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Mistake> warnings;
+    if (scene.grains.empty()) return warnings;
+    for (const ParameterValues& table : values.tables("solid")) {
+        const RoomSolid* solid = scene.find_solid(table.text("solid.name"));
+        if (solid == nullptr || solid->fastest() == 0.0) continue;
+        const double overlap = impact_overlap(scene.contact, scene.densest_grain(), solid->fastest());
+        if (overlap > physics::k_largest_overlap_ratio)
+            warnings.push_back({table.where("solid.name"), fmt::format("{} moves at up to {:.3g} m/s", solid->name, solid->fastest()),
+                                fmt::format("Grains that it meets sink into it by {:.2g} of their radius; {:g} is accepted", overlap,
+                                            physics::k_largest_overlap_ratio),
+                                "Give the grains' material a larger modulus; the contact step shrinks with its square root"});
+    }
+    return warnings;
+}
+
 /// Grains so soft that their bed sinks into itself.
 std::vector<Mistake> softness_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces) {
     if (pieces.empty()) return {};
@@ -218,6 +236,7 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
 std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces,
                                    const std::optional<meshing::RoomMeshPlan>& mesh) {
     std::vector<Mistake> warnings = motion_warnings(values, scene);
+    for (Mistake& warning : impact_warnings(values, scene)) warnings.push_back(std::move(warning));
     for (Mistake& warning : softness_warnings(values, scene, pieces)) warnings.push_back(std::move(warning));
     if (!mesh) return warnings;
     for (Mistake& warning : meshing::room_mesh_warnings(*mesh)) warnings.push_back(std::move(warning));

@@ -1,6 +1,7 @@
 #include "cases/scenes/room/room_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "geometry/base/axis_frame.hpp"
@@ -33,6 +34,14 @@ struct Contains {
 
 bool contains(const Region& region, const Vec3& place) {
     return std::visit(Contains{place}, region);
+}
+
+double RoomSolid::fastest() const {
+    if (travel) return travel->velocity.norm();
+    if (!turn) return 0.0;
+    double farthest = 0.0;  // from the axis
+    for (const Vec3& point : surface.points) farthest = std::max(farthest, (point - turn->axis.origin).cross(turn->axis.direction).norm());
+    return std::abs(turn->speed) * farthest;
 }
 
 double ThroughFlow::largest_speed() const {
@@ -74,6 +83,12 @@ double RoomScene::largest_grain() const {
     double largest = 0.0;
     for (const RoomGrains& kind : grains) largest = std::max(largest, kind.largest());
     return largest;
+}
+
+double RoomScene::densest_grain() const {
+    double densest = 0.0;
+    for (const RoomGrains& kind : grains) densest = std::max(densest, kind.density);
+    return densest;
 }
 
 const RoomGrains* RoomScene::find_grains(const std::string& wanted) const {

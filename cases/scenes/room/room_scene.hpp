@@ -70,6 +70,8 @@ struct RoomSolid {
     std::optional<Bore> bore;
     double thinnest = 0.0;  ///< its thinnest part, for the mesh [m]; 0: not known, as of a file
     double opening = 0.0;   ///< diameter or width of the one in its floor or of its spout [m]; 0: none
+
+    double fastest() const;  ///< largest speed of its surface [m/s]
 };
 
 /// What grains meet at a side of the room.
@@ -258,6 +260,7 @@ struct RoomScene {
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
     double smallest_grain() const;                               ///< diameter [m]; infinity without grains
     double largest_grain() const;                                ///< diameter [m]; 0 without grains
+    double densest_grain() const;                                ///< density [kg/m3]; 0 without grains
     double tolerance() const { return 1e-6 * size.maxCoeff(); }  ///< lengths below it are rounding [m]
     const RoomGrains* find_grains(const std::string& name) const;
     const RoomSolid* find_solid(const std::string& name) const;

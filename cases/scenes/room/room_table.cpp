@@ -209,7 +209,7 @@ ParameterTable material_rows() {
         setting<Contact>("dem.time_step_fraction", "timeStepFraction", "Step of the contacts over the smaller of Rayleigh and Hertz time.")
             .by_default(0.15),
         setting<Contact>("dem.max_speed_m_s", "maxSpeed", "Fastest impact that the step allows for.")
-            .derived("fall over the room's height"),
+            .derived("the larger of a fall over the room's height and the speeds of its solids"),
         duration("dem.longest_step_s", "Longest time between looks at events, gates and stop rules.")
             .derived("0.1 sqrt(d/g), at most a write interval"),
     };

@@ -234,10 +234,21 @@ TEST(RockMotion, a_rock_that_leaves_the_domain_is_reported_once) {
 }
 
 // LIGGGHTS drops a rock beyond its box. That takes a call in which a rock crosses a quarter of the domain: too long to be right.
-TEST(RockMotion, a_rock_that_vanishes_is_a_defect) {
+TEST(RockMotion, a_rock_that_vanishes_ends_the_run_with_its_cause) {
     LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
-    engine.insert(one_rock(Vec3(0.45, 0, 0), Vec3(100.0, 0, 0)));
-    EXPECT_THROW(engine.advance(0.01, no_force), std::logic_error);
+    coupling::Rocks rocks;
+    add_rock(rocks, 1, Vec3(0.45, 0, 0), Vec3(100.0, 0, 0));
+    add_rock(rocks, 2, Vec3(-0.1, 0.05, 0), Vec3(3.0, 0, 0));
+    engine.insert(rocks);
+    try {
+        engine.advance(0.01, no_force);
+        FAIL();
+    } catch (const CheckFailure& failure) {
+        EXPECT_NE(
+            std::string(failure.what()).find("1 of 2 rocks vanished from the DEM near 0.01 s; the fastest of the others moves at 3 m/s"),
+            std::string::npos)
+            << failure.what();
+    }
 }
 
 TEST(RockMotion, a_force_that_is_no_number_is_a_defect_and_not_a_rock_that_left) {
