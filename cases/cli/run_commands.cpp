@@ -1,10 +1,15 @@
 /// \file mesh, run, report: work in a run directory.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "cases/cli/commands.hpp"
+#include "cases/cli/kinds/stage_lines.hpp"
 #include "cases/cli/kinds/study_kind.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/run_files.hpp"
 #include "postproc/pages/adv_page.hpp"
 
 namespace cutterflow::cli {
@@ -44,7 +49,12 @@ void add_run(CLI::App& app) {
                         "Run directory to take the frozen-rotor flow from (of a room: the bed), if what makes it is identical");
     command->add_flag("--resume", options->resume, "Resume an interrupted run from its last checkpoint");
     command->add_flag("--json", options->json, "Print results.json");
-    command->callback([options] { kind_of_study(options->study).run(*options); });
+    command->callback([options] {
+        const StudyKind& kind = kind_of_study(options->study);
+        if (options->resume && !std::filesystem::exists(options->folder() / names::manifest))
+            say(fmt::format("there is no run in {} to resume: it begins", options->folder().string()));
+        kind.run(*options);
+    });
 }
 
 void add_report(CLI::App& app) {

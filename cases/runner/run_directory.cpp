@@ -81,7 +81,7 @@ int take_lock(const fs::path& path) {
 }  // namespace
 
 void require_usable_run_directory(const fs::path& path) {
-    require_openfoam_path(fs::absolute(path));
+    require_openfoam_path(fs::absolute(path).lexically_normal());
     if (!fs::is_directory(path) || may_hold_a_run(path)) return;
     throw UserError(fmt::format("{} contains files but no {}", path.string(), names::manifest),
                     "A run directory is empty or made by cutterflow; nothing is overwritten", "Choose another with -o");

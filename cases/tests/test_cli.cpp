@@ -284,6 +284,16 @@ TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
     }
 }
 
+TEST_F(Cli, judges_a_run_directory_where_it_is_and_says_that_there_is_nothing_to_resume) {
+    study(k_feed);
+    fs::create_directories(folder_ / "my runs");
+    const Outcome outside = call({"run", "study.toml", "-o", "my runs/../runs/a", "--ranks", "1000", "--resume"});
+    expect_refused(outside, 2, "--ranks 1000");
+    EXPECT_EQ(outside.text.find("has ' ' in its path"), std::string::npos) << outside.text;
+    expect_contains(outside.text, "there is no run in my runs/../runs/a to resume: it begins");
+    expect_refused(call({"run", "study.toml", "-o", "my runs/a"}), 2, "has ' ' in its path");
+}
+
 /// Every rock is mapped and touched; a modulus 10,000 times as large needs 100 times as many steps of the contacts.
 TEST_F(Cli, check_predicts_what_many_and_stiff_rocks_cost) {
     const auto cost = [&](const char* feed, const char* rest) {
