@@ -240,21 +240,16 @@ Figure heights_figure(const Agreement& agreement, std::size_t t) {
     return {std::move(plot), fmt::format("{}: heights of the target and at the chosen parameters.", html::escape(agreement.name)), ""};
 }
 
-std::string interval_text(const ParameterInterval& interval) {
-    if (!interval.determined()) return "not determined by the targets";
-    std::string text = fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
-    if (interval.reaches_low) text += ", open at the low end";
-    if (interval.reaches_high) text += ", open at the high end";
-    return text;
-}
-
 std::string answers(const Outcome& outcome) {
     std::string markup;
     for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k) {
         const bool determined = !outcome.estimate || outcome.estimate->intervals[k].determined();
-        markup += html::answer(determined ? palette::sucked_up : palette::never_entered, html::escape(outcome.calibration.ranges[k].name),
-                               fmt::format("{:.3g}", outcome.parameters[static_cast<Eigen::Index>(k)]),
-                               outcome.estimate ? "95 %: " + interval_text(outcome.estimate->intervals[k]) : "no interval: too few places");
+        const double value = outcome.parameters[static_cast<Eigen::Index>(k)];
+        markup +=
+            html::answer(determined ? palette::sucked_up : palette::never_entered, html::escape(outcome.calibration.ranges[k].name),
+                         fmt::format("{:.3g}", value),
+                         outcome.estimate ? "95 %: " + interval_text(outcome.estimate->intervals[k], outcome.calibration.ranges[k], value)
+                                          : "no interval: too few places");
     }
     markup += html::answer(palette::faint, "cost", fmt::format("{:.3g} core h", outcome.calibration.cost.core_h),
                            fmt::format("{} runs, {} failed", outcome.calibration.cost.runs, outcome.calibration.cost.failed_runs));

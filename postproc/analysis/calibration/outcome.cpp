@@ -12,6 +12,8 @@ namespace cutterflow::postproc::calibration {
 
 namespace {
 
+constexpr double k_at_end = 1e-3;  // of the range
+
 std::vector<Eigen::VectorXd> scaled_places(const Calibration& calibration) {
     std::vector<Eigen::VectorXd> places;
     for (const Evaluation& evaluation : calibration.evaluations) places.push_back(scaled(calibration.ranges, evaluation.parameters));
@@ -223,14 +225,23 @@ void certify_objectives(const nlohmann::json& calibration) {
     }
 }
 
+std::string interval_text(const ParameterInterval& interval, const Range& range, double value) {
+    std::string text = interval.determined() ? fmt::format("{:.4g} to {:.4g}", interval.low, interval.high)
+                                             : fmt::format("not determined by the targets in {:.4g} to {:.4g}", range.low, range.high);
+    if (interval.determined() && interval.reaches_low) text += ", open at the low end";
+    if (interval.determined() && interval.reaches_high) text += ", open at the high end";
+    if (std::min(value - range.low, range.high - value) < k_at_end * (range.high - range.low))
+        text += ": at the end of its range, which may exclude a better value";
+    return text;
+}
+
 std::string outcome_text(const Outcome& outcome) {
     std::string text;
     for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k) {
         text += fmt::format("{} = {:.4g}", outcome.calibration.ranges[k].name, outcome.parameters[static_cast<Eigen::Index>(k)]);
         if (outcome.estimate) {
-            const ParameterInterval& interval = outcome.estimate->intervals[k];
-            text += interval.determined() ? fmt::format("  ({:.4g} to {:.4g})", interval.low, interval.high)
-                                          : fmt::format("  (not determined: all of {:.4g} to {:.4g})", interval.low, interval.high);
+            text += fmt::format("  ({})", interval_text(outcome.estimate->intervals[k], outcome.calibration.ranges[k],
+                                                        outcome.parameters[static_cast<Eigen::Index>(k)]));
         }
         text += '\n';
     }

@@ -72,6 +72,9 @@ nlohmann::json to_json(const Outcome& outcome);
 /// such as a held-out target
 void certify_objectives(const nlohmann::json& calibration);
 
+/// "0.31 to 0.42", and where the targets leave it open. \param value  the chosen one; at an end of its range that is told
+std::string interval_text(const ParameterInterval& interval, const Range& range, double value);
+
 /// The answer in a few lines of plain text.
 std::string outcome_text(const Outcome& outcome);
 

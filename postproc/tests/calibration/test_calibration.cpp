@@ -278,6 +278,15 @@ TEST(HeldOut, changes_neither_objective_nor_parameters_and_is_reported) {
     EXPECT_THAT(outcome_text(other), HasSubstr("held out: rate"));
 }
 
+TEST(Answer, at_the_end_of_its_range_is_told_so) {
+    const Range range{"friction", 0.1, 0.5, 0.05};
+    EXPECT_EQ(interval_text({0.2, 0.4, false, false}, range, 0.3), "0.2 to 0.4");
+    EXPECT_EQ(interval_text({0.2, 0.5, false, true}, range, 0.4), "0.2 to 0.5, open at the high end");
+    EXPECT_EQ(interval_text({0.4, 0.5, false, true}, range, 0.5),
+              "0.4 to 0.5, open at the high end: at the end of its range, which may exclude a better value");
+    EXPECT_EQ(interval_text({0.1, 0.5, true, true}, range, 0.3), "not determined by the targets in 0.1 to 0.5");
+}
+
 TEST(Answer, is_judged_by_runs_that_had_no_part_in_the_fit) {
     Calibration calibration = with_held_out(25.0);
     Outcome outcome = outcome_of(calibration, true);
