@@ -205,6 +205,8 @@ StageOutcome Pipeline::make_geometry() {
     for (const Mistake& warning : study_warnings(resolved, size)) say_("warning: " + warning.text());
     for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
     for (const Mistake& warning : blade_warnings(study, head)) say_("warning: " + warning.text());
+    for (const Mistake& warning : swing_warnings(resolved, study, size, head_contour(head, study.suction.gap)))
+        say_("warning: " + warning.text());
     for (const Mistake& warning : meshing::mesh_warnings(mesh_input_of(study, size, head.surface))) say_("warning: " + warning.text());
     say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
                      head.ring_radius, size.depth));

@@ -93,6 +93,24 @@ TEST(StudyBank, figures_are_those_of_the_swing_and_scale_by_froude) {
     EXPECT_NEAR(bank_json(study, contour_of(study)).at("prototype").at("dry_kg_s").get<double>(), 32.0 * figures.dry, 1e-9);
     EXPECT_NE(bank_text(study, contour_of(study)).find("prototype"), std::string::npos);
     EXPECT_EQ(bank_text(study_of(""), contour_of(study)), "");
+    EXPECT_NE(bank_text(study, contour_of(study)).find(fmt::format("{:.2g} m of soil in a revolution", 0.1 * study.period())),
+              std::string::npos);
+}
+
+TEST(StudyBank, warns_of_a_swing_that_no_blade_and_no_pump_keeps_up_with) {
+    const auto warnings = [](double speed_m_min) {
+        const ParameterValues resolved = resolved_of(fmt::format("[swing]\nspeed_m_min = {}\n[bank]\nmodel = \"wall\"\n", speed_m_min));
+        const Study study = make_study(resolved, "/tmp");
+        return texts(swing_warnings(resolved, study, head_size(model_head()), contour_of(study)));
+    };
+    const Study study = study_of("");
+    const double tip_m_min = 60.0 * study.rotation_speed * head_size(model_head()).tip_radius;
+    EXPECT_TRUE(has(warnings(1.01 * tip_m_min), "The head swings faster than its blades' tips"));
+    // 0.85 of a section of 0.051 m2 through 0.12 m3/s: 30 % at 50 m/min.
+    EXPECT_TRUE(warnings(45.0).empty());
+    const std::vector<std::string> fast = warnings(55.0);
+    ASSERT_EQ(fast.size(), 1u);
+    EXPECT_TRUE(has(fast, "of suction.discharge_m3_s by volume"));
 }
 
 TEST(StudyBank, stands_on_the_side_where_rock_is_fed) {

@@ -61,6 +61,7 @@ void check(const CheckOptions& options) {
     for (const Mistake& warning : cases::prediction_warnings(study, prediction)) warnings.push_back(warning);
     for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
     for (const Mistake& warning : cases::blade_warnings(study, *inspection.head)) warnings.push_back(warning);
+    for (const Mistake& warning : cases::swing_warnings(resolved, study, size, contour)) warnings.push_back(warning);
     for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface)))
         warnings.push_back(warning);
     const fs::path run = fs::path("runs") / fs::path(options.study).stem();  // where it goes without -o

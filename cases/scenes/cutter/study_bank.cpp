@@ -30,6 +30,12 @@ constexpr double k_edge_per_ring_radius = 0.25;
 constexpr double k_measured_per_ring_radius = 0.0125;
 constexpr int k_pick_heights = 32;
 constexpr double k_patch_per_ring_radius = 0.05;
+constexpr double k_most_solids = 0.3;  // of a mixture that is pumped, by volume
+
+/// Volume of the grains that are cut over that of the mixture that is sucked up.
+double solids_share(const Study& study, const CutFigures& figures) {
+    return (1.0 - study.bank->porosity) * figures.in_situ / study.suction.discharge;
+}
 
 Mistake broken(const ParameterValues& resolved, const char* key, const std::string& rule, const std::string& remedy) {
     return {resolved.where(key), fmt::format("{} = {:.6g}", key, resolved.number(key)), rule, remedy};
@@ -266,6 +272,28 @@ CutFigures scaled(const CutFigures& figures, double length_ratio) {
             figures.swing_speed * std::sqrt(length_ratio)};
 }
 
+std::vector<Mistake> swing_warnings(const ParameterValues& resolved, const Study& study, const HeadSize& size,
+                                    const geometry::Contour& contour) {
+    if (!study.bank) return {};
+    const CutFigures figures = cut_figures(study, contour);
+    const std::string what = fmt::format("swing.speed_m_min = {:.6g}", 60.0 * figures.swing_speed),
+                      where = resolved.where("swing.speed_m_min");
+    std::vector<Mistake> warnings;
+    const double tip = std::abs(study.rotation_speed) * size.tip_radius;
+    if (figures.swing_speed > tip)
+        warnings.push_back(
+            {where, what, fmt::format("The head swings faster than its blades' tips, {:.3g} m/s: they do not cut", tip), "Check it"});
+    const double share = solids_share(study, figures);
+    if (share > k_most_solids)
+        warnings.push_back(
+            {where, what,
+             fmt::format("Grains of the soil that is cut are {:.3g} % of suction.discharge_m3_s by volume; dredge pumps take "
+                         "{:g} % at most",
+                         100.0 * share, 100.0 * k_most_solids),
+             "Swing more slowly, or cut less: what is not taken in is spilled"});
+    return warnings;
+}
+
 std::string bank_text(const Study& study, const geometry::Contour& contour) {
     if (!study.bank) return "";
     const auto line = [](const char* of, const CutFigures& figures) {
@@ -280,6 +308,8 @@ std::string bank_text(const Study& study, const geometry::Contour& contour) {
         fmt::format("bank         {:.4g} m high, steps of {:.4g} m, {}\n", study.bank->cut_height, study.bank->step, study.swing_direction);
     if (study.bank->file) text += fmt::format("soil         {}\n", study.bank->file->string());
     text += line("cut          ", figures);
+    text += fmt::format("mixture      {:.2g} m of soil in a revolution; {:.3g} % of the discharge by volume if all of it were delivered\n",
+                        figures.swing_speed * study.period(), 100.0 * solids_share(study, figures));
     if (study.length_ratio != 1.0) text += line("prototype    ", scaled(figures, study.length_ratio));
     return text;
 }

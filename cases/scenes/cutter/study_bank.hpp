@@ -47,6 +47,10 @@ CutFigures cut_figures(const Study& study, const geometry::Contour& contour);
 /// By Froude's law, for a prototype longer by `length_ratio`; the soil is the same.
 CutFigures scaled(const CutFigures& figures, double length_ratio);
 
+/// What a bank may be cut with in spite of: a swing faster than the blades' tips, more grains than the mixture can hold.
+std::vector<Mistake> swing_warnings(const ParameterValues& resolved, const Study& study, const HeadSize& size,
+                                    const geometry::Contour& contour);
+
 /// Lines for the user, and the same for `check --json`; empty and null without a bank.
 std::string bank_text(const Study& study, const geometry::Contour& contour);
 nlohmann::json bank_json(const Study& study, const geometry::Contour& contour);
