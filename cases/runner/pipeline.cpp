@@ -176,7 +176,7 @@ std::vector<Stage> Pipeline::stages() {
             {k_mesh_stage, with_overrides(inputs(k_mesh_stage), mesh_files), mesh_files, false, [this](bool) { return make_mesh(); }},
             {k_case_stage, with_overrides(inputs(k_case_stage), case_files), case_files, false, [this](bool) { return make_case(); }},
             {"start", {}, {"0/"}, false, [this](bool) { return make_start(); }},
-            {"run", {}, {"system/decomposeParDict"}, true, [this](bool resume) { return run_solver(resume); }},
+            {"run", {}, {"system/decomposeParDict"}, true, [this](bool) { return run_solver(); }},
             {k_report_stage, inputs(k_report_stage), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
 }
 
@@ -363,23 +363,12 @@ void Pipeline::say_cost(double core_s) const {
                      prediction.at("core_hours").get<double>(), prediction.at("revolutions").get<double>()));
 }
 
-StageOutcome Pipeline::run_solver(bool resume) {
+StageOutcome Pipeline::run_solver() {
     const RunHead head = read_run_head(directory_);
     const Study study = resolved_study(head.size);
-    const bool goes_on = resume && !newest_checkpoint(directory_.path()).empty();
-    double core_s = 0.0;
-    if (goes_on) {
-        drop_times_after_checkpoint(directory_.path());  // what a killed run wrote after it
-        const RankChange change = move_checkpoint_to_ranks(directory_.path(), settings_.ranks);
-        core_s += change.core_s;
-        if (change.from != settings_.ranks)
-            say_(fmt::format("the checkpoint is converted from {} ranks to {}", change.from, settings_.ranks));
-        say_("resuming from the last checkpoint");
-    } else {
-        remove_unfinished_run(directory_.path());
-        require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
-        core_s += decompose(directory_.path(), settings_.ranks);
-    }
+    const bool goes_on = !newest_checkpoint(directory_.path()).empty();
+    if (!goes_on) require_free_bytes(directory_.path(), predicted(study, head.size).run_disk);
+    const double core_s = bring_to_start(directory_.path(), settings_.ranks, say_);
     RunProgress progress(study);
     const double run_core_s =
         cases::run_solver(directory_.path(), settings_.solver, settings_.ranks, [&](const std::string& line) { progress.take(line); });

@@ -57,7 +57,7 @@ private:
                                      std::vector<std::string>& outputs);
     StageOutcome make_case();
     StageOutcome make_start();
-    StageOutcome run_solver(bool resume);
+    StageOutcome run_solver();
     StageOutcome make_report();
     void make_adv_report(const std::filesystem::path& points) const;
 

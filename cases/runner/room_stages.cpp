@@ -53,16 +53,6 @@ void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
     for (const CaseText& file : files) write_file(folder / file.path, file.text);
 }
 
-/// Removes what a killed run wrote after its newest checkpoint, or all of it. \return whether there is a checkpoint
-bool clear_for_run(const fs::path& folder) {
-    const bool goes_on = !newest_checkpoint(folder).empty();
-    if (goes_on)
-        drop_times_after_checkpoint(folder);
-    else
-        remove_unfinished_run(folder);
-    return goes_on;
-}
-
 /// Runs cutterFoam in a folder and shows how far it is. \return core seconds
 double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end, int ranks) {
     TimeProgress progress(what, end);
@@ -127,7 +117,7 @@ public:
             const fs::path folder = piece_folder(i);
             if (!fs::exists(folder / k_done)) {
                 write_texts(folder, bed_case(scene_, pieces_[i], start, "../../"));
-                clear_for_run(folder);
+                bring_to_start(folder, std::nullopt, say_);
                 outcome.core_s +=
                     run_cutter_foam(folder, solver_, fmt::format("  bed, part {} of {}", i + 1, pieces_.size()), pieces_[i].end(), 1);
                 require_rest(i);
@@ -169,13 +159,9 @@ public:
         return outcome;
     }
 
-    StageOutcome run(bool resume) const {
-        const bool goes_on = clear_for_run(directory_.path());
-        double core_s = 0.0;
-        if (mesh_) core_s += goes_on ? move_checkpoint_to_ranks(directory_.path(), ranks_).core_s : decompose(directory_.path(), ranks_);
-        if (resume && goes_on) say_("resuming from the last checkpoint");
-        core_s += run_cutter_foam(directory_.path(), solver_, "  run", scene_.run.end, ranks_);
-        return {{}, core_s};
+    StageOutcome run() const {
+        const double core_s = bring_to_start(directory_.path(), mesh_ ? std::optional<int>(ranks_) : std::nullopt, say_);
+        return {{}, core_s + run_cutter_foam(directory_.path(), solver_, "  run", scene_.run.end, ranks_)};
     }
 
     /// \pre the case is made
@@ -433,7 +419,7 @@ std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest&
                               return room->make_mesh();
                           }});
     stages.push_back({k_case, case_inputs(request, directory), {}, false, [room](bool) { return room->make_case(); }});
-    stages.push_back({"run", {}, {}, true, [room](bool resume) { return room->run(resume); }});
+    stages.push_back({"run", {}, {}, true, [room](bool) { return room->run(); }});
     stages.push_back(
         {k_report, inputs_of(request.values, k_report), RoomWork::rewritten_by_report(), false, [room](bool) { return room->report(); }});
     return stages;

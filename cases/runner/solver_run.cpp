@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cases/runner/run_directory.hpp"
 #include "cases/runner/run_progress.hpp"
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
@@ -69,6 +70,19 @@ RankChange move_checkpoint_to_ranks(const fs::path& run_directory, int ranks) {
     remove_processor_folders(run_directory);
     change.core_s += split(run_directory, ranks, {"-time", time, "-copyUniform"});
     return change;
+}
+
+double bring_to_start(const fs::path& run_directory, const std::optional<int>& ranks, const std::function<void(const std::string&)>& say) {
+    if (newest_checkpoint(run_directory).empty()) {
+        remove_unfinished_run(run_directory);
+        return ranks ? decompose(run_directory, *ranks) : 0.0;
+    }
+    drop_times_after_checkpoint(run_directory);
+    RankChange change;
+    if (ranks) change = move_checkpoint_to_ranks(run_directory, *ranks);
+    if (ranks && change.from != *ranks) say(fmt::format("the checkpoint is converted from {} ranks to {}", change.from, *ranks));
+    say("resuming from the last checkpoint");
+    return change.core_s;
 }
 
 double run_solver(const fs::path& run_directory, const fs::path& solver, int ranks,

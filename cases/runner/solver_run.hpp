@@ -2,12 +2,19 @@
 /// \file cutterFoam on the ranks of a run: decomposition of its case, at its start and when it resumes on another number of them.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace cutterflow::cases {
 
 /// Writes system/decomposeParDict and decomposes the present case. \return core seconds
 double decompose(const std::filesystem::path& run_directory, int ranks);
+
+/// Brings a case to where cutterFoam starts: its newest checkpoint, without what a killed run wrote after it, or its beginning, without
+/// what is left of an earlier run; on `ranks` ranks. \param ranks  none: the case has no fields \param say  is told of a checkpoint
+/// \return core seconds \throws as move_checkpoint_to_ranks
+double bring_to_start(const std::filesystem::path& run_directory, const std::optional<int>& ranks,
+                      const std::function<void(const std::string&)>& say);
 
 struct RankChange {
     int from = 0;         ///< ranks on which the checkpoint's fields were found
