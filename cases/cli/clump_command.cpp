@@ -6,6 +6,7 @@
 
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
+#include "geometry/base/error.hpp"
 #include "geometry/clump/clump_file.hpp"
 #include "geometry/clump_fit/fit_clump.hpp"
 #include "geometry/io/read_surface.hpp"
@@ -41,7 +42,11 @@ std::string table_of(const geometry::ClumpFit& fit) {
 void make_clump(const ClumpOptions& options) {
     require_new_file(options.output);
     const geometry::TriangleSurface rock = geometry::read_surface(options.rock);
-    geometry::require_sound(geometry::inspect_surface(rock), options.rock);
+    const geometry::SoundnessReport report = geometry::inspect_surface(rock);
+    geometry::require_sound(report, options.rock);
+    if (report.components.size() > 1)
+        throw UserError(fmt::format("{} has {} bodies that do not touch", options.rock, report.components.size()), "A clump is one rock",
+                        "Remove the others, or join them, in CAD");
     const geometry::ClumpFit fit = geometry::fit_clump(rock, options.balls);
     const std::string text =
         table_of(fit) + fmt::format(
