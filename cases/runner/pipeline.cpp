@@ -14,6 +14,7 @@
 #include "cases/runner/run_progress.hpp"
 #include "cases/runner/solver_run.hpp"
 #include "cases/scenes/cutter/case_builder.hpp"
+#include "cases/scenes/cutter/checked_study.hpp"
 #include "cases/scenes/cutter/contact_surfaces.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
@@ -180,11 +181,15 @@ std::vector<Stage> Pipeline::stages() {
             {k_report_stage, inputs(k_report_stage), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
 }
 
-Study Pipeline::resolved_study(const HeadSize& head) const {
-    const ParameterValues resolved = resolve_study(values_, head);
+ParameterValues Pipeline::checked_values(const HeadSize& head) const {
+    ParameterValues resolved = resolve_study(values_, head);
     const std::vector<Mistake> mistakes = check_study(resolved, head);
     if (!mistakes.empty()) throw UserError(mistakes);
-    return make_study(resolved, settings_.study_file.parent_path());
+    return resolved;
+}
+
+Study Pipeline::resolved_study(const HeadSize& head) const {
+    return make_study(checked_values(head), settings_.study_file.parent_path());
 }
 
 void Pipeline::write_resolved_study(const HeadSize& head) const {
@@ -197,16 +202,11 @@ void Pipeline::write_resolved_study(const HeadSize& head) const {
 StageOutcome Pipeline::make_geometry() {
     const geometry::GeometryInspection inspection = import_study_cutter(values_, settings_.study_file.parent_path());
     const geometry::Head& head = *inspection.head;
-    const HeadSize size = head_size(head);
-    const Study study = resolved_study(size);
-    const ParameterValues resolved = resolve_study(values_, size);
-    if (const std::vector<Mistake> mistakes = bank_mistakes(resolved, study, size, head.contour); !mistakes.empty())
-        throw UserError(mistakes);
-    for (const Mistake& warning : study_warnings(resolved, size)) say_("warning: " + warning.text());
-    for (const Mistake& warning : carrying_warnings(study, head)) say_("warning: " + warning.text());
-    for (const Mistake& warning : blade_warnings(study, head)) say_("warning: " + warning.text());
-    for (const Mistake& warning : swing_warnings(resolved, study, size, head_contour(head, study.suction.gap)))
-        say_("warning: " + warning.text());
+    const ParameterValues resolved = checked_values(head_size(head));
+    // What has no place is refused here, before the mesh costs anything.
+    const PlacedStudy placed = place_study(resolved, head, settings_.study_file.parent_path());
+    const auto& [study, size, contour, feeds] = placed;
+    for (const Mistake& warning : head_warnings(resolved, placed, head)) say_("warning: " + warning.text());
     for (const Mistake& warning : meshing::mesh_warnings(mesh_input_of(study, size, head.surface))) say_("warning: " + warning.text());
     say_(fmt::format("{}; {} blades, ring radius {:.4g} m, head {:.4g} m deep", inspection.unit.reason, head.symmetry.blade_count,
                      head.ring_radius, size.depth));
@@ -214,11 +214,6 @@ StageOutcome Pipeline::make_geometry() {
     const Prediction prediction =
         predict(study, size, head.surface, {settings_.ranks, 1.0});  // the disk does not depend on the machine's speed
     require_free_bytes(directory_.path(), prediction.mesh_disk + prediction.run_disk);
-
-    // A region without a free place is refused here, before the mesh costs anything.
-    place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
-
-    if (study.report.adv_points) require_adv_points(study, size, head.surface);
 
     const geometry::StationarySteel steel = geometry::generate_stationary_steel(stationary_steel_of(study, size));
     fs::create_directories(directory_.file("geometry"));

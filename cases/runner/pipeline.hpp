@@ -61,6 +61,8 @@ private:
     StageOutcome make_report();
     void make_adv_report(const std::filesystem::path& points) const;
 
+    /// \throws UserError  when check_study finds mistakes
+    ParameterValues checked_values(const HeadSize& head) const;
     Study resolved_study(const HeadSize& head) const;
     void write_resolved_study(const HeadSize& head) const;
     Prediction predicted(const Study& study, const HeadSize& head) const;

@@ -15,10 +15,8 @@
 #include "cases/runner/manifest.hpp"
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/stages.hpp"
-#include "cases/scenes/cutter/feed.hpp"
-#include "cases/scenes/cutter/study_bank.hpp"
+#include "cases/scenes/cutter/checked_study.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
-#include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"
 #include "cases/sweep/slurm.hpp"
 #include "geometry/base/file_content.hpp"
@@ -122,15 +120,6 @@ public:
 private:
     std::map<std::string, geometry::Head> heads_;
 };
-
-/// Refuses what a run of the study would refuse: points that are no points, rock without a place, a bank that does not fit.
-void require_placeable(const ParameterValues& resolved, const geometry::Head& head, const fs::path& folder) {
-    const Study study = make_study(resolved, folder);
-    const HeadSize size = head_size(head);
-    if (std::vector<Mistake> wrong = bank_mistakes(resolved, study, size, head.contour); !wrong.empty()) throw UserError(std::move(wrong));
-    if (study.report.adv_points) require_adv_points(study, size, head.surface);
-    place_feeds(study, feed_scene(study, size, head_contour(head, study.suction.gap), head.surface));
-}
 
 /// What is wrong with a design is wrong at each of its points.
 void add_once(const Mistake& mistake, std::vector<Mistake>& all) {
@@ -501,8 +490,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
                 add_once(mistake, mistakes);
             }
             // Speeds and discharges hardly move rock or bank: one placement of each design and setting of keys.
-            if (wrong.empty() && placed.emplace(cutter.string(), combination.keys).second)
-                require_placeable(resolved, head, study.parent_path());
+            if (wrong.empty() && placed.emplace(cutter.string(), combination.keys).second) place_study(resolved, head, study.parent_path());
         } catch (const UserError& error) {
             for (Mistake mistake : error.mistakes()) {
                 if (mistake.where.empty()) mistake.where = name;

@@ -553,6 +553,14 @@ TEST_F(Cli, refuses_a_feed_region_without_water_and_warns_of_one_too_small) {
     expect_refused(call({"check", study("[[feed]]\ncount = 5\ndepth_from_m = 0.0\ndepth_to_m = 0.005\nazimuth_width_deg = "
                                         "1\n[[feed.class]]\ndiameter_m = 0.1\n")}),
                    2, "feed");
+    // Beside points outside the water and an unknown key all is told at once.
+    write_file(folder_ / "points.csv",
+               "name,r_mm,theta_deg,z_mm,frame,u_radial_cm_s,u_tangential_cm_s,u_axial_cm_s\nfar,90000,0,0,still,1,1,1\n");
+    const Outcome all = call({"check", study("[report]\nadv_points = \"points.csv\"\n[[feed]]\ncolour = 1\ncount = 5\ndepth_to_m = 0.005\n"
+                                             "azimuth_width_deg = 1\n[[feed.class]]\ndiameter_m = 0.1\n")});
+    expect_refused(all, 2, "colour");
+    expect_contains(all.text, "lies outside the water");
+    expect_contains(all.text, "feed 1");
     const Outcome crowded = call({"check", study("[[feed]]\ncount = 5000\n[[feed.class]]\ndiameter_m = 0.02\n")});
     EXPECT_EQ(crowded.code, 0);
     expect_contains(crowded.text, "no free place left");

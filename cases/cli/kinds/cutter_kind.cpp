@@ -12,10 +12,10 @@
 #include "cases/runner/machine.hpp"
 #include "cases/runner/pipeline.hpp"
 #include "cases/runner/prediction.hpp"
+#include "cases/scenes/cutter/checked_study.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
-#include "cases/scenes/cutter/velocity_points.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
@@ -47,21 +47,15 @@ std::string new_study(const NewOptions& options) {
 
 void check(const CheckOptions& options) {
     Mistakes mistakes;
-    cases::CheckedStudy checked;
+    std::optional<cases::CheckedStudy> checked;
     mistakes.gather([&] { cases::require_machine(options.ranks); });
     mistakes.gather([&] { checked = cases::read_checked_study(options.study); });
     mistakes.refuse();
-    const auto& [resolved, inspection, size] = checked;
-    const cases::Study study = cases::make_study(resolved, fs::path(options.study).parent_path());
+    const auto& [resolved, inspection, placed] = *checked;
+    const auto& [study, size, contour, feeds] = placed;
     const cases::Prediction prediction = cases::predict(study, size, inspection.head->surface, {options.ranks, cases::machine_slowness()});
-    const geometry::Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
-    if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface);
-    const auto feeds = cases::place_feeds(study, cases::feed_scene(study, size, contour, inspection.head->surface));
-    std::vector<Mistake> warnings = cases::study_warnings(resolved, size);
+    std::vector<Mistake> warnings = cases::head_warnings(resolved, placed, *inspection.head);
     for (const Mistake& warning : cases::prediction_warnings(study, prediction)) warnings.push_back(warning);
-    for (const Mistake& warning : cases::carrying_warnings(study, *inspection.head)) warnings.push_back(warning);
-    for (const Mistake& warning : cases::blade_warnings(study, *inspection.head)) warnings.push_back(warning);
-    for (const Mistake& warning : cases::swing_warnings(resolved, study, size, contour)) warnings.push_back(warning);
     for (const Mistake& warning : meshing::mesh_warnings(cases::mesh_input_of(study, size, inspection.head->surface)))
         warnings.push_back(warning);
     const fs::path run = fs::path("runs") / fs::path(options.study).stem();  // where it goes without -o

@@ -11,6 +11,7 @@
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/packing/rock_placement.hpp"
@@ -178,13 +179,19 @@ std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) {
     const geometry::SolidSearch stationary(scene.stationary);
     std::vector<PlacedFeed> feeds;
-    for (const FeedRequest& request : study.feeds) {
-        if (request.kind == FeedKind::batch) {
-            feeds.push_back(place_batch(request, study, scene, stationary));
-            continue;
-        }
-        for (PlacedFeed& feed : place_swing(request, study, scene)) feeds.push_back(std::move(feed));
+    std::vector<Mistake> mistakes;
+    for (std::size_t i = 0; i < study.feeds.size(); ++i) {
+        const FeedRequest& request = study.feeds[i];
+        Mistakes of_feed(fmt::format("feed {}", i + 1));
+        of_feed.gather([&] {
+            if (request.kind == FeedKind::batch)
+                feeds.push_back(place_batch(request, study, scene, stationary));
+            else
+                for (PlacedFeed& feed : place_swing(request, study, scene)) feeds.push_back(std::move(feed));
+        });
+        for (Mistake& mistake : of_feed.take()) mistakes.push_back(std::move(mistake));
     }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return feeds;
 }
 

@@ -52,7 +52,7 @@ FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::C
 
 /// Places every feed of a study, the cutter turned to its angle at the release. A feed of several classes is placed on the lattice of its
 /// largest; which place gets which class is drawn with the feed's seed.
-/// \throws UserError  when a region has no free place at all
+/// \throws UserError  with every feed whose region has no free place at all
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene);
 
 /// Lines for the user: counts, and why rocks were rejected.

@@ -8,9 +8,7 @@
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
-#include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
-#include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/io/read_surface.hpp"
 
 namespace cutterflow::cases {
@@ -60,7 +58,8 @@ std::optional<coupling::RecordSettings> record_of(const Study& study, const Head
     return record;
 }
 
-/// That the file which a key names is missing.
+}  // namespace
+
 std::optional<Mistake> missing_file(const ParameterValues& values, const char* key, const std::filesystem::path& study_folder) {
     if (!values.has(key)) return std::nullopt;
     const std::filesystem::path file = study_folder / values.text(key);
@@ -70,46 +69,8 @@ std::optional<Mistake> missing_file(const ParameterValues& values, const char* k
                    "Check the name; the path is relative to the study file"};
 }
 
-/// What can be read of a study; mistakes of its text, rules and files are added. Rules are checked when no value is wrong or missing.
-ReadParameters read_with_mistakes(const std::filesystem::path& file, Mistakes& mistakes) {
-    ReadParameters read = parse_with_mistakes(study_table(), read_file(file), file.string());
-    mistakes.add(read.mistakes);
-    if (read.complete) mistakes.add(check_file_rules(read.values, file));
-    for (const char* key : {"cutter.file", "bank.file", "report.adv_points"})
-        if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
-    return read;
-}
-
-}  // namespace
-
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder) {
     if (const auto missing = missing_file(values, "cutter.file", study_folder)) throw UserError(std::vector<Mistake>{*missing});
-}
-
-void require_study_file(const std::filesystem::path& file) {
-    Mistakes mistakes;
-    read_with_mistakes(file, mistakes);
-    mistakes.refuse();
-}
-
-CheckedStudy read_checked_study(const std::filesystem::path& file) {
-    Mistakes mistakes;
-    const auto [values, text_mistakes, complete] = read_with_mistakes(file, mistakes);
-    if (!complete || missing_file(values, "cutter.file", file.parent_path())) mistakes.refuse();
-    CheckedStudy study;
-    mistakes.gather([&, &values = values] {
-        study.inspection = import_study_cutter(values, file.parent_path());
-        study.size = head_size(*study.inspection.head);
-        study.resolved = resolve_study(values, study.size);
-        const std::vector<Mistake> broken = check_study(study.resolved, study.size);
-        mistakes.add(broken);
-        // Steel behind the head, water and bank have their sizes only when the study keeps its own rules.
-        if (broken.empty() && !lacks_swing(study.resolved) && !missing_file(values, "bank.file", file.parent_path()))
-            mistakes.add(
-                bank_mistakes(study.resolved, make_study(study.resolved, file.parent_path()), study.size, study.inspection.head->contour));
-    });
-    mistakes.refuse();
-    return study;
 }
 
 geometry::GeometryInspection import_study_cutter(const ParameterValues& values, const std::filesystem::path& study_folder) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file From a study and its cutter to what geometry and the case builder work with.
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "cases/scenes/cutter/case_inputs.hpp"
@@ -11,22 +12,11 @@
 
 namespace cutterflow::cases {
 
+/// That the file which a key names is missing; none without the key.
+std::optional<Mistake> missing_file(const ParameterValues& values, const char* key, const std::filesystem::path& study_folder);
+
 /// \throws UserError  with the line of the study that names a missing cutter file
 void require_cutter_file(const ParameterValues& values, const std::filesystem::path& study_folder);
-
-/// \throws UserError  with every mistake of a study that can be seen without reading its cutter: those of its text, of the files
-/// that it names, and of its rules unless a value is wrong or missing; and with a bank, which runs do not have yet
-void require_study_file(const std::filesystem::path& file);
-
-/// A study without a mistake, and its cutter.
-struct CheckedStudy {
-    ParameterValues resolved;
-    geometry::GeometryInspection inspection;
-    HeadSize size;
-};
-
-/// \throws UserError  as require_study_file, and with what is wrong with the cutter or with the study's sizes beside the head's
-CheckedStudy read_checked_study(const std::filesystem::path& file);
 
 /// The study's cutter, read and understood.
 /// \throws UserError  when the file is no surface, its size implausible, the surface no sound solid, or no head

@@ -1,0 +1,86 @@
+#include "cases/scenes/cutter/checked_study.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "cases/scenes/cutter/study_bank.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
+#include "cases/scenes/cutter/velocity_points.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
+
+namespace cutterflow::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_files[] = {"cutter.file", "bank.file", "report.adv_points"};
+
+/// What can be read of a study; mistakes of its text, rules and files are added. Rules are checked when no value is wrong or missing.
+ReadParameters read_with_mistakes(const fs::path& file, Mistakes& mistakes) {
+    ReadParameters read = parse_with_mistakes(study_table(), read_file(file), file.string());
+    mistakes.add(read.mistakes);
+    if (read.complete) mistakes.add(check_file_rules(read.values, file));
+    for (const char* key : k_files)
+        if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
+    return read;
+}
+
+/// Whether steel behind the head, water, bank and points have their sizes.
+bool has_sizes(const ParameterValues& values, const fs::path& folder) {
+    return !lacks_swing(values) && std::none_of(std::begin(k_files), std::end(k_files),
+                                                [&](const char* key) { return missing_file(values, key, folder).has_value(); });
+}
+
+}  // namespace
+
+PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& head, const fs::path& folder) {
+    const Study study = make_study(resolved, folder);
+    PlacedStudy placed{study, head_size(head), head_contour(head, study.suction.gap), {}};
+    Mistakes mistakes;
+    mistakes.add(bank_mistakes(resolved, study, placed.size, head.contour));
+    const bool bank_stands = mistakes.empty();
+    if (study.report.adv_points) mistakes.gather([&] { require_adv_points(study, placed.size, head.surface); });
+    if (bank_stands)
+        mistakes.gather([&] { placed.feeds = place_feeds(study, feed_scene(study, placed.size, placed.contour, head.surface)); });
+    mistakes.refuse();
+    return placed;
+}
+
+std::vector<Mistake> head_warnings(const ParameterValues& resolved, const PlacedStudy& placed, const geometry::Head& head) {
+    std::vector<Mistake> warnings = study_warnings(resolved, placed.size);
+    for (const std::vector<Mistake>& more : {carrying_warnings(placed.study, head), blade_warnings(placed.study, head),
+                                             swing_warnings(resolved, placed.study, placed.size, placed.contour)})
+        warnings.insert(warnings.end(), more.begin(), more.end());
+    return warnings;
+}
+
+void require_study_file(const fs::path& file) {
+    Mistakes mistakes;
+    read_with_mistakes(file, mistakes);
+    mistakes.refuse();
+}
+
+CheckedStudy read_checked_study(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    Mistakes mistakes;
+    const ReadParameters read = read_with_mistakes(file, mistakes);
+    if (!read.complete || missing_file(read.values, "cutter.file", folder)) mistakes.refuse();
+    std::optional<CheckedStudy> study;
+    mistakes.gather([&] {
+        geometry::GeometryInspection inspection = import_study_cutter(read.values, folder);
+        const HeadSize size = head_size(*inspection.head);
+        ParameterValues resolved = resolve_study(read.values, size);
+        const std::vector<Mistake> broken = check_study(resolved, size);
+        mistakes.add(broken);
+        if (!broken.empty() || !has_sizes(resolved, folder)) return;
+        PlacedStudy placed = place_study(resolved, *inspection.head, folder);
+        study = CheckedStudy{std::move(resolved), std::move(inspection), std::move(placed)};
+    });
+    mistakes.refuse();
+    return std::move(*study);
+}
+
+}  // namespace cutterflow::cases
