@@ -245,9 +245,9 @@ ParameterTable run_rows() {
             .by_default(4.0),
         setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.0),
         setting<coupling::StopSettings>("run.target_half_width", "targetHalfWidth").by_default(0.03),
-        number(
-            k_case_stage, "run.record_revolutions", "-",
-            "Revolutions of the flow before the first rock that are recorded by rotor phase, for `cutterflow replay`: 1 or more, or 0 for none.")
+        number(k_case_stage, "run.record_revolutions", "-",
+               "Revolutions of the flow before the first rock that are recorded by rotor phase, for `cutterflow replay`: 1 or more, or 0 "
+               "for none.")
             .at_least(0.0)
             .at_most(k_most_revolutions)
             .by_default(0.0),

@@ -644,12 +644,13 @@ void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& b
     if (rocks_.id != before) {
         double fastest = 0.0;
         for (const Vec3& velocity : rocks_.velocity) fastest = std::max(fastest, velocity.norm());
-        throw CheckFailure({"",
-                            fmt::format("{} of {} rocks vanished from the DEM near {:.6g} s; the fastest of the others moves at {:.3g} m/s, "
-                                        "and rock overlaps by up to {:.2g} of its radius",
-                                        before.size() - rocks_.size(), before.size(), time_, fastest, context_.tally.overlap_ratio),
-                            "The DEM drops rock that leaves its box within a step of contacts, thrown out by a deep overlap",
-                            "Look at the last picture; give the rock a larger modulus, solids less speed, or the contacts a smaller step"});
+        throw CheckFailure(
+            {"",
+             fmt::format("{} of {} rocks vanished from the DEM near {:.6g} s; the fastest of the others moves at {:.3g} m/s, "
+                         "and rock overlaps by up to {:.2g} of its radius",
+                         before.size() - rocks_.size(), before.size(), time_, fastest, context_.tally.overlap_ratio),
+             "The DEM drops rock that leaves its box within a step of contacts, thrown out by a deep overlap",
+             "Look at the last picture; give the rock a larger modulus, solids less speed, or the contacts a smaller step"});
     }
     for (std::size_t k = 0; k < rocks_.size(); ++k)
         if (!rocks_.position[k].allFinite())
