@@ -26,6 +26,7 @@ constexpr double k_carrying_limit = 0.02;
 constexpr double k_standing_angle = 0.02 * k_pi / 180.0;
 constexpr double k_standing_shift = 1e-4;
 constexpr double k_near_body = 0.02;      // of the largest radius, between a body and where another one comes to by a turn
+constexpr double k_core_body = 1e-3;      // of the volume of all: a body on the axis that is a part of the head
 constexpr double k_like_body = 0.05;      // of its volume
 constexpr int k_turns_of_revolution = 7;  // in a circle, of a head without blades
 constexpr std::size_t k_bodies_told = 5;
@@ -93,7 +94,11 @@ void require_repeated_bodies(const TriangleSurface& surface, const RotationalSym
     const double angle = 2.0 * k_pi / (symmetry.blade_count > 0 ? symmetry.blade_count : k_turns_of_revolution);
     const Eigen::AngleAxisd turn(angle, symmetry.axis.direction);
     const double near = k_near_body * largest_radius(transformed(surface, upright(symmetry.axis)));
+    double whole = 0.0;
+    for (const Body& body : bodies) whole += body.volume;
     const auto is_repeated = [&](const Body& body) {
+        const double turned = (turn * (body.centre - symmetry.axis.origin) - (body.centre - symmetry.axis.origin)).norm();
+        if (turned < near) return body.volume > k_core_body * whole;  // on the axis, as a shaft
         const Vec3 place = symmetry.axis.origin + turn * (body.centre - symmetry.axis.origin);
         return std::any_of(bodies.begin(), bodies.end(), [&](const Body& other) {
             return (other.centre - place).norm() < near && std::abs(other.volume - body.volume) < k_like_body * body.volume;
@@ -106,7 +111,8 @@ void require_repeated_bodies(const TriangleSurface& surface, const RotationalSym
                 {"",
                  fmt::format("a separate body of {:.3g} m3 at ({:.4g}, {:.4g}, {:.4g}) m is not repeated by a turn of {:.3g} degrees",
                              body.volume, body.centre.x(), body.centre.y(), body.centre.z(), angle * 180.0 / k_pi),
-                 fmt::format("Of the {} bodies of the file, which do not touch, each stands on the axis or comes once per blade",
+                 fmt::format("Of the {} bodies of the file, which do not touch, each stands on the axis with a thousandth of the volume or "
+                             "more, or comes once per blade",
                              bodies.size()),
                  "Remove it, or join it with the head, in CAD"});
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
