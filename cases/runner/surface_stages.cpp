@@ -19,14 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_scene = "scene.toml";
-
 StageOutcome write_case(const RunDirectory& directory, const SurfaceInputs& inputs, const SurfaceCheck& check) {
-    write_file(directory.file(k_scene), inputs.study);
+    write_file(directory.file(postproc::k_surface_study), inputs.study);
     for (const auto& [name, file] : inputs.copies) write_file(directory.file(name), read_file(file));
     write_file(directory.file(postproc::k_surface_scene), check.scene.dump(2) + "\n");
     write_file(directory.file(names::prediction), check.prediction.dump(2) + "\n");
-    return {{k_scene, postproc::k_surface_scene}, 0.0};
+    return {{postproc::k_surface_study, postproc::k_surface_scene}, 0.0};
 }
 
 /// Lines of progress go on to the user; everything is in the log.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -198,7 +199,9 @@ TEST_F(SurfaceStudy, comparison_takes_no_run_twice_and_no_copy) {
     const fs::path first = run("a_repeat1", "{\"finished\": \"12:00\"}"), second = run("a_repeat2", "{\"finished\": \"12:05\"}");
     const fs::path copy = run("b", "{\"finished\": \"12:00\"}");
     const auto compared = [](const std::vector<fs::path>& runs) {
-        return postproc::compare_settings(runs, [](const fs::path&) { return std::vector<postproc::RunQuantity>{{"q", "q", "-", 1.0}}; });
+        return postproc::compare_settings(runs, "study.toml", [](const fs::path&) {
+            return std::vector<postproc::RunQuantity>{{"q", "q", "-", 1.0}};
+        });
     };
     EXPECT_EQ(compared({first, second}).size(), 1u);
     EXPECT_THROW(compared({first, second, first}), UserError);
@@ -206,11 +209,38 @@ TEST_F(SurfaceStudy, comparison_takes_no_run_twice_and_no_copy) {
     EXPECT_THROW(compared({first, copy}), UserError);
 }
 
+TEST_F(SurfaceStudy, runs_of_one_study_are_repeats_whatever_their_folders_are_called) {
+    const auto run = [&](const std::string& folder, const std::string& friction, int seed, const char* name = "x") {
+        fs::create_directories(folder_ / folder);
+        write_file(folder_ / folder / "study.toml", fmt::format("# made by a sweep\nname = \"{}\"\n\n[contact]\nfriction = {}\n\n[run]\n"
+                                                                "seed = {}\nend_s = 1\n",
+                                                                name, friction, seed));
+        return folder_ / folder;
+    };
+    const auto compared = [](const std::vector<fs::path>& runs) {
+        return postproc::compare_settings(runs, "study.toml", [](const fs::path& of) {
+            return std::vector<postproc::RunQuantity>{{"q", "q", "-", of.string().find("/b/") == std::string::npos ? 1.0 : 3.0}};
+        });
+    };
+    const auto a1 = run("a/x_repeat1", "0.4", 1), a2 = run("a/x_repeat2", "0.4", 2), b1 = run("b/x_repeat1", "0.1", 1),
+               b2 = run("b/x_repeat2", "0.1", 2);
+    const auto two = compared({a1, a2, b1, b2});
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_EQ(two[0].name, "a/x");
+    EXPECT_EQ(two[1].name, "b/x");
+    EXPECT_EQ(two[1].repeats, (std::vector<int>{1, 2}));
+    EXPECT_NEAR(two[1].quantities[0].difference.mean, 2.0, 1e-12);
+    const auto one = compared({a1, run("c/seed2", "0.4", 2), run("c/other_name", "0.4", 3, "y")});
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(one[0].repeats.size(), 3u);
+    EXPECT_THROW(compared({a1, run("c/again", "0.4", 1, "z")}), UserError);
+}
+
 TEST_F(SurfaceStudy, comparison_names_every_run_that_is_not_there_and_every_one_that_measures_something_else) {
     const auto told = [](const std::vector<fs::path>& runs, const std::function<std::string(const fs::path&)>& key) {
         std::vector<std::string> whats;
         try {
-            postproc::compare_settings(runs, [&](const fs::path& run) {
+            postproc::compare_settings(runs, "study.toml", [&](const fs::path& run) {
                 return std::vector<postproc::RunQuantity>{{key(run), "q", "-", 1.0}};
             });
         } catch (const UserError& error) {

@@ -33,7 +33,7 @@ std::vector<RunQuantity> quantities_of(const std::filesystem::path& run) {
 }  // namespace
 
 std::vector<SettingResults> compare_surface_runs(const std::vector<std::filesystem::path>& runs) {
-    return compare_settings(runs, quantities_of);
+    return compare_settings(runs, k_surface_study, quantities_of);
 }
 
 nlohmann::json surface_comparison_json(const std::vector<SettingResults>& settings) {

@@ -9,6 +9,9 @@
 
 namespace cutterflow::postproc {
 
+/// Name of the study in the run of a scene.
+inline constexpr const char* k_surface_study = "scene.toml";
+
 /// \throws UserError  when a folder is no run of a free-surface study
 std::vector<SettingResults> compare_surface_runs(const std::vector<std::filesystem::path>& runs);
 

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <map>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -23,14 +27,53 @@ namespace fs = std::filesystem;
 constexpr const char* k_repeat = "_repeat";
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// "pipe_hole_0_repeat2" as the setting and its repeat; a run that is alone is repeat 1.
-std::pair<std::string, int> setting_of(const fs::path& run) {
+/// "pipe_hole_0_repeat2" as the name of a setting and its repeat; a run that is alone is repeat 1.
+std::pair<std::string, int> name_and_repeat(const fs::path& run) {
     const std::string name = (run.has_filename() ? run : run.parent_path()).filename().string();
     const std::size_t at = name.rfind(k_repeat);
     if (at == std::string::npos) return {name, 1};
     const std::string number = name.substr(at + std::string(k_repeat).size());
     if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return {name, 1};
     return {name.substr(0, at), std::stoi(number)};
+}
+
+struct RunSetting {
+    std::string text;  // of the study, without what tells repeats apart
+    int seed = 1;
+};
+
+/// Of a study in TOML: all lines but comments, the study's name and seeds.
+RunSetting setting_of(const fs::path& run, const std::string& study_file) {
+    const auto [name, repeat] = name_and_repeat(run);
+    if (!fs::exists(run / study_file)) return {name, repeat};
+    RunSetting setting{"", repeat};
+    std::istringstream lines(read_file(run / study_file));
+    bool in_table = false, has_seed = false;
+    for (std::string line; std::getline(lines, line);) {
+        in_table = in_table || line.rfind('[', 0) == 0;
+        const bool is_seed = line.rfind("seed = ", 0) == 0;
+        if (is_seed && !has_seed) setting.seed = std::atoi(line.c_str() + std::strlen("seed = "));
+        has_seed = has_seed || is_seed;
+        if (is_seed || line.rfind('#', 0) == 0 || (!in_table && line.rfind("name = ", 0) == 0)) continue;
+        setting.text += line + "\n";
+    }
+    return setting;
+}
+
+std::vector<RunSetting> settings_of(const std::vector<fs::path>& runs, const std::string& study_file) {
+    std::vector<RunSetting> settings;
+    settings.reserve(runs.size());
+    for (const fs::path& run : runs) settings.push_back(setting_of(run, study_file));
+    return settings;
+}
+
+/// Puts the folder above it before the name of a setting that another one shares.
+void tell_names_apart(std::vector<SettingResults>& settings, const std::vector<fs::path>& first_runs) {
+    std::map<std::string, int> count;
+    for (const SettingResults& setting : settings) ++count[setting.name];
+    for (std::size_t n = 0; n < settings.size(); ++n)
+        if (count[settings[n].name] > 1)
+            settings[n].name = (fs::absolute(first_runs[n]).lexically_normal().parent_path().filename() / settings[n].name).string();
 }
 
 std::vector<double> paired_differences(const SettingResults& setting, const SettingResults& first, std::size_t quantity) {
@@ -71,26 +114,29 @@ nlohmann::json json_of(const RepeatMean& value) {
     return {{"mean", number(value.mean)}, {"half_width", number(value.half)}};
 }
 
-void require_different(const std::vector<fs::path>& runs) {
+void require_different(const std::vector<fs::path>& runs, const std::vector<RunSetting>& settings, const std::string& study_file) {
     const auto have_one_manifest = [&](std::size_t a, std::size_t b) {
         const fs::path first = runs[a] / names::manifest, second = runs[b] / names::manifest;
-        return fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // it has the times of its stages
+        const bool one_manifest = fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // with its times
+        return one_manifest ||
+               (fs::exists(runs[a] / study_file) && settings[a].text == settings[b].text && settings[a].seed == settings[b].seed);
     };
     require_distinct(runs, have_one_manifest, "seed");
 }
 
 /// Of every run, the same ones. \throws UserError  with the mistakes of all runs
-std::vector<std::vector<RunQuantity>> quantities_of_all(const std::vector<fs::path>& runs,
+std::vector<std::vector<RunQuantity>> quantities_of_all(const std::vector<fs::path>& runs, const std::vector<RunSetting>& of_runs,
+                                                        const std::string& study_file,
                                                         const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
     Mistakes mistakes;
-    mistakes.gather([&] { require_different(runs); });
+    mistakes.gather([&] { require_different(runs, of_runs, study_file); });
     std::vector<std::vector<RunQuantity>> all(runs.size());
     for (std::size_t n = 0; n < runs.size(); ++n) mistakes.gather([&] { all[n] = quantities_of(runs[n]); });
     mistakes.refuse();
     const auto same = [](const RunQuantity& a, const RunQuantity& b) { return a.key == b.key; };
     for (std::size_t n = 1; n < runs.size(); ++n)
         mistakes.require(std::equal(all[0].begin(), all[0].end(), all[n].begin(), all[n].end(), same),
-                         fmt::format("{} measures something else than {}", runs[n].string(), setting_of(runs.front()).first),
+                         fmt::format("{} measures something else than {}", runs[n].string(), name_and_repeat(runs.front()).first),
                          "Runs beside each other have the same measures",
                          "Give them the same [[measure]] tables: cutterflow measure makes them anew");
     mistakes.refuse();
@@ -112,26 +158,30 @@ std::string verdict_of(const RepeatMean& difference) {
     return difference.mean > 0.0 ? "higher" : "lower";
 }
 
-std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs,
+std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, const std::string& study_file,
                                              const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
-    const std::vector<std::vector<RunQuantity>> of_runs = quantities_of_all(runs, quantities_of);
+    const std::vector<RunSetting> setting_of_run = settings_of(runs, study_file);
+    const std::vector<std::vector<RunQuantity>> of_runs = quantities_of_all(runs, setting_of_run, study_file, quantities_of);
     std::vector<SettingResults> settings;
+    std::vector<fs::path> first_runs;
+    std::map<std::string, std::size_t> number;  // of a setting
     for (std::size_t n = 0; n < runs.size(); ++n) {
         const std::vector<RunQuantity>& quantities = of_runs[n];
-        const auto [name, repeat] = setting_of(runs[n]);
-        auto setting = std::find_if(settings.begin(), settings.end(), [&, &wanted = name](const auto& one) { return one.name == wanted; });
-        if (setting == settings.end()) {
-            settings.push_back({name, {}, {}});
-            setting = settings.end() - 1;
+        const auto [known, is_new] = number.emplace(setting_of_run[n].text, settings.size());
+        if (is_new) {
+            settings.push_back({name_and_repeat(runs[n]).first, {}, {}});
+            first_runs.push_back(runs[n]);
             for (const RunQuantity& one : quantities)
-                setting->quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}, {}});
+                settings.back().quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}, {}});
         }
-        setting->repeats.push_back(repeat);
+        SettingResults& setting = settings[known->second];
+        setting.repeats.push_back(setting_of_run[n].seed);
         for (std::size_t q = 0; q < quantities.size(); ++q) {
-            setting->quantities[q].each.push_back(quantities[q].value);
-            if (setting->quantities[q].reason.empty()) setting->quantities[q].reason = quantities[q].reason;
+            setting.quantities[q].each.push_back(quantities[q].value);
+            if (setting.quantities[q].reason.empty()) setting.quantities[q].reason = quantities[q].reason;
         }
     }
+    tell_names_apart(settings, first_runs);
     for (SettingResults& setting : settings) {
         for (std::size_t q = 0; q < setting.quantities.size(); ++q) {
             setting.quantities[q].mean = repeat_mean(setting.quantities[q].each);

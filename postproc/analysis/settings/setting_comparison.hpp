@@ -26,13 +26,13 @@ struct SettingQuantity {
     bool zero_is_nothing = false;
     std::vector<double> each;  ///< of every repeat, infinite when it never came
     RepeatMean mean;
-    RepeatMean difference;  ///< from the first setting, of repeats with the same number
+    RepeatMean difference;  ///< from the first setting, of repeats with the same seed
     std::string reason{};   ///< why a run has no value
 };
 
 struct SettingResults {
-    std::string name;  ///< the runs' folder without _repeat<n>
-    std::vector<int> repeats;
+    std::string name;          ///< the first run's folder without _repeat<n>, and that above it where two settings share the name
+    std::vector<int> repeats;  ///< their seeds
     std::vector<SettingQuantity> quantities;
 };
 
@@ -44,9 +44,12 @@ struct RunQuantity {
     std::string reason{};          ///< why there is no value
 };
 
+/// Runs whose studies differ in name and seed alone are repeats of one setting, whatever their folders are called.
+/// \param study_file  name of the study in a run; a run without it has the setting of its folder's name
 /// \param quantities_of  a run: the same ones of every run
-/// \throws UserError  when runs have other quantities than the first
-std::vector<SettingResults> compare_settings(const std::vector<std::filesystem::path>& runs,
+/// \throws UserError  when runs have other quantities than the first, or a run comes twice: by its path, as a copy, or with the same study
+/// and seed
+std::vector<SettingResults> compare_settings(const std::vector<std::filesystem::path>& runs, const std::string& study_file,
                                              const std::function<std::vector<RunQuantity>(const std::filesystem::path&)>& quantities_of);
 
 std::string setting_comparison_text(const std::vector<SettingResults>& settings);

@@ -2,6 +2,8 @@
 /// \file The report of a free-surface run: report/results.json and report/index.html.
 #include <filesystem>
 
+#include "postproc/analysis/surface_comparison.hpp"
+
 namespace cutterflow::postproc {
 
 /// Sizes of the scene, written beside it when the run is set up.
