@@ -44,6 +44,7 @@ Manifest::Manifest(std::filesystem::path file) : file_(std::move(file)) {
         const json document = json::parse(read_file(file_));
         if (document.at("schema") != k_schema) throw std::runtime_error("its schema is " + document.at("schema").dump());
         for (const auto& [stage, record] : document.at("stages").items()) records_[stage] = record_from(record);
+        kind_ = document.value("kind", "");
         versions_ = document.at("versions").get<std::map<std::string, std::string>>();
     } catch (const Failure&) {
         throw;
@@ -83,6 +84,13 @@ void Manifest::finish(const std::string& stage, std::map<std::string, std::strin
     write();
 }
 
+void Manifest::set_kind(const std::string& kind) {
+    if (!kind_.empty() && kind_ != kind)
+        throw UserError(fmt::format("{} contains work of a study of kind {}, not {}", file_.parent_path().string(), kind_, kind),
+                        "A run directory belongs to one study", "Choose another with -o");
+    kind_ = kind;
+}
+
 void Manifest::set_versions(std::map<std::string, std::string> versions) {
     versions_ = std::move(versions);
 }
@@ -90,7 +98,7 @@ void Manifest::set_versions(std::map<std::string, std::string> versions) {
 void Manifest::write() const {
     json stages = json::object();
     for (const auto& [name, record] : records_) stages[name] = to_json(record);
-    write_file(file_, json{{"schema", k_schema}, {"stages", stages}, {"versions", versions_}}.dump(2) + "\n");
+    write_file(file_, json{{"schema", k_schema}, {"kind", kind_}, {"stages", stages}, {"versions", versions_}}.dump(2) + "\n");
 }
 
 }  // namespace cutterflow::cases

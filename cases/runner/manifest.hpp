@@ -34,6 +34,8 @@ public:
     /// Notes that a stage begins. `dropped`: later stages, whose records are no longer true.
     void start(const std::string& stage, std::map<std::string, std::string> inputs, const std::vector<std::string>& dropped);
     void finish(const std::string& stage, std::map<std::string, std::string> outputs, double wall_s, double core_s);
+    /// \throws UserError  when the directory has work of another kind of study
+    void set_kind(const std::string& kind);
     void set_versions(std::map<std::string, std::string> versions);
 
 private:
@@ -42,6 +44,7 @@ private:
     std::filesystem::path file_;
     std::map<std::string, StageRecord> records_;
     std::map<std::string, std::string> versions_;
+    std::string kind_;  // of the study; empty in manifests of earlier versions
 };
 
 }  // namespace cutterflow::cases

@@ -102,6 +102,22 @@ TEST_F(Stages, of_another_kind_do_not_overwrite_results) {
     EXPECT_EQ(read_file(folder_ / "run.txt"), "of run");
 }
 
+TEST_F(Stages, of_another_kind_are_refused_when_they_left_no_results) {
+    {
+        Manifest manifest(folder_ / "manifest.json");
+        manifest.set_kind("cutter");
+        manifest.start("mesh", {}, {});
+    }
+    Manifest manifest(folder_ / "manifest.json");
+    EXPECT_NO_THROW(manifest.set_kind("cutter"));
+    try {
+        manifest.set_kind("room");
+        FAIL();
+    } catch (const UserError& error) {
+        expect_contains(error.what(), "contains work of a study of kind cutter, not room");
+    }
+}
+
 TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row_names) {
     const fs::path folder = fs::temp_directory_path();
     const std::string surface = fmt::format("cutterflow_stage_inputs_{}.stl", ::getpid());

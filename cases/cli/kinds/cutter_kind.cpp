@@ -103,6 +103,7 @@ std::vector<std::string> programs_for(const RunOptions& options, const std::stri
 
 void go_through_stages(const RunOptions& options, const cases::RunDirectory& directory, const std::string& until, std::size_t count) {
     cases::Manifest manifest(directory.file(names::manifest));
+    manifest.set_kind("cutter");
     const auto versions = build_versions();
     manifest.set_versions({versions.begin(), versions.end()});
     cases::Pipeline pipeline(directory, {fs::absolute(options.study), options.ranks, solver_path(), options.start_from}, say);

@@ -100,6 +100,7 @@ fs::path go_through(const cases::RoomRequest& request, const RunOptions& options
                           : fmt::format("the bed of {} is not taken, {}: it is made here", options.start_from, apart));
     }
     cases::Manifest manifest(directory.file(names::manifest));
+    manifest.set_kind("room");
     const auto versions = build_versions();
     manifest.set_versions({versions.begin(), versions.end()});
     const auto last = std::find_if(stages.begin(), stages.end(), [&](const cases::Stage& stage) { return stage.name == until; });

@@ -67,6 +67,7 @@ void run(const RunOptions& options) {
     require_programs({solver.string()});
     const cases::RunDirectory directory(options.folder());
     cases::Manifest manifest(directory.file(names::manifest));
+    manifest.set_kind("free_surface");
     const auto versions = build_versions();
     manifest.set_versions({versions.begin(), versions.end()});
     try {
