@@ -426,6 +426,7 @@ void CoupledRun::record_picture() {
         picture.orientation = rocks.orientation;
     }
     recorder_.picture(picture);
+    last_picture_ = fluid_.time();
 }
 
 void CoupledRun::report_cost(double step_seconds) {
@@ -456,6 +457,7 @@ void CoupledRun::keep() {
 }
 
 void CoupledRun::finish() {
+    if (has_rock() && fluid_.time() > last_picture_) record_picture();
     keep();
     if (fates_) recorder_.outcomes(fates_->outcomes());
     if (phases_)

@@ -62,7 +62,7 @@ public:
     /// Writes a checkpoint of the present time, when checkpoints are on.
     void keep();
 
-    /// Writes the end of the run: a checkpoint of the present time (when checkpoints are on), outcomes, cost.
+    /// Writes the end of the run: a picture and a checkpoint of the present time (when checkpoints are on), outcomes, cost.
     void finish();
 
     /// Restores the state of a checkpoint folder (rock, fates, accumulators, carried momentum). The fluid is already at its time.
@@ -129,6 +129,7 @@ private:
     RunCost run_cost_;
     double processor_start_ = 0.0;  ///< processor time of this process when the run began [s]
     double last_checkpoint_ = 0.0;
+    double last_picture_ = 0.0;  // of this start [s]
 };
 
 }  // namespace cutterflow::coupling
