@@ -13,6 +13,7 @@
 #include "cases/runner/table_inputs.hpp"
 #include "cases/scenes/room/room_case.hpp"
 #include "cases/scenes/room/room_mesh.hpp"
+#include "cases/scenes/room/room_prediction.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/csv_table.hpp"
@@ -329,6 +330,12 @@ private:
         }
         nlohmann::json gates = nlohmann::json::array();
         for (const RoomGate& gate : scene_.gates) gates.push_back(gate.name);
+        nlohmann::json contacts = nlohmann::json::array();
+        for (const RoomPair& pair : scene_.pairs)
+            contacts.push_back({{"pair", {scene_.grain_material, pair.other}},
+                                {"friction", pair.settings.friction},
+                                {"rolling", pair.settings.rolling_friction},
+                                {"restitution", pair.settings.restitution}});
         nlohmann::json grains = nlohmann::json::array();
         for (const RoomGrains& kind : scene_.grains)
             grains.push_back(
@@ -342,7 +349,10 @@ private:
             {"seed", scene_.run.seed},
             {"bed", pieces_.empty() ? nlohmann::json()
                                     : nlohmann::json{{"name", bed_}, {"poured", poured}, {"poured_kg", mass}, {"parts", pieces_.size()}}},
+            {"fed_kg", scene_.fed_mass()},
             {"gates", gates},
+            {"contacts", contacts},
+            {"on", predict(scene_, pieces_, mesh_).on},
             {"grains", grains},
             {"solids", solids}};
     }

@@ -234,6 +234,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[boundary]]\non = \"sides\"\nabove_m = 0.5\nflow = \"pressure\"\n", "is about no part of the side x_min"},
         Bad{"[[boundary]]\non = \"top\"\nname = \"riser\"\nflow = \"pressure\"\n", "boundary.name = \"riser\" is the name of another"},
         Bad{"[[boundary]]\non = \"top\"\nname = \"bottom\"\nflow = \"pressure\"\n", "boundary.name = \"bottom\" is the name of another"},
+        Bad{"[[solid]]\nname = \"gate\"\ngenerate = \"box\"\nlower_m = [0.1, 0, 0.1]\nupper_m = [0.15, 0.05, 0.15]\n"
+            "[[measure]]\nname = \"drop\"\nwhat = \"pressure_drop\"\nupstream_m = [0.1, 0, 0.05]\ndownstream_m = [0.12, 0.02, 0.12]\n"
+            "density_kg_m3 = 1000\n",
+            "measure.downstream_m of drop lies inside gate"},
         Bad{"[closures]\ndrag = \"gidaspow\"\n", "hindrance would count it twice"},
         Bad{"[kernel]\ncluster_size_m = 0.05\n", "kernel.cluster_size_m = 0.05 with kernel.map"},
         Bad{"[kernel]\nmap = \"cluster\"\ncluster_size_m = 0.01\n", "kernel.cluster_size_m = 0.01"},

@@ -274,6 +274,12 @@ TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
     // It ends before its end, when all is at rest and the tube stands; most of the grains are a heap on the disc, one layer at least.
     EXPECT_LT(results.at("time_s").get<double>(), 3.0);
     EXPECT_GE(results.at("time_s").get<double>(), 0.4);
+    // The last picture is of the run's end.
+    const std::string account = read_file(folder_ / "heap/postProcessing/rock/0/account.csv");
+    EXPECT_NEAR(results.at("time_s").get<double>(), std::stod(account.substr(account.rfind('\n', account.size() - 2) + 1)), 1e-6);
+    EXPECT_EQ(results.at("account").at("in_run").at("count"), 120);
+    EXPECT_EQ(results.at("account").at("left_domain").at("count"), 0);
+    EXPECT_NE(read_file(folder_ / "heap/report/index.html").find("What became of the grains"), std::string::npos);
     EXPECT_GT(measures.at("on_disc").at("value").get<double>(), 0.5 * poured);
     EXPECT_GT(measures.at("height").at("value").get<double>(), 0.005);
     EXPECT_LT(measures.at("height").at("value").get<double>(), 0.03);
@@ -448,6 +454,9 @@ TEST_F(RoomRuns, water_that_is_drawn_through_a_tube_lifts_grains) {
                                                                     {{"time_s", "outlet_flow_m3_s", "momentum_error"}, {}, {}, ""});
         EXPECT_NEAR(balance.number("outlet_flow_m3_s").back(), k_pi * 0.025 * 0.025, 1e-6 * k_pi * 0.025 * 0.025) << ranks;
         EXPECT_LE(largest(balance.number("momentum_error")), 1e-5) << ranks;
+        const double overlap = json_of(run + "/report/results.json").at("largest_overlap").get<double>();
+        EXPECT_GT(overlap, 0.0) << ranks;
+        EXPECT_LT(overlap, 0.1) << ranks;
     }
 }
 

@@ -255,6 +255,24 @@ TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {
     EXPECT_THAT(heap, HasSubstr("travel"));
 }
 
+/// 50 g of beads of 4 mm and 2500 kg/m3 in all, 25 g and half of their grains when the run ends in the middle of the feed.
+TEST_F(RoomStudy, prediction_counts_fed_grains) {
+    const std::string feed =
+        "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 0.05\n"
+        "region = { box = { lower_m = [-0.01, -0.01, 0.13], upper_m = [0.01, 0.01, 0.15] } }\n";
+    const auto predicted = [&](const std::string& text) {
+        const RoomRequest request = read_room_request(write(text));
+        return predict(request.scene, request.pieces, request.mesh);
+    };
+    const RoomPrediction without = predicted(room_template("heap")), with = predicted(room_template("heap") + feed);
+    EXPECT_NEAR(with.fed_mass, 0.05, 1e-12);
+    EXPECT_NEAR(with.fed, 0.05 / (2500.0 * k_pi / 6.0 * 6.4e-8 * (1.0 + 0.01 / 12.0)), 3.0);
+    // The fed ones are there from the middle of the feed on.
+    const double per_grain_and_second = without.grain_seconds / (static_cast<double>(without.grains) * (without.bed_time + without.end));
+    EXPECT_NEAR(with.grain_seconds - without.grain_seconds, per_grain_and_second * with.fed * (with.end - 1.5), 1e-3 * with.grain_seconds);
+    EXPECT_THAT(to_text(with), HasSubstr(" fed, 0.05 kg"));
+}
+
 TEST_F(RoomStudy, fed_grains_come_at_their_rate) {
     const std::string text = room_template("heap") +
                              "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 0.05\n"
@@ -432,8 +450,11 @@ INSTANTIATE_TEST_SUITE_P(
             "0.001\n"
             "orifice_radius_m = 0.0062\n\n[run]\n",
             "An opening below 3 diameters"},
+        Bad{"name = \"tube\"\n", "name = \"xMin\"\n", "A side of the room is called so"},
+        Bad{k_dry, "medium = \"none\"\ngravity_m_s2 = 0\n", "gravity_m_s2"},
+        Bad{k_end, "[[measure]]\nname = \"push\"\nwhat = \"wall_force\"\nwall = \"x_min\"\n\n[run]\n", "Name one of disc, tube"},
         Bad{"name = \"tube\"\n", "name = \"disc\"\n", "is given twice"}, Bad{"from_s = 0.0\n", "", "the motion of tube is not complete"},
-        Bad{"to_s = 4.0\n", "to_s = 0.0\n", "It is after from_s"},
+        Bad{"to_s = 4.0\n", "to_s = 0.0\n", "It must be after from_s"},
         Bad{"velocity_m_s", "turn_rpm = 5\nvelocity_m_s", "A solid travels or turns"},
         Bad{"velocity_m_s = [0, 0, 0.03]", "turn_rpm = 5", "the motion of tube is not complete"},
         Bad{"velocity_m_s = [0, 0, 0.03]", "turn_rpm = 5\nturn_axis = [0, 0, 0]\nturn_origin_m = [0, 0, 0]", "It is a direction"},

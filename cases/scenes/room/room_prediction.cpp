@@ -164,13 +164,17 @@ std::vector<Mistake> motion_warnings(const ParameterValues& values, const RoomSc
     return warnings;
 }
 
-/// Overlap over diameter of grains that bear the weight of a bed [-]: Hertz contacts of diameter d that bear a pressure p as forces p d2,
-///   delta / d = (3/2 p / E*)^(2/3),  E* = E / (2 (1 - nu^2)).
-double overlap_under_weight(const RoomScene& scene, const std::vector<BedPiece>& pieces) {
+/// Weight of the poured grains over the floor [Pa].
+double pressure_of_bed(const RoomScene& scene, const std::vector<BedPiece>& pieces) {
     double mass = 0.0;
     for (const BedPiece& piece : pieces)
         for (const PlacedGrain& grain : piece.grains) mass += mass_of(grain);
-    const double pressure = mass * scene.gravity.norm() / (scene.size.x() * scene.size.y());
+    return mass * scene.gravity.norm() / (scene.size.x() * scene.size.y());
+}
+
+/// Overlap over diameter of grains that bear a pressure p [-]: Hertz contacts of diameter d that bear forces p d2,
+///   delta / d = (3/2 p / E*)^(2/3),  E* = E / (2 (1 - nu^2)).
+double overlap_under(const RoomScene& scene, double pressure) {
     const double poisson = scene.contact.poisson_rock, modulus = 0.5 * scene.contact.youngs_modulus / (1.0 - poisson * poisson);
     return std::pow(1.5 * pressure / modulus, 2.0 / 3.0);
 }
@@ -192,17 +196,25 @@ std::vector<Mistake> impact_warnings(const ParameterValues& values, const RoomSc
     return warnings;
 }
 
-/// Grains so soft that their bed sinks into itself.
+/// Grains so soft that their bed sinks into itself, or under a solid that compresses it.
 std::vector<Mistake> softness_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces) {
     if (pieces.empty()) return {};
-    const double overlap = overlap_under_weight(scene, pieces);
-    if (overlap < k_soft_overlap) return {};
-    const ParameterValues& material = values.tables("material").front();
-    return {{material.where("material.youngs_modulus_pa"), fmt::format("youngs_modulus_pa = {:g}", scene.contact.youngs_modulus),
-             fmt::format("Grains under the poured bed sink {:.2g} diameters into each other; above {:g} a bed packs and flows otherwise "
-                         "than stiff grains",
-                         overlap, k_soft_overlap),
-             "Give the material a larger modulus; the contact step shrinks with its square root"}};
+    std::vector<Mistake> warnings;
+    const auto look = [&](const char* what, double pressure) {
+        const double overlap = overlap_under(scene, pressure);
+        if (overlap < k_soft_overlap) return;
+        const ParameterValues& material = values.tables("material").front();
+        warnings.push_back({material.where("material.youngs_modulus_pa"),
+                            fmt::format("youngs_modulus_pa = {:g}", scene.contact.youngs_modulus),
+                            fmt::format("Grains under {} sink {:.2g} diameters into each other; above {:g} a bed packs and flows otherwise "
+                                        "than stiff grains",
+                                        what, overlap, k_soft_overlap),
+                            "Give the material a larger modulus; the contact step shrinks with its square root"});
+    };
+    look("the poured bed", pressure_of_bed(scene, pieces));
+    for (const PrepareStep& step : scene.preparation)
+        if (const auto* compress = std::get_if<CompressStep>(&step)) look("the pressure of a step compress", compress->pressure);
+    return warnings;
 }
 
 }  // namespace
@@ -219,15 +231,25 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
         found.bed_time += (piece.grains.empty() ? 0.0 : piece.grains.back().time) + k_rest;
     }
     found.end = scene.run.end;
+    found.fed_mass = scene.fed_mass();
+    double grain_time = static_cast<double>(found.grains) * found.end;  // in the run
+    for (const RoomEvent& event : scene.events) {
+        const auto* feed = std::get_if<FeedEvent>(&event);
+        if (feed == nullptr) continue;
+        const RoomGrains& kind = *scene.find_grains(feed->grains);
+        const double count = feed->mass(found.end) / (kind.density * kind.mean_volume());
+        found.fed += count;
+        grain_time += count * std::max(0.0, found.end - 0.5 * (feed->from + std::min(feed->to, found.end)));
+    }
     if (found.contact_step > 0.0)
         found.grain_seconds =
-            k_seconds_per_grain_and_step * static_cast<double>(found.grains) * (found.bed_time + found.end) / found.contact_step;
+            k_seconds_per_grain_and_step * (static_cast<double>(found.grains) * found.bed_time + grain_time) / found.contact_step;
     if (mesh) {
         found.cells = mesh->predicted_cells;
         found.mesh_seconds = mesh->predicted_core_s;
         found.flow_step = flow_step(scene, *mesh);
-        found.flow_seconds = found.end / found.flow_step *
-                             (k_seconds_per_cell_and_step * found.cells + k_seconds_per_mapped_grain * static_cast<double>(found.grains));
+        found.flow_seconds =
+            (k_seconds_per_cell_and_step * found.cells * found.end + k_seconds_per_mapped_grain * grain_time) / found.flow_step;
     }
     found.on = models_of(scene);
     return found;
@@ -257,8 +279,9 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
 }
 
 std::string to_text(const RoomPrediction& found) {
-    std::string text = fmt::format("{}: {} solid{}, {} grains, {:.4g} kg, medium {}\n", found.name, found.solids,
-                                   found.solids == 1 ? "" : "s", found.grains, found.mass, found.medium);
+    const std::string fed = found.fed > 0.0 ? fmt::format(" and {:.0f} fed, {:.4g} kg", found.fed, found.fed_mass) : "";
+    std::string text = fmt::format("{}: {} solid{}, {} grains, {:.4g} kg{}, medium {}\n", found.name, found.solids,
+                                   found.solids == 1 ? "" : "s", found.grains, found.mass, fed, found.medium);
     if (found.contact_step > 0.0)
         text += fmt::format(
             "contact step {:.3g} s, {:.2g} steps; grains about {} on one core for a preparation of {:.2g} s and a run of {:g} s\n",
@@ -278,6 +301,8 @@ nlohmann::json to_json(const RoomPrediction& found) {
             {"solids", found.solids},
             {"grains", found.grains},
             {"mass_kg", found.mass},
+            {"fed", std::round(found.fed)},
+            {"fed_kg", found.fed_mass},
             {"contact_step_s", found.contact_step},
             {"bed_s", found.bed_time},
             {"end_s", found.end},

@@ -20,6 +20,8 @@ struct RoomPrediction {
     std::size_t solids = 0;
     std::size_t grains = 0;      ///< poured
     double mass = 0.0;           ///< [kg]
+    double fed = 0.0;            ///< grains of feeds
+    double fed_mass = 0.0;       ///< [kg]
     double contact_step = 0.0;   ///< [s]; 0 without grains
     double bed_time = 0.0;       ///< of the preparation, without the time that grains take to come to rest [s]
     double end = 0.0;            ///< of the run [s]

@@ -91,6 +91,13 @@ double RoomScene::densest_grain() const {
     return densest;
 }
 
+double RoomScene::fed_mass() const {
+    double mass = 0.0;
+    for (const RoomEvent& event : events)
+        if (const auto* feed = std::get_if<FeedEvent>(&event)) mass += feed->mass(run.end);
+    return mass;
+}
+
 const RoomGrains* RoomScene::find_grains(const std::string& wanted) const {
     const auto found = std::find_if(grains.begin(), grains.end(), [&](const RoomGrains& one) { return one.name == wanted; });
     return found == grains.end() ? nullptr : &*found;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file A room as its study describes it: a box with solids, grains and perhaps a medium. SI units; x and y are centred on 0, z runs from
 /// 0 up. Everything that builds a room's case works from this alone.
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -187,6 +188,8 @@ struct FeedEvent {
     double from = 0.0, to = 0.0;  ///< [s]
     double rate = 0.0;            ///< [kg/s]
     Region region;                ///< a box or an upright cylinder in which grains begin
+
+    double mass(double end) const { return rate * std::max(0.0, std::min(to, end) - from); }  ///< until `end` of the run [kg]
 };
 struct ExtractEvent {
     double from = 0.0, to = 0.0;  ///< [s]
@@ -261,6 +264,7 @@ struct RoomScene {
     double smallest_grain() const;                               ///< diameter [m]; infinity without grains
     double largest_grain() const;                                ///< diameter [m]; 0 without grains
     double densest_grain() const;                                ///< density [kg/m3]; 0 without grains
+    double fed_mass() const;                                     ///< that feeds give until the run's end [kg]
     double tolerance() const { return 1e-6 * size.maxCoeff(); }  ///< lengths below it are rounding [m]
     const RoomGrains* find_grains(const std::string& name) const;
     const RoomSolid* find_solid(const std::string& name) const;

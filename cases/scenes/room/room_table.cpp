@@ -96,7 +96,7 @@ ParameterTable room_rows() {
             .derived("realizableKE")
             .stage(k_case),
         length("room.cell_m", "Size of the mesh's cells; with a medium only.").derived("needed with a medium").stage(k_mesh),
-        number("room.gravity_m_s2", "m/s2", "Gravity.").at_least(0.0).at_most(100.0).by_default(9.81),
+        number("room.gravity_m_s2", "m/s2", "Gravity.").at_least(1e-3).at_most(100.0).by_default(9.81),
         number("room.tilt_deg", "deg", "By how much gravity leans from the vertical, towards +x, in the run; the preparation is upright.")
             .at_least(-90.0)
             .at_most(90.0)

@@ -251,6 +251,13 @@ json grid_json(const PlaneGrid& grid) {
     return {{"columns_m", numbers(x)}, {"rows_m", numbers(z)}};
 }
 
+/// Why there is no middle half of what has passed.
+std::string why_no_rate(const PassedMass& passed) {
+    if (passed.time.empty()) return "nothing has passed";
+    if (passed.total() < 0.0) return fmt::format("{:.4g} kg have passed against the normal: turn it round", -passed.total());
+    return "as much has passed back, or all at one time";
+}
+
 }  // namespace
 
 MeasureOutcome measure_passed_mass(const MeasureSource& source, const MeasureValues& values) {
@@ -270,7 +277,7 @@ MeasureOutcome measure_rate(const MeasureSource& source, const MeasureValues& va
     const PassedMass passed = passed_mass(source, values);
     const auto half = middle_half(passed);
     const bool has_window = values.has("from_s") || values.has("to_s");
-    if (!has_window && !half) return without_value("kg/s", "nothing has passed, or all at one time");
+    if (!has_window && !half) return without_value("kg/s", why_no_rate(passed));
     Rate rate;
     MeasureOutcome outcome;
     if (has_window) {
@@ -295,7 +302,7 @@ MeasureOutcome measure_rate(const MeasureSource& source, const MeasureValues& va
 MeasureOutcome measure_time_of(const MeasureSource& source, const MeasureValues& values) {
     const PassedMass passed = passed_mass(source, values);
     const double whole = values.optional_number("of_kg").value_or(passed.total());
-    if (whole <= 0.0) return without_value("s", "nothing has passed");
+    if (whole <= 0.0) return without_value("s", why_no_rate(passed));
     const auto time = time_when(passed, values.number("share") * whole);
     if (!time)
         return without_value("s",
@@ -534,6 +541,8 @@ MeasureOutcome measure_spectrum(const MeasureSource& source, const MeasureValues
     if (spectrum.stands_out()) {
         outcome.value = factor * spectrum.peak_frequency;
         if (spectrum.standard_error) outcome.standard_error = factor * *spectrum.standard_error;
+    } else if (!std::isfinite(spectrum.peak_over_median)) {
+        outcome.detail["reason"] = "the signal does not change";
     } else {
         outcome.detail["reason"] =
             fmt::format("no oscillation stands out: the highest line is {:.1f} times the median, noise reaches {:.1f}",

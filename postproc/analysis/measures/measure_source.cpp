@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double k_no_cell = 1e100;  // below what OpenFOAM writes for a place in no cell
 constexpr const char* k_run_again = "Run it again with this version";
 
 /// Numbers of an ascii data array of a .vtp file.
@@ -194,6 +195,9 @@ Signal MeasureSource::probe_difference(const std::string& name) const {
             std::istringstream numbers(line);
             double time = 0.0, first = 0.0, second = 0.0;
             if (line.empty() || line[0] == '#' || !(numbers >> time >> first >> second)) continue;
+            if (std::max(std::abs(first), std::abs(second)) > k_no_cell)
+                throw UserError({{(folder / "p").string(), fmt::format("a place of {} lies in no cell of the mesh", name),
+                                  "A pressure drop is that between two places in the medium", "Move upstream_m or downstream_m"}});
             while (!signal.time.empty() && signal.time.back() >= time) signal.time.pop_back(), signal.value.pop_back();
             signal.time.push_back(time);
             signal.value.push_back(first - second);

@@ -270,6 +270,12 @@ constexpr Drawing k_drawings[] = {
     {"pressure_drop", pressure_plot, true, "difference of the pressures, and its mean in the window"},
 };
 
+/// Why there is no value, or what it leaves out.
+std::string remark_of(const json& detail) {
+    if (detail.contains("reason")) return detail.at("reason").get<std::string>();
+    return detail.value("reaches_border", false) ? "it reaches the border of what is looked at" : "";
+}
+
 }  // namespace
 
 std::vector<Figure> measure_figures(const json& results) {
@@ -279,6 +285,7 @@ std::vector<Figure> measure_figures(const json& results) {
         const auto drawing =
             std::find_if(std::begin(k_drawings), std::end(k_drawings), [&](const Drawing& one) { return one.what == what; });
         if (drawing == std::end(k_drawings) || (drawing->needs_value && result.at("value").is_null())) continue;
+        if (result.value("series", json()).is_null()) continue;  // it could not be made
         if (std::optional<Plot> plot = drawing->draw(name, result))
             figures.push_back({std::move(*plot), fmt::format("{}: {}.", html::escape(name), drawing->caption), ""});
     }
@@ -289,7 +296,7 @@ std::string measures_section(const Page& page, const json& results) {
     std::vector<std::vector<std::string>> rows;
     for (const auto& [name, result] : results.items())
         rows.push_back({html::escape(name), html::escape(result.at("what").get<std::string>()), html::escape(measure_value_text(result)),
-                        html::escape(result.at("detail").value("reason", ""))});
+                        html::escape(remark_of(result.at("detail")))});
     std::string body = html::scrolling(html::table({"measure", "what", "value ± standard error", "remark"}, rows, false));
     if (gnuplot_is_installed()) {
         std::string plots;

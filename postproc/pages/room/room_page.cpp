@@ -1,5 +1,7 @@
 #include "postproc/pages/room/room_page.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -26,6 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_schema = "cutterflow.room_comparison/1";
+constexpr const char* k_account = "rock/account.csv";
+constexpr double k_fed_whole = 0.99;    // of what feeds are asked for
+constexpr double k_deep_overlap = 0.1;  // of a radius
 constexpr const char* k_dry_bed =
     "Grains are spheres or rigid clumps; they neither break nor wear nor stick together. The preparation is computed without a medium.";
 
@@ -50,7 +55,34 @@ double core_seconds(const nlohmann::json& manifest, const char* stage) {
     return manifest.value("stages", nlohmann::json::object()).value(stage, nlohmann::json::object()).value("core_s", 0.0);
 }
 
-nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const Grains& grains, double time) {
+/// What became of the grains of the run, from its account; null when it has none.
+nlohmann::json account_of(const MeasureSource& source, const nlohmann::json& room) {
+    try {
+        nlohmann::json account;
+        for (const char* where : {"placed", "in_run", "removed", "extracted", "left_domain"})
+            account[where] = {{"count", source.column(k_account, std::string(where) + "_count").value.back()},
+                              {"kg", source.column(k_account, std::string(where) + "_kg").value.back()}};
+        account["fed"] = {{"ordered_kg", room.value("fed_kg", 0.0)},
+                          {"kg", account["placed"]["kg"].get<double>() - source.column(k_account, "placed_kg").value.front()}};
+        return account;
+    } catch (const UserError&) {
+        return nullptr;
+    }
+}
+
+/// Largest overlap of the run over the radius; null when it has no balance.
+nlohmann::json largest_overlap(const MeasureSource& source) {
+    try {
+        const std::vector<double> overlaps = source.column("balance/balance.csv", "overlap_ratio_max").value;
+        return overlaps.empty() ? nlohmann::json() : nlohmann::json(*std::max_element(overlaps.begin(), overlaps.end()));
+    } catch (const UserError&) {
+        return nullptr;
+    }
+}
+
+nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const MeasureSource& source, std::size_t picture) {
+    const Grains& grains = source.grains(picture);
+    const double time = source.picture_times().at(picture);
     const nlohmann::json manifest = read_if_there(run / names::manifest);
     return {{"schema", "cutterflow.room/1"},
             {"name", room.at("name")},
@@ -60,6 +92,8 @@ nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const
             {"grains", grains.size()},
             {"grains_kg", mass_of(grains)},
             {"bed", room.value("bed", nlohmann::json())},
+            {"account", account_of(source, room)},
+            {"largest_overlap", largest_overlap(source)},
             {"core_s", {{"bed", core_seconds(manifest, "bed")}, {"run", core_seconds(manifest, "run")}}}};
 }
 
@@ -71,8 +105,15 @@ std::string answers(const nlohmann::json& results, const nlohmann::json& measure
     markup += html::answer(palette::rock_load, "grains in the room", fmt::format("{}", results.at("grains").get<std::size_t>()),
                            fmt::format("{:.4g} kg at {:.4g} s", results.at("grains_kg").get<double>(), results.at("time_s").get<double>()));
     const double core = results.at("core_s").at("bed").get<double>() + results.at("core_s").at("run").get<double>();
-    markup += html::answer(palette::faint, "cost", duration_text(core), "on one core, of bed and run");
+    markup += html::answer(palette::faint, "cost", duration_text(core), "core time of bed and run");
     return "<div class=\"answers\">" + markup + "</div>";
+}
+
+/// "9.81 m/s2, 25 degrees from the vertical"
+std::string gravity_text(const nlohmann::json& gravity) {
+    const Vec3 g(gravity.at(0).get<double>(), gravity.at(1).get<double>(), gravity.at(2).get<double>());
+    const double tilt = std::atan2(std::hypot(g.x(), g.y()), -g.z()) * 180.0 / k_pi;
+    return fmt::format("{:.4g} m/s2{}", g.norm(), tilt > 1e-6 ? fmt::format(", {:.4g} degrees from the vertical", tilt) : "");
 }
 
 std::string what_was_run(const nlohmann::json& room, const nlohmann::json& results) {
@@ -85,6 +126,7 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
         {"simulated time", fmt::format("{:.4g} of {:g} s{}", results.at("time_s").get<double>(), room.at("end_s").get<double>(),
                                        results.at("finished").get<bool>() ? "" : "; the run is not finished")},
         {"seed", room.at("seed").dump()}};
+    if (room.contains("gravity_m_s2")) rows.push_back({"gravity", gravity_text(room.at("gravity_m_s2"))});
     for (const nlohmann::json& kind : room.at("grains"))
         rows.push_back({html::escape(kind.at("name").get<std::string>()),
                         fmt::format("{:g} kg/m3, {:.4g} to {:.4g} mm", kind.at("density_kg_m3").get<double>(),
@@ -110,7 +152,38 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
         if (solid.contains("removed_at_s")) text += fmt::format("; taken away at {:g} s", solid.at("removed_at_s").get<double>());
         rows.push_back({html::escape(solid.at("name").get<std::string>()), text});
     }
+    for (const nlohmann::json& contact : room.value("contacts", nlohmann::json::array()))
+        rows.push_back({html::escape(fmt::format("{} on {}", contact.at("pair").at(0).get<std::string>(),
+                                                 contact.at("pair").at(1).get<std::string>())),
+                        fmt::format("friction {:g}, rolling friction {:g}, restitution {:g}", contact.at("friction").get<double>(),
+                                    contact.at("rolling").get<double>(), contact.at("restitution").get<double>())});
+    for (const nlohmann::json& on : room.value("on", nlohmann::json::array())) rows.push_back({"on", html::escape(on.get<std::string>())});
     return html::table({"", ""}, rows, false);
+}
+
+/// Where all grains are that the run had.
+std::string what_became(const nlohmann::json& results) {
+    const nlohmann::json& account = results.at("account");
+    const auto row = [&](const char* name, const char* where) {
+        return std::vector<std::string>{name, fmt::format("{:.0f}", account.at(where).at("count").get<double>()),
+                                        fmt::format("{:.4g}", account.at(where).at("kg").get<double>())};
+    };
+    std::vector<std::vector<std::string>> rows{row("came in, from the bed and by feeds", "placed"), row("in the room at the end", "in_run"),
+                                               row("left through open sides", "left_domain"), row("taken out by events remove", "removed"),
+                                               row("extracted", "extracted")};
+    std::string text = html::table({"grains", "number", "kg"}, rows, true);
+    const double ordered = account.at("fed").at("ordered_kg").get<double>(), fed = account.at("fed").at("kg").get<double>();
+    if (ordered > 0.0)
+        text += fmt::format(
+            "<p>Feeds gave {:.4g} of {:.4g} kg{}</p>", fed, ordered,
+            fed < k_fed_whole * ordered ? ": the rest found no room when it was due (rock/rejected.csv), or was not due." : ".");
+    const nlohmann::json& overlap = results.at("largest_overlap");
+    if (!overlap.is_null())
+        text += fmt::format("<p>Largest overlap of a grain with another or a solid: {:.2g} of its radius{}</p>", overlap.get<double>(),
+                            overlap.get<double>() > k_deep_overlap
+                                ? ". From 0.1 on contacts are softer than their law; at 1 a grain passes through a solid."
+                                : ".");
+    return text;
 }
 
 std::string models_and_cost(const fs::path& run, const nlohmann::json& results) {
@@ -150,7 +223,7 @@ fs::path write_room_report(const fs::path& run) {
     const nlohmann::json room = read_room(run);
     const MeasureSource source(run);
     const std::size_t last = source.picture_near(std::nullopt);
-    const nlohmann::json results = results_of(run, room, source.grains(last), source.picture_times().at(last));
+    const nlohmann::json results = results_of(run, room, source, last);
     const nlohmann::json measures = has_measures(run) ? write_possible_measures(run) : nlohmann::json::object();
     write_file(run / names::results_json, results.dump(2) + "\n");
     const fs::path file = run / names::report_page;
@@ -158,6 +231,7 @@ fs::path write_room_report(const fs::path& run) {
     const std::string title = html::escape(room.at("name").get<std::string>());
     const std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + answers(results, measures) +
                              html::section("What was run", what_was_run(room, results)) +
+                             (results.at("account").is_null() ? "" : html::section("What became of the grains", what_became(results))) +
                              html::section("Grains and solids", room_pictures(page, room, source)) +
                              (measures.empty() ? "" : measures_section(page, measures)) +
                              html::section("Models and cost", models_and_cost(run, results)) + fmt::format("<p>{}</p>", k_dry_bed);
@@ -166,7 +240,7 @@ fs::path write_room_report(const fs::path& run) {
 }
 
 std::vector<SettingResults> compare_room_runs(const std::vector<fs::path>& runs) {
-    return compare_settings(runs, quantities_of);
+    return compare_settings(runs, names::resolved_study, quantities_of);
 }
 
 nlohmann::json room_comparison_json(const std::vector<SettingResults>& settings) {

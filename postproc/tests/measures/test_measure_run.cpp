@@ -214,6 +214,25 @@ TEST_F(MeasuredRun, reads_forces_columns_and_probes) {
     EXPECT_EQ(measure_figures(results).size(), 5U);
 }
 
+TEST_F(MeasuredRun, draws_no_spectrum_of_what_is_not_there_and_tells_of_a_signal_that_does_not_change) {
+    std::string walls = "time_s,wall,force_x_n,force_y_n,force_z_n\n";
+    for (int n = 1; n <= 200; ++n) walls += fmt::format("{:.3f},plate,0,0,0\n", 0.005 * n);
+    write("postProcessing/rock/0/walls.csv", walls);
+    write(k_measures, R"([{"name": "still", "what": "spectrum", "wall": "plate", "component": "y"},
+                          {"name": "absent", "what": "spectrum", "table": "loads/loads.csv", "column": "torque"}])");
+    const json results = write_possible_measures(run_);
+    EXPECT_EQ(results["still"]["detail"]["reason"], "the signal does not change");
+    EXPECT_TRUE(results["absent"]["value"].is_null());
+    EXPECT_NO_THROW(measure_figures(results));
+}
+
+TEST_F(MeasuredRun, tells_of_a_place_of_pressure_in_no_cell) {
+    write("postProcessing/drop/0/p", "# Probe 0 (0 0 0)\n# Time\n0.1 10 -1e+300\n0.2 10 -1e+300\n");
+    write(k_measures, R"([{"name": "drop", "what": "pressure_drop", "upstream_m": [0, 0, 0], "downstream_m": [0, 0, 1],
+                           "density_kg_m3": 1000}])");
+    EXPECT_THAT(write_possible_measures(run_)["drop"]["detail"]["reason"].get<std::string>(), HasSubstr("lies in no cell"));
+}
+
 TEST_F(MeasuredRun, tells_all_that_it_cannot_measure_at_once) {
     write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "outlet"}, {"name": "b", "what": "wall_force", "wall": "plate"},
                           {"name": "c", "what": "cavity"}, {"name": "d", "what": "pressure_drop",

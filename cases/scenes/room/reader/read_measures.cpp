@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cases/scenes/room/reader/room_readers.hpp"
 #include "cases/scenes/room/reader/room_reading.hpp"
 #include "cases/scenes/room/room_measures.hpp"
 #include "cases/scenes/room/vec3_of.hpp"
+#include "geometry/cgal/solid_search.hpp"
 
 namespace cutterflow::cases {
 
@@ -16,17 +20,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_wall(const RoomReading& room, const std::string& name) {
-    if (room.solid_names.count(name) > 0) return true;
-    const auto side = std::find(coupling::k_domain_sides.begin(), coupling::k_domain_sides.end(), name);
-    if (side == coupling::k_domain_sides.end()) return false;
-    return room.scene.sides[static_cast<std::size_t>(side - coupling::k_domain_sides.begin())] != SideForGrains::open;
+/// Names of what measure.wall can be.
+std::vector<std::string> walls_of(const RoomReading& room) {
+    std::vector<std::string> names(room.solid_names.begin(), room.solid_names.end());
+    for (std::size_t side = 0; side < coupling::k_domain_sides.size(); ++side)
+        if (room.scene.sides[side] != SideForGrains::open) names.emplace_back(coupling::k_domain_sides[side]);
+    return names;
 }
 
 /// Whether a box and the room have a place in common; on the room's sides counts.
 bool meets_box(const RoomReading& room, const Vec3& lower, const Vec3& upper) {
     const double allowed = room.scene.tolerance();
     return (lower.array() <= room.scene.upper().array() + allowed).all() && (upper.array() >= room.scene.lower().array() - allowed).all();
+}
+
+/// The pressure is that of the medium, which solids cut out.
+void require_medium_at(RoomReading& room, const ParameterValues& measure, const char* key) {
+    const Vec3 place = vec3_of(measure, key);
+    for (const RoomSolid& solid : room.scene.solids)
+        if (solid.felt_by_fluid && geometry::SolidSearch(solid.surface).contains(place))
+            room.refuse(measure.where(key), fmt::format("{} of {} lies inside {}", key, measure.text("measure.name"), solid.name),
+                        "There is no medium, and so no pressure", "Move it");
 }
 
 /// \param from,to  what the key places along an axis, 0 to 2
@@ -88,7 +102,10 @@ void check_places(RoomReading& room, const ParameterValues& measure) {
         require_place(room, measure, "measure.gate.lower_m", gate.lower.cwiseMin(gate.upper), gate.lower.cwiseMax(gate.upper));
     }
     for (const char* key : {"measure.upstream_m", "measure.downstream_m"})
-        if (measure.has(key)) require_place(room, measure, key, vec3_of(measure, key), vec3_of(measure, key));
+        if (measure.has(key)) {
+            require_place(room, measure, key, vec3_of(measure, key), vec3_of(measure, key));
+            require_medium_at(room, measure, key);
+        }
     check_levels(room, measure);
 }
 
@@ -110,9 +127,10 @@ void check_measure(RoomReading& room, const ParameterValues& measure) {
         room.refuse(measure.where("measure.gate"), fmt::format("measure.gate = \"{}\"", measure.text("measure.gate")),
                     "It names a measure that places a gate, or places one itself",
                     "Correct it, or write gate = { disc_m = [x, y, z], radius_m = r }");
-    if (measure.has("measure.wall") && !is_wall(room, measure.text("measure.wall")))
+    const std::vector<std::string> walls = walls_of(room);
+    if (measure.has("measure.wall") && std::find(walls.begin(), walls.end(), measure.text("measure.wall")) == walls.end())
         room.refuse(measure.where("measure.wall"), fmt::format("measure.wall = \"{}\"", measure.text("measure.wall")),
-                    "It names a solid, or a side of the room that is a wall", "Correct it");
+                    "It names a solid, or a side of the room that is a wall", fmt::format("Name one of {}", fmt::join(walls, ", ")));
     if (measure.has("measure.wall")) require_standing(room, measure);
 }
 

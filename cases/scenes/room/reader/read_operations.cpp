@@ -216,7 +216,7 @@ void read_event(RoomReading& room, const ParameterValues& values) {
                rate = room.required(values, "event.rate_kg_s", what, "event.do");
     if (from) room.require_in_run(*from, "event.from_s", values);
     if (from && to && *from >= *to)
-        room.refuse(values.where("event.to_s"), fmt::format("event.to_s = {:g}", *to), fmt::format("It is after from_s = {:g}", *from),
+        room.refuse(values.where("event.to_s"), fmt::format("event.to_s = {:g}", *to), fmt::format("It must be after from_s = {:g}", *from),
                     "Correct one of them");
     if (!from || !to || !rate) return;
     if (what == "extract") {

@@ -55,7 +55,7 @@ void read_motion(RoomReading& room, const ParameterValues& values, RoomSolid& so
     const double begin = values.number("solid.from_s"), end = values.number("solid.to_s");
     if (begin >= end)
         room.refuse(values.where("solid.to_s"), fmt::format("solid.to_s = {:g} of {}", end, solid.name),
-                    fmt::format("It is after from_s = {:g}", begin), "Correct one of them");
+                    fmt::format("It must be after from_s = {:g}", begin), "Correct one of them");
     if (travels)
         solid.travel = coupling::WallTravel{vec3_of(values, "solid.velocity_m_s"), begin, end};
     else
@@ -160,6 +160,8 @@ void read_solid(RoomReading& room, const ParameterValues& values) {
     solid.name = values.text("solid.name");
     const std::string where = values.where("solid.name");
     room.require_name(solid.name, "solid.name", where);
+    if (std::find(coupling::k_domain_sides.begin(), coupling::k_domain_sides.end(), solid.name) != coupling::k_domain_sides.end())
+        room.refuse(where, fmt::format("solid.name = \"{}\"", solid.name), "A side of the room is called so", "Change it");
     if (!room.solid_names.insert(solid.name).second)
         room.refuse(where, fmt::format("solid.name = \"{}\" is given twice", solid.name), "Every solid has a name of its own",
                     "Change one");
