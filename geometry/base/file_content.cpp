@@ -53,8 +53,9 @@ std::string read_file(const std::filesystem::path& file) {
 }
 
 void write_file(const std::filesystem::path& file, const std::string& content) {
-    std::error_code ignored;  // the open below reports the error
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
+    std::error_code no_folder;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), no_folder);
+    if (no_folder) throw_not_written(file, no_folder.value());
     std::filesystem::path temporary = file;
     temporary += fmt::format(".part{}", ::getpid());
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -37,7 +37,7 @@ std::string remedy_for(double half_extent) {
     for (const UnitRow& row : k_units)
         if (is_plausible(half_extent, row.unit)) options.push_back(fmt::format("--unit {}", row.name));
     if (options.empty()) return "Check that the file holds one cutter head and nothing else; no known unit makes its size plausible";
-    return fmt::format("Say in which unit the file is: {}", fmt::join(options, " or "));
+    return fmt::format("Say in which unit the file is: {} (in a study cutter.unit)", fmt::join(options, " or "));
 }
 
 /// The other units in which the size would be plausible, in words.
