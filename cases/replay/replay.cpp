@@ -392,6 +392,7 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
         take_study(runs.front(), settings.study);
     }
     open_folder(settings, runs);
+    const FolderLock lock(settings.folder);
 
     ReplayResults results;
     results.replays = Replays(settings, runs).take_all();

@@ -69,16 +69,22 @@ int take_lock(const fs::path& path) {
     // Without O_CLOEXEC: children keep the lock.
     const int lock = ::open((path / k_lock).c_str(), O_RDWR | O_CREAT, 0666);
     if (lock < 0)
-        throw UserError(fmt::format("cannot write to {}: {}", path.string(), std::strerror(errno)), "The run directory must be writable",
+        throw UserError(fmt::format("cannot write to {}: {}", path.string(), std::strerror(errno)), "The folder must be writable",
                         "Check its permissions, or choose another with -o");
     if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
     ::close(lock);
     const std::string holders = holders_of(fs::canonical(path) / k_lock);
     throw UserError(fmt::format("{} is in use by another process{}", path.string(), holders.empty() ? "" : fmt::format(" ({})", holders)),
-                    "Only one process may work in a run directory", "Wait for it, end it, or choose another directory with -o");
+                    "Only one process may work in a folder", "Wait for it, end it, or choose another folder with -o");
 }
 
 }  // namespace
+
+FolderLock::FolderLock(const fs::path& folder) : lock_(take_lock(folder)) {}
+
+FolderLock::~FolderLock() {
+    ::close(lock_);
+}
 
 void require_usable_run_directory(const fs::path& path) {
     require_openfoam_path(fs::absolute(path).lexically_normal());
@@ -101,11 +107,7 @@ RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexi
     if (failed || !fs::is_directory(path_))
         throw UserError(fmt::format("{} cannot be a run directory", path_.string()), "It must be a folder that exists or can be created",
                         "Choose another with -o");
-    lock_ = take_lock(path_);
-}
-
-RunDirectory::~RunDirectory() {
-    ::close(lock_);
+    lock_.emplace(path_);
 }
 
 void remove_unfinished_run(const fs::path& directory) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file A run directory: who may use it, and what of it is the user's.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,19 @@ void require_usable_run_directory(const std::filesystem::path& path);
 /// not begun is an empty one
 void require_start_donor(const std::filesystem::path& folder);
 
+/// One process at a time works in a folder, and its children.
+class FolderLock {
+public:
+    /// \throws UserError  when the folder cannot be written to, or another process uses it, which is named
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int lock_;
+};
+
 /// A run directory that belongs to this process while the object lives. Children inherit the lock: a solver that outlives its parent
 /// keeps the directory busy.
 class RunDirectory {
@@ -29,9 +43,6 @@ public:
     /// something
     ///                    that is no run (nothing is overwritten), or another process uses it
     explicit RunDirectory(const std::filesystem::path& path);
-    ~RunDirectory();
-    RunDirectory(const RunDirectory&) = delete;
-    RunDirectory& operator=(const RunDirectory&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path file(const std::string& relative) const { return path_ / relative; }
@@ -44,7 +55,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    int lock_ = -1;
+    std::optional<FolderLock> lock_;
 };
 
 /// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed.
