@@ -352,7 +352,7 @@ private:
             {"fed_kg", scene_.fed_mass()},
             {"gates", gates},
             {"contacts", contacts},
-            {"on", predict(scene_, pieces_, mesh_).on},
+            {"on", models_of(scene_)},
             {"grains", grains},
             {"solids", solids}};
     }

@@ -179,7 +179,7 @@ std::vector<std::string> feed_lines(const std::vector<PlacedFeed>& feeds) {
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) {
     const geometry::SolidSearch stationary(scene.stationary);
     std::vector<PlacedFeed> feeds;
-    std::vector<Mistake> mistakes;
+    Mistakes mistakes;
     for (std::size_t i = 0; i < study.feeds.size(); ++i) {
         const FeedRequest& request = study.feeds[i];
         Mistakes of_feed(fmt::format("feed {}", i + 1));
@@ -189,9 +189,9 @@ std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) 
             else
                 for (PlacedFeed& feed : place_swing(request, study, scene)) feeds.push_back(std::move(feed));
         });
-        for (Mistake& mistake : of_feed.take()) mistakes.push_back(std::move(mistake));
+        mistakes.add(of_feed.take());
     }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    mistakes.refuse();
     return feeds;
 }
 

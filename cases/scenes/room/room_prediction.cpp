@@ -84,39 +84,6 @@ std::vector<Opening> floor_openings(const ParameterValues& values, const RoomSce
     return openings;
 }
 
-std::vector<std::string> models_of(const RoomScene& scene) {
-    std::vector<std::string> on;
-    if (scene.medium.present()) on.push_back(fmt::format("flow of {}, {}: room.medium", scene.medium.name, scene.medium.turbulence));
-    if (scene.grains.empty()) return on;
-    if (scene.medium.present()) {
-        const coupling::ClosureSettings& closures = scene.closures;
-        on.push_back(fmt::format("drag {} x {:g}, hindrance {}, added mass {:g}: closures", closures.drag, closures.drag_modifier,
-                                 closures.hindrance, closures.added_mass));
-    }
-    on.emplace_back("contacts of grains, spring and dashpot of Hertz with friction");
-    if (std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const RoomPair& pair) { return pair.settings.rolling_friction > 0.0; }))
-        on.push_back(fmt::format("rolling friction ({}): contact.rolling", scene.contact.rolling_law));
-    for (const RoomSolid& solid : scene.solids) {
-        if (solid.travel) on.push_back(fmt::format("{} moves from {:g} to {:g} s", solid.name, solid.travel->begin, solid.travel->end));
-        if (solid.turn)
-            on.push_back(fmt::format("{} turns at {:g} rpm from {:g} to {:g} s", solid.name, solid.turn->speed / rpm_to_rad_s(1.0),
-                                     solid.turn->begin, solid.turn->end));
-        if (solid.removed_at) on.push_back(fmt::format("{} is taken away at {:g} s", solid.name, *solid.removed_at));
-    }
-    for (const PrepareStep& step : scene.preparation)
-        if (const auto* compress = std::get_if<CompressStep>(&step))
-            on.push_back(fmt::format("{} is pressed on the grains with {:.4g} N before the run", compress->solid, compress->force));
-    for (const RoomEvent& event : scene.events) {
-        if (const auto* feed = std::get_if<FeedEvent>(&event))
-            on.push_back(fmt::format("{} are fed at {:g} kg/s", feed->grains, feed->rate));
-        if (const auto* extract = std::get_if<ExtractEvent>(&event))
-            on.push_back(fmt::format("grains are extracted at {:g} kg/s", extract->rate));
-        if (const auto* in_region = std::get_if<RegionEvent>(&event))
-            on.push_back(fmt::format("{} at {:g} s", in_region->what, in_region->at));
-    }
-    return on;
-}
-
 /// By how much points lie beyond the sides that are closed to grains [m].
 double reach_out_of(const RoomScene& scene, const geometry::TriangleSurface& surface, const std::function<Vec3(const Vec3&)>& moved) {
     double reach = 0.0;
@@ -218,6 +185,39 @@ std::vector<Mistake> softness_warnings(const ParameterValues& values, const Room
 }
 
 }  // namespace
+
+std::vector<std::string> models_of(const RoomScene& scene) {
+    std::vector<std::string> on;
+    if (scene.medium.present()) on.push_back(fmt::format("flow of {}, {}: room.medium", scene.medium.name, scene.medium.turbulence));
+    if (scene.grains.empty()) return on;
+    if (scene.medium.present()) {
+        const coupling::ClosureSettings& closures = scene.closures;
+        on.push_back(fmt::format("drag {} x {:g}, hindrance {}, added mass {:g}: closures", closures.drag, closures.drag_modifier,
+                                 closures.hindrance, closures.added_mass));
+    }
+    on.emplace_back("contacts of grains, spring and dashpot of Hertz with friction");
+    if (std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const RoomPair& pair) { return pair.settings.rolling_friction > 0.0; }))
+        on.push_back(fmt::format("rolling friction ({}): contact.rolling", scene.contact.rolling_law));
+    for (const RoomSolid& solid : scene.solids) {
+        if (solid.travel) on.push_back(fmt::format("{} moves from {:g} to {:g} s", solid.name, solid.travel->begin, solid.travel->end));
+        if (solid.turn)
+            on.push_back(fmt::format("{} turns at {:g} rpm from {:g} to {:g} s", solid.name, solid.turn->speed / rpm_to_rad_s(1.0),
+                                     solid.turn->begin, solid.turn->end));
+        if (solid.removed_at) on.push_back(fmt::format("{} is taken away at {:g} s", solid.name, *solid.removed_at));
+    }
+    for (const PrepareStep& step : scene.preparation)
+        if (const auto* compress = std::get_if<CompressStep>(&step))
+            on.push_back(fmt::format("{} is pressed on the grains with {:.4g} N before the run", compress->solid, compress->force));
+    for (const RoomEvent& event : scene.events) {
+        if (const auto* feed = std::get_if<FeedEvent>(&event))
+            on.push_back(fmt::format("{} are fed at {:g} kg/s", feed->grains, feed->rate));
+        if (const auto* extract = std::get_if<ExtractEvent>(&event))
+            on.push_back(fmt::format("grains are extracted at {:g} kg/s", extract->rate));
+        if (const auto* in_region = std::get_if<RegionEvent>(&event))
+            on.push_back(fmt::format("{} at {:g} s", in_region->what, in_region->at));
+    }
+    return on;
+}
 
 RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh) {
     RoomPrediction found;

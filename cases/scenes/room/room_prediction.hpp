@@ -31,8 +31,11 @@ struct RoomPrediction {
     double mesh_seconds = 0.0;   ///< of the mesh stage [s]
     double flow_seconds = 0.0;   ///< of the medium and what it does to grains, to the run's end [s]
     double core_seconds() const { return grain_seconds + mesh_seconds + flow_seconds; }
-    std::vector<std::string> on;  ///< what the run computes, and why
+    std::vector<std::string> on;  ///< models_of
 };
+
+/// What a room's run computes, and why, a line each.
+std::vector<std::string> models_of(const RoomScene& scene);
 
 /// \param mesh  of the medium; none without one
 RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh);

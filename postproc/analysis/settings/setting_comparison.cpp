@@ -115,13 +115,13 @@ nlohmann::json json_of(const RepeatMean& value) {
 }
 
 void require_different(const std::vector<fs::path>& runs, const std::vector<RunSetting>& settings, const std::string& study_file) {
-    const auto have_one_manifest = [&](std::size_t a, std::size_t b) {
+    const auto are_one_run = [&](std::size_t a, std::size_t b) {
         const fs::path first = runs[a] / names::manifest, second = runs[b] / names::manifest;
         const bool one_manifest = fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // with its times
         return one_manifest ||
                (fs::exists(runs[a] / study_file) && settings[a].text == settings[b].text && settings[a].seed == settings[b].seed);
     };
-    require_distinct(runs, have_one_manifest, "seed");
+    require_distinct(runs, are_one_run, "seed");
 }
 
 /// Of every run, the same ones. \throws UserError  with the mistakes of all runs
