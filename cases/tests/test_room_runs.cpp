@@ -279,6 +279,9 @@ TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
     EXPECT_NEAR(results.at("time_s").get<double>(), std::stod(account.substr(account.rfind('\n', account.size() - 2) + 1)), 1e-6);
     EXPECT_EQ(results.at("account").at("in_run").at("count"), 120);
     EXPECT_EQ(results.at("account").at("left_domain").at("count"), 0);
+    // Grains that lie on each other press; stiff ones do not sink into each other.
+    EXPECT_GT(results.at("largest_overlap").get<double>(), 1e-5);
+    EXPECT_LT(results.at("largest_overlap").get<double>(), 0.1);
     EXPECT_NE(read_file(folder_ / "heap/report/index.html").find("What became of the grains"), std::string::npos);
     EXPECT_GT(measures.at("on_disc").at("value").get<double>(), 0.5 * poured);
     EXPECT_GT(measures.at("height").at("value").get<double>(), 0.005);

@@ -331,6 +331,7 @@ void CoupledRun::report() {
     record_flow();
     if (has_rock()) {
         recorder_.account(fluid_.time(), account_.totals());
+        recorder_.contacts(fluid_.time(), moved_.contacts, moved_.max_overlap_ratio);
         recorder_.walls(fluid_.time(), moved_.wall_force);
     }
     // The row before the start bounds the first interval that is averaged.

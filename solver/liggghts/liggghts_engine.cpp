@@ -623,7 +623,7 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     for (std::size_t body = 0; body < bodies.size(); ++body)
         done.wall_force.push_back({bodies[body], wall_impulse[body] / duration, pressed(body)});
     done.contacts = static_cast<int>(std::lround(sum(context_.tally.contacts)));
-    done.max_overlap_ratio = context_.tally.overlap_ratio;
+    done.max_overlap_ratio = motion_->largest_overlap_ratio();
     MPI_Allreduce(MPI_IN_PLACE, &done.max_overlap_ratio, 1, MPI_DOUBLE, MPI_MAX, communicator_);
     for (std::size_t k = 0; k < rocks_.size(); ++k) {
         if (contains(settings_.domain, rocks_.position[k])) {
@@ -648,7 +648,7 @@ void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& b
             {"",
              fmt::format("{} of {} rocks vanished from the DEM near {:.6g} s; the fastest of the others moves at {:.3g} m/s, "
                          "and rock overlaps by up to {:.2g} of its radius",
-                         before.size() - rocks_.size(), before.size(), time_, fastest, context_.tally.overlap_ratio),
+                         before.size() - rocks_.size(), before.size(), time_, fastest, motion_->largest_overlap_ratio()),
              "The DEM drops rock that leaves its box within a step of contacts, thrown out by a deep overlap",
              "Look at the last picture; give the rock a larger modulus, solids less speed, or the contacts a smaller step"});
     }

@@ -32,6 +32,7 @@ void RockMotion::begin(const coupling::Rocks& rocks, const coupling::Hydrodynami
     rocks_ = &rocks;
     force_ = &law;
     angular_impulse_ = 0.0;
+    largest_overlap_ratio_ = 0.0;
     wall_impulse_.assign(context_.tally.force_on_body.size(), Vec3::Zero());
     bodies_.begin(rocks, law, *atom, world);
     for (int i = 0; i < atom->nlocal; ++i) {
@@ -126,6 +127,7 @@ void RockMotion::final_integrate() {
         state.accelerations = at_end;
     }
     add_impulses_of_walls();
+    largest_overlap_ratio_ = std::max(largest_overlap_ratio_, context_.tally.overlap_ratio);
 }
 
 void RockMotion::grow_arrays(int capacity) {

@@ -38,6 +38,8 @@ public:
     double angular_impulse() const { return angular_impulse_; }
     /// The same of the forces on the walls [N s], by their numbers.
     const std::vector<Vec3>& wall_impulse() const { return wall_impulse_; }
+    /// Largest overlap over the rock's radius at the end of any step since begin(), of this rank.
+    double largest_overlap_ratio() const { return largest_overlap_ratio_; }
 
     int setmask() override;
     void setup(int) override { post_force(0); }
@@ -86,6 +88,7 @@ private:
     const coupling::HydrodynamicForce* force_ = nullptr;
     std::vector<State> states_;  // in LIGGGHTS' order
     double angular_impulse_ = 0.0;
+    double largest_overlap_ratio_ = 0.0;
     std::vector<Vec3> wall_impulse_;
 };
 

@@ -63,6 +63,7 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     std::string whereabouts = "time_s,placed_count,placed_kg";
     for (const char* where : k_whereabouts) whereabouts += fmt::format(",{0}_count,{0}_kg", where);
     account_ = open(k_rock, "account.csv", whereabouts);
+    contacts_ = open(k_rock, "contacts.csv", "time_s,contacts,overlap_ratio_max");
     walls_ = open(k_rock, "walls.csv", "time_s,wall,force_x_n,force_y_n,force_z_n,pressed_x_m,pressed_y_m,pressed_z_m");
     if (!settings.gates.empty())
         gates_ = open(k_rock, "gates.csv", "time_s,gate,id,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,diameter_m,mass_kg");
@@ -144,6 +145,10 @@ void CsvRecorder::gate(const GateRow& row) {
 void CsvRecorder::extraction(const ExtractionRow& row) {
     fmt::print(extractions_, "{:.9g},{},{:.9g},{:.9g},{},{}\n", row.time, row.event, row.due, row.extracted, row.in_region,
                row.starved ? 1 : 0);
+}
+
+void CsvRecorder::contacts(double time, int contacts, double overlap_ratio) {
+    fmt::print(contacts_, "{:.9g},{},{:.6g}\n", time, contacts, overlap_ratio);
 }
 
 void CsvRecorder::walls(double time, gsl::span<const WallForce> forces) {
@@ -293,8 +298,8 @@ void CsvRecorder::warning(double time, const std::string& text) {
 }
 
 void CsvRecorder::flush() {
-    for (std::ofstream* stream :
-         {&events_, &rejected_, &account_, &gates_, &extractions_, &walls_, &fates_, &ledger_, &outflow_, &loads_, &balance_, &cost_}) {
+    for (std::ofstream* stream : {&events_, &rejected_, &account_, &gates_, &extractions_, &contacts_, &walls_, &fates_, &ledger_,
+                                  &outflow_, &loads_, &balance_, &cost_}) {
         stream->flush();
         if (!*stream) fail_to_write(root_);
     }

@@ -26,6 +26,7 @@ public:
     void account(double time, const AccountTotals& totals) override;
     void gate(const GateRow& row) override;
     void extraction(const ExtractionRow& row) override;
+    void contacts(double time, int contacts, double overlap_ratio) override;
     void walls(double time, gsl::span<const WallForce> forces) override;
     void fates(double time, const FateTotals& totals) override;
     void ledger(double time, const RockLedger& ledger) override;
@@ -50,7 +51,7 @@ private:
     std::filesystem::path root_;
     std::string start_;
     bool with_soil_;
-    std::ofstream events_, rejected_, account_, gates_, extractions_, walls_, fates_, ledger_, outflow_, loads_, balance_, cost_;
+    std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, loads_, balance_, cost_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;
     std::vector<std::string> warnings_;

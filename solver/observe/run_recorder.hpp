@@ -193,6 +193,8 @@ public:
     virtual void account(double time, const AccountTotals& totals) = 0;
     virtual void gate(const GateRow& row) = 0;
     virtual void extraction(const ExtractionRow& row) = 0;
+    /// \param overlap_ratio  largest overlap over a rock's radius in the step
+    virtual void contacts(double time, int contacts, double overlap_ratio) = 0;
     virtual void walls(double time, gsl::span<const WallForce> forces) = 0;
     virtual void fates(double time, const FateTotals& totals) = 0;
     virtual void ledger(double time, const RockLedger& ledger) = 0;
@@ -221,6 +223,7 @@ public:
     void account(double, const AccountTotals&) override {}
     void gate(const GateRow&) override {}
     void extraction(const ExtractionRow&) override {}
+    void contacts(double, int, double) override {}
     void walls(double, gsl::span<const WallForce>) override {}
     void fates(double, const FateTotals&) override {}
     void ledger(double, const RockLedger&) override {}

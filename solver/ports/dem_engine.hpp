@@ -90,7 +90,7 @@ struct DemStep {
     Vec3 gravity = Vec3::Zero();                           ///< that acted on all rocks [m/s2]
     double cutter_torque = 0.0;                            ///< mean torque of rock contacts on the rotating steel about the axis [N m]
     std::vector<WallForce> wall_force;                     ///< over the call, of every wall
-    double max_overlap_ratio = 0.0;                        ///< largest overlap over rock radius seen at the call's end
+    double max_overlap_ratio = 0.0;                        ///< largest overlap over rock radius in all steps of the call
     int substeps = 0;                                      ///< DEM steps of the call
     int contacts = 0;                                      ///< rock-rock and rock-wall contacts at the call's end
 };

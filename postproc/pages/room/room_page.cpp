@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_schema = "cutterflow.room_comparison/1";
 constexpr const char* k_account = "rock/account.csv";
+constexpr const char* k_contacts = "rock/contacts.csv";
 constexpr double k_fed_whole = 0.99;    // of what feeds are asked for
 constexpr double k_deep_overlap = 0.1;  // of a radius
 constexpr const char* k_dry_bed =
@@ -70,10 +71,10 @@ nlohmann::json account_of(const MeasureSource& source, const nlohmann::json& roo
     }
 }
 
-/// Largest overlap of the run over the radius; null when it has no balance.
+/// Largest overlap of the run over the radius; null when it has no contacts.csv.
 nlohmann::json largest_overlap(const MeasureSource& source) {
     try {
-        const std::vector<double> overlaps = source.column("balance/balance.csv", "overlap_ratio_max").value;
+        const std::vector<double> overlaps = source.column(k_contacts, "overlap_ratio_max").value;
         return overlaps.empty() ? nlohmann::json() : nlohmann::json(*std::max_element(overlaps.begin(), overlaps.end()));
     } catch (const UserError&) {
         return nullptr;

@@ -78,9 +78,10 @@ Ride ride(const coupling::DemSettings& settings, const coupling::Rocks& start, d
     const double at_start = energy(settings, engine.rocks(), 0.0);
     const double kinetic = at_start - energy(settings, one_rock(start.position[0], Vec3::Zero(), 2.0 * k_radius), 0.0);
     Ride result;
-    const double call = 5e-4;
+    const double call = 1e-5;  // one step of the contacts, whose overlap is then that of the rock's place
     for (int k = 0; k * call < duration && engine.rocks().position[0].x() < beyond; ++k) {
         const coupling::DemStep step = engine.advance(call, no_force);
+        EXPECT_EQ(step.substeps, 1);
         if (engine.rocks().size() == 0) {
             ADD_FAILURE() << "the rock fell out of the domain";
             return result;

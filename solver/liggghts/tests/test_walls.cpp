@@ -1,7 +1,9 @@
 #include <algorithm>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/liggghts/tests/engine_fixture.hpp"
+#include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts::tests {
 
@@ -182,6 +184,28 @@ TEST(Walls, contacts_and_overlap_are_reported) {
     EXPECT_EQ(step.contacts, 2);
     EXPECT_GT(step.max_overlap_ratio, 0.0);
     EXPECT_LT(step.max_overlap_ratio, 0.005);
+}
+
+// A rock that bounces within one call; Hertz' largest overlap of an impact without damping.
+TEST(Walls, overlap_of_a_blow_within_a_call_is_seen) {
+    coupling::DemSettings settings = still_water();
+    settings.gravity.setZero();
+    settings.contact.wet_restitution = false;
+    settings.contact.set_every_pair({0.0, 1.0, 0.0});
+    settings.domain.lower.z() = 0.0;
+    settings.domain.make_wall(coupling::DomainSide::z_min);
+    LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
+    engine.insert(one_rock(Vec3(0, 0, 0.02), Vec3(0, 0, -1.0), 0.02));
+    const coupling::DemStep step = engine.advance(0.03, no_force);
+    EXPECT_EQ(step.contacts, 0);
+    EXPECT_NEAR(engine.rocks().velocity[0].z(), 1.0, 0.01);
+
+    const auto square = [](double value) { return value * value; };
+    const physics::Impact impact{
+        sphere_volume(0.02) * (k_rock_density + 0.5 * k_water_density), 0.01,
+        settings.contact.youngs_modulus / (2.0 - square(settings.contact.poisson_rock) - square(settings.contact.poisson_steel)), 1.0};
+    const double overlap = physics::hertz_largest_overlap(impact) / 0.01;
+    EXPECT_NEAR(step.max_overlap_ratio, overlap, 0.02 * overlap);
 }
 
 TEST(Insertion, keeps_what_it_is_given_to_the_bit) {
