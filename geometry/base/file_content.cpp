@@ -12,8 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/error.hpp"
-
 namespace cutterflow {
 namespace {
 
@@ -25,8 +23,7 @@ std::ifstream open_for_reading(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void throw_not_written(const std::filesystem::path& file, int error) {
-    throw UserError(fmt::format("cannot write {}: {}", file.string(), std::strerror(error)),
-                    "Its folder must be writable and have free space", "Check its permissions and the disk");
+    throw NotWritten(file, std::strerror(error));
 }
 
 void write_all(int descriptor, const std::string& content, const std::filesystem::path& file) {
@@ -46,6 +43,19 @@ std::string hexadecimal(SHA256_CTX& context) {
 }
 
 }  // namespace
+
+NotWritten::NotWritten(const std::filesystem::path& file, const std::string& why)
+    : UserError(fmt::format("cannot write {}{}{}", file.string(), why.empty() ? "" : ": ", why),
+                "Its folder must be writable and have free space", "Check its permissions and the disk") {}
+
+void require_written(const std::ofstream& stream, const std::filesystem::path& file) {
+    if (!stream) throw NotWritten(file);
+}
+
+void close_written(std::ofstream& stream, const std::filesystem::path& file) {
+    stream.close();
+    require_written(stream, file);
+}
 
 std::string read_file(const std::filesystem::path& file) {
     std::ifstream stream = open_for_reading(file);

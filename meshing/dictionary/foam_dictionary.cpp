@@ -1,11 +1,11 @@
 #include "meshing/dictionary/foam_dictionary.hpp"
+#include "geometry/base/file_content.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 namespace cutterflow::meshing {
@@ -178,11 +178,7 @@ std::string foam_file_text(const std::string& foam_class, const std::string& obj
 }
 
 void write_foam_file(const std::filesystem::path& path, const std::string& foam_class, const FoamDictionary& contents) {
-    std::filesystem::create_directories(path.parent_path());
-    std::ofstream file(path);
-    file << foam_file_text(foam_class, path.filename().string(), contents);
-    file.close();
-    if (!file) throw std::runtime_error("cannot write " + path.string());
+    write_file(path, foam_file_text(foam_class, path.filename().string(), contents));
 }
 
 }  // namespace cutterflow::meshing

@@ -12,6 +12,7 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
@@ -148,7 +149,7 @@ void run(int argc, char** argv) {
 }
 
 /// Reports why the run ends, and ends all ranks with the failure's code. Failures are thrown on every rank and told once; what OpenFOAM
-/// finds in a file, and a defect, may have struck one rank alone, so that the others must be stopped.
+/// finds in a file, a file that cannot be written, and a defect may have struck one rank alone, so that the others must be stopped.
 int explain(const std::exception& error) {
     int started = 0;
     MPI_Initialized(&started);
@@ -159,7 +160,8 @@ int explain(const std::exception& error) {
     }
     const auto* failure = dynamic_cast<const Failure*>(&error);
     const int code = static_cast<int>(failure != nullptr ? failure->code() : ExitCode::defect);
-    const bool on_all_ranks = failure != nullptr && dynamic_cast<const foam::CaseFileError*>(&error) == nullptr;
+    const bool on_all_ranks = failure != nullptr && dynamic_cast<const foam::CaseFileError*>(&error) == nullptr &&
+                              dynamic_cast<const NotWritten*>(&error) == nullptr;
     if (rank == 0 || !on_all_ranks) std::cerr << "cutterFoam: " << error.what() << std::endl;
     if (!on_all_ranks && (ranks > 1 || (failure == nullptr && started != 0))) MPI_Abort(MPI_COMM_WORLD, code);
     return code;

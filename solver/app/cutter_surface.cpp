@@ -69,6 +69,12 @@ void tell(const Scene& scene) {
     std::cout << std::flush;
 }
 
+void require_one_rank() {
+    int ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (ranks > 1) throw UserError(fmt::format("{} ranks", ranks), "A scene with a free surface runs on one", "Start it without mpirun");
+}
+
 std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::path& folder, bool fresh) {
     if (scene.bodies.size() == 0) return nullptr;
     if (const std::string walls = wall_surface_stl(scene.settings.solids, scene.settings.tank.depth); !walls.empty()) {
@@ -97,11 +103,10 @@ std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::pa
 }
 
 /// What the folder must hold or not hold for a run to begin.
-void claim(const fs::path& folder, const std::string& scene, bool resume) {
+void require_free_or_own(const fs::path& folder, const std::string& scene, bool resume) {
     const fs::path started = folder / k_started;
     if (!fs::exists(started)) {
         if (resume) throw UserError(folder.string() + " has no run to go on with", "--resume needs one", "Start without --resume");
-        write_file(started, scene);
         return;
     }
     if (read_file(started) != scene)
@@ -119,9 +124,11 @@ void run_scene(const Arguments& arguments) {
     Scene scene = read_scene(arguments.folder / k_scene);
     tell(scene);
     if (arguments.check) return;
-    claim(arguments.folder, read_file(arguments.folder / k_scene), arguments.resume);
+    const std::string text = read_file(arguments.folder / k_scene);
+    require_free_or_own(arguments.folder, text, arguments.resume);
     const fs::path checkpoint = arguments.resume ? newest_checkpoint(arguments.folder) : fs::path{};
     const auto engine = make_bodies(scene, fs::absolute(arguments.folder), checkpoint.empty());
+    write_file(arguments.folder / k_started, text);  // what could be refused was not
     const StaggeredGrid grid = scene.settings.tank.grid();
     std::optional<SurfaceState> state;
     if (!checkpoint.empty()) state = read_checkpoint(checkpoint, grid, engine.get());
@@ -164,6 +171,7 @@ int main(int argc, char** argv) {
     int code = static_cast<int>(ExitCode::done);
     MPI_Init(&argc, &argv);
     try {
+        require_one_rank();
         const Arguments arguments = read_arguments(argc, argv);
         if (arguments.print_template) {
             std::cout << commented_toml(scene_table());

@@ -10,6 +10,7 @@
 
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -141,18 +142,20 @@ json to_json(const std::vector<AccountEntry>& account) {
     return {{"id", id}, {"mass_kg", mass}, {"order", order}, {"where", where}};
 }
 
-std::vector<AccountEntry> account_of(const json& j) {
+[[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule) {
+    throw UserError({{file.string(), what, rule, k_remedy}});
+}
+
+std::vector<AccountEntry> account_of(const json& j, const fs::path& file) {
     std::vector<AccountEntry> account;
     for (std::size_t k = 0; k < j.at("id").size(); ++k) {
         const std::size_t where = j.at("where").at(k);
-        account.push_back({j.at("id").at(k), j.at("mass_kg").at(k), j.at("order").at(k),
-                           static_cast<Whereabouts>(std::min(where, k_whereabouts.size() - 1))});
+        if (where >= k_whereabouts.size())
+            refuse(file, fmt::format("rock {} is at place {}", j.at("id").at(k).get<int>(), where),
+                   fmt::format("Places are counted from 0 to {}", k_whereabouts.size() - 1));
+        account.push_back({j.at("id").at(k), j.at("mass_kg").at(k), j.at("order").at(k), static_cast<Whereabouts>(where)});
     }
     return account;
-}
-
-[[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule) {
-    throw UserError({{file.string(), what, rule, k_remedy}});
 }
 
 std::string carry_file(int rank) {
@@ -170,10 +173,7 @@ void write_state(const fs::path& folder, const RunState& state) {
     j["stop"] = {{"at_rest_since_s", to_json(state.stops.at_rest_since)}, {"last_crossing_s", to_json(state.stops.last_crossing)}};
     j["rocks"] = json::array();
     for (const auto& [id, rock] : state.rocks) j["rocks"].push_back(to_json(rock));
-    std::ofstream stream(folder / k_state_file);
-    stream << j.dump(1) << '\n';
-    stream.close();
-    if (!stream) throw std::runtime_error((folder / k_state_file).string() + ": the checkpoint cannot be written");
+    write_file(folder / k_state_file, j.dump(1) + "\n");
 }
 
 RunState read_state(const fs::path& folder) {
@@ -188,7 +188,7 @@ RunState read_state(const fs::path& folder) {
         state.ranks = j.at("ranks");
         state.feed = feed_of(j.at("feed"));
         state.booked = {j.at("booked").at("volume_m3"), vector_of(j.at("booked").at("momentum_n_s"))};
-        if (j.contains("account")) state.account = account_of(j.at("account"));
+        if (j.contains("account")) state.account = account_of(j.at("account"), file);
         if (j.contains("events")) state.operations = {j.at("events").at("done"), j.at("events").at("extracted_kg")};
         if (j.contains("stop"))
             state.stops = {optional_of<double>(j.at("stop").at("at_rest_since_s")),
@@ -206,8 +206,7 @@ void write_carry(const fs::path& folder, int rank, gsl::span<const std::int64_t>
     stream.write(reinterpret_cast<const char*>(&count), sizeof count);
     stream.write(reinterpret_cast<const char*>(cell_ids.data()), static_cast<std::streamsize>(count * sizeof(std::int64_t)));
     stream.write(reinterpret_cast<const char*>(carry.data()), static_cast<std::streamsize>(count * sizeof(Vec3)));
-    stream.close();
-    if (!stream) throw std::runtime_error((folder / carry_file(rank)).string() + ": the checkpoint cannot be written");
+    close_written(stream, folder / carry_file(rank));
 }
 
 std::vector<Vec3> read_carry(const fs::path& folder, int written_by, gsl::span<const std::int64_t> cell_ids) {
@@ -248,8 +247,7 @@ std::vector<Vec3> read_carry(const fs::path& folder, int written_by, gsl::span<c
 void write_velocity(const fs::path& folder, const VelocitySets& sets) {
     std::ofstream stream(folder / k_velocity_file, std::ios::binary);
     sets.write(stream);
-    stream.close();
-    if (!stream) throw std::runtime_error((folder / k_velocity_file).string() + ": the checkpoint cannot be written");
+    close_written(stream, folder / k_velocity_file);
 }
 
 void read_velocity(const fs::path& folder, VelocitySets& sets) {
@@ -262,8 +260,7 @@ void read_velocity(const fs::path& folder, VelocitySets& sets) {
 void write_production(const fs::path& folder, const ProductionWatch& production) {
     std::ofstream stream(folder / k_production_file, std::ios::binary);
     production.write(stream);
-    stream.close();
-    if (!stream) throw std::runtime_error((folder / k_production_file).string() + ": the checkpoint cannot be written");
+    close_written(stream, folder / k_production_file);
 }
 
 void read_production(const fs::path& folder, ProductionWatch& production) {

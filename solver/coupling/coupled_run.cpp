@@ -63,7 +63,7 @@ std::vector<Mistake> check_axis(const ZoneMotion& zone) {
 
 /// The fluid spreads a closed domain's surplus over all cells, where it would be a source that nobody sees.
 void require_closed_volume(const BalanceRow& balance) {
-    if (!(balance.domain_surplus > k_largest_surplus)) return;
+    if (balance.domain_surplus <= k_largest_surplus) return;
     throw CheckFailure(
         {"", fmt::format("at time {:.9g} s the closed domain has {:.3g} of its volume too much", balance.time, balance.domain_surplus),
          fmt::format("Rock and water fill a closed domain to {:g} of its volume per step", k_largest_surplus),
@@ -123,7 +123,13 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     stops_ = StopRules(settings.at_rest, settings.idle, fluid.time());
 }
 
+/// The first call of a run counts: at the end of a start that could have been refused, or with the first step.
+void CoupledRun::begin_recording() {
+    if (!std::exchange(is_recorded_, true)) recorder_.begin();
+}
+
 void CoupledRun::step() {
+    begin_recording();
     cost_ = CostRow();
     double seconds = 0.0;
     {
@@ -458,6 +464,7 @@ void CoupledRun::keep() {
 }
 
 void CoupledRun::finish() {
+    begin_recording();  // a run may begin at its end
     if (has_rock() && fluid_.time() > last_picture_) record_picture();
     keep();
     if (fates_) recorder_.outcomes(fates_->outcomes());
@@ -468,7 +475,6 @@ void CoupledRun::finish() {
     run_cost_.core = processor_seconds() - processor_start_;
     communicator_.sum(gsl::span<double>(&run_cost_.core, 1));
     recorder_.finished(run_cost_);
-    recorder_.flush();
 }
 
 void CoupledRun::report_velocity() {
@@ -562,11 +568,29 @@ void CoupledRun::start_from(const fs::path& checkpoint) {
                               "Ids are unique in a run", "Number the feed's rock from the largest id of the start on"}});
     rock_->adopt_present_rock();
     account_.place(rocks, all_of(rocks));
+    begin_recording();
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         RockEvent event = rock_event(EventSurface::start, EventDirection::in, rocks, p, now());
         if (fates_) event = fates_->place(rocks.id[p], rocks.diameter[p], rocks.density[p], rocks.position[p], rocks.velocity[p], now());
         recorder_.event(event);
     }
+}
+
+/// Reads what belongs to this rank's cells. Collective. \throws UserError  on all ranks when one refuses
+/// \param of_another  what the others tell
+void CoupledRun::on_all_ranks(const std::function<void()>& read, const std::string& of_another) {
+    std::optional<UserError> refusal;
+    try {
+        read();
+    } catch (const UserError& error) {
+        refusal = error;
+    }
+    double refused = refusal ? 1.0 : 0.0;
+    communicator_.max(gsl::span<double>(&refused, 1));
+    if (refusal) throw UserError(*refusal);
+    if (refused > 0.0)
+        throw UserError(of_another, "A run resumes on the mesh that it had",
+                        "Put back that mesh, or remove the folder to start from the beginning");
 }
 
 void CoupledRun::resume(const fs::path& checkpoint) {
@@ -582,24 +606,15 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     if (velocity_) read_velocity(checkpoint, *velocity_);
     if (production_) read_production(checkpoint, *production_);
     if (phases_ && fs::exists(checkpoint / names::recording))
-        phases_->restore(checkpoint / names::recording);
+        on_all_ranks([&] { phases_->restore(checkpoint / names::recording); }, "the recording of another rank does not fit its cells");
     else
         phases_.reset();
     if (!has_rock()) return;
     feed_.restore(state.feed);
 
     std::vector<Vec3> carry;
-    double failed = 0.0;
-    std::string reason;
-    try {
-        carry = read_carry(checkpoint, state.ranks, fluid_.cells().ids);
-    } catch (const UserError& error) {
-        failed = 1.0;
-        reason = error.what();
-    }
-    // A failure on one rank ends the run on all ranks.
-    communicator_.max(gsl::span<double>(&failed, 1));
-    if (failed > 0.0) refuse(reason.empty() ? "the carried momentum of another rank does not fit" : reason, "", "");
+    on_all_ranks([&] { carry = read_carry(checkpoint, state.ranks, fluid_.cells().ids); },
+                 "the carried momentum of another rank does not fit");
 
     dem_->read_checkpoint(checkpoint);
     require_equal_angles();

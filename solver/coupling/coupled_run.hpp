@@ -66,13 +66,14 @@ public:
     void finish();
 
     /// Restores the state of a checkpoint folder (rock, fates, accumulators, carried momentum). The fluid is already at its time.
-    /// \throws UserError  when the checkpoint is of another time, another number of ranks or cannot be read
+    /// \throws UserError  when the checkpoint is of another time or mesh, of a run with other settings, or cannot be read
     void resume(const std::filesystem::path& checkpoint);
 
     /// Writes `checkpoints/<time name>`; collective.
     void write_checkpoint();
 
 private:
+    void begin_recording();
     void remove_finished_rock();
     void act_on_bed();
     void insert_due_rock();
@@ -100,6 +101,7 @@ private:
     void report_velocity();
     void wait_for_all();
     void record_flow();
+    void on_all_ranks(const std::function<void()>& read, const std::string& of_another);
     void write_whole(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write);
 
     CouplingSettings settings_;
@@ -130,6 +132,7 @@ private:
     double processor_start_ = 0.0;  ///< processor time of this process when the run began [s]
     double last_checkpoint_ = 0.0;
     double last_picture_ = 0.0;  // of this start [s]
+    bool is_recorded_ = false;
 };
 
 }  // namespace cutterflow::coupling

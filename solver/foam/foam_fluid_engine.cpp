@@ -66,6 +66,10 @@ std::vector<std::int64_t> numbers_in_whole_mesh(const Foam::fvMesh& mesh) {
     }
     const Foam::labelIOList addressing(Foam::IOobject("cellProcAddressing", mesh.facesInstance(), Foam::polyMesh::meshSubDir, mesh,
                                                       Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false));
+    if (addressing.size() != mesh.nCells())
+        throw CaseFileError({addressing.objectPath(),
+                             fmt::format("it numbers {} cells, the mesh of this rank has {}", addressing.size(), mesh.nCells()),
+                             "decomposePar writes both", "Decompose the case again"});
     std::copy(addressing.begin(), addressing.end(), ids.begin());
     return ids;
 }

@@ -1,6 +1,8 @@
 #include "solver/liggghts/clump_state.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -59,9 +61,15 @@ void restore_bodies(const nlohmann::json& written, std::size_t shapes, RigidBodi
     for (const nlohmann::json& entry : written.at("bodies")) {
         const bool is_whole = entry.is_array() && entry.size() == k_numbers_of_body &&
                               std::all_of(entry.begin(), entry.end(), [](const nlohmann::json& value) { return value.is_number(); });
-        if (!is_whole || entry[1].get<double>() < 0.0 || entry[1].get<double>() >= static_cast<double>(shapes))
+        const auto counts = [&](std::size_t number, double from, double below) {
+            const double value = entry[number].get<double>();
+            return value >= from && value < below && value == std::floor(value);
+        };
+        const bool fits = is_whole && counts(0, 1.0, std::numeric_limits<int>::max()) && counts(1, 0.0, static_cast<double>(shapes));
+        if (!fits)
             throw UserError(fmt::format("a clump of the checkpoint is {}", entry.dump()),
-                            fmt::format("It is {} numbers, the second one of its shape", k_numbers_of_body), remedy);
+                            fmt::format("It is {} numbers, the first one of the rock, the second one of its shape", k_numbers_of_body),
+                            remedy);
         const auto numbers = entry.get<std::vector<double>>();
         const double* at = numbers.data();
         coupling::Rock rock;

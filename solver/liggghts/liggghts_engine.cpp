@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "domain.h"
 #include "fix_contact_history.h"
 #include "fix_property_atom.h"
+#include "geometry/base/file_content.hpp"
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
@@ -668,7 +668,6 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     for (std::size_t body = 0; body < names.size(); ++body)
         bodies.push_back({{"name", names[body]}, {"force_n", as_list(forces[body])}, {k_pressed, as_list(pressed(body))}});
     if (is_first_rank()) {
-        std::ofstream stream(folder / names::dem_state);
         const bool rolling = context_.rock_rock.resists_rolling();
         nlohmann::json state{{"time_s", time_},
                              {"torque_n_m", torque},
@@ -676,8 +675,7 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
                              {k_contact_memory, k_this_contact_memory},
                              {k_walls, bodies}};
         if (context_.has_clumps) state[k_clumps] = clump_state(settings_.shapes, bodies_);
-        stream << state.dump(2) << '\n';
-        if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (folder / names::dem_state).string()));
+        write_file(folder / names::dem_state, state.dump(2) + "\n");
     }
     MPI_Barrier(communicator_);
 }
@@ -702,8 +700,8 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                                                      {"torque_n_m", JsonKind::number, true},
                                                      {k_rolling_history, JsonKind::truth, false},
                                                      {k_contact_memory, JsonKind::whole, false},
-                                                     {"walls/*/name", JsonKind::text, false},
-                                                     {"walls/*/force_n/*", JsonKind::number, false},
+                                                     {"walls/*/name", JsonKind::text, true},
+                                                     {"walls/*/force_n/*", JsonKind::number, true},
                                                      {"walls/*/pressed_m/*", JsonKind::number, false},
                                                      {k_clumps, JsonKind::object, false},
                                                      {"clumps/shapes/*/name", JsonKind::text, false}},

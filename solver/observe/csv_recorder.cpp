@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
+#include "geometry/base/file_content.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/observe/velocity/velocity_tables.hpp"
 
@@ -24,15 +24,13 @@ std::string optional_number(const std::optional<double>& value) {
     return value ? fmt::format("{:.9g}", *value) : std::string();
 }
 
-[[noreturn]] void fail_to_write(const std::filesystem::path& file) {
-    throw std::runtime_error(file.string() + ": the file cannot be written. Check permissions and free space.");
-}
-
 }  // namespace
 
 CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time)
-    : root_(case_folder / "postProcessing"), start_(time_name(start_time)), with_soil_(settings.soil.has_value()) {
-    const std::string soil = with_soil_ ? ",soil_force_x_n,soil_force_y_n,soil_force_z_n" : "";
+    : root_(case_folder / "postProcessing"), settings_(settings), start_time_(start_time), start_(time_name(start_time)) {}
+
+void CsvRecorder::begin() {
+    const std::string soil = settings_.soil ? ",soil_force_x_n,soil_force_y_n,soil_force_z_n" : "";
     loads_ = open("loads", "loads.csv", "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w" + soil);
     balance_ = open("balance", "balance.csv",
                     "time_s,solid_volume_error,deposit_error,momentum_error,momentum_interface_error,momentum_replaced,momentum_turned,"
@@ -42,17 +40,17 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
                     "rocks,contacts,"
                     "exchanged_volume_m3,exchanged_momentum_n_s");
     cost_ = open("cost", "cost.csv", "time_s,step_s,fluid_s,mesh_motion_s,mapping_s,dem_s,output_s");
-    if (settings.outflow && settings.fates) {
+    if (settings_.outflow && settings_.fates) {
         std::string header = "time_s";
-        for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings.fates), settings.fates->bin_width))
+        for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings_.fates), settings_.fates->bin_width))
             header += "," + bin.name;
         outflow_ = open("outflow", "contour_velocity.csv", header);
     }
-    if (!settings.has_rock) return;
+    if (!settings_.has_rock) return;
     events_ = open(k_rock, "events.csv",
                    "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,"
                    "density_kg_m3,bin");
-    if (settings.fates) {
+    if (settings_.fates) {
         ledger_ = open(k_rock, "ledger.csv",
                        "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error");
         fates_ = open(k_rock, "fates.csv",
@@ -65,20 +63,20 @@ CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const Couplin
     account_ = open(k_rock, "account.csv", whereabouts);
     contacts_ = open(k_rock, "contacts.csv", "time_s,contacts,overlap_ratio_max");
     walls_ = open(k_rock, "walls.csv", "time_s,wall,force_x_n,force_y_n,force_z_n,pressed_x_m,pressed_y_m,pressed_z_m");
-    if (!settings.gates.empty())
+    if (!settings_.gates.empty())
         gates_ = open(k_rock, "gates.csv", "time_s,gate,id,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,diameter_m,mass_kg");
-    if (std::any_of(settings.operations.begin(), settings.operations.end(),
+    if (std::any_of(settings_.operations.begin(), settings_.operations.end(),
                     [](const OperationSettings& operation) { return operation.kind == OperationKind::extract; }))
         extractions_ = open(k_rock, "extract.csv", "time_s,event,due_kg,extracted_kg,in_region,starved");
-    if (!settings.shapes.empty()) write_shapes(settings.shapes);
+    if (!settings_.shapes.empty()) write_shapes(settings_.shapes);
 
     // Pictures of an earlier part of the run stay in the series.
     const std::filesystem::path pictures = root_ / k_rock / "vtk";
     std::filesystem::create_directories(pictures);
     for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
         const std::string name = entry.path().stem().string();
-        const double time = name.rfind("rocks_", 0) == 0 ? std::strtod(name.c_str() + 6, nullptr) : start_time + 1.0;
-        if (time <= start_time) pictures_[time] = "vtk/" + entry.path().filename().string();
+        const double time = name.rfind("rocks_", 0) == 0 ? std::strtod(name.c_str() + 6, nullptr) : start_time_ + 1.0;
+        if (time <= start_time_) pictures_[time] = "vtk/" + entry.path().filename().string();
     }
 }
 
@@ -96,9 +94,7 @@ void CsvRecorder::write_shapes(const std::vector<ClumpShape>& shapes) const {
             spheres.push_back({{"centre", {ball.centre.x(), ball.centre.y(), ball.centre.z()}}, {"radius", ball.radius}});
         list.push_back({{"name", shape.name}, {"spheres_over_diameter", spheres}});
     }
-    std::ofstream stream(root_ / k_rock / "shapes.json");
-    stream << list.dump(2) << '\n';
-    if (!stream) fail_to_write(root_ / k_rock / "shapes.json");
+    write_file(root_ / k_rock / "shapes.json", list.dump(2) + "\n");
 }
 
 std::filesystem::path CsvRecorder::folder(const std::string& what) const {
@@ -109,7 +105,7 @@ std::ofstream CsvRecorder::open(const std::string& what, const std::string& file
     std::filesystem::create_directories(folder(what));
     std::ofstream stream(folder(what) / file);
     stream << header << '\n';
-    if (!stream) fail_to_write(folder(what) / file);
+    require_written(stream, folder(what) / file);
     return stream;
 }
 
@@ -180,7 +176,7 @@ void CsvRecorder::loads(const LoadsRow& row) {
     fmt::print(loads_, "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", row.time, row.rotor_angle, row.torque_pressure, row.torque_viscous,
                row.torque_rock, row.power);
     const Vec3 force = row.soil_force.value_or(Vec3::Zero());
-    if (with_soil_) fmt::print(loads_, ",{:.9g},{:.9g},{:.9g}", force.x(), force.y(), force.z());
+    if (settings_.soil) fmt::print(loads_, ",{:.9g},{:.9g},{:.9g}", force.x(), force.y(), force.z());
     loads_ << '\n';
 }
 
@@ -241,27 +237,25 @@ void CsvRecorder::picture(const RockPicture& picture) {
         });
     }
     stream << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-    if (!stream) fail_to_write(root_ / k_rock / file);
+    close_written(stream, root_ / k_rock / file);
     pictures_[picture.time] = file;
     write_series();
     flush();  // one who watches a run finds tables as far as its pictures
 }
 
 void CsvRecorder::write_series() const {
-    std::ofstream stream(root_ / k_rock / "rocks.pvd");
-    stream << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-    for (const auto& [time, file] : pictures_) fmt::print(stream, "<DataSet timestep=\"{:.9g}\" file=\"{}\"/>\n", time, file);
-    stream << "</Collection>\n</VTKFile>\n";
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const auto& [time, file] : pictures_) text += fmt::format("<DataSet timestep=\"{:.9g}\" file=\"{}\"/>\n", time, file);
+    write_file(root_ / k_rock / "rocks.pvd", text + "</Collection>\n</VTKFile>\n");
 }
 
 void CsvRecorder::outcomes(gsl::span<const RockOutcome> outcomes) {
-    std::ofstream stream(folder(k_rock) / "final.csv");
-    stream << "id,fate,last_exit_bin,first_exit_time_s,first_exit_azimuth_rad,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
+    std::string text = "id,fate,last_exit_bin,first_exit_time_s,first_exit_azimuth_rad,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
     for (const RockOutcome& rock : outcomes)
-        fmt::print(stream, "{},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", rock.id, fate_name(rock.fate), rock.last_exit_bin,
-                   optional_number(rock.first_exit_time), optional_number(rock.first_exit_azimuth), rock.position[0], rock.position[1],
-                   rock.position[2], rock.diameter, rock.density);
-    if (!stream) fail_to_write(folder(k_rock) / "final.csv");
+        text += fmt::format("{},{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", rock.id, fate_name(rock.fate), rock.last_exit_bin,
+                            optional_number(rock.first_exit_time), optional_number(rock.first_exit_azimuth), rock.position[0],
+                            rock.position[1], rock.position[2], rock.diameter, rock.density);
+    write_file(folder(k_rock) / "final.csv", text);
 }
 
 void CsvRecorder::velocity(const VelocitySets& sets, double time) {
@@ -270,6 +264,7 @@ void CsvRecorder::velocity(const VelocitySets& sets, double time) {
 }
 
 void CsvRecorder::finished(const RunCost& cost) {
+    flush();  // cost.json says that the run came to its end and that its tables are whole
     nlohmann::json json;
     json["ranks"] = cost.ranks;
     json["cells"] = static_cast<std::int64_t>(cost.cells);
@@ -287,9 +282,7 @@ void CsvRecorder::finished(const RunCost& cost) {
     for (const ModelNote& model : models_) json["models"].push_back({{"name", model.name}, {"why", model.why}});
     json["versions"] = versions_;
     json["warnings"] = warnings_;
-    std::ofstream stream(folder("cost") / "cost.json");
-    stream << json.dump(2) << '\n';
-    if (!stream) fail_to_write(folder("cost") / "cost.json");
+    write_file(folder("cost") / "cost.json", json.dump(2) + "\n");
 }
 
 void CsvRecorder::warning(double time, const std::string& text) {
@@ -301,7 +294,7 @@ void CsvRecorder::flush() {
     for (std::ofstream* stream : {&events_, &rejected_, &account_, &gates_, &extractions_, &contacts_, &walls_, &fates_, &ledger_,
                                   &outflow_, &loads_, &balance_, &cost_}) {
         stream->flush();
-        if (!*stream) fail_to_write(root_);
+        require_written(*stream, root_);
     }
 }
 

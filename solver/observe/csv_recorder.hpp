@@ -14,13 +14,14 @@ namespace cutterflow::coupling {
 /// Writes rows immediately, into folders named by the start time of this (re)started run. For one rank only.
 class CsvRecorder final : public RunRecorder {
 public:
-    /// \param start_time  of the run [s]; files of an earlier start at the same time are replaced
-    /// \throws std::runtime_error  when a file cannot be written
+    /// \param start_time  of the run [s]
     CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time);
 
     /// Further content of cost.json: the active sub-models, and versions by program.
     void describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions);
 
+    /// Files of an earlier start at the same time are replaced. \throws std::runtime_error  when a file cannot be written
+    void begin() override;
     void event(const RockEvent& event) override;
     void rejected(const RejectedRock& rock) override;
     void account(double time, const AccountTotals& totals) override;
@@ -49,8 +50,9 @@ private:
     void write_series() const;
 
     std::filesystem::path root_;
+    CouplingSettings settings_;
+    double start_time_;
     std::string start_;
-    bool with_soil_;
     std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, loads_, balance_, cost_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;

@@ -188,6 +188,8 @@ class VelocitySets;
 class RunRecorder {
 public:
     virtual ~RunRecorder() = default;
+    /// Opens the tables. What may refuse a start has passed by then, so that a refused one leaves those of an earlier one.
+    virtual void begin() = 0;
     virtual void event(const RockEvent& event) = 0;
     virtual void rejected(const RejectedRock& rock) = 0;
     virtual void account(double time, const AccountTotals& totals) = 0;
@@ -208,6 +210,7 @@ public:
     virtual void outcomes(gsl::span<const RockOutcome> outcomes) = 0;
     /// Rewrites the tables of averaged velocities. \param time  up to which they go [s]
     virtual void velocity(const VelocitySets& sets, double time) = 0;
+    /// The last call: all rows are on the disk before the run counts as finished.
     virtual void finished(const RunCost& cost) = 0;
     /// A warning for the reader of the results, recorded once.
     virtual void warning(double time, const std::string& text) = 0;
@@ -218,6 +221,7 @@ public:
 /// Discards everything: for ranks that do not write.
 class SilentRecorder : public RunRecorder {
 public:
+    void begin() override {}
     void event(const RockEvent&) override {}
     void rejected(const RejectedRock&) override {}
     void account(double, const AccountTotals&) override {}

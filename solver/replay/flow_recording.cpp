@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
 
 namespace cutterflow::coupling {
@@ -53,10 +54,6 @@ std::string cells_file(int rank) {
     return fmt::format("cells.{}", rank);
 }
 
-void require_written(const std::ofstream& stream, const fs::path& file) {
-    if (!stream) throw std::runtime_error(file.string() + ": the file cannot be written. Check permissions and free space.");
-}
-
 /// Bytes of a rank's file.
 std::uintmax_t bytes_of(std::size_t cells, std::size_t phases) {
     return cells * (sizeof(std::int64_t) + sizeof(Vec3) + 2 * sizeof(double) + sizeof(std::uint8_t) + phases * 6 * sizeof(float));
@@ -87,13 +84,13 @@ void write_cells(const fs::path& file, const FlowRecording& recording) {
     put(stream, recording.cells.zone);
     put(stream, recording.velocity);
     put(stream, recording.acceleration);
-    require_written(stream, file);
+    close_written(stream, file);
 }
 
 void write_steel(const fs::path& file, const FlowRecording& recording) {
     std::ofstream stream(file, std::ios::binary);
     for (const std::vector<SteelTriangle>& triangles : recording.steel) put(stream, triangles);
-    require_written(stream, file);
+    close_written(stream, file);
 }
 
 /// What recording.json holds.
@@ -200,9 +197,7 @@ void write_recording(const fs::path& folder, const FlowRecording& recording, int
     write_cells(folder / cells_file(rank), recording);
     if (rank != 0) return;
     write_steel(folder / k_steel_file, recording);
-    std::ofstream stream(folder / k_head_file);
-    stream << head_of(recording, ranks).dump(2) << '\n';
-    require_written(stream, folder / k_head_file);
+    write_file(folder / k_head_file, head_of(recording, ranks).dump(2) + "\n");
 }
 
 FlowRecording read_recording(const fs::path& folder) {

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
-
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
 
@@ -101,14 +99,6 @@ meshing::FoamDictionary velocity_section(const coupling::VelocitySettings& veloc
         .add("sets", meshing::FoamValue::list(sets));
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-    fs::create_directories(path.parent_path());
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw std::runtime_error("cannot write " + path.string());
-}
-
 std::string contour_csv(const geometry::Contour& contour) {
     std::string text = "z_m,r_m\n";
     for (std::size_t i = 0; i < contour.z().size(); ++i) text += fmt::format("{},{}\n", contour.z()[i], contour.radius()[i]);
@@ -190,10 +180,10 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
         meshing::write_foam_file(run_directory / file.path, file.foam_class, file.contents);
         written.emplace_back(file.path);
     }
-    write_text(run_directory / names::contour_for_solver, contour_csv(inputs.contour));
+    write_file(run_directory / names::contour_for_solver, contour_csv(inputs.contour));
     written.emplace_back(names::contour_for_solver);
     for (const VelocitySetInput& set : inputs.velocity_sets) {
-        write_text(run_directory / sample_file(set), sample_points_csv(set));
+        write_file(run_directory / sample_file(set), sample_points_csv(set));
         written.emplace_back(sample_file(set));
     }
     if (inputs.rock) {
@@ -203,7 +193,7 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
         }
     }
     written.emplace_back(fs::weakly_canonical(run_directory).filename().string() + ".foam");
-    write_text(run_directory / written.back(), "");
+    write_file(run_directory / written.back(), "");
     return written;
 }
 
@@ -214,7 +204,7 @@ void write_replay_case(const fs::path& folder, const CaseInputs& inputs) {
     for (const FoamFile& file : run_system_files(inputs)) files.push_back(file);
     files.push_back({names::coupling_properties, "dictionary", coupling_dictionary(inputs)});
     for (const FoamFile& file : files) meshing::write_foam_file(folder / file.path, file.foam_class, file.contents);
-    write_text(folder / names::contour_for_solver, contour_csv(inputs.contour));
+    write_file(folder / names::contour_for_solver, contour_csv(inputs.contour));
 }
 
 }  // namespace cutterflow::cases

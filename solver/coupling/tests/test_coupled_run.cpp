@@ -115,14 +115,16 @@ struct Rig {
 };
 
 TEST(CoupledRun, ends_when_a_closed_domain_has_water_too_much) {
-    const TemporaryFolder folder;
-    MemoryRecorder recorder;
-    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
-    rig.fluid.given_loads.domain_surplus = 1e-14;
-    rig.run->step();
-    rig.fluid.given_loads.domain_surplus = 1e-9;
-    EXPECT_THROW(rig.run->step(), CheckFailure);
-    EXPECT_EQ(recorder.balance_rows.back().domain_surplus, 1e-9) << "the row that tells why is written";
+    for (const double surplus : {1e-9, std::numeric_limits<double>::quiet_NaN()}) {
+        const TemporaryFolder folder;
+        MemoryRecorder recorder;
+        Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+        rig.fluid.given_loads.domain_surplus = 1e-14;
+        rig.run->step();
+        rig.fluid.given_loads.domain_surplus = surplus;
+        EXPECT_THROW(rig.run->step(), CheckFailure) << surplus;
+        EXPECT_FALSE(recorder.balance_rows.back().domain_surplus <= 1e-14) << "the row that tells why is written";
+    }
 }
 
 TEST(CoupledRun, counts_processor_time_and_no_waiting) {
@@ -784,6 +786,13 @@ TEST(Checkpoint, takes_precedence_over_later_times) {
     EXPECT_TRUE(times_after_checkpoint(folder.path()).empty());
 }
 
+std::string text_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
 /// A run of one rock up to its first checkpoint.
 struct RunWithCheckpoint {
     RunWithCheckpoint() {
@@ -812,6 +821,24 @@ TEST(Checkpoint, of_another_time_or_mesh_is_refused) {
     EXPECT_NO_THROW(run.resume_at(run.time));
     std::filesystem::resize_file(run.checkpoint / "carry.0", 100);
     EXPECT_THROW(run.resume_at(run.time), UserError);
+}
+
+/// Tables of a start at the same time are replaced once nothing can refuse the new one.
+TEST(Checkpoint, that_is_refused_leaves_the_tables_of_the_run) {
+    RunWithCheckpoint run;
+    const auto events = run.folder.path() / "postProcessing/rock/0/events.csv";
+    {
+        CsvRecorder recorder(run.folder.path(), run.settings, 0.0);
+        Rig rig(run.settings, run.folder.path(), recorder, Vec3::Zero());
+        rig.run->step();
+        rig.run->finish();
+    }
+    const std::string before = text_of(events);
+    EXPECT_EQ(std::count(before.begin(), before.end(), '\n'), 2);
+    CsvRecorder recorder(run.folder.path(), run.settings, 0.0);
+    Rig rig(run.settings, run.folder.path(), recorder, Vec3::Zero());
+    EXPECT_THROW(rig.run->resume(run.checkpoint), UserError);
+    EXPECT_EQ(text_of(events), before);
 }
 
 TEST(Checkpoint, whose_carry_counts_more_cells_than_it_holds_is_refused) {
@@ -854,6 +881,18 @@ TEST(Checkpoint, whose_state_holds_numbers_that_int_cannot_is_refused_with_all_o
         EXPECT_EQ(error.mistakes()[0].what, "ranks = 1e+300");
         EXPECT_NE(error.mistakes()[0].remedy.find("Remove this checkpoint folder"), std::string::npos);
     }
+}
+
+TEST(Checkpoint, whose_account_has_rock_at_an_unknown_place_is_refused) {
+    const TemporaryFolder folder;
+    RunState state;
+    state.account = {{1, 0.5, 0, Whereabouts::decided}};
+    write_state(folder.path(), state);
+    EXPECT_EQ(read_state(folder.path()).account->front().where, Whereabouts::decided);
+    nlohmann::json document = nlohmann::json::parse(std::ifstream(folder.path() / "state.json"));
+    document["account"]["where"][0] = k_whereabouts.size();
+    std::ofstream(folder.path() / "state.json") << document.dump();
+    EXPECT_THROW(read_state(folder.path()), UserError);
 }
 
 TEST(Checkpoint, whose_rock_left_through_a_bin_that_the_head_has_not_is_refused) {
@@ -923,16 +962,10 @@ TEST(Checkpoint, is_read_on_another_number_of_ranks) {
     });
 }
 
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    std::stringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 TEST(CsvRecorder, has_tables_as_far_as_its_pictures) {
     const TemporaryFolder folder;
     CsvRecorder recorder(folder.path(), case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), 0.0);
+    recorder.begin();
     const auto rejected = folder.path() / "postProcessing/rock/0/rejected.csv";
     recorder.rejected({7, 0.25, "no_room"});
     recorder.picture({});

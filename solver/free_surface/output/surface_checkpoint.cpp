@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow::free_surface {
 
@@ -57,8 +58,7 @@ void write_checkpoint(const std::filesystem::path& folder, const SurfaceState& s
             put(stream, static_cast<std::uint64_t>(values.size()));
             stream.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(values[0])));
         });
-    if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", (part / k_state).string()));
-    stream.close();
+    close_written(stream, part / k_state);
     if (bodies) bodies->write_checkpoint(part);
     std::filesystem::remove_all(target);
     std::filesystem::rename(part, target);
@@ -84,6 +84,8 @@ SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const Stag
         throw UserError(fmt::format("{}: {}", (checkpoint / k_state).string(), why), "A checkpoint is whole and of the same scene",
                         "Remove the folder; an older checkpoint is taken then");
     };
+    std::error_code missing;
+    const std::uintmax_t bytes = std::filesystem::file_size(checkpoint / k_state, missing);
     std::uint64_t mark = 0;
     get(stream, mark);
     if (!stream || mark != k_mark) refuse("no checkpoint of this program");
@@ -93,13 +95,18 @@ SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const Stag
         [&](auto& values) {
             std::uint64_t size = 0;
             get(stream, size);
-            if (!stream || size > 1000000000) refuse("cut off");
+            if (!stream || size > bytes / sizeof(values[0])) refuse("cut off");
             values.resize(size);
             stream.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(size * sizeof(values[0])));
         });
     if (!stream) refuse("cut off");
-    if (state.pressure.size() != grid.size()) refuse("of another grid");
+    if (state.pressure.size() != grid.size() || state.spreading.size() != grid.size()) refuse("of another grid");
+    const WaterParticles& water = state.particles;
+    for (int d = 0; d < 3; ++d)
+        if (water.position[d].size() != water.dye.size() || water.velocity[d].size() != water.dye.size())
+            refuse("its particles have not all a place, a velocity and a dye");
     if (bodies) bodies->read_checkpoint(checkpoint);
+    if (state.contact_force.size() != (bodies ? bodies->rocks().size() : 0)) refuse("of other bodies");
     return state;
 }
 

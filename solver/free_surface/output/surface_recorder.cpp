@@ -15,7 +15,7 @@ std::ofstream open_rows(const std::filesystem::path& file, const std::string& he
     std::filesystem::create_directories(file.parent_path());
     std::ofstream stream(file);
     stream << head << '\n';
-    if (!stream) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
+    require_written(stream, file);
     return stream;
 }
 
@@ -120,10 +120,11 @@ void SurfaceRecorder::output(const SurfaceRun& run, const coupling::DemEngine* b
         write_bodies(run, name);
         write_series("bodies", "vtp");
     }
-    balance_.flush();
-    levels_.flush();
-    rows_.flush();
-    if (gauge_rows_.is_open()) gauge_rows_.flush();
+    for (std::ofstream* stream : {&balance_, &levels_, &rows_, &gauge_rows_}) {
+        if (!stream->is_open()) continue;
+        stream->flush();
+        require_written(*stream, folder_);
+    }
 }
 
 void SurfaceRecorder::write_water(const SurfaceRun& run, const std::string& name) const {

@@ -1,28 +1,17 @@
 #include "solver/observe/velocity/velocity_tables.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
 
 namespace cutterflow::coupling {
 namespace {
 
 using Text = std::back_insert_iterator<std::string>;
-
-void replace_file(const std::filesystem::path& file, const std::string& text) {
-    std::filesystem::path part = file;
-    part += ".part";
-    std::ofstream stream(part);
-    stream << text;
-    stream.close();
-    if (!stream) throw std::runtime_error(part.string() + ": the file cannot be written. Check permissions and free space.");
-    std::filesystem::rename(part, file);
-}
 
 /// ",a,b,c", or three empty fields.
 void put(Text out, const Vec3* v) {
@@ -86,10 +75,10 @@ std::string phase_table(const VelocitySet& set, double sense) {
 void write_velocity_tables(const std::filesystem::path& folder, const VelocitySets& sets, double time) {
     const double to = std::max(time, sets.start_time());
     for (const VelocitySet& set : sets.sets()) {
-        replace_file(folder / (set.name + ".csv"), mean_table(set, sets.start_time(), to));
+        write_file(folder / (set.name + ".csv"), mean_table(set, sets.start_time(), to));
         if (set.statistics.phases() == 0) continue;
-        replace_file(folder / (set.name + "_revolutions.csv"), revolution_table(set));
-        replace_file(folder / (set.name + "_phases.csv"), phase_table(set, sets.angular_speed() < 0.0 ? -1.0 : 1.0));
+        write_file(folder / (set.name + "_revolutions.csv"), revolution_table(set));
+        write_file(folder / (set.name + "_phases.csv"), phase_table(set, sets.angular_speed() < 0.0 ? -1.0 : 1.0));
     }
 }
 
