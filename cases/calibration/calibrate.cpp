@@ -85,6 +85,12 @@ public:
     const calibration::CalibrationCost& cost() const { return cost_; }
     const std::vector<calibration::Evaluation>& evaluations() const { return evaluations_; }
 
+    /// Of a search that needs every value.
+    [[noreturn]] void refuse_a_gap() const {
+        refuse({"", fmt::format("at a place that bobyqa chose {}", why_left_out_), "An optimiser needs every value",
+                "Narrow the ranges, or use method = \"surface\""});
+    }
+
     calibration::Calibration calibration(const std::string& ended) const {
         if (evaluations_.empty()) refuse_without_values();
         return {file_.name, file_.method, file_.objective, file_.ranges(), file_.targets, evaluations_, cost_, ended};
@@ -166,9 +172,12 @@ private:
     }
 
     [[noreturn]] void refuse_without_values() const {
-        const Mistake mistake{"", fmt::format("no place has values of all targets; at the last one {}", why_left_out_),
-                              "A calibration compares runs with its targets",
-                              fmt::format("Look at the reports and logs in {}", folder().string())};
+        refuse({"", fmt::format("no place has values of all targets; at the last one {}", why_left_out_),
+                "A calibration compares runs with its targets", fmt::format("Look at the reports and logs in {}", folder().string())});
+    }
+
+    /// \throws ToolError  when a run failed \throws CheckFailure  when none did: they ended, and have no value
+    [[noreturn]] void refuse(const Mistake& mistake) const {
         if (cost_.failed_runs > 0) throw ToolError(mistake);
         throw CheckFailure(mistake);
     }
@@ -212,9 +221,7 @@ std::string run_bobyqa(const CalibrationFile& file, Places& places) {
         if (!places.allows(1)) throw BudgetSpent{};
         const std::size_t before = places.evaluations().size();
         places.run({calibration::unscaled(ranges, at)});
-        if (places.evaluations().size() == before)
-            throw ToolError(Mistake{"", "a target has no value at a place that bobyqa chose", "An optimiser needs every value",
-                                    "Narrow the ranges, or use method = \"surface\""});
+        if (places.evaluations().size() == before) places.refuse_a_gap();
         return calibration::objective_of(*file.objective, file.targets.fitted, calibration::means_of(places.evaluations().back()));
     };
     try {

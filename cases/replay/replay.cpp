@@ -10,6 +10,7 @@
 
 #include "cases/runner/pipeline.hpp"
 #include "cases/runner/run_directory.hpp"
+#include "cases/runner/solver_run.hpp"
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
@@ -238,7 +239,7 @@ private:
                 const std::lock_guard<std::mutex> lock(mutex_);  // the placement of rock is not made for threads
                 write_replay(runs_[tasks_[n].run], tasks_[n].values, folder);
             }
-            require_child(meshing::foam_command(folder, settings_.solver.string()));
+            run_own_solver(meshing::foam_command(folder, settings_.solver.string()));
         }
         evaluate(folder, runs_[tasks_[n].run], replays_[n]);
     }
@@ -381,7 +382,7 @@ std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
 }
 
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say) {
-    require_openfoam_path(settings.folder);
+    require_openfoam_path(fs::absolute(settings.folder));
     require_recordings(settings.runs);
     std::vector<RecordedRun> runs;
     for (const fs::path& run : settings.runs) runs.push_back(open_run(run));

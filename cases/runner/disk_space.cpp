@@ -56,13 +56,17 @@ Mistake full_disk(const fs::path& folder, double needed) {
     const double written = bytes_below(folder);
     if (needed <= 0.0)
         return {"", fmt::format("the disk of {} is full", folder.string()), "A run writes its mesh, fields and tables there",
-                "Free space, or choose a folder on another disk with -o"};
+                "Free space and repeat the command (with --resume once it runs), or choose a folder on another disk with -o"};
     return {
         "",
         fmt::format("the disk of {} is full: {} are written, {} free", folder.string(), size_text(written), size_text(free_bytes(folder))),
         fmt::format("The run is predicted to write about {} in all, {} more", size_text(needed),
                     size_text(std::max(0.0, needed - written))),
         "Free space and use --resume; results are kept up to the last checkpoint"};
+}
+
+void refuse_full_disk(const fs::path& folder) {
+    if (is_disk_full(folder)) throw ToolError(full_disk(folder, 0.0));
 }
 
 }  // namespace cutterflow::cases

@@ -23,4 +23,8 @@ bool is_disk_full(const std::filesystem::path& folder);
 /// 0: not known
 Mistake full_disk(const std::filesystem::path& folder, double needed);
 
+/// Called where work in a run directory failed: whatever failed first on a full disk, what to do is the same.
+/// \throws ToolError  when its disk is full
+void refuse_full_disk(const std::filesystem::path& folder);
+
 }  // namespace cutterflow::cases

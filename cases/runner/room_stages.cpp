@@ -16,7 +16,6 @@
 #include "cases/scenes/room/room_prediction.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
-#include "geometry/base/csv_table.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
@@ -25,6 +24,7 @@
 #include "geometry/io/write_stl.hpp"
 #include "meshing/room/build_room_mesh.hpp"
 #include "postproc/pages/room/room_page.hpp"
+#include "postproc/run/run_table.hpp"
 
 namespace cutterflow::cases {
 
@@ -241,15 +241,14 @@ private:
                                   "Remove the folder bed; it is made anew");
     }
 
-    /// The last row of the account of rock of a piece.
+    /// The last row of the account of rock of a piece, over all its starts.
     double accounted(std::size_t piece, const char* column) const {
-        std::vector<Mistake> mistakes;
-        const CsvTable account(piece_folder(piece) / "postProcessing/rock/0/account.csv", {"left_domain_count", "placed_count"},
-                               {"time_s", "placed_kg", "in_run_count", "in_run_kg", "removed_count", "removed_kg", "extracted_count",
-                                "extracted_kg", "left_domain_kg", "decided_count", "decided_kg"},
-                               mistakes);
-        if (!mistakes.empty()) throw ToolError(mistakes);
-        return account.at(account.rows() - 1, column);
+        const postproc::Table account = postproc::read_joined_table(piece_folder(piece), "rock", "account.csv",
+                                                                    {{"time_s", column}, {}, {}, "Remove the folder bed; it is made anew"});
+        if (account.empty())
+            throw ToolError(Mistake{"", fmt::format("{} has no account of its grains", piece_folder(piece).string()),
+                                    "cutterFoam writes one in each step", "Remove the folder bed; it is made anew"});
+        return account.number(column).back();
     }
 
     /// A grain whose place never gets free waits, and keeps the piece from its end.

@@ -85,15 +85,22 @@ double bring_to_start(const fs::path& run_directory, const std::optional<int>& r
     return change.core_s;
 }
 
+double run_own_solver(const ChildCommand& command, const std::function<void(const std::string&)>& each_line) {
+    const ChildResult result = run_child(command, each_line);
+    const auto ended = static_cast<ExitCode>(result.exit_code);
+    if (ended == ExitCode::check_failed) throw CheckFailure(failure_of(command, result));
+    if (ended == ExitCode::interrupted)
+        throw Interrupted(fmt::format("{} was asked to stop", fs::path(command.arguments.front()).filename().string()));
+    if (ended != ExitCode::done) throw ToolError(failure_of(command, result));
+    return result.core_s;
+}
+
 double run_solver(const fs::path& run_directory, const fs::path& solver, int ranks,
                   const std::function<void(const std::string&)>& each_line) {
     ChildCommand command = meshing::foam_command(run_directory, solver.string(), {}, ranks);
     command.first_stop_signal = k_end_in_order;
     keep_older_log(command.log);
-    const ChildResult result = run_child(command, each_line);
-    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
-    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
-    return result.core_s;
+    return run_own_solver(command, each_line);
 }
 
 }  // namespace cutterflow::cases

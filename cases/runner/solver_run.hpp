@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "geometry/base/process/child_process.hpp"
+
 namespace cutterflow::cases {
 
 /// Writes system/decomposeParDict and decomposes the present case. \return core seconds
@@ -28,9 +30,15 @@ struct RankChange {
 /// \throws UserError  when the fields of the checkpoint are nowhere \throws ToolError  when a program failed
 RankChange move_checkpoint_to_ranks(const std::filesystem::path& run_directory, int ranks);
 
+/// Runs one of the project's solvers to its end.
+/// \param each_line  gets each line of its log \return core seconds
+/// \throws CheckFailure  when one of its checks failed \throws ToolError  when it failed otherwise
+/// \throws Interrupted  when it, or this program, was asked to stop
+double run_own_solver(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
+
 /// Runs cutterFoam to its end; older logs are kept as `<log>.<n>`. When the user stops the command it writes a checkpoint and ends.
 /// \param each_line  gets each line of its log \return core seconds
-/// \throws CheckFailure  when one of its checks failed \throws ToolError  when it failed otherwise \throws Interrupted
+/// \throws as run_own_solver
 double run_solver(const std::filesystem::path& run_directory, const std::filesystem::path& solver, int ranks,
                   const std::function<void(const std::string&)>& each_line);
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cases/runner/run_progress.hpp"
+#include "cases/runner/solver_run.hpp"
 #include "cases/runner/table_inputs.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "geometry/base/error.hpp"
@@ -32,10 +33,8 @@ StageOutcome run_solver(const RunDirectory& directory, const fs::path& solver, b
     ChildCommand command{{solver.string(), directory.path().string()}, {}, directory.file("log.cutterSurface"), {}};
     if (resume && fs::exists(directory.file("scene.started.toml"))) command.arguments.emplace_back("--resume");
     keep_older_log(command.log);
-    const ChildResult result = run_child(command, [](const std::string& line) { std::cerr << "  " << line << std::endl; });
-    if (result.exit_code == static_cast<int>(ExitCode::check_failed)) throw CheckFailure(failure_of(command, result));
-    if (result.exit_code != 0) throw ToolError(failure_of(command, result));
-    return {{}, result.core_s};
+    const double core_s = run_own_solver(command, [](const std::string& line) { std::cerr << "  " << line << std::endl; });
+    return {{}, core_s};
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "meshing/quality/check_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <regex>
 #include <sstream>
 
@@ -14,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* k_number = "([-+0-9.eE]+)";
+constexpr const char* k_number = "([-+0-9a-zA-Z.]*[0-9a-zA-Z])";
 
 /// The number after the first `before` in the log.
 double number_after(const std::string& log, const std::string& before, const std::string& name) {
@@ -22,7 +24,13 @@ double number_after(const std::string& log, const std::string& before, const std
     if (!std::regex_search(log, found, std::regex(before + k_number)))
         throw ToolError({"", fmt::format("{} does not contain '{}'", name, before),
                          "checkMesh of OpenFOAM 1912 ends with the mesh's quality", "Read the error in the log"});
-    return std::stod(found[1]);
+    const std::string text = found[1];
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (*end != '\0' || !std::isfinite(number))
+        throw ToolError({"", fmt::format("{} has '{}' after '{}'", name, text, before), "A number stands there in a sound mesh",
+                         "Read the log from its beginning"});
+    return number;
 }
 
 /// Rows "name faces points ..." of the table of patches, which ends with an empty line.
@@ -47,7 +55,7 @@ std::vector<std::string> patches_with_faces(const std::string& log) {
 CheckMeshFigures parse_check_mesh(const std::string& log, const std::string& name) {
     CheckMeshFigures figures;
     figures.non_orthogonality_max = number_after(log, "Mesh non-orthogonality Max: ", name);
-    figures.non_orthogonality_mean = number_after(log, "Mesh non-orthogonality Max: [-+0-9.eE]+ average: ", name);
+    figures.non_orthogonality_mean = number_after(log, "Mesh non-orthogonality Max: [^ ]+ average: ", name);
     figures.skewness_max = number_after(log, "Max skewness = ", name);
     figures.aspect_ratio_max = number_after(log, "[Mm]ax aspect ratio[ :=]+", name);
     if (log.find("\nMesh OK.") == std::string::npos) figures.failed_checks = static_cast<int>(number_after(log, "\nFailed ", name));

@@ -95,6 +95,19 @@ TEST(CheckMeshLog, gives_its_figures) {
     EXPECT_EQ(bad.failed_checks, 4);
 }
 
+TEST(CheckMeshLog, with_a_figure_that_is_no_number_is_an_error_that_quotes_it) {
+    for (const char* figure : {"-nan", "inf", "1e"}) {
+        std::string log = k_good_log;
+        log.replace(log.find("3.0799489033"), 12, figure);
+        try {
+            parse_check_mesh(log, "log");
+            ADD_FAILURE() << "accepted: " << figure;
+        } catch (const ToolError& error) {
+            EXPECT_NE(std::string(error.what()).find(figure), std::string::npos);
+        }
+    }
+}
+
 TEST(CheckMeshLog, that_was_cut_off_is_an_error_that_names_it) {
     for (const std::string& log :
          {std::string(), k_good_log.substr(0, k_good_log.find("Max skewness")), k_good_log.substr(0, k_good_log.find("Mesh OK"))}) {

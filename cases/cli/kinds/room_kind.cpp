@@ -6,6 +6,7 @@
 
 #include "cases/cli/kinds/stage_lines.hpp"
 #include "cases/cli/kinds/study_kind.hpp"
+#include "cases/runner/disk_space.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/runner/room_stages.hpp"
 #include "cases/scenes/room/room_prediction.hpp"
@@ -111,6 +112,9 @@ fs::path go_through(const cases::RoomRequest& request, const RunOptions& options
         throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {}{} --resume",
                                       interrupted.what(), directory.path().string(), shell_word(options.study),
                                       shell_word(options.folder().string()), ranks_option(options.ranks)));
+    } catch (const std::exception&) {
+        cases::refuse_full_disk(directory.path());
+        throw;
     }
     return directory.path();
 }

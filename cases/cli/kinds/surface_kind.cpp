@@ -6,6 +6,7 @@
 
 #include "cases/cli/kinds/stage_lines.hpp"
 #include "cases/cli/kinds/study_kind.hpp"
+#include "cases/runner/disk_space.hpp"
 #include "cases/runner/surface_stages.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "cases/sweep/surface_sweep.hpp"
@@ -76,6 +77,9 @@ void run(const RunOptions& options) {
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. Finished work is kept in {}; resume with: cutterflow run {} -o {} --resume", interrupted.what(),
                                       directory.path().string(), shell_word(options.study), shell_word(options.folder().string())));
+    } catch (const std::exception&) {
+        cases::refuse_full_disk(directory.path());
+        throw;
     }
     say_where_the_report_is(options, directory);
 }

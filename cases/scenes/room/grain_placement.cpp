@@ -155,11 +155,12 @@ public:
             const std::size_t before = next;
             const double level = lying > 0.0 ? bottom + lying / area + k_bumps * grains.girth * grains.largest() : bottom;
             const double placed = place_batch(step, grains, diameters, next, std::min(level, top), top, area);
-            if (next == before) return refuse(step, diameters.size() - next, diameters.size());
+            if (next == before) refuse(step, diameters.size() - next, diameters.size());
             deposits_.emplace_back(step.region, placed / k_loose_share);
             lying += placed / k_loose_share;
             time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity.norm());
         }
+        if (next < diameters.size()) refuse(step, diameters.size() - next, diameters.size());
     }
 
     std::vector<PlacedGrain> take() {
