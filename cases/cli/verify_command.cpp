@@ -101,7 +101,7 @@ fs::path published_docs() {
 void publish(const std::vector<VerifiedCase>& results) {
     const fs::path docs = published_docs(), kept = docs / k_kept;
     const std::vector<VerifiedCase> all = validation::merged_verification(validation::read_verification(kept), results);
-    for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), validation::case_json(result).dump(2) + "\n");
+    for (const VerifiedCase& result : all) write_file(kept / (result.name + ".json"), validation::case_json(result).dump(1) + "\n");
     write_file(docs / "validation.md", validation::verification_markdown(all, link_to_cases(docs)));
     say(fmt::format("published: {}", (docs / "validation.md").string()));
 }

@@ -30,13 +30,27 @@ std::string read_text(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Coordinates of paths to a tenth of a pixel, which nobody sees, in place of a hundredth: pages are a sixth lighter.
+std::string with_tenths(const std::string& svg) {
+    static const std::regex coordinate("([ML,])(-?[0-9]+\\.[0-9]{2})(?![0-9])");
+    std::string text;
+    auto rest = svg.cbegin();
+    for (std::sregex_iterator found(svg.begin(), svg.end(), coordinate), none; found != none; ++found) {
+        text.append(rest, (*found)[2].first);
+        text += fmt::format("{:.1f}", std::stod((*found)[2]));
+        rest = (*found)[2].second;
+    }
+    return text.append(rest, svg.cend());
+}
+
 /// gnuplot's file as an element of a page: without prolog and tool tips, with ids of its own.
 std::string as_element(const std::string& file, const std::string& name) {
     std::string svg = file.substr(file.find("<svg"));
     svg = std::regex_replace(svg, std::regex("<title>[^<]*</title>|<desc>[^<]*</desc>"), "");
     svg = std::regex_replace(svg, std::regex("id=(['\"])"), "id=$1" + name + "_");
     svg = std::regex_replace(svg, std::regex("href=(['\"])#"), "href=$1#" + name + "_");
-    return std::regex_replace(svg, std::regex("url\\(#"), "url(#" + name + "_");
+    svg = std::regex_replace(svg, std::regex("url\\(#"), "url(#" + name + "_");
+    return with_tenths(svg);
 }
 
 }  // namespace

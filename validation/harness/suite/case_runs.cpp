@@ -343,7 +343,7 @@ std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& 
             results.push_back(*kept);
         } else {
             results.push_back(run_case(cases[i], places, settings, say));
-            write_file(settings.folder / (cases[i].name + ".json"), case_json(results.back()).dump(2) + "\n");
+            write_file(settings.folder / (cases[i].name + ".json"), case_json(results.back()).dump(1) + "\n");
             say(fmt::format("{}: {} in {}", cases[i].name, verdict_text(results.back().verdict()), duration_text(results.back().wall_s)));
         }
         done += costs[i];
