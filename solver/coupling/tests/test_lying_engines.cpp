@@ -49,6 +49,21 @@ class HonestDeafFluid final : public DeafFluid {
     Vec3 says(const Vec3&) override { return Vec3::Zero(); }
 };
 
+/// Takes nothing, says that it took, and books what is then missing as an impulse of a boundary that it does not have.
+class FluidWithInventedBoundary final : public DeafFluid {
+public:
+    using DeafFluid::DeafFluid;
+    void end_step(gsl::span<const double> old_values, gsl::span<const double> new_values, const MomentumExchange& exchange) override {
+        DeafFluid::end_step(old_values, new_values, exchange);
+        given_loads.boundary_impulse.setZero();
+        for (std::size_t c = 0; c < mesh.size(); ++c)
+            given_loads.boundary_impulse -= density * mesh.volumes[c] * time_step() * received_[c];
+    }
+
+private:
+    Vec3 says(const Vec3& would_have_received) override { return would_have_received; }
+};
+
 /// Its wall at the lower end of x takes a hundredth of the momentum beside it, and no force on the boundary is reported.
 class FluidAtLeakyWall final : public FakeFluid {
 public:
@@ -100,6 +115,7 @@ public:
 struct Worst {
     ExchangeBalance exchange;
     MomentumErrors momentum;
+    double boundary = 0.0;  ///< |impulse of the boundary| [N s]: the cells have none
 };
 
 /// Twenty rocks that fall and fly through water at rest.
@@ -120,6 +136,7 @@ Worst run_with() {
         worst.exchange.deposit_error = std::max(worst.exchange.deposit_error, exchange.deposit_error);
         worst.momentum.error = std::max(worst.momentum.error, errors.error);
         worst.momentum.carried = std::max(worst.momentum.carried, errors.carried);
+        worst.boundary = std::max(worst.boundary, rig.fluid.loads().boundary_impulse.norm());
     }
     return worst;
 }
@@ -132,6 +149,13 @@ TEST(HonestEngines, pass_every_gate) {
     EXPECT_LE(worst.momentum.carried, k_carried_gate);
     EXPECT_LE(worst.exchange.solid_volume_error, k_volume_gate);
     EXPECT_LE(worst.exchange.deposit_error, k_momentum_gate);
+    EXPECT_EQ(worst.boundary, 0.0);
+}
+
+TEST(FluidThatTakesNothing, shows_the_boundary_that_it_invents) {
+    const Worst worst = run_with<FluidWithInventedBoundary, FakeDem>();
+    EXPECT_LE(worst.momentum.error, k_momentum_gate);  // the balance believes what a fluid says of its boundary
+    EXPECT_GT(worst.boundary, 1e-4);
 }
 
 TEST(FluidThatTakesNothing, fails_the_momentum_balance_when_it_says_that_it_took) {

@@ -138,7 +138,8 @@ dimensionedScalar CutterFluid::find_surplus(const surfaceScalarField& flux) {
     for (const label patch : interface_patches(mesh_)) through.boundaryFieldRef()[patch] = Zero;  // close_interfaces handles it
     const volScalarField::Internal outflow(alpha_rate_ + fvc::div(through)().internalField());
     const dimensionedScalar surplus(outflow.weightedAverage(mesh_.V()));
-    domain_surplus_ = std::max(domain_surplus_, std::abs(surplus.value()) * time_.deltaTValue());
+    const double share = std::abs(surplus.value()) * time_.deltaTValue();
+    if (std::isnan(share) || share > domain_surplus_) domain_surplus_ = share;
     return surplus;
 }
 

@@ -1,5 +1,4 @@
 /// Closures against tables made with another program in 40 digits.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/drag.hpp"
 #include "solver/physics/lift.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/reference_table.hpp"
 #include "validation/harness/verification.hpp"
 
@@ -20,7 +20,7 @@ constexpr double k_tolerance = 1e-6;
 /// Keeps the largest relative error of a law over its table.
 class Worst {
 public:
-    void take(double value, double reference) { error_ = std::max(error_, std::abs(value / reference - 1.0)); }
+    void take(double value, double reference) { error_ = larger(error_, std::abs(value / reference - 1.0)); }
     double error() const { return error_; }
 
 private:

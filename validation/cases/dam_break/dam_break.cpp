@@ -10,6 +10,7 @@
 
 #include "geometry/base/process/child_process.hpp"
 #include "solver/free_surface/output/scene_gauges.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/reference_table.hpp"
 #include "validation/harness/verification.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 using namespace cutterflow;
 using namespace cutterflow::free_surface;
 using validation::Effort;
+using validation::larger;
 using validation::Verification;
 
 constexpr double k_width = 0.05715, k_gravity = 9.81;
@@ -91,10 +93,10 @@ Fall fall(const SceneSettings& scene, double end) {
     while (run.time() < end) {
         const StepReport& report = run.step(end - run.time());
         const double lost = 1.0 - report.occupied_volume / run.initial_volume();
-        if (std::abs(lost) > std::abs(result.worst)) result.worst = lost;
+        if (std::isnan(lost) || std::abs(lost) > std::abs(result.worst)) result.worst = lost;
         result.last = lost;
         const double energy = run.energy();
-        result.energy_rise = std::max(result.energy_rise, (energy - lowest) / start);
+        result.energy_rise = larger(result.energy_rise, (energy - lowest) / start);
         lowest = std::min(lowest, energy);
         result.energy_left = energy / start;
         if (run.time() > k_front_end) continue;
@@ -211,7 +213,7 @@ void compare_with_peer(Verification& verification, const Front& ours, const Fron
     double apart = 0.0;
     for (std::size_t n = 0; n < peer.time.size(); ++n) {
         if (peer.place[n] > (k_tank_widths - 0.2) * k_width) break;  // it meets the far wall
-        apart = std::max(apart, std::abs(ours.at(peer.time[n]) - peer.place[n]));
+        apart = larger(apart, std::abs(ours.at(peer.time[n]) - peer.place[n]));
     }
     verification.at_most(fmt::format("distance of the front to interIsoFoam's, {} cells a width", cells), "cells",
                          apart / (k_width / cells), 1.5,
@@ -236,7 +238,7 @@ ExperimentError error_of(const Front& front, const validation::ReferenceTable& t
         double error = 0.0;
         for (std::size_t n = from; n < table.rows(); ++n) {
             const double place = front.at(std::max(0.0, table.at("time")[n] - shift) * unit) / k_width;
-            error = std::max(error, std::abs(place / table.at("front")[n] - 1.0));
+            error = larger(error, std::abs(place / table.at("front")[n] - 1.0));
         }
         return error;
     };
@@ -315,13 +317,13 @@ WallPressure wall_pressure() {
     WallPressure found;
     while (run.time() < k_still_to) {
         const double step = run.step(k_still_to - run.time()).step, pressure = read_gauge(run, sensor).pressure;
-        found.peak = std::max(found.peak, pressure);
+        found.peak = larger(found.peak, pressure);
         if (run.time() > k_still_from) found.mean += pressure * step / (k_still_to - k_still_from);
         if (found.arrival > 0.0) continue;
         std::vector<double> row;
         for (int i = 0; i < columns; ++i) row.push_back(run.water().fraction[run.grid().at(i, 0, 0)]);
         const double front = front_of(row);
-        if (front < columns - 2.0) found.before = std::max(found.before, std::abs(pressure));
+        if (front < columns - 2.0) found.before = larger(found.before, std::abs(pressure));
         if (front > columns - 0.5) found.arrival = run.time();
     }
     return found;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/cylinder_column.hpp"
 #include "validation/harness/verification.hpp"
@@ -53,9 +54,9 @@ Collapse collapse(const CylinderColumn& column, double end) {
     Vec3 before = Vec3::Zero();
     for (int n = 1; n * sample <= end + 0.5 * sample; ++n) {
         const coupling::DemStep step = engine->advance(sample, no_force);
-        result.overlap = std::max(result.overlap, 0.5 * step.max_overlap_ratio);
+        result.overlap = larger(result.overlap, 0.5 * step.max_overlap_ratio);
         const double energy = energy_of(engine->rocks(), column);
-        result.energy_rise = std::max(result.energy_rise, (energy - lowest) / start);
+        result.energy_rise = larger(result.energy_rise, (energy - lowest) / start);
         lowest = std::min(lowest, energy);
         if (result.arrival == 0.0 && has_arrived(engine->rocks(), column)) result.arrival = n * sample;
         if (std::abs(n * sample - (end - 0.2)) < 0.5 * sample) before = mean_place(engine->rocks());
@@ -112,14 +113,21 @@ void report_smooth_walls(Verification& verification) {
 void check_arrivals(Verification& verification) {
     const Arrivals paper = arrivals(0.3, false, 5);
     for (std::size_t n = 0; n < paper.each.size(); ++n) {
-        verification.absolute(fmt::format("arrival, law of the paper, jitter {}", n + 1), "s", paper.each[n], 0.47, 0.05,
-                              {"Chen2019", "one-step shear, friction 0.3; within half a second, histories lost", {}});
+        verification.absolute(
+            fmt::format("arrival, law of the paper, jitter {}, as good as it was", n + 1), "s", paper.each[n], 0.47, 0.05,
+            {"exact",
+             "one-step shear, friction 0.3. The measured histories are lost: 0.47 s is what this law gave in 2026-11, with "
+             "a scatter of 0.02 s; the bound is the one asked for, below three times that",
+             {}});
     }
     const Arrivals ours = arrivals(0.3, true, k_many);
     check_friction(verification, "law of the paper", false, 5, paper.mean());
     check_friction(verification, "accumulated shear", true, k_many, ours.mean());
     verification.absolute("mean arrival of 24 jitters, accumulated shear", "s", ours.mean(), 0.47, 0.05,
-                          {"Chen2019", "static friction holds parts of the heap together; the paper's law has none", {}});
+                          {"exact",
+                           "asked to arrive as the paper's law does; no measured history is left. Static friction holds parts of the heap "
+                           "together, and the paper's law has none",
+                           {}});
     verification.report("standard deviation of the arrival over 24 jitters, accumulated shear", "s", ours.deviation(), {},
                         {"exact", "", {}});
     report_smooth_walls(verification);
@@ -128,7 +136,7 @@ void check_arrivals(Verification& verification) {
 void check_rest(Verification& verification) {
     const Collapse whole = collapse({}, 2.0);
     verification.at_most("largest overlap over the diameter", "-", whole.overlap, 0.03, {"exact", "with the gap's half in the radius", {}});
-    verification.at_most("rise of the energy over its lowest, share of the start's", "-", whole.energy_rise, 1e-3,
+    verification.at_most("rise of the energy over its lowest, share of the start's", "-", whole.energy_rise, 1e-5,
                          {"exact", "kinetic, spin, weight and normal springs", {}});
     verification.at_most("drift of the mean place in the last 0.2 of 2 s", "m", whole.drift, 1e-6,
                          {"exact", "a heap at rest does not creep", {}});

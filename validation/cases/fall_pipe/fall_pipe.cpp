@@ -1,5 +1,4 @@
 /// Level, reversal and order of emptying of fall pipes, through the program.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
 #include "postproc/analysis/surface_results.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/program_run.hpp"
 #include "validation/harness/verification.hpp"
 
@@ -31,8 +31,8 @@ void follow_flows(const postproc::Table& levels, Dumping& dumping) {
         const double step = time[n] - time[n - 1], mouth = levels.number("mouth_flow_m3_s")[n];
         flown += step * (mouth + levels.number("hole_flow_m3_s")[n]);
         const double change = volume[n] - volume[0];
-        largest = std::max(largest, std::abs(change));
-        apart = std::max(apart, std::abs(change - flown));
+        largest = larger(largest, std::abs(change));
+        apart = larger(apart, std::abs(change - flown));
         if (mouth <= 0.0) continue;
         dumping.upward_s += step;
         if (levels.number("rise_in_pipe_m_s")[n] > 0.0 && levels.number("bodies_in_pipe")[n] > 0.0) dumping.rising_s += step;

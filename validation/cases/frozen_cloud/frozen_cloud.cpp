@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/verification.hpp"
 
@@ -117,7 +118,7 @@ Outcome outcome_of(const Verification& verification, double stream, int refineme
     Outcome outcome;
     outcome.densest = 1.0 - *std::min_element(alpha.begin(), alpha.end());
     for (const Vec3& u : read_vector_field(end / "U", cells))
-        outcome.disturbed = std::max(outcome.disturbed, (u - Vec3(stream, 0, 0)).norm() / k_stream);
+        outcome.disturbed = larger(outcome.disturbed, (u - Vec3(stream, 0, 0)).norm() / k_stream);
     outcome.spread_k = spread(k);
     outcome.spread_epsilon = spread(read_scalar_field(end / "epsilon", cells));
     outcome.mean_k = std::accumulate(k.begin(), k.end(), 0.0) / static_cast<double>(cells);

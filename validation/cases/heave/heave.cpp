@@ -14,7 +14,7 @@ using namespace cutterflow::free_surface;
 using validation::Verification;
 
 constexpr double k_radius = 0.05, k_width = 2.0, k_level = 0.5, k_depth = 0.02, k_lift = 0.4 * k_radius, k_gravity = 9.81;
-constexpr double k_added_mass = 0.6;  // of the displaced mass
+constexpr double k_added_mass = 0.6;  // of the displaced mass; an estimate
 
 struct Extreme {
     double time = 0.0, height = 0.0;
@@ -51,13 +51,22 @@ std::array<Extreme, 2> heave(int cells_per_diameter) {
     return found;
 }
 
+/// Of a damped oscillator that keeps a share of its height over a period [s].
+double damped_period(double kept) {
+    const double undamped = 2.0 * k_pi * std::sqrt((1.0 + k_added_mass) * k_pi / 4.0 * k_radius / k_gravity);
+    const double decay = -std::log(kept) / (2.0 * k_pi);  // zeta/sqrt(1 - zeta^2)
+    return undamped * std::sqrt(1.0 + decay * decay);
+}
+
 void run(Verification& verification) {
-    const double period = 2.0 * k_pi * std::sqrt((1.0 + k_added_mass) * k_pi / 4.0 * k_radius / k_gravity);
     for (const int cells : {20, 40}) {
         const auto [trough, crest] = heave(cells);
         const std::string mesh = fmt::format(", {} cells a diameter", cells);
-        verification.relative("period of heave" + mesh, "s", crest.time, period, 0.05,
-                              {"exact", "added mass of 0.6 of the displaced mass; from the release to the next crest", {}});
+        verification.relative("period of heave" + mesh, "s", crest.time, damped_period(crest.height / k_lift), 0.03,
+                              {"exact",
+                               "a damped oscillator that decays as the run does; its added mass, 0.6 of the displaced mass, is an estimate "
+                               "without a source in references.bib; from the release to the next crest",
+                               {}});
         verification.report("first trough over the lift" + mesh, "-", trough.height / k_lift, {}, {"exact", "", {}});
         verification.report("next crest over the lift" + mesh, "-", crest.height / k_lift, {}, {"exact", "", {}});
     }

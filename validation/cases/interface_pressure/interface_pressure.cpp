@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/tank_mesh.hpp"
 #include "validation/harness/verification.hpp"
@@ -66,10 +68,10 @@ std::filesystem::path move(const Verification& verification, const std::string& 
 
 /// Largest range of pressure [m2/s2] between two times.
 double pressure_range(const std::filesystem::path& folder, double from, double to) {
-    double range = 0.0;
+    std::vector<double> ranges;
     for (const auto& row : read_function_object(folder, "pressure"))
-        if (row.at(0) >= from && row[0] <= to) range = std::max(range, row.at(2) - row.at(1));
-    return range;
+        if (row.at(0) >= from && row[0] <= to) ranges.push_back(row.at(2) - row.at(1));
+    return largest(ranges);
 }
 
 /// Fluid that flowed into the turning zone over rock that left it [-].
@@ -84,14 +86,18 @@ double displaced_ratio(const std::filesystem::path& folder, double time_step) {
 double continuity_error(const std::filesystem::path& folder, double time_step, const BoxCase& room) {
     std::ifstream log(folder / "log.cutterFoam");
     double last = 0.0, worst = 0.0;
+    int lines = 0;
     const std::string mark = "sum local = ";
     for (std::string line; std::getline(log, line);) {
-        if (line.rfind("Time = ", 0) == 0) worst = std::max(worst, last);
+        if (line.rfind("Time = ", 0) == 0) worst = larger(worst, last);
         const std::size_t at = line.find(mark);
-        if (at != std::string::npos) last = std::stod(line.substr(at + mark.size()));
+        if (at == std::string::npos) continue;
+        last = std::stod(line.substr(at + mark.size()));
+        ++lines;
     }
+    if (lines == 0) throw std::runtime_error(folder.string() + "/log.cutterFoam tells nothing of continuity");
     const double volume = k_pi * room.upper.x() * room.upper.x() * (room.upper.z() - room.lower.z());
-    return std::max(worst, last) * volume / time_step / (k_speed * k_pi / 4.0 * k_diameter * k_diameter);
+    return larger(worst, last) * volume / time_step / (k_speed * k_pi / 4.0 * k_diameter * k_diameter);
 }
 
 void cross(Verification& verification, int fineness, double dt) {
@@ -116,7 +122,7 @@ void cross(Verification& verification, int fineness, double dt) {
 void run(Verification& verification) {
     const auto rest = move(verification, "rest", tank(1, 1e-3, 0.11, 0.11));
     double speed = 0.0;
-    for (const auto& row : read_function_object(rest, "speed")) speed = std::max(speed, row.at(2));
+    for (const auto& row : read_function_object(rest, "speed")) speed = larger(speed, row.at(2));
     verification.at_most("velocity around rock at rest in the turning zone", "m/s", speed, 1e-10,
                          {"exact", "30 steps of 1e-3 s at 60 rpm"});
     for (const double dt : {k_longest_step, 1e-3, 5e-4, 2e-4}) cross(verification, 1, dt);

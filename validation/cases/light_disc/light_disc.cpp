@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/free_surface/testing/free_bodies.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -12,6 +13,7 @@ namespace {
 using namespace cutterflow;
 using namespace cutterflow::free_surface;
 using validation::Effort;
+using validation::larger;
 using validation::Verification;
 
 constexpr double k_radius = 0.01, k_cavity = 0.04, k_gravity = 9.81;
@@ -69,9 +71,9 @@ Errors errors_of(const Start& start, int places) {
         const Acceleration found = accelerate(start, Vec3(within(random), within(random), within(random)));
         const double error = start.density_ratio == 1.0 ? found.up / k_gravity : found.up / exact(start) - 1.0;
         errors.mean += std::abs(error) / places;
-        errors.worst = std::max(errors.worst, std::abs(error));
-        errors.sideways = std::max(errors.sideways, found.sideways);
-        errors.momentum = std::max(errors.momentum, found.momentum);
+        errors.worst = larger(errors.worst, std::abs(error));
+        errors.sideways = larger(errors.sideways, found.sideways);
+        errors.momentum = larger(errors.momentum, found.momentum);
     }
     return errors;
 }
@@ -104,7 +106,7 @@ void check_steps(Verification& verification) {
     for (const double ratio : {0.001, 0.1, 2.7}) {
         const double middle = accelerate({false, 20, ratio, 1e-3}, Vec3(0.3, 0, 0.7)).up;
         for (const double step : {1e-5, 1e-2}) {
-            spread = std::max(spread, std::abs(accelerate({false, 20, ratio, step}, Vec3(0.3, 0, 0.7)).up / middle - 1.0));
+            spread = larger(spread, std::abs(accelerate({false, 20, ratio, step}, Vec3(0.3, 0, 0.7)).up / middle - 1.0));
         }
     }
     verification.at_most("change of the first acceleration over steps from 1e-5 to 1e-2 s", "-", spread, 1e-6,
@@ -125,7 +127,7 @@ void check_rise(Verification& verification, double cell) {
         double fastest = 0.0;
         while (run.time() < 0.3) {
             run.step();
-            fastest = std::max(fastest, body.rocks().velocity[0].norm());
+            fastest = larger(fastest, body.rocks().velocity[0].norm());
         }
         verification.at_most(
             fmt::format("fastest speed of a rising disc of density ratio 0.1, cells of {:g} mm, step {:g} s", 1e3 * cell, step), "m/s",

@@ -13,6 +13,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/study_numerics.hpp"
 #include "validation/harness/scenes/tank_mesh.hpp"
@@ -284,6 +285,8 @@ void check_ranks(Verification& verification) {
                           {"exact", "against 1 rank; 4 cells, after 0.3 s, linear solvers to rounding", {}});
 }
 
+constexpr double k_leak = 4e-4;  // twice what the sink lets through: water in soil moves by 1e-3 of a step (docs/design/016)
+
 /// Flow through the channel behind a bank 3 cells thick over that without losses.
 double leak(const fs::path& folder, double lean) {
     const double cell = k_high / 8.0;
@@ -297,9 +300,9 @@ double leak(const fs::path& folder, double lean) {
 
 void check_leak(Verification& verification) {
     const About about{"exact", "3 cells of soil under 0.5 m2/s2, over the flow that this pressure drives without losses", {}};
-    verification.at_most("leak of an upright bank", "-", std::abs(leak(verification.folder("leak_upright"), 0.0)), 0.01, about);
+    verification.at_most("leak of an upright bank", "-", std::abs(leak(verification.folder("leak_upright"), 0.0)), k_leak, about);
     verification.at_most("leak of a bank that leans by 30 degrees", "-", std::abs(leak(verification.folder("leak_leaning"), k_pi / 6.0)),
-                         0.01, about);
+                         k_leak, about);
 }
 
 struct Turning {
@@ -307,12 +310,6 @@ struct Turning {
     double inside = 0.0;                                          ///< fastest water in the soil over the stream
     double continuity = 0.0, flow_balance = 0.0, imbalance = 0.0;
 };
-
-double largest(const std::vector<double>& values) {
-    double most = 0.0;
-    for (const double value : values) most = std::max(most, std::abs(value));
-    return most;
-}
 
 Turning run_turning(const fs::path& folder, double speed) {
     TankMesh tank;
@@ -352,7 +349,7 @@ Turning run_turning(const fs::path& folder, double speed) {
     for (std::size_t i = 1; i < time.size(); ++i) {
         if (time[i] < end - 1.0) continue;
         result.least = std::min(result.least, force[i]);
-        result.most = std::max(result.most, force[i]);
+        result.most = larger(result.most, force[i]);
         square += (force[i] - result.drag) * (force[i] - result.drag) * (time[i] - time[i - 1]);
     }
     result.deviation = std::sqrt(square);
@@ -361,7 +358,7 @@ Turning run_turning(const fs::path& folder, double speed) {
     const std::vector<Vec3> velocity = read_vector_field(folder / last / "U", cells);
     const std::vector<double> share = read_scalar_field(folder / last / "soil", cells);
     for (std::size_t cell = 0; cell < cells; ++cell)
-        if (share[cell] >= 0.999) result.inside = std::max(result.inside, velocity[cell].norm() / k_stream);
+        if (share[cell] >= 0.999) result.inside = larger(result.inside, velocity[cell].norm() / k_stream);
     result.continuity = largest(balance.at("continuity_error"));
     result.flow_balance = largest(balance.at("flow_balance_error"));
     result.imbalance = largest(balance.at("interface_imbalance"));
@@ -377,9 +374,9 @@ void check_turning(Verification& verification) {
                          about);
     verification.report("drag: standard deviation over a turn, over the mean", "-", turned.deviation / turned.drag, {}, about);
     for (const auto& [name, run] : {std::pair("at rest", still), std::pair("turning", turned)}) {
-        verification.at_most(fmt::format("fastest water in the soil over the stream, mesh {}", name), "-", run.inside, 0.01, about);
-        verification.at_most(fmt::format("continuity error, mesh {}", name), "-", run.continuity, 1e-5, about);
-        verification.at_most(fmt::format("flow balance error, mesh {}", name), "-", run.flow_balance, 1e-5, about);
+        verification.at_most(fmt::format("fastest water in the soil over the stream, mesh {}", name), "-", run.inside, 1e-3, about);
+        verification.at_most(fmt::format("continuity error, mesh {}", name), "-", run.continuity, 1e-6, about);
+        verification.at_most(fmt::format("flow balance error, mesh {}", name), "-", run.flow_balance, 1e-6, about);
         verification.at_most(fmt::format("imbalance of the interface, mesh {}", name), "-", run.imbalance, 1e-3, about);
     }
 }

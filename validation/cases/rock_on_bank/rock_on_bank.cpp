@@ -114,7 +114,7 @@ void let_rock_fall(Verification& verification, const geometry::Bank& bank, const
                           {"exact", "after 2 s", {}});
     verification.at_least("rocks on the bank: nearest centre to the exact soil", "m", nearest, 0.49 * diameter,
                           {"exact", "radius 10 mm, less overlap and the wall's error", {}});
-    verification.at_most("rocks on the bank: fastest", "m/s", fastest, 0.01, {"exact", "at rest by rolling friction", {}});
+    verification.at_most("rocks on the bank: fastest", "m/s", fastest, 1e-6, {"exact", "at rest by rolling friction", {}});
 }
 
 struct Throw {
@@ -148,9 +148,10 @@ void throw_rock(Verification& verification, const geometry::SolidSearch& soil, c
                           k_restitution, 0.01, {"exact", "the soil's; steel has 0.97", {}});
     // Where it turned round, within the way of a call.
     const Vec3 right = geometry::area_vector(exact, exact.triangles[soil.nearest(thrown.place).triangle]).normalized();
-    verification.at_most("rock thrown at the cut face: angle between impulse and the exact soil's normal", "deg",
-                         std::acos(std::min(1.0, normal.dot(right))) * 180.0 / k_pi, 4.0,
-                         {"exact", "the face is a polyhedron of 7.5 degrees around the axis", {}});
+    verification.at_most(
+        "rock thrown at the cut face: angle between impulse and the exact soil's normal", "deg",
+        std::acos(std::min(1.0, normal.dot(right))) * 180.0 / k_pi, 0.1,
+        {"exact", "within a facet of the face; across an edge, where facets meet at 7.5 degrees, it would be up to half of that", {}});
 
     TriangleSurface broken{wall.points, {}};
     for (const geometry::Triangle& triangle : wall.triangles)

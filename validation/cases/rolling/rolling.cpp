@@ -11,6 +11,7 @@
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/sphere.hpp"
 #include "meshing/dictionary/foam_command.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/rolling_trials.hpp"
 
@@ -129,7 +130,7 @@ void check_ranks(Verification& verification) {
     verification.at_least("contacts in the heap", "-", one.at("contacts"), 15.0, {"exact", "48 rocks, 0.05 s", {}});
     double apart = one.at("values").size() == two.at("values").size() ? 0.0 : 1.0;
     for (std::size_t k = 0; k < std::min(one.at("values").size(), two.at("values").size()); ++k)
-        apart = std::max(apart, std::abs(one["values"][k].get<double>() - two["values"][k].get<double>()));
+        apart = larger(apart, std::abs(one["values"][k].get<double>() - two["values"][k].get<double>()));
     verification.at_most("places and spins on one and on two ranks, apart", "m, m/s", apart, 1e-10,
                          {"exact", "spins times the diameter", {}});
 }

@@ -7,6 +7,7 @@
 
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/falling_rock.hpp"
+#include "validation/harness/scenes/study_numerics.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -20,6 +21,7 @@ struct Room {
     double half;      ///< half width [diameters]
     double height;    ///< [diameters]
     Effort effort;
+    bool as_study = false;  ///< schemes, solvers and correctors of a study
 };
 
 constexpr double k_fall = 14.0;            // distance until the speed is read [diameters]
@@ -53,10 +55,13 @@ void settle(Verification& verification, const Room& room) {
     box.time_step = std::round(1e7 * k_fall * room.diameter / expected / steps) * 1e-7;
     box.end_time = steps * box.time_step;
     if (room.effort == Effort::longest) box.pressure_tolerance = k_long_tolerance;
-    const auto folder = verification.folder(fmt::format("{:g}mm_ratio_{:g}", 1e3 * room.diameter, room.ratio));
+    const auto folder =
+        verification.folder(fmt::format("{:g}mm_ratio_{:g}{}", 1e3 * room.diameter, room.ratio, room.as_study ? "_study" : ""));
     write_box_case(folder, box);
+    if (room.as_study) use_study_numerics(folder);
     run_cutter_foam(folder);
-    const std::string quantity = fmt::format("speed of {:g} mm rock at d/dx = {:g}", 1e3 * room.diameter, room.ratio);
+    const std::string quantity = fmt::format("speed of {:g} mm rock at d/dx = {:g}{}", 1e3 * room.diameter, room.ratio,
+                                             room.as_study ? ", numerics of a study" : "");
     const double speed = -last_rocks(folder).velocity.at(0).z();
     const double reference = fall_speed(rock, k_start_share * expected, box.end_time);
     verification.relative(quantity, "m/s", speed, reference, 0.014,
@@ -67,13 +72,14 @@ void settle(Verification& verification, const Room& room) {
 }
 
 void run(Verification& verification) {
-    for (const Room& room : {Room{0.01, 0.2, 30.0, 60.0, Effort::fast}, Room{0.01, 0.5, 16.0, 44.0, Effort::fast},
-                             Room{0.01, 1.0, 10.0, 32.0, Effort::fast}, Room{0.01, 2.0, 6.0, 26.0, Effort::standard},
-                             Room{0.01, 3.5, 4.0, 22.0, Effort::standard}, Room{0.01, 5.0, 4.0, 22.0, Effort::longest},
-                             Room{0.01, 8.0, 4.0, 22.0, Effort::longest}, Room{0.02, 0.2, 30.0, 60.0, Effort::standard},
-                             Room{0.02, 0.5, 16.0, 44.0, Effort::standard}, Room{0.02, 1.0, 10.0, 32.0, Effort::standard},
-                             Room{0.02, 2.0, 6.0, 26.0, Effort::standard}, Room{0.02, 3.5, 4.0, 22.0, Effort::longest},
-                             Room{0.02, 5.0, 4.0, 22.0, Effort::longest}, Room{0.02, 8.0, 4.0, 22.0, Effort::longest}})
+    for (const Room& room :
+         {Room{0.01, 0.2, 30.0, 60.0, Effort::fast}, Room{0.01, 0.5, 16.0, 44.0, Effort::fast}, Room{0.01, 1.0, 10.0, 32.0, Effort::fast},
+          Room{0.01, 2.0, 6.0, 26.0, Effort::standard}, Room{0.01, 2.0, 6.0, 26.0, Effort::standard, true},
+          Room{0.01, 3.5, 4.0, 22.0, Effort::standard}, Room{0.01, 5.0, 4.0, 22.0, Effort::longest},
+          Room{0.01, 8.0, 4.0, 22.0, Effort::longest}, Room{0.02, 0.2, 30.0, 60.0, Effort::standard},
+          Room{0.02, 0.5, 16.0, 44.0, Effort::standard}, Room{0.02, 1.0, 10.0, 32.0, Effort::standard},
+          Room{0.02, 2.0, 6.0, 26.0, Effort::standard}, Room{0.02, 3.5, 4.0, 22.0, Effort::longest},
+          Room{0.02, 5.0, 4.0, 22.0, Effort::longest}, Room{0.02, 8.0, 4.0, 22.0, Effort::longest}})
         if (verification.wants(room.effort)) settle(verification, room);
 }
 

@@ -1,16 +1,17 @@
 /// A plane run beside the same scene in space.
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "solver/free_surface/testing/free_bodies.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
 
 using namespace cutterflow;
 using namespace cutterflow::free_surface;
+using validation::larger;
 using validation::Verification;
 
 constexpr double k_cell = 0.005, k_end = 0.12;
@@ -40,7 +41,7 @@ State state_after(bool plane) {
     State state;
     while (run.time() < k_end * (1.0 - 1e-9)) {
         const StepReport& report = run.step(k_end - run.time());
-        state.lost = std::max(state.lost, std::abs(report.occupied_volume / run.initial_volume() - 1.0));
+        state.lost = larger(state.lost, std::abs(report.occupied_volume / run.initial_volume() - 1.0));
     }
     state.body = body.rocks().position[0];
     state.velocity = body.rocks().velocity[0];
@@ -48,7 +49,7 @@ State state_after(bool plane) {
     const double count = static_cast<double>(water.size());
     for (std::size_t p = 0; p < water.size(); ++p) {
         state.water += water.place(p) / count;
-        state.across = std::max(state.across, std::abs(water.velocity[1][p]));
+        state.across = larger(state.across, std::abs(water.velocity[1][p]));
     }
     state.speed = largest_speed(water);
     state.volume = run.last().occupied_volume;

@@ -26,7 +26,7 @@ void let_go(Verification& verification, double cells_per_diameter) {
     run_cutter_foam(folder);
     const double speed = -last_rocks(folder).velocity.at(0).z();
     verification.relative(
-        fmt::format("speed after 0.02 s at d/dx = {}", cells_per_diameter), "m/s", speed, fall_speed(rock, 0.0, box.end_time), 0.01,
+        fmt::format("speed after 0.02 s at d/dx = {}", cells_per_diameter), "m/s", speed, fall_speed(rock, 0.0, box.end_time), 0.001,
         {"NieuwboerVanRheeKeetels2023", fmt::format("without drag {:.4f} m/s", fall_acceleration(rock, 0.0) * box.end_time)});
 }
 

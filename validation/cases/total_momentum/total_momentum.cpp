@@ -1,5 +1,4 @@
 /// Total momentum of rock and water in a closed room, from their states alone.
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -8,6 +7,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/run_files.hpp"
 #include "solver/coupling/checkpoint.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/study_numerics.hpp"
 #include "validation/harness/verification.hpp"
@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 constexpr double k_diameter = 0.02, k_spacing = 0.026;                                 // of the rocks [m]
 constexpr double k_mass = 2650.0 * k_pi / 6.0 * k_diameter * k_diameter * k_diameter;  // of a rock [kg]
 constexpr double k_speed = 1.0;                                                        // [m/s]
-constexpr double k_drift = 1e-5;
-constexpr int k_side = 4;            // rocks along an edge of the cloud
-constexpr double k_interval = 0.01;  // between states [s]
+constexpr double k_drift = 1e-5;                                                       // the requirement
+constexpr double k_drift_before = 1e-7, k_error_before = 1e-9;                         // as good as they were
+constexpr int k_side = 4;                                                              // rocks along an edge of the cloud
+constexpr double k_interval = 0.01;                                                    // between states [s]
 constexpr int k_states = 6;
 
 enum class Turbulence { none, realizable };
@@ -103,12 +104,11 @@ Drift drift_of(const BoxCase& box, const fs::path& folder) {
     for (const RockSnapshot& snapshot : all_rocks(folder)) {
         const Momentum now = momentum_of(box, folder, snapshot);
         const double exchanged = start - now.rock;
-        drift.total = std::max(drift.total, std::abs(now.total() - start) / exchanged);
+        drift.total = larger(drift.total, std::abs(now.total() - start) / exchanged);
         drift.owed = std::abs(now.rock + now.water - start) / exchanged;
         drift.handed_over = exchanged / start;
     }
-    for (const double error : read_columns(folder / "postProcessing/balance/0/balance.csv").at("momentum_error"))
-        drift.of_the_run = std::max(drift.of_the_run, error);
+    drift.of_the_run = largest(read_columns(folder / "postProcessing/balance/0/balance.csv").at("momentum_error"));
     return drift;
 }
 
@@ -122,9 +122,14 @@ Drift drift_at(Verification& verification, double time_step, Turbulence turbulen
     run_cutter_foam(folder);
     const Drift drift = drift_of(box, folder);
     const std::string with = fmt::format(", time step {:g} ms{}", 1e3 * time_step, turbulent ? ", turbulent" : "");
-    verification.at_most("drift of the momentum of rock, water and carry, over what was exchanged" + with, "-", drift.total, k_drift,
-                         {"exact", "64 rocks of 20 mm, d/dx = 2, 60 ms, from the written states", {}});
-    verification.at_most("largest momentum_error of balance.csv" + with, "-", drift.of_the_run, k_drift, {"exact", "", {}});
+    const std::string total = "drift of the momentum of rock, water and carry, over what was exchanged" + with;
+    const std::string of_the_run = "largest momentum_error of balance.csv" + with;
+    verification.at_most(total, "-", drift.total, k_drift, {"exact", "64 rocks of 20 mm, d/dx = 2, 60 ms, from the written states", {}});
+    verification.at_most(total + ", as good as it was", "-", drift.total, k_drift_before,
+                         {"exact", "bound: nine times the largest value in 2026-11", {}});
+    verification.at_most(of_the_run, "-", drift.of_the_run, k_drift, {"exact", "", {}});
+    verification.at_most(of_the_run + ", as good as it was", "-", drift.of_the_run, k_error_before,
+                         {"exact", "bound: some 80 times the largest value in 2026-11", {}});
     return drift;
 }
 

@@ -9,6 +9,7 @@
 #include "geometry/base/file_content.hpp"
 #include "solver/free_surface/scene_file/scene_file.hpp"
 #include "solver/free_surface/surface_run.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/scenes/cylinder_column.hpp"
 #include "validation/harness/verification.hpp"
@@ -92,8 +93,8 @@ Outcome follow(const Trial& trial, const std::filesystem::path& folder) {
     while (run.time() < k_end) {
         const double next = run.time() < 0.3 ? 0.3 : k_end;
         const StepReport& report = run.step(next - run.time());
-        outcome.worst_volume = std::max(outcome.worst_volume, std::abs(report.occupied_volume / run.initial_volume() - 1.0));
-        outcome.force_error = std::max(outcome.force_error, report.body_impulse_error);
+        outcome.worst_volume = larger(outcome.worst_volume, std::abs(report.occupied_volume / run.initial_volume() - 1.0));
+        outcome.force_error = larger(outcome.force_error, report.body_impulse_error);
         if (outcome.arrival == 0.0 && has_arrived(engine->rocks(), column)) outcome.arrival = run.time();
         if (std::abs(run.time() - 0.3) < 1e-12) {
             outcome.mean_at_03 = mean_place(engine->rocks()).x() / column.tank_width;
@@ -138,8 +139,11 @@ Outcome follow_once(Verification& verification, const Trial& trial) {
 Outcome check(Verification& verification, const Trial& trial) {
     const Outcome outcome = follow_once(verification, trial);
     const std::string name = name_of(trial);
-    verification.absolute("arrival: " + name, "s", outcome.arrival, 0.35, 0.15,
-                          {"Chen2019", "within half a second; the curves are lost", {}});
+    verification.absolute("arrival, as good as it was: " + name, "s", outcome.arrival, 0.35, 0.15,
+                          {"exact",
+                           "within half a second, as asked. The measured and the published curves are lost: arrivals came between 0.24 and "
+                           "0.35 s in 2026-11",
+                           {}});
     verification.report("mean x at 0.3 s over the width: " + name, "-", outcome.mean_at_03, {}, {"Chen2019", "", {}});
     verification.at_most("occupied volume lost or won: " + name, "-", outcome.worst_volume, 0.01, {"exact", "largest of all steps", {}});
     verification.at_most("particles in bodies: " + name, "-", outcome.inside, 0.0, {"exact", "deeper than a thousandth of the radius", {}});
@@ -195,8 +199,10 @@ void check_order_of_layers(Verification& verification, const std::string& name, 
     std::vector<double> later;
     for (std::size_t n = 0; n < low.size(); ++n) later.push_back(high[n] - low[n]);
     const Interval95 difference = interval(later);
-    verification.at_least("mean arrival of 12 layers less that of 6, " + name, "s", difference.mean, 0.0,
-                          {"Chen2019", fmt::format("+- {:.3g} s over five jitters", difference.half), {}});
+    verification.report("mean arrival of 12 layers less that of 6, " + name, "s", difference.mean, {},
+                        {"Chen2019", fmt::format("+- {:.3g} s over five jitters", difference.half), {}});
+    verification.at_least("lower end of the interval of the mean arrival of 12 layers less that of 6, " + name, "s",
+                          difference.mean - difference.half, 0.0, {"Chen2019", "five jitters, 95 %", {}});
 }
 
 /// A gate that takes 0.12 s to leave the water: later than released at once, by less than that time.

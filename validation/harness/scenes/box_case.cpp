@@ -180,14 +180,20 @@ std::map<std::string, std::vector<double>> read_columns(const fs::path& file) {
 
 namespace {
 
-/// Numbers of an ascii data array of a .vtp file, as vectors.
-std::vector<Vec3> read_vectors(const std::string& text, const std::string& name) {
+/// Numbers of an ascii data array of a .vtp file.
+template <class Number>
+std::vector<Number> read_numbers(const std::string& text, const std::string& name) {
     std::size_t start = text.find("Name=\"" + name + "\"");
     if (start == std::string::npos) throw std::runtime_error("no array " + name + " in the picture");
     start = text.find('>', start) + 1;
     std::istringstream numbers(text.substr(start, text.find('<', start) - start));
+    return {std::istream_iterator<Number>(numbers), {}};
+}
+
+std::vector<Vec3> read_vectors(const std::string& text, const std::string& name) {
+    const std::vector<double> numbers = read_numbers<double>(text, name);
     std::vector<Vec3> vectors;
-    for (Vec3 v; numbers >> v[0] >> v[1] >> v[2];) vectors.push_back(v);
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) vectors.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     return vectors;
 }
 
@@ -200,7 +206,8 @@ std::vector<RockSnapshot> all_rocks(const fs::path& folder) {
         const std::string text((std::istreambuf_iterator<char>(stream)), {});
         const std::string stem = entry.path().stem().string();
         pictures.push_back({std::stod(stem.substr(stem.find('_') + 1)), read_vectors(text, "Points"), read_vectors(text, "velocity"),
-                            read_vectors(text, "hydrodynamic_force")});
+                            read_vectors(text, "hydrodynamic_force"), read_numbers<int>(text, "id"), read_numbers<double>(text, "diameter"),
+                            read_numbers<double>(text, "density")});
     }
     if (pictures.empty()) throw std::runtime_error("no picture of rock in " + folder.string());
     std::sort(pictures.begin(), pictures.end(), [](const RockSnapshot& a, const RockSnapshot& b) { return a.time < b.time; });

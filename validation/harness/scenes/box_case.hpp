@@ -92,6 +92,9 @@ struct RockSnapshot {
     std::vector<Vec3> position;            ///< [m]
     std::vector<Vec3> velocity;            ///< [m/s]
     std::vector<Vec3> hydrodynamic_force;  ///< mean over the step [N]
+    std::vector<int> id;
+    std::vector<double> diameter;  ///< [m]
+    std::vector<double> density;   ///< [kg/m3]
 };
 
 /// All snapshots that a run wrote, in the order of time, and the last one.

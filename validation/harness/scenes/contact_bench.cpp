@@ -9,6 +9,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"
+#include "validation/harness/largest.hpp"
 
 namespace cutterflow::validation {
 namespace {
@@ -90,16 +91,18 @@ ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<B
     const double mass = 4.0 / 3.0 * k_pi * std::pow(first.radius, 3) * (first.density + settings.added_mass * settings.fluid.density);
     double smallest = first.radius;
     for (const BenchBall& ball : balls) smallest = std::min(smallest, ball.radius);
+    const double interval = sample == k_own_step ? engine.largest_time_step() : sample;
     ImpactOutcome impact;
     bool touched = false;
     Vec3 before = first.velocity;
     for (int call = 0; call < k_most_samples; ++call) {
-        const coupling::DemStep step = engine.advance(sample, no_force);
+        const coupling::DemStep step = engine.advance(interval, no_force);
         const Vec3 now = engine.rocks().velocity[0];
-        impact.force = std::max(impact.force, mass * (now - before).norm() / sample);
+        impact.substeps = std::max(impact.substeps, step.substeps);
+        impact.force = larger(impact.force, mass * (now - before).norm() / interval);
         before = now;
-        impact.overlap = std::max(impact.overlap, step.max_overlap_ratio * smallest);
-        if (step.contacts > 0) impact.duration += sample;
+        impact.overlap = larger(impact.overlap, step.max_overlap_ratio * smallest);
+        if (step.contacts > 0) impact.duration += interval;
         if (touched && step.contacts == 0) {
             impact.velocity = engine.rocks().velocity;
             impact.spin = engine.rocks().angular_velocity;
@@ -116,7 +119,7 @@ Slide slide(const coupling::DemSettings& settings, const BenchBall& ball, double
     for (int call = 0; call < k_most_samples; ++call) {
         room.engine.advance(sample, no_force);
         const Vec3 position = room.engine.rocks().position[0];
-        result.height = std::max(result.height, ball.position.norm() - position.norm());
+        result.height = larger(result.height, ball.position.norm() - position.norm());
         result.speed = room.engine.rocks().velocity[0].norm();
         if (position.x() >= 0.0) return result;
     }

@@ -47,9 +47,13 @@ struct ImpactOutcome {
     double overlap = 0.0;              ///< largest [m]
     double force = 0.0;                ///< largest on the first ball, from its change of velocity [N]
     double duration = 0.0;             ///< of the contact [s]
+    int substeps = 0;                  ///< most DEM steps of a sample
 };
 
-/// Lets balls fly until a contact has begun and ended. The DEM is sampled every `sample` seconds.
+/// As a sample: the largest step of the DEM itself, which a study takes.
+inline constexpr double k_own_step = 0.0;
+
+/// Lets balls fly until a contact has begun and ended. The DEM is sampled every `sample` seconds; it takes no longer steps.
 /// \throws std::runtime_error  when no contact ends within 100,000 samples
 ImpactOutcome collide(const coupling::DemSettings& settings, const std::vector<BenchBall>& balls, double sample, double rotor_speed = 0.0);
 

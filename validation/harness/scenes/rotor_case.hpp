@@ -14,4 +14,8 @@ namespace cutterflow::validation {
 /// \param feed    content of constant/rockFeed.csv, with rock
 void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed);
 
+/// The same with a ladder at 60 degrees, beside a bank towards which the head travels at 0.1 m/s.
+/// \param inputs  with rock, whose only wall is the bank's
+void write_rotor_beside_bank(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed);
+
 }  // namespace cutterflow::validation

@@ -1,11 +1,14 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
+#include <vector>
 
 #include <gmock/gmock.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace cutterflow::validation {
@@ -50,6 +53,16 @@ TEST(VerificationRecord, judges_each_rule_at_its_tolerance) {
     EXPECT_EQ(code, 4);
     EXPECT_THAT(verdicts(), ::testing::ElementsAre("pass", "fail", "fail", "pass", "fail", "pass", "fail", "pass", "fail", "reported",
                                                    "fail", "fail", "fail", "not converged"));
+}
+
+TEST(Largest, keeps_a_not_a_number_wherever_it_stands) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(larger(1.0, 2.0), 2.0);
+    EXPECT_EQ(larger(2.0, -1.0), 2.0);
+    EXPECT_EQ(largest({-3.0, -1.0, -2.0}), -1.0);
+    for (const std::vector<double>& values : {std::vector{nan, 1.0, 2.0}, {1.0, nan, 2.0}, {1.0, 2.0, nan}, {nan}})
+        EXPECT_TRUE(std::isnan(largest(values)));
+    EXPECT_THROW(largest({}), std::runtime_error);
 }
 
 TEST(VerificationRecord, ends_as_the_case_did) {
