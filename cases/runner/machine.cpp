@@ -1,5 +1,7 @@
 #include "cases/runner/machine.hpp"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -81,7 +83,10 @@ double machine_slowness() {
 }
 
 int available_cores() {
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    if (::sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // of a machine with more cores than the set holds
 }
 
 void require_machine(int ranks) {
