@@ -21,6 +21,7 @@
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/sphere.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "meshing/room/build_room_mesh.hpp"
 #include "postproc/pages/room/room_page.hpp"
@@ -312,7 +313,7 @@ private:
         for (const BedPiece& piece : pieces_)
             for (const PlacedGrain& grain : piece.grains) {
                 ++poured;
-                mass += grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
+                mass += sphere_mass(grain.diameter, grain.density);
             }
         const nlohmann::json pressed = pressed_solids();
         nlohmann::json solids = nlohmann::json::array();

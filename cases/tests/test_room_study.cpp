@@ -193,8 +193,8 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
     EXPECT_TRUE(request.pieces[1].grains.empty());
     ASSERT_EQ(request.pieces[1].events.size(), 2u);
     EXPECT_EQ(request.pieces[1].events[0].what, "remove");
-    EXPECT_TRUE(contains(request.pieces[1].events[0].region, Vec3(0.0, 0.0, 0.061)));
-    EXPECT_FALSE(contains(request.pieces[1].events[0].region, Vec3(0.0, 0.0, 0.059)));
+    EXPECT_TRUE(is_within(request.pieces[1].events[0].region, Vec3(0.0, 0.0, 0.061)));
+    EXPECT_FALSE(is_within(request.pieces[1].events[0].region, Vec3(0.0, 0.0, 0.059)));
     EXPECT_EQ(request.pieces[1].events[1].what, "freeze");
 
     const std::vector<CaseText> files = bed_case(request.scene, request.pieces[1], "../1/checkpoints/0.5", "../../");

@@ -9,6 +9,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
 
 namespace cutterflow::cases {
@@ -24,18 +25,14 @@ constexpr double k_gap = 1e-3;         // between grains that begin, over the di
 constexpr double k_loose_share = 0.5;  // of a bed beside walls a few grains apart; what has come down lies no higher
 constexpr double k_bumps = 2.0;        // of its surface, above the mean, over the largest grain
 
-double volume_of(double diameter) {
-    return k_pi * diameter * diameter * diameter / 6.0;
-}
-
 double bottom_of(const Region& region) {
-    if (const auto* box = std::get_if<RegionBox>(&region)) return box->lower.z();
-    return std::get<RegionCylinder>(region).from.z();
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return box->lower.z();
+    return std::get<CylinderRegion>(region).from.z();
 }
 
 std::pair<Eigen::Array2d, Eigen::Array2d> extent_of(const Region& region) {
-    if (const auto* box = std::get_if<RegionBox>(&region)) return {box->lower.head<2>().array(), box->upper.head<2>().array()};
-    const auto& cylinder = std::get<RegionCylinder>(region);
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return {box->lower.head<2>().array(), box->upper.head<2>().array()};
+    const auto& cylinder = std::get<CylinderRegion>(region);
     return {cylinder.from.head<2>().array() - cylinder.radius, cylinder.from.head<2>().array() + cylinder.radius};
 }
 
@@ -91,13 +88,13 @@ public:
         const double radius = 0.5 * diameter;
         if (to - from < diameter) return std::nullopt;
         Vec3 place(0.0, 0.0, between(from + radius, to - radius));
-        if (const auto* box = std::get_if<RegionBox>(&region)) {
+        if (const auto* box = std::get_if<BoxRegion>(&region)) {
             if (box->upper.x() - box->lower.x() < diameter || box->upper.y() - box->lower.y() < diameter) return std::nullopt;
             place.x() = between(box->lower.x() + radius, box->upper.x() - radius);
             place.y() = between(box->lower.y() + radius, box->upper.y() - radius);
             return place;
         }
-        const auto& cylinder = std::get<RegionCylinder>(region);
+        const auto& cylinder = std::get<CylinderRegion>(region);
         if (cylinder.radius < radius) return std::nullopt;
         const double out = (cylinder.radius - radius) * std::sqrt(between(0.0, 1.0)), angle = between(0.0, 2.0 * k_pi);
         place.head<2>() = cylinder.from.head<2>() + out * Eigen::Vector2d(std::cos(angle), std::sin(angle));
@@ -132,7 +129,7 @@ double draw_diameter(const RoomGrains& grains, std::mt19937_64& random) {
         return std::uniform_real_distribution<double>(uniform->smallest, uniform->largest)(random);
     const auto& classes = std::get<std::vector<GrainClass>>(grains.sizes);
     std::vector<double> numbers;  // grains per mass
-    for (const GrainClass& one : classes) numbers.push_back(one.mass_share / volume_of(one.diameter));
+    for (const GrainClass& one : classes) numbers.push_back(one.mass_share / sphere_volume(one.diameter));
     return classes[std::discrete_distribution<std::size_t>(numbers.begin(), numbers.end())(random)].diameter;
 }
 
@@ -177,11 +174,11 @@ private:
         double placed = 0.0;
         for (; next < diameters.size(); ++next) {
             const double diameter = diameters[next];
-            if (placed > 0.0 && placed + volume_of(diameter) > allowed) break;
+            if (placed > 0.0 && placed + sphere_volume(diameter) > allowed) break;
             const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, grains.girth * diameter);
             if (!place) break;
             neighbours.add(*place, grains.girth * diameter);
-            placed += volume_of(diameter);
+            placed += sphere_volume(diameter);
             grains_.push_back({++last_id_, time_, *place, diameter, grains.density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
             if (!deposits_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth * diameter);
         }
@@ -237,21 +234,21 @@ std::vector<PlacedGrain> Pouring::take() {
 }
 
 double area_of(const Region& region) {
-    if (const auto* box = std::get_if<RegionBox>(&region)) return (box->upper.x() - box->lower.x()) * (box->upper.y() - box->lower.y());
-    const auto& cylinder = std::get<RegionCylinder>(region);
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return (box->upper.x() - box->lower.x()) * (box->upper.y() - box->lower.y());
+    const auto& cylinder = std::get<CylinderRegion>(region);
     return k_pi * cylinder.radius * cylinder.radius;
 }
 
 double height_of(const Region& region) {
-    if (const auto* box = std::get_if<RegionBox>(&region)) return box->upper.z() - box->lower.z();
-    const auto& cylinder = std::get<RegionCylinder>(region);
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return box->upper.z() - box->lower.z();
+    const auto& cylinder = std::get<CylinderRegion>(region);
     return cylinder.to.z() - cylinder.from.z();
 }
 
 std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::mt19937_64& random) {
     std::vector<double> diameters;
     for (double drawn = 0.0;;) {
-        const double diameter = draw_diameter(grains, random), weight = grains.density * volume_of(diameter);
+        const double diameter = draw_diameter(grains, random), weight = grains.density * sphere_volume(diameter);
         if (drawn + 0.5 * weight > mass && !diameters.empty()) return diameters;
         diameters.push_back(diameter);
         drawn += weight;
@@ -285,7 +282,7 @@ std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::
                                 "They begin in the region as a whole, clear of the solids", "Give a larger region");
             grains.push_back({first_id + static_cast<int>(grains.size()), feed->from + due / feed->rate, *place, diameter, kind.density,
                               Vec3::Zero(), shape_of(kind)});
-            due += kind.density * volume_of(diameter);
+            due += kind.density * sphere_volume(diameter);
         }
     }
     std::stable_sort(grains.begin(), grains.end(), [](const PlacedGrain& a, const PlacedGrain& b) { return a.time < b.time; });

@@ -37,17 +37,17 @@ FoamDictionary section_of(const Settings& settings) {
 }
 
 struct RegionSection {
-    FoamDictionary operator()(const RegionEverything&) const { return FoamDictionary().add("type", "everything"); }
-    FoamDictionary operator()(const RegionBox& box) const {
+    FoamDictionary operator()(const EverywhereRegion&) const { return FoamDictionary().add("type", "everything"); }
+    FoamDictionary operator()(const BoxRegion& box) const {
         return FoamDictionary().add("type", "box").add("lower", box.lower).add("upper", box.upper);
     }
-    FoamDictionary operator()(const RegionSphere& sphere) const {
+    FoamDictionary operator()(const SphereRegion& sphere) const {
         return FoamDictionary().add("type", "sphere").add("centre", sphere.centre).add("radius", sphere.radius);
     }
-    FoamDictionary operator()(const RegionCylinder& cylinder) const {
+    FoamDictionary operator()(const CylinderRegion& cylinder) const {
         return FoamDictionary().add("type", "cylinder").add("from", cylinder.from).add("to", cylinder.to).add("radius", cylinder.radius);
     }
-    FoamDictionary operator()(const RegionHalfSpace& half) const {
+    FoamDictionary operator()(const HalfSpaceRegion& half) const {
         return FoamDictionary().add("type", "halfSpace").add("point", half.point).add("normal", half.normal);
     }
 };

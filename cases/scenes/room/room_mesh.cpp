@@ -10,8 +10,8 @@ namespace {
 constexpr double k_reach = 1e-3;
 
 meshing::MeshPart part_of(const Region& region) {
-    if (const auto* box = std::get_if<RegionBox>(&region)) return meshing::MeshBox{box->lower, box->upper};
-    const auto& cylinder = std::get<RegionCylinder>(region);
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return meshing::MeshBox{box->lower, box->upper};
+    const auto& cylinder = std::get<CylinderRegion>(region);
     return meshing::MeshCylinder{cylinder.from, cylinder.to, cylinder.radius};
 }
 
@@ -23,9 +23,9 @@ meshing::MeshCylinder cylinder_of(const SideDisc& disc, coupling::DomainSide sid
 /// \pre the part is not a whole side
 meshing::MeshPart part_of(const RoomBoundary& boundary, const RoomScene& scene) {
     if (const auto* disc = std::get_if<SideDisc>(&boundary.part)) return cylinder_of(*disc, boundary.sides.front(), scene);
-    RegionBox all = bounds_of(boundary.part, boundary.sides.front(), scene);
+    BoxRegion all = bounds_of(boundary.part, boundary.sides.front(), scene);
     for (const coupling::DomainSide side : boundary.sides) {
-        const RegionBox one = bounds_of(boundary.part, side, scene);
+        const BoxRegion one = bounds_of(boundary.part, side, scene);
         all = {all.lower.cwiseMin(one.lower), all.upper.cwiseMax(one.upper)};
     }
     return meshing::MeshBox{all.lower, all.upper};

@@ -11,6 +11,7 @@
 #include "cases/study/contact_rules.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/progress.hpp"
+#include "geometry/base/sphere.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 #include "solver/physics/settling.hpp"
@@ -30,7 +31,7 @@ constexpr int k_looks = 20;                      // at a solid on its way
 constexpr double k_soft_overlap = 0.05;          // of a diameter, from which a bed packs and rolls otherwise than stiff grains
 
 double mass_of(const PlacedGrain& grain) {
-    return grain.density * k_pi / 6.0 * grain.diameter * grain.diameter * grain.diameter;
+    return sphere_mass(grain.diameter, grain.density);
 }
 
 /// Terminal speed of the fastest grains in the medium [m/s]; 0 where none is heavier.

@@ -4,37 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/base/axis_frame.hpp"
+#include "geometry/base/sphere.hpp"
 
 namespace cutterflow::cases {
-
-namespace {
-
-double volume_of_sphere(double diameter) {
-    return k_pi * diameter * diameter * diameter / 6.0;
-}
-
-struct Contains {
-    const Vec3& place;
-
-    bool operator()(const RegionEverything&) const { return true; }
-    bool operator()(const RegionBox& box) const {
-        return (place.array() >= box.lower.array()).all() && (place.array() <= box.upper.array()).all();
-    }
-    bool operator()(const RegionSphere& sphere) const { return (place - sphere.centre).norm() <= sphere.radius; }
-    bool operator()(const RegionCylinder& cylinder) const {
-        const Vec3 axis = cylinder.to - cylinder.from;
-        const double along = (place - cylinder.from).dot(axis) / axis.squaredNorm();
-        return along >= 0.0 && along <= 1.0 && (place - cylinder.from - along * axis).norm() <= cylinder.radius;
-    }
-    bool operator()(const RegionHalfSpace& half) const { return (place - half.point).dot(half.normal) > 0.0; }
-};
-
-}  // namespace
-
-bool contains(const Region& region, const Vec3& place) {
-    return std::visit(Contains{place}, region);
-}
 
 double RoomSolid::fastest() const {
     if (travel) return travel->velocity.norm();
@@ -69,7 +41,7 @@ double RoomGrains::mean_volume() const {
     }
     double grains_per_volume = 0.0;  // shares of mass are shares of volume: one density
     for (const GrainClass& one : std::get<std::vector<GrainClass>>(sizes))
-        grains_per_volume += one.mass_share / volume_of_sphere(one.diameter);
+        grains_per_volume += one.mass_share / sphere_volume(one.diameter);
     return 1.0 / grains_per_volume;
 }
 

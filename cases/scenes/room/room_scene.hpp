@@ -11,32 +11,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/base/region.hpp"
 #include "geometry/base/vec3.hpp"
 #include "geometry/surface/surface.hpp"
 #include "solver/ports/dem_settings.hpp"
 
 namespace cutterflow::cases {
-
-/// Parts of space. Grains belong to one by their centres.
-struct RegionEverything {};
-struct RegionBox {
-    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
-};
-struct RegionSphere {
-    Vec3 centre = Vec3::Zero();
-    double radius = 0.0;
-};
-struct RegionCylinder {
-    Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< ends of its axis
-    double radius = 0.0;
-};
-/// Where (place - point) . normal > 0.
-struct RegionHalfSpace {
-    Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
-};
-using Region = std::variant<RegionEverything, RegionBox, RegionSphere, RegionCylinder, RegionHalfSpace>;
-
-bool contains(const Region& region, const Vec3& place);
 
 /// What fills the room.
 struct RoomMedium {
@@ -50,14 +30,14 @@ struct RoomMedium {
 
 /// Smaller cells in a part of the room.
 struct RoomRefinement {
-    Region region;  ///< a box or a cylinder
-    double cell = 0.0;
+    Region region;      ///< a box or a cylinder
+    double cell = 0.0;  ///< side of its cells [m]
 };
 
 /// A round hole along a straight axis, as of a pipe: `inside = "pipe"` names the disc that it cuts out of a side.
 struct Bore {
-    Vec3 from = Vec3::Zero(), to = Vec3::Zero();
-    double radius = 0.0;
+    Vec3 from = Vec3::Zero(), to = Vec3::Zero();  ///< ends of its axis [m]
+    double radius = 0.0;                          ///< [m]
 };
 
 struct RoomSolid {

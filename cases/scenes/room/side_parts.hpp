@@ -5,7 +5,7 @@
 namespace cutterflow::cases {
 
 /// The box around a part of a side; it has no thickness across the side.
-RegionBox bounds_of(const SidePart& part, coupling::DomainSide side, const RoomScene& scene);
+BoxRegion bounds_of(const SidePart& part, coupling::DomainSide side, const RoomScene& scene);
 
 /// Area [m2] of the part of all sides of a boundary.
 double area_of(const RoomBoundary& boundary, const RoomScene& scene);

@@ -55,7 +55,7 @@ double distance_to_side(const RoomReading& room, const SidePart& part, coupling:
 void require_on_sides(RoomReading& room, const RoomBoundary& boundary, const std::string& where) {
     const double allowed = room.scene.tolerance();
     for (const coupling::DomainSide side : boundary.sides) {
-        const RegionBox whole = bounds_of(WholeSide{}, side, room.scene), part = bounds_of(boundary.part, side, room.scene);
+        const BoxRegion whole = bounds_of(WholeSide{}, side, room.scene), part = bounds_of(boundary.part, side, room.scene);
         const bool inside =
             (part.lower.array() >= whole.lower.array() - allowed).all() && (part.upper.array() <= whole.upper.array() + allowed).all();
         const bool has_area = ((part.upper - part.lower).array() > 0.0).count() == 2;

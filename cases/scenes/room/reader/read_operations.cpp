@@ -30,8 +30,8 @@ const RoomGrains* grains_of(RoomReading& room, const ParameterValues& values, co
 
 /// Of a box or an upright cylinder [m].
 double narrowest(const Region& region) {
-    if (const auto* box = std::get_if<RegionBox>(&region)) return (box->upper - box->lower).minCoeff();
-    const auto& cylinder = std::get<RegionCylinder>(region);
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return (box->upper - box->lower).minCoeff();
+    const auto& cylinder = std::get<CylinderRegion>(region);
     return std::min(2.0 * cylinder.radius, cylinder.to.z() - cylinder.from.z());
 }
 
@@ -45,7 +45,7 @@ bool require_few_enough(RoomReading& room, const RoomGrains& grains, double mass
 }
 
 /// Its ends are cut to the room, as a box is; its side is not.
-std::optional<Region> cylinder_in_room(RoomReading& room, RegionCylinder cylinder, const std::string& key, const std::string& where) {
+std::optional<Region> cylinder_in_room(RoomReading& room, CylinderRegion cylinder, const std::string& key, const std::string& where) {
     const Vec3 lower = room.scene.lower(), upper = room.scene.upper();
     const double reach = cylinder.radius - room.scene.tolerance();
     if ((cylinder.from.head<2>().array() - reach < lower.head<2>().array()).any() ||
@@ -65,12 +65,12 @@ std::optional<Region> cylinder_in_room(RoomReading& room, RegionCylinder cylinde
 /// \param key  that gives it, for messages
 std::optional<Region> region_for_grains(RoomReading& room, const std::optional<Region>& given, const std::string& key,
                                         const std::string& where) {
-    if (!given) return RegionBox{room.scene.lower(), room.scene.upper()};
-    if (const auto* box = std::get_if<RegionBox>(&*given)) {
-        if (const RegionBox cut{box->lower.cwiseMax(room.scene.lower()), box->upper.cwiseMin(room.scene.upper())};
+    if (!given) return BoxRegion{room.scene.lower(), room.scene.upper()};
+    if (const auto* box = std::get_if<BoxRegion>(&*given)) {
+        if (const BoxRegion cut{box->lower.cwiseMax(room.scene.lower()), box->upper.cwiseMin(room.scene.upper())};
             (cut.lower.array() < cut.upper.array()).all())
             return cut;
-    } else if (const auto* cylinder = std::get_if<RegionCylinder>(&*given)) {
+    } else if (const auto* cylinder = std::get_if<CylinderRegion>(&*given)) {
         const bool upright = cylinder->from.head<2>() == cylinder->to.head<2>();
         if (!upright || cylinder->from.z() > cylinder->to.z()) {
             room.refuse(where, fmt::format("a cylinder from {} to {}", text_of(cylinder->from), text_of(cylinder->to)),

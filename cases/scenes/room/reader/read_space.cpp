@@ -76,7 +76,7 @@ void read_space(RoomReading& room) {
                         fmt::format("It must be below room.cell_m = {:g}", room.scene.cell), "Correct one of them");
         const std::optional<Region> region = room.read_region(refine, "room.refine", where);
         if (!region) continue;
-        if (!std::holds_alternative<RegionBox>(*region) && !std::holds_alternative<RegionCylinder>(*region))
+        if (!std::holds_alternative<BoxRegion>(*region) && !std::holds_alternative<CylinderRegion>(*region))
             room.refuse(where, "a refined part that is neither box nor cylinder", "The mesh is refined in boxes and cylinders",
                         "Use one of them");
         else

@@ -23,11 +23,11 @@ double number_or(const ParameterValues& table, const char* key, double otherwise
 }
 
 Region above(double z) {
-    return RegionHalfSpace{Vec3(0.0, 0.0, z), Vec3::UnitZ()};
+    return HalfSpaceRegion{Vec3(0.0, 0.0, z), Vec3::UnitZ()};
 }
 
 Region below(double z) {
-    return RegionHalfSpace{Vec3(0.0, 0.0, z), -Vec3::UnitZ()};
+    return HalfSpaceRegion{Vec3(0.0, 0.0, z), -Vec3::UnitZ()};
 }
 
 void RoomReading::refuse(const std::string& where, const std::string& what, const std::string& rule, const std::string& remedy) {
@@ -104,7 +104,7 @@ std::optional<Region> RoomReading::read_region(const ParameterValues& table, con
     if (given.front() == "below_m") return below(table.number(at));
     if (given.front() == "box") {
         if (!has_all(table, at, {"lower_m", "upper_m"}, where)) return std::nullopt;
-        const RegionBox box{vec3_of(table, at + ".lower_m"), vec3_of(table, at + ".upper_m")};
+        const BoxRegion box{vec3_of(table, at + ".lower_m"), vec3_of(table, at + ".upper_m")};
         if ((box.lower.array() < box.upper.array()).all()) return box;
         refuse(where, fmt::format("a box from {} to {}", text_of(box.lower), text_of(box.upper)),
                "Every coordinate of the lower corner is below that of the upper", "Correct them");
@@ -112,38 +112,38 @@ std::optional<Region> RoomReading::read_region(const ParameterValues& table, con
     }
     if (given.front() == "cylinder") {
         if (!has_all(table, at, {"from_m", "to_m", "radius_m"}, where)) return std::nullopt;
-        const RegionCylinder cylinder{vec3_of(table, at + ".from_m"), vec3_of(table, at + ".to_m"), table.number(at + ".radius_m")};
+        const CylinderRegion cylinder{vec3_of(table, at + ".from_m"), vec3_of(table, at + ".to_m"), table.number(at + ".radius_m")};
         if (cylinder.from != cylinder.to) return cylinder;
         refuse(where, fmt::format("a cylinder from {} to the same place", text_of(cylinder.from)), "Its axis has two ends", "Correct one");
         return std::nullopt;
     }
     if (given.front() == "sphere") {
         if (!has_all(table, at, {"centre_m", "radius_m"}, where)) return std::nullopt;
-        return RegionSphere{vec3_of(table, at + ".centre_m"), table.number(at + ".radius_m")};
+        return SphereRegion{vec3_of(table, at + ".centre_m"), table.number(at + ".radius_m")};
     }
     if (!has_all(table, at, {"point_m", "normal"}, where)) return std::nullopt;
-    const RegionHalfSpace half{vec3_of(table, at + ".point_m"), vec3_of(table, at + ".normal")};
-    if (half.normal.norm() > 0.0) return RegionHalfSpace{half.point, half.normal.normalized()};
+    const HalfSpaceRegion half{vec3_of(table, at + ".point_m"), vec3_of(table, at + ".normal")};
+    if (half.normal.norm() > 0.0) return HalfSpaceRegion{half.point, half.normal.normalized()};
     refuse(where, "a half space with normal (0, 0, 0)", "It has a direction", "Correct it");
     return std::nullopt;
 }
 
 bool RoomReading::meets_room(const Region& region) const {
     const Vec3 lower = scene.lower(), upper = scene.upper();
-    if (std::holds_alternative<RegionHalfSpace>(region)) {
+    if (std::holds_alternative<HalfSpaceRegion>(region)) {
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3 place(corner & 1 ? lower.x() : upper.x(), corner & 2 ? lower.y() : upper.y(), corner & 4 ? lower.z() : upper.z());
-            if (contains(region, place)) return true;
+            if (is_within(region, place)) return true;
         }
         return false;
     }
     const auto overlap = [&](const Vec3& from, const Vec3& to) {
         return (from.array() < upper.array()).all() && (to.array() > lower.array()).all();
     };
-    if (const auto* box = std::get_if<RegionBox>(&region)) return overlap(box->lower, box->upper);
-    if (const auto* sphere = std::get_if<RegionSphere>(&region))
+    if (const auto* box = std::get_if<BoxRegion>(&region)) return overlap(box->lower, box->upper);
+    if (const auto* sphere = std::get_if<SphereRegion>(&region))
         return overlap(sphere->centre - Vec3::Constant(sphere->radius), sphere->centre + Vec3::Constant(sphere->radius));
-    if (const auto* cylinder = std::get_if<RegionCylinder>(&region)) {
+    if (const auto* cylinder = std::get_if<CylinderRegion>(&region)) {
         const Vec3 margin = Vec3::Constant(cylinder->radius);
         return overlap(cylinder->from.cwiseMin(cylinder->to) - margin, cylinder->from.cwiseMax(cylinder->to) + margin);
     }
