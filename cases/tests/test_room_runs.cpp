@@ -311,6 +311,16 @@ TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
     EXPECT_NE(call({"run", "more.toml", "-o", "heap"}, 2).find("measure.door.gate.disc_m"), std::string::npos);
 }
 
+TEST_F(RoomRuns, a_bed_that_is_not_at_rest_or_lost_grains_is_refused) {
+    const std::string room = "name = \"a bed\"\n[scene]\nkind = \"room\"\n[room]\nsize_m = [0.06, 0.06, 0.08]\n";
+    const std::string pour = "[[prepare]]\ndo = \"pour\"\ngrains = \"grains\"\ncount = 60\n[[prepare]]\ndo = \"settle\"\n";
+    const std::string rest = std::string(k_materials) + "[run]\nend_s = 0.1\n";
+    write_file(folder_ / "hasty.toml", room + pour + "longest_s = 0.02\n" + rest);
+    EXPECT_NE(call({"run", "hasty.toml", "-o", "hasty"}, 4).find("are not at rest after 0.02 s"), std::string::npos);
+    write_file(folder_ / "open.toml", room + "[[boundary]]\non = \"sides\"\ngrains = \"open\"\n" + pour + rest);
+    EXPECT_NE(call({"run", "open.toml", "-o", "open"}, 4).find("left the room. A bed has all grains that are poured"), std::string::npos);
+}
+
 TEST_F(RoomRuns, a_study_that_nobody_foresaw_runs) {
     write_file(folder_ / "hourglass.toml", std::string(k_hourglass) + k_materials);
     call({"run", "hourglass.toml", "-o", "hourglass"});

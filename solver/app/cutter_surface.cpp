@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/processor_time.hpp"

@@ -273,6 +273,10 @@ void read_production(const fs::path& folder, ProductionWatch& production) {
 void prune_checkpoints(const fs::path& case_folder, int keep) {
     const std::vector<fs::path> found = checkpoint_folders(case_folder);
     for (int i = 0; i + keep < static_cast<int>(found.size()); ++i) fs::remove_all(found[static_cast<std::size_t>(i)]);
+    std::vector<fs::path> parts;
+    for (const auto& entry : fs::directory_iterator(case_folder / names::checkpoints))
+        if (entry.path().extension() == ".part") parts.push_back(entry.path());
+    for (const fs::path& part : parts) fs::remove_all(part);
 }
 
 }  // namespace cutterflow::coupling

@@ -31,8 +31,9 @@ struct RunState {
     StopState stops;
 };
 
-/// state.json of a checkpoint folder. \throws UserError when it cannot be read
+/// state.json of a checkpoint folder. \throws NotWritten
 void write_state(const std::filesystem::path& folder, const RunState& state);
+/// \throws UserError  when it cannot be read
 RunState read_state(const std::filesystem::path& folder);
 
 /// carry.<rank>: the momentum that this rank's cells have yet to receive, with their numbers in the whole mesh.
@@ -51,7 +52,7 @@ void write_production(const std::filesystem::path& folder, const ProductionWatch
 /// \throws UserError  when the file is missing or holds no series
 void read_production(const std::filesystem::path& folder, ProductionWatch& production);
 
-/// Removes all but the `keep` newest checkpoints and what an interrupted one left.
+/// Removes all but the `keep` newest checkpoints, and what interrupted ones left. \pre no checkpoint is being written
 void prune_checkpoints(const std::filesystem::path& case_folder, int keep);
 
 }  // namespace cutterflow::coupling

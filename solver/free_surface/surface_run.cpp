@@ -441,8 +441,8 @@ void SurfaceRun::move_bodies(double step) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         contact_force_[b] = moved.contact_impulse[b] / step;
         const double size = step * force[b].norm();
-        if (size > 0.0)
-            report_.body_impulse_error = std::max(report_.body_impulse_error, (moved.impulse[b] - step * force[b]).norm() / size);
+        const double error = size > 0.0 ? (moved.impulse[b] - step * force[b]).norm() / size : 0.0;
+        if (!(error <= report_.body_impulse_error)) report_.body_impulse_error = error;  // keeps what is no number
     }
     report_.contact_force = contact_force_;
     take_over_bodies();

@@ -65,7 +65,6 @@ public:
     const WaterFraction& water() const { return water_; }
     const CutCells& cells() const { return cells_; }
     const FaceField& velocity() const { return velocity_; }
-    const MappedWater& mapped() const { return mapped_; }
     const CellField& pressure() const { return pressure_; }  ///< [Pa], over that of the air
     const std::vector<Body>& bodies() const { return bodies_; }
     double initial_volume() const { return initial_volume_; }  ///< that the particles are: what the occupied volume is held against [m3]

@@ -700,8 +700,8 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                                                      {"torque_n_m", JsonKind::number, true},
                                                      {k_rolling_history, JsonKind::truth, false},
                                                      {k_contact_memory, JsonKind::whole, false},
-                                                     {"walls/*/name", JsonKind::text, true},
-                                                     {"walls/*/force_n/*", JsonKind::number, true},
+                                                     {"walls/*/name", JsonKind::text, false},
+                                                     {"walls/*/force_n/*", JsonKind::number, false},
                                                      {"walls/*/pressed_m/*", JsonKind::number, false},
                                                      {k_clumps, JsonKind::object, false},
                                                      {"clumps/shapes/*/name", JsonKind::text, false}},
@@ -717,6 +717,10 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
         throw UserError({{(folder / names::dem_state).string(), fmt::format("{} is {}", k_contact_memory, memory),
                           fmt::format("Contacts of this version remember other values, which is {}", k_this_contact_memory),
                           "Resume with the version that wrote the checkpoint, or start anew"}});
+    for (const nlohmann::json& body : state.value(k_walls, nlohmann::json::array()))
+        if (!body.contains("name") || !body.contains("force_n"))
+            throw UserError({{(folder / names::dem_state).string(), fmt::format("a wall is {}", body.dump()), "It has a name and a force_n",
+                              k_remedy}});
     if (!std::filesystem::is_regular_file(folder / k_restart_file))
         throw UserError(
             {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", k_remedy}});

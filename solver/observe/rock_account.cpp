@@ -43,11 +43,6 @@ void RockAccount::take_out(int id, Whereabouts to) {
     at->where = to;
 }
 
-bool RockAccount::knows(int id) const {
-    const auto at = std::lower_bound(entries_.begin(), entries_.end(), id, is_before);
-    return at != entries_.end() && at->id == id;
-}
-
 void RockAccount::require(const Rocks& present, double time) const {
     std::size_t p = 0;
     for (const AccountEntry& entry : entries_) {

@@ -37,7 +37,6 @@ public:
     /// placed or is gone, or whose mass is another than when it was placed
     void require(const Rocks& present, double time) const;
 
-    bool knows(int id) const;
     /// The number of rocks that came in before it. \pre it is known
     int order_of(int id) const;
     AccountTotals totals() const;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
 #include "solver/free_surface/scene_file/scene_file.hpp"
 #include "solver/liggghts/liggghts_engine.hpp"

@@ -45,8 +45,9 @@ public:
 
     std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const override;
 
-    /// Takes rock out of the run. The fluid takes its place without a source: the volume flow of fluid and rock together does not change.
     void adopt_present_rock() override;
+
+    /// Takes rock out of the run. The fluid takes its place without a source: the volume flow of fluid and rock together does not change.
     void remove(gsl::span<const int> ids) override;
 
     /// Samples the flow at every rock on the present mesh. What a flow that does not feel rock needs of it, the void fraction, is laid

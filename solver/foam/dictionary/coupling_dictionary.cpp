@@ -273,7 +273,7 @@ void read_stop(DictionarySection& section, coupling::CouplingSettings& settings)
         idle.read("gate", values.gate, k_required);
         idle.read("duration", values.duration, k_required);
     });
-    if ((settings.at_rest || settings.idle) && !section.has("undecided")) return;
+    if ((settings.at_rest || settings.idle) && !section.has("undecided") && !section.has("targetHalfWidth")) return;
     settings.stop.emplace();
     read_settings(section, *settings.stop);
 }

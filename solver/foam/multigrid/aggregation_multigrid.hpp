@@ -19,8 +19,6 @@ namespace cutterflow::foam {
 ///
 /// Clusters come from the mesh (area over distance of the faces) and are the same for a resumed run; their matrices are those of each
 /// solution (Galerkin). Source of the method: Braess1995.
-inline const std::string k_aggregation_multigrid = "aggregationMultigrid";
-
 /// A linear solver's section of fvSolution as cutterFoam takes it: with the value of cutterFoamPreconditioner, if there is one, in place of
 /// `preconditioner`, which is for programs that know OpenFOAM's alone.
 Foam::dictionary own_linear_solver(const Foam::dictionary& section);

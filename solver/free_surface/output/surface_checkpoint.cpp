@@ -6,12 +6,12 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/run_files.hpp"
 
 namespace cutterflow::free_surface {
 
 namespace {
 
-constexpr const char* k_folder = "checkpoints";
 constexpr const char* k_state = "water.bin";
 constexpr std::uint64_t k_mark = 0x6375747465723031;  // format 1
 
@@ -47,7 +47,7 @@ void get(std::istream& stream, T& value) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& folder, const SurfaceState& state, coupling::DemEngine* bodies) {
-    const std::filesystem::path target = folder / k_folder / fmt::format("{:.9f}", state.time), part = target.string() + ".part";
+    const std::filesystem::path target = folder / names::checkpoints / fmt::format("{:.9f}", state.time), part = target.string() + ".part";
     std::filesystem::remove_all(part);
     std::filesystem::create_directories(part);
     std::ofstream stream(part / k_state, std::ios::binary);
@@ -62,20 +62,6 @@ void write_checkpoint(const std::filesystem::path& folder, const SurfaceState& s
     if (bodies) bodies->write_checkpoint(part);
     std::filesystem::remove_all(target);
     std::filesystem::rename(part, target);
-}
-
-std::filesystem::path newest_checkpoint(const std::filesystem::path& folder) {
-    std::filesystem::path newest;
-    double latest = -1.0;
-    if (!std::filesystem::is_directory(folder / k_folder)) return newest;
-    for (const auto& entry : std::filesystem::directory_iterator(folder / k_folder)) {
-        if (entry.path().extension() == ".part") continue;
-        const double time = std::strtod(entry.path().filename().c_str(), nullptr);
-        if (time <= latest) continue;
-        latest = time;
-        newest = entry.path();
-    }
-    return newest;
 }
 
 SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const StaggeredGrid& grid, coupling::DemEngine* bodies) {

@@ -9,9 +9,6 @@ namespace cutterflow::free_surface {
 /// Writes checkpoints/<time> of a run folder, the DEM's part (may be null) among it.
 void write_checkpoint(const std::filesystem::path& folder, const SurfaceState& state, coupling::DemEngine* bodies);
 
-/// The newest checkpoint of a run folder; empty when there is none.
-std::filesystem::path newest_checkpoint(const std::filesystem::path& folder);
-
 /// \throws UserError  when the file is not whole or of another scene (number of cells)
 SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const StaggeredGrid& grid, coupling::DemEngine* bodies);
 

@@ -152,7 +152,8 @@ TEST(Checkpoint, a_damaged_one_is_refused_as_the_users_input) {
     const auto folder = scratch_folder();
     LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
     engine.write_checkpoint(folder);
-    for (const char* text : {"", "{\"time_s\": 0.1", "{\"time_s\": 0.1}", "{\"time_s\": \"now\", \"torque_n_m\": 0}", "[]"}) {
+    for (const char* text : {"", "{\"time_s\": 0.1", "{\"time_s\": 0.1}", "{\"time_s\": \"now\", \"torque_n_m\": 0}", "[]",
+                             R"({"time_s": 0.1, "torque_n_m": 0.0, "contact_memory": 3, "walls": [{"name": "steel"}]})"}) {
         MPI_Barrier(MPI_COMM_WORLD);
         std::ofstream(folder / "dem.json") << text;
         MPI_Barrier(MPI_COMM_WORLD);

@@ -147,8 +147,9 @@ void judge(Verification& verification, const Setting& dry, const Setting& wet) {
     const Sample angle = change_of_angle(dry, wet);
     const std::string pours = fmt::format("{} pours, each dry and under water", slower.count);
     verification.report("rate of flow, dry", "kg/s", mean_rate(dry), {}, {k_source, pours, {}});
-    verification.absolute("reduction of the rate under water", "-", slower.mean, 0.345, 0.025,
-                          {k_source, "0.32 to 0.37 measured; " + pours, {}});
+    verification.absolute(
+        "reduction of the rate under water", "-", slower.mean, 0.345, 0.045,
+        {k_source, "0.32 to 0.37 measured, here within the 2 points that the standard error may have: 0.30 to 0.39; " + pours, {}});
     verification.at_most("its standard error", "-", standard_error(slower), 0.02, {"exact", pours, {}});
     verification.report("reduction over the middle half of the mass", "-", of_middle.mean, 0.345,
                         {k_source, fmt::format("standard error {:.2g}", standard_error(of_middle)), {}});
@@ -161,10 +162,10 @@ void judge(Verification& verification, const Setting& dry, const Setting& wet) {
 void check_control(Verification& verification, const Setting& dry, const Setting& control, double expected) {
     const Sample slower = reduction(dry, control, &Flow::rate);
     verification.absolute(
-        "reduction with drag off, " + control.name, "-", slower.mean, expected, 0.02,
+        "reduction with drag off, " + control.name, "-", slower.mean, expected, 0.04,
         {"exact",
-         fmt::format("flow by the submerged weight over the inertia; standard error {:.2g}: with one of 0.03 the row sees a "
-                     "buoyancy or an added mass that is missing, not a buoyancy a tenth or an added mass a third too small",
+         fmt::format("flow by the submerged weight over the inertia; standard error {:.2g}: with one of 0.03 the row sees a buoyancy or an "
+                     "added mass that is missing, not one that is a third too small",
                      standard_error(slower)),
          {}});
 }

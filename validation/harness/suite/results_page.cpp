@@ -14,7 +14,10 @@ namespace {
 
 constexpr const char* k_intro =
     "Made by `cutterflow verify` from the results of its cases; nothing here is typed. Reference, value and error stand in the "
-    "quantity's unit, relative errors in %; a case that could not be run is skipped, never passed; what is only reported has no tolerance.";
+    "quantity's unit, relative errors in %; a case that could not be run is skipped, never passed; what is only reported has no tolerance. "
+    "A tolerance is the "
+    "project's own requirement; an aim is stricter, and missing it has no consequence. The class says how much of a case was run: fast, "
+    "standard or long. A row is of the program of its date; it is not repeated for every later change.";
 
 std::string number(const std::optional<double>& value) {
     return value ? fmt::format("{:.6g}", *value) : std::string("–");
