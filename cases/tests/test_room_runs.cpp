@@ -315,6 +315,9 @@ TEST_F(RoomRuns, a_bed_that_is_not_at_rest_or_lost_grains_is_refused) {
     const std::string room = "name = \"a bed\"\n[scene]\nkind = \"room\"\n[room]\nsize_m = [0.06, 0.06, 0.08]\n";
     const std::string pour = "[[prepare]]\ndo = \"pour\"\ngrains = \"grains\"\ncount = 60\n[[prepare]]\ndo = \"settle\"\n";
     const std::string rest = std::string(k_materials) + "[run]\nend_s = 0.1\n";
+    write_file(folder_ / "bed.toml", room + pour + rest);
+    call({"run", "bed.toml", "-o", "bed"});  // of which nothing is measured
+    EXPECT_NE(read_file(folder_ / "bed/report/index.html").find("What became of the grains"), std::string::npos);
     write_file(folder_ / "hasty.toml", room + pour + "longest_s = 0.02\n" + rest);
     EXPECT_NE(call({"run", "hasty.toml", "-o", "hasty"}, 4).find("are not at rest after 0.02 s"), std::string::npos);
     write_file(folder_ / "open.toml", room + "[[boundary]]\non = \"sides\"\ngrains = \"open\"\n" + pour + rest);

@@ -95,7 +95,7 @@ void write_results(const fs::path& run_directory, const json& results) {
 }  // namespace
 
 bool has_measures(const fs::path& run_directory) {
-    return fs::is_regular_file(run_directory / k_measures);
+    return fs::is_regular_file(run_directory / k_measures) && read_list(run_directory / k_measures) != json::array();
 }
 
 json measure_run(const fs::path& run_directory, const std::optional<std::string>& name) {
