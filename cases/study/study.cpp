@@ -13,6 +13,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/sphere.hpp"
+#include "geometry/head/axial_bins.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 
@@ -26,7 +27,7 @@ constexpr double k_most_rocks = 1e6;            // of a study; each is followed 
 // Farther walls change nothing: at 50 ring radii a source's flow has fallen to 1/2500.
 constexpr double k_largest_tank_in_rings = 50.0;
 constexpr double k_thinnest_steel_in_rings = 1e-3;  // far below what any mesh resolves; thinner solids are lost to rounding
-constexpr double k_most_bins = 1e4, k_most_writes = 1e4;
+constexpr double k_most_writes = 1e4;
 
 double period_of(const ParameterValues& values) {
     return 60.0 / values.number("rotor.speed_rpm");
@@ -418,10 +419,10 @@ void check_feed_region(const ParameterValues& study, const HeadSize& head, Rules
 
 void check_report(const ParameterValues& study, const HeadSize& head, Rules& rules) {
     const double bins = head.depth / study.number("report.bin_width_m");
-    rules.require(
-        bins <= k_most_bins, "report.bin_width_m",
-        fmt::format("It divides the head, {:.4g} m deep, into {:.3g} bins; at most {:g} are counted", head.depth, bins, k_most_bins),
-        "Widen the bins");
+    rules.require(bins <= geometry::k_most_axial_bins, "report.bin_width_m",
+                  fmt::format("It divides the head, {:.4g} m deep, into {:.3g} bins; at most {:g} are counted", head.depth, bins,
+                              geometry::k_most_axial_bins),
+                  "Widen the bins");
     const double outflow = head.tip_radius + study.number("report.outflow_offset_m");
     rules.require(outflow < study.number("tank.radius_m"), "report.outflow_offset_m",
                   fmt::format("Outflow is sampled up to {:.4g} m from the axis; the water ends at tank.radius_m = {:.4g} m", outflow,

@@ -261,7 +261,7 @@ ParameterTable run_rows() {
             .above(0.0)
             .derived("a quarter of a revolution"),
         length(k_case_stage, "report.bin_width_m", k_largest_length,
-               "Width of the axial bins of spillage and outflow; the head has at most 10,000.")
+               "Width of the axial bins of spillage and outflow; the head has at most 1,000.")
             .derived("0.075 ring radius"),
         setting<coupling::OutflowSettings>("report.outflow_offset_m", "offset").derived("0.0375 ring radius"),
         setting<coupling::OutflowSettings>("report.outflow_start_s", "startTime")

@@ -337,8 +337,8 @@ TEST(Study, refuses_sizes_out_of_proportion_to_the_head) {
     only("backplate_thickness_m = 3.9e-4\n", "0.0004 m, thick");
     only("pipe_wall_m = 1e-300\n", "0.0004 m, thick");
     none("backplate_thickness_m = 4.1e-4\npipe_wall_m = 4.1e-4\n");
-    only("[report]\nbin_width_m = 4.8e-5\n", "at most 10000");
-    none("[report]\nbin_width_m = 4.9e-5\n");
+    only("[report]\nbin_width_m = 4.8e-4\n", "at most 1000 are counted");
+    none("[report]\nbin_width_m = 4.9e-4\n");
     only("[report]\noutflow_offset_m = 2.2\n", "the water ends at tank.radius_m = 2.5");  // 0.40 + 2.2 > 2.5
     only("[run]\nwrite_interval_s = 3.9e-4\n", "at most 10000");                          // of 4 s
     only("[run]\ncheckpoint_interval_s = 1e-300\n", "at most 10000");

@@ -10,19 +10,14 @@
 #include "geometry/base/error.hpp"
 
 namespace cutterflow::geometry {
-namespace {
-
-constexpr double k_most_bins = 1000.0;
-
-}  // namespace
 
 std::vector<AxialBin> axial_bins(const Contour& contour, double width) {
     if (!(width > 0.0)) throw std::invalid_argument("the width of axial bins must be positive");
     std::vector<AxialBin> bins{{"gap", contour.z_ring(), contour.z_backplate()}};
     const double depth = contour.z_ring() - contour.z_hub();
-    if (!(depth / width <= k_most_bins))
+    if (!(depth / width <= k_most_axial_bins))
         throw UserError(fmt::format("axial bins {:g} m wide cut a head of {:g} m into {:.3g}", width, depth, std::ceil(depth / width)),
-                        fmt::format("There are at most {:.0f}", k_most_bins), "Choose a larger report.bin_width_m");
+                        fmt::format("There are at most {:.0f}", k_most_axial_bins), "Choose a larger report.bin_width_m");
     // Two digits of the width, so that the bins of a small head have distinct names.
     const int decimals = std::max(0, static_cast<int>(std::ceil(1.0 - std::log10(1e3 * width))));
     // A remainder of less than a thousandth of a bin is rounding, not a bin.

@@ -14,6 +14,9 @@ struct AxialBin {
     double z_max = 0.0;  ///< [m]; z_backplate for gap
 };
 
+/// Bands that a head is divided into at most.
+inline constexpr double k_most_axial_bins = 1000.0;
+
 /// Bins from the backplate down: gap, then bands of `width` [m] > 0 from the ring plane to the contour's lower end (the last one may be
 /// narrower), then below_hub.
 std::vector<AxialBin> axial_bins(const Contour& contour, double width);
