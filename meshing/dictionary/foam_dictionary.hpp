@@ -105,7 +105,7 @@ struct FoamEntry {
 std::string foam_file_text(const std::string& foam_class, const std::string& object, const FoamDictionary& contents);
 
 /// Writes `contents` as the OpenFOAM file `path` (object = its name) and makes its folder.
-/// \throws std::runtime_error  when it cannot be written
+/// \throws NotWritten
 void write_foam_file(const std::filesystem::path& path, const std::string& foam_class, const FoamDictionary& contents);
 
 }  // namespace cutterflow::meshing

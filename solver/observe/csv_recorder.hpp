@@ -20,7 +20,7 @@ public:
     /// Further content of cost.json: the active sub-models, and versions by program.
     void describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions);
 
-    /// Files of an earlier start at the same time are replaced. \throws std::runtime_error  when a file cannot be written
+    /// Files of an earlier start at the same time are replaced. \throws NotWritten
     void begin() override;
     void event(const RockEvent& event) override;
     void rejected(const RejectedRock& rock) override;

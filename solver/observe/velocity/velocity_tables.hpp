@@ -9,7 +9,7 @@ namespace cutterflow::coupling {
 /// Writes `<set>.csv` of every set into a folder that exists, and `<set>_revolutions.csv` and `<set>_phases.csv` of the sets with phases.
 /// Each file is replaced atomically.
 /// \param time  up to which the averages go [s]
-/// \throws std::runtime_error  when a file cannot be written
+/// \throws NotWritten
 void write_velocity_tables(const std::filesystem::path& folder, const VelocitySets& sets, double time);
 
 }  // namespace cutterflow::coupling

@@ -8,6 +8,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/sphere.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/verification.hpp"
 
@@ -83,12 +84,12 @@ Fall read_fall(const std::filesystem::path& folder) {
         const double weight = 0.5 * (after - before), speed = rows[k].second;
         time += weight, first += weight * speed, second += weight * speed * speed;
         fall.least = std::min(fall.least, speed);
-        fall.largest = std::max(fall.largest, speed);
+        fall.largest = larger(fall.largest, speed);
     }
     fall.mean = first / time;
     fall.rms = std::sqrt(std::max(0.0, second / time - fall.mean * fall.mean));
     const auto balance = read_columns(folder / "postProcessing/balance/0/balance.csv");
-    for (const double error : balance.at("solid_volume_error")) fall.volume_error = std::max(fall.volume_error, error);
+    fall.volume_error = largest(balance.at("solid_volume_error"));
     return fall;
 }
 
@@ -150,7 +151,7 @@ void run(Verification& verification) {
                 {k_paper, fmt::format("a cluster gains {:.3f} m/s while it is passed", gained_speed(water, trial.spread)), {}});
             verification.report(mean, "m/s", trial.fall.mean, terminal, {k_paper, "against the terminal speed of the drag law", {}});
         }
-        volume_error = std::max(volume_error, trial.fall.volume_error);
+        volume_error = larger(volume_error, trial.fall.volume_error);
     }
     const auto ratio = [&](std::size_t longer, std::size_t shorter) { return trials[longer].fall.rms / trials[shorter].fall.rms; };
     verification.at_most("rms of the speed at clusters of 120 mm over that at 60 mm", "-", ratio(2, 0), 0.5,

@@ -10,6 +10,7 @@
 #include "solver/physics/drag.hpp"
 #include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/verification.hpp"
 
 namespace {
@@ -101,8 +102,8 @@ void volumes_and_centroids(Verification& verification) {
         Placed rock(cube(std::ceil(reach / dx + 1.0) * dx, dx));
         for (const Vec3& shift : {Vec3(0.0, 0.0, 0.0), Vec3(0.3, 0.1, -0.2), Vec3(0.5, 0.5, 0.5), Vec3(-0.37, 0.5, 0.11)}) {
             rock.put(shift * dx, d);
-            volume = std::max(volume, rock.volume_error());
-            centroid = std::max(centroid, rock.centroid_error());
+            volume = larger(volume, rock.volume_error());
+            centroid = larger(centroid, rock.centroid_error());
         }
     }
     const char* const interior = "d/dx from 0.2 to 8, four places within a cell";
@@ -124,8 +125,8 @@ void volumes_and_centroids(Verification& verification) {
     for (const double radius : {0.185, 0.195, 0.2, 0.2001, 0.21, 0.225})
         for (int i = 0; i < 24; ++i) {
             rotor.put(Vec3(radius * std::cos(0.1), radius * std::sin(0.1), 0.003), k_diameter, 0.37 * i);
-            volume = std::max(volume, rotor.volume_error());
-            centroid = std::max(centroid, rotor.centroid_error());
+            volume = larger(volume, rotor.volume_error());
+            centroid = larger(centroid, rotor.centroid_error());
         }
     verification.at_most("volume, rotor interface", "-", volume, 1e-12, {"exact", "six radii, 24 angles, cells of other size beyond"});
     verification.at_most("centroid, rotor interface", "d", centroid, 0.05, {"exact", "six radii, 24 angles, cells of other size beyond"});
@@ -167,9 +168,9 @@ StepChange change_along(Placed& rock, const Vec3& from, const Vec3& to, double s
         double moved = 0.0;
         for (std::size_t c = 0; c < before.size(); ++c) {
             moved += 0.5 * std::abs(now[c] - before[c]) * rock.mesh().volumes[c] / sphere_volume(k_diameter);
-            change.largest = std::max(change.largest, std::abs(now[c] - before[c]));
+            change.largest = larger(change.largest, std::abs(now[c] - before[c]));
         }
-        change.moved = std::max(change.moved, moved);
+        change.moved = larger(change.moved, moved);
         before = std::move(now);
     }
     return change;
@@ -181,8 +182,8 @@ void thin_blade(Verification& verification) {
     for (const Vec3& x :
          {Vec3(-0.51 * k_diameter, 0.0, -0.15), Vec3(-0.6 * k_diameter, 0.033, -0.1501), Vec3(-1.3 * k_diameter, 0.01, -0.14)}) {
         beside.put(x);
-        behind = std::max(behind, beside.share([](const Vec3& c) { return c.x() > 0.0; }));
-        volume = std::max(volume, beside.volume_error());
+        behind = larger(behind, beside.share([](const Vec3& c) { return c.x() > 0.0; }));
+        volume = larger(volume, beside.volume_error());
     }
     verification.at_most("volume, beside a thin blade", "-", volume, 1e-12, {"exact", "0.51 to 1.3 d from it"});
     verification.at_most("share of the rock behind a thin blade", "-", behind, 0.0, {"exact", "0.51 to 1.3 d from it"});
@@ -197,8 +198,8 @@ void thin_blade(Verification& verification) {
         for (const auto& path : paths) {
             const StepChange at_edge = change_along(past, path[0], path[1], 0.25 * dx);
             const StepChange in_open = change_along(open, path[0], path[1], 0.25 * dx);
-            moved = std::max(moved, at_edge.moved / in_open.moved);
-            largest = std::max(largest, at_edge.largest / in_open.largest);
+            moved = larger(moved, at_edge.moved / in_open.moved);
+            largest = larger(largest, at_edge.largest / in_open.largest);
         }
         const std::string where = fmt::format("past a blade's edge over open water, d/dx = {:g}", ratio);
         verification.at_most("volume moved in a step " + where, "-", moved, 2.0, {"exact", "over the edge and along the blade"});

@@ -8,6 +8,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/cgal/solid_search.hpp"
 #include "geometry/soil/bank.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/contact_bench.hpp"
 #include "validation/harness/verification.hpp"
@@ -218,12 +219,6 @@ fs::path run_step(Verification& verification, bool with_wall) {
     write_stl(folder / "constant/bank.stl", step());
     run_cutter_foam(folder);
     return folder;
-}
-
-double largest(const std::vector<double>& values) {
-    double most = 0.0;
-    for (const double value : values) most = std::isnan(value) ? value : std::max(most, value);
-    return most;
 }
 
 double largest_error(const fs::path& folder, const char* column) {
