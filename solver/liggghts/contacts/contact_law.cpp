@@ -14,6 +14,8 @@ namespace {
 
 constexpr double k_rolling_damping = 0.3;  // zeta, share of critical
 
+constexpr double k_hertz_onset = 0.8;  // integral of t^(1/4) from 0 to 1: Hertz' damping goes with the fourth root of the overlap
+
 /// A vector of the tangent plane after a turn about the normal by `angle` [rad], its length unchanged.
 Vec3 turned(const Vec3& vector, const Vec3& normal, double angle) {
     const double half = 0.5 * angle, share = 1.0 / (1.0 + half * half);
@@ -36,6 +38,24 @@ Vec3 turned(const Vec3& vector, const Vec3& normal, double angle) {
     return squared > limit_squared ? Vec3(force * (limit / std::sqrt(squared))) : force;
 }
 
+/// Part of a step [0, 1] in which the bodies come to overlap, or cease to, as they do; 1 where they do not within a step.
+double part_of_step(const Contact& contact, double time_step) {
+    return std::min(1.0, contact.overlap / (std::abs(contact.normal_speed) * time_step));
+}
+
+/// What damping counts in the step of the first touch. \param onset  integral of damping over the part of the step after the touch, over
+/// that part and the damping at its end
+double share_after_touch(const Contact& contact, double time_step, double onset) {
+    const bool began = contact.begins && time_step > 0.0 && contact.normal_speed < 0.0;
+    return began ? 0.5 + onset * part_of_step(contact, time_step) : 1.0;
+}
+
+/// What damping that may pull counts in the last step of a touch.
+double share_before_end(const Contact& contact, double time_step) {
+    const bool ends = time_step > 0.0 && contact.normal_speed * time_step > contact.overlap;
+    return ends ? 0.5 + part_of_step(contact, time_step) : 1.0;
+}
+
 }  // namespace
 
 ElasticPair elastic_pair(double youngs_modulus, double poisson_a, double poisson_b) {
@@ -51,7 +71,8 @@ double impact_radius(const ElasticPair& elastic, double radius, double mass, dou
 Vec3 contact_force(const Contact& contact, double time_step, SlipMemory& memory) {
     const double contact_radius = std::sqrt(contact.radius * contact.overlap);
     const double normal_stiffness = 4.0 / 3.0 * contact.elastic.youngs * contact_radius;
-    const double damping = contact.damping_factor * std::sqrt(contact.mass * normal_stiffness);
+    const double damping =
+        share_after_touch(contact, time_step, k_hertz_onset) * contact.damping_factor * std::sqrt(contact.mass * normal_stiffness);
     const double normal_force = std::max(0.0, normal_stiffness * contact.overlap - damping * contact.normal_speed);
 
     if (contact_radius <= 0.0) {
@@ -92,7 +113,9 @@ Vec3 rolling_couple(RollingLaw law, const Contact& contact, const Rolling& rolli
 }
 
 Vec3 linear_contact_force(const LinearLaw& law, const Contact& contact, double time_step, SlipMemory& memory) {
-    const double stiffness = law.stiffness * contact.mass, damping = 2.0 * law.damping * contact.mass * std::sqrt(law.stiffness);
+    const double stiffness = law.stiffness * contact.mass;
+    const double share = share_after_touch(contact, time_step, 1.0) * (law.may_pull ? share_before_end(contact, time_step) : 1.0);
+    const double damping = share * 2.0 * law.damping * contact.mass * std::sqrt(law.stiffness);
     const double pull = stiffness * contact.overlap - damping * contact.normal_speed;
     const double normal_force = law.may_pull ? pull : std::max(0.0, pull);
     const Vec3 before = law.accumulated_shear ? memory.stretch_of(0) : Vec3(Vec3::Zero());

@@ -28,6 +28,7 @@ struct Contact {
     double radius = 0.0;                ///< R* [m], 1/R* = sum 1/R
     double mass = 0.0;                  ///< m* [kg], 1/m* = sum 1/m, masses with added mass
     ElasticPair elastic;
+    bool begins = false;            ///< the bodies first touched within this time step
     double damping_factor = 0.0;    ///< alpha [-], from the restitution (physics::hertz_damping_factor)
     double friction = 0.0;          ///< mu [-]
     double rolling_friction = 0.0;  ///< mu_r [-]
@@ -60,7 +61,9 @@ struct SlipMemory {
 ///   F_n = max(0, k_n delta - eta u_n) n,  k_n = 4/3 E* a,  eta = alpha sqrt(m* k_n)
 ///   F_t = sum over springs of -k_i s_i - eta_i u_t, each at most mu |F_n| p_i,  k_i = 8 G* l_i,  eta_i = min(eta, eta_m) l_i / a
 ///
-/// eta_m is most_slip_damping.
+/// eta_m is most_slip_damping. In the step of the first touch eta counts 1/2 + 4/5 tau, tau = delta/(|u_n| dt) the part of the step after
+/// the touch: damping sets in with delta^(1/4) and acts from the touch to the middle of the next step. Counted as 1, the restitution of an
+/// impact would depend on where in a step it begins, by up to 2.7 % at e = 0.5 and steps of a tenth of the Rayleigh time.
 /// Spring i covers the part l_i of (0, a) from i to i + 1 quarters of the radius that the impact reaches, the last one all beyond, and
 /// bears the share p_i of Hertz' pressure; so slip begins at the edge and works inwards (Cattaneo and Mindlin), and the sums are Mindlin's
 /// stiffness 8 G* a and Coulomb's limit. This is the method of dimensionality reduction, exact as the springs become many while slip keeps
@@ -119,7 +122,9 @@ struct LinearLaw {
 ///
 ///   F_n = k_n delta - c_n u_n,   F_t = -(k_t s + c_t u_t), |F_t| <= mu |F_n|,   c_n = 2 a sqrt(m k_n),   c_t = c_n/sqrt(2 (1 + psi))
 ///
-/// F_n is at least 0 unless it may pull. Of memory the first spring is used, s. What slips carries the limit in the spring. [Chen2019]
+/// F_n is at least 0 unless it may pull. Of memory the first spring is used, s. What slips carries the limit in the spring. In the step of
+/// the first touch c counts 1/2 + tau, tau = delta/(|u_n| dt) the part of the step after the touch, and where a force that may pull ends
+/// within the next step, 1/2 + the part of that step before the end. [Chen2019]
 /// \param time_step  [s]; 0 evaluates the force and leaves the memory
 Vec3 linear_contact_force(const LinearLaw& law, const Contact& contact, double time_step, SlipMemory& memory);
 

@@ -97,6 +97,7 @@ void WallContacts::apply_merged() {
     auto* rolling_row = rolling_ ? reinterpret_cast<RollMemory*>(rolling_->array_atom[rock]) : nullptr;
     const auto roll_of = [&](const WallContactRecord* record) { return rolling_row ? rolling_row + (record - row) : nullptr; };
     Records records{}, taken{};
+    std::array<bool, max_contacts> begins{};
     for (int k = 0; k < max_contacts; ++k) records[k] = row + k;
 
     for (std::size_t k = 0; k < merged_.size(); ++k) taken[k] = continued(records, taken, *merged_[k].touch, step);
@@ -106,9 +107,10 @@ void WallContacts::apply_merged() {
         const WallContactRecord begun = begin(touch, known(records, touch.body, step));
         taken[k] = unused(records, taken, step);
         *taken[k] = begun;
+        begins[k] = true;
         if (rolling_row) *roll_of(taken[k]) = {};
     }
-    for (std::size_t k = 0; k < merged_.size(); ++k) apply(merged_[k], *taken[k], roll_of(taken[k]));
+    for (std::size_t k = 0; k < merged_.size(); ++k) apply(merged_[k], begins[k], *taken[k], roll_of(taken[k]));
 }
 
 /// \param known  an existing contact between the touched body and the rock, whose impact counts; null without one
@@ -136,8 +138,8 @@ Rolling WallContacts::rolling_of(const WallTouch& touch) const {
     return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall), inertia, resolved_roll_damping(inertia, lammps_->update->dt)};
 }
 
-/// \param roll  null when nothing resists rolling
-void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, RollMemory* roll) {
+/// \param begins  whether rock and body first touch here \param roll  null when nothing resists rolling
+void WallContacts::apply(const Weighted& weighted, bool begins, WallContactRecord& record, RollMemory* roll) {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
     const WallTouch& touch = *weighted.touch;
     const int rock = touch.rock;
@@ -157,6 +159,7 @@ void WallContacts::apply(const Weighted& weighted, WallContactRecord& record, Ro
     contact.radius = radius;
     contact.mass = context_.mass_with_added_mass(atom.rmass[rock], radius, atom.density[rock]);
     contact.elastic = law.elastic;
+    contact.begins = begins;
     contact.damping_factor = record.damping_factor;
     contact.friction = law.settings.friction;
     contact.rolling_friction = law.settings.rolling_friction;

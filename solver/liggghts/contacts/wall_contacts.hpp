@@ -63,7 +63,7 @@ private:
 
     void merge(const Touches& touches);
     void apply_merged();
-    void apply(const Weighted& contact, WallContactRecord& record, RollMemory* roll);
+    void apply(const Weighted& contact, bool begins, WallContactRecord& record, RollMemory* roll);
     WallContactRecord begin(const WallTouch& touch, const WallContactRecord* known) const;
     Rolling rolling_of(const WallTouch& touch) const;
 

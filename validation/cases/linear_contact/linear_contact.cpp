@@ -71,8 +71,7 @@ void check_restitution(Verification& verification, const Trial& trial) {
                     trial.pair ? "pair" : "at a wall", trial.may_pull ? "that may pull" : "without pull", trial.speed, trial.steps),
         "-", restitution_of(trial), expected, 0.003,
         {"SchwagerPoeschel2007",
-         "through the engine, one DEM step a sample. A contact begins within a step, and the dashpot acts up to half a "
-         "step too early or too late",
+         "through the engine, one DEM step a sample. A contact begins within a step; the dashpot counts the time for which it acts",
          {}});
 }
 

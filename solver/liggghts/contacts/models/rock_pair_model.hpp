@@ -73,7 +73,7 @@ public:
         contact.radius = pair.radi * pair.radj / (pair.radi + pair.radj);
         contact.mass = context_.pair_mass(mass_i, mass_j);
         contact.elastic = context_.rock_rock.elastic;
-        update_record(record, pair, contact, keep);
+        contact.begins = update_record(record, pair, contact, keep);
         contact.impact_radius = record.impact_radius;
         contact.damping_factor = record.damping_factor;
         contact.friction = context_.rock_rock.settings.friction;
@@ -106,8 +106,8 @@ private:
     bool is_frozen(int rock) const { return atom->type[rock] == cutterflow::liggghts::k_frozen; }
 
     /// A first touch stores what follows from the approach speed and clears all slip. LIGGGHTS clears the history of a separated pair only
-    /// while the pair is in its neighbour list, therefore the step of the last touch decides.
-    void update_record(RockPairRecord& record, const SurfacesIntersectData& pair, const cutterflow::liggghts::Contact& contact,
+    /// while the pair is in its neighbour list, therefore the step of the last touch decides. \return whether the rocks first touch
+    bool update_record(RockPairRecord& record, const SurfacesIntersectData& pair, const cutterflow::liggghts::Contact& contact,
                        bool keep) const {
         const double step = static_cast<double>(update->ntimestep);
         const bool first_touch = record.impact_radius == 0.0 || record.last_touch < step - 1.0;
@@ -119,6 +119,7 @@ private:
             if (context_.rock_rock.resists_rolling()) record.roll = {};
         }
         if (keep) record.last_touch = step;
+        return first_touch;
     }
 
     cutterflow::liggghts::Rolling rolling_of(const SurfacesIntersectData& pair, const cutterflow::Vec3& normal) const {
