@@ -1,5 +1,4 @@
 /// \file replay: many placements of rock in a recorded flow.
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 #include "cases/cli/replay_lines.hpp"
 #include "cases/replay/replay.hpp"
 #include "cases/runner/machine.hpp"
+#include "geometry/base/error.hpp"
 #include "geometry/base/installation.hpp"
 #include "geometry/base/process/child_process.hpp"
 
@@ -27,18 +27,6 @@ struct ReplayOptions {
     bool resume = false;
 };
 
-/// \param text  the answer, which is shown all the same
-/// \throws CheckFailure  when rock changes the flow more than replays may leave out
-void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::string& text, const fs::path& folder) {
-    if (std::abs(estimate.corrections.mean) <= postproc::k_largest_correction) return;
-    std::cout << text;
-    throw CheckFailure({folder.string(),
-                        fmt::format("coupled runs spill {:+.1f} points against replays", 100.0 * estimate.corrections.mean),
-                        fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.0f} points",
-                                    100.0 * postproc::k_largest_correction),
-                        "Use coupled runs (cutterflow sweep --repeats), or put in less rock"});
-}
-
 }  // namespace
 
 ReplayAnswer replay_answer(const std::vector<fs::path>& runs, const fs::path& study, int count, const fs::path& folder, bool resume) {
@@ -48,7 +36,12 @@ ReplayAnswer replay_answer(const std::vector<fs::path>& runs, const fs::path& st
         cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
         std::string text = postproc::replay_text(results.estimate, results.fed);
-        require_weak_coupling(results.estimate, text, settings.folder);
+        try {
+            cases::require_weak_coupling(results.estimate, settings.folder);
+        } catch (const CheckFailure&) {
+            std::cout << text;  // the answer is shown all the same
+            throw;
+        }
         return {std::move(results), std::move(text)};
     } catch (const Interrupted& interrupted) {
         throw Interrupted(fmt::format("{}. Finished replays are kept in {}; repeat the command with --resume", interrupted.what(),

@@ -360,6 +360,15 @@ std::vector<Mistake> check_rock_study(const ParameterValues& planned, const fs::
     return read_rock_study(planned, study, false).mistakes;
 }
 
+void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::path& folder) {
+    if (std::abs(estimate.corrections.mean) <= postproc::k_largest_correction) return;
+    throw CheckFailure({folder.string(),
+                        fmt::format("coupled runs spill {:+.1f} points against replays", 100.0 * estimate.corrections.mean),
+                        fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.0f} points",
+                                    100.0 * postproc::k_largest_correction),
+                        "Use coupled runs (cutterflow sweep --repeats), or put in less rock"});
+}
+
 std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
     std::string csv =
         "setting,placements,spillage,half_interval_95,own_half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,spilled_"

@@ -56,6 +56,9 @@ std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std:
 /// \throws Interrupted  when the user stops it; finished replays are kept
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);
 
+/// \throws CheckFailure  when rock changes the flow more than replays may leave out, by the coupled runs among them
+void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::filesystem::path& folder);
+
 /// One setting of a sweep and its replays.
 struct ReplayedSetting {
     std::string name;

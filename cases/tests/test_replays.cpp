@@ -5,9 +5,13 @@
 
 #include "cases/replay/replay.hpp"
 #include "cases/study/study.hpp"
+#include "geometry/base/error.hpp"
 
 namespace cutterflow::cases {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 ParameterValues study(const std::string& more) {
     return parse_parameters(study_table(),
@@ -76,6 +80,24 @@ TEST(Replays, of_a_sweep_are_a_table_of_its_settings) {
                   half +
                   ",0.012,0.85,11.5,11.25,1,2,0.3,0.2,0.42,600\n"
                   "60rpm,1,0.96,,,,,,,,,,,0\n");
+}
+
+// Pairs are of a coupled run and the replay of its placement.
+TEST(Replays, are_refused_where_rock_changes_the_flow) {
+    const auto with_correction = [](double correction) {
+        return postproc::estimate_spillage({0.5, 0.52}, {{0.5 + correction, 0.5}, {0.52 + correction, 0.52}});
+    };
+    EXPECT_NO_THROW(require_weak_coupling(postproc::estimate_spillage({0.5, 0.52}, {}), "replays"));
+    EXPECT_NO_THROW(require_weak_coupling(with_correction(0.049), "replays"));
+    for (const double correction : {0.07, -0.07}) {
+        try {
+            require_weak_coupling(with_correction(correction), "replays");
+            FAIL() << correction;
+        } catch (const CheckFailure& failure) {
+            EXPECT_THAT(failure.what(), AllOf(HasSubstr(fmt::format("{:+.1f} points", 100.0 * correction)), HasSubstr("at most 5 points"),
+                                              HasSubstr("coupled")));
+        }
+    }
 }
 
 }  // namespace
