@@ -295,7 +295,7 @@ ParameterTable run_rows() {
         duration("run.stop.idle_s", "How long nothing passes.").optional(),
         Row("run.stop.settled", ParameterKind::boolean, "-", "End the run when the grains are at rest.").optional(),
         duration("run.write_interval_s", "Between pictures of the grains.").derived("a fiftieth of the run"),
-        duration("run.checkpoint_interval_s", "Between checkpoints.").derived("a fifth of the run"),
+        duration("run.checkpoint_interval_s", "Between checkpoints.").derived("a twentieth of the run"),
         Row("run.seed", ParameterKind::integer, "-", "Seed of all random numbers; repeats differ by it.")
             .at_least(0.0)
             .at_most(1e9)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double k_look_per_fall = 0.1;  // longest step over sqrt(d/g)
 constexpr double k_most_outputs = 1e4;
-constexpr double k_pictures = 50.0, k_checkpoints = 5.0;
+constexpr double k_pictures = 50.0, k_checkpoints = 20.0;
 
 /// The gate of a measure: its own, or the one that it names; empty without one.
 std::string gate_of(const RoomReading& room, const std::string& measure) {
