@@ -43,8 +43,8 @@ std::optional<Mistake> wide_kernel_warning(const Opening& opening, const couplin
     if (kernel.map != coupling::k_gaussian_map || opening.width >= resolved_by * width) return std::nullopt;
     return Mistake{
         opening.where, fmt::format("{} = {:.6g}", opening.name, opening.width),
-        fmt::format("It is {:.2g} kernel widths of rock of {:g} m; below {:g} the speed that rock feels there is off by more than "
-                    "a tenth",
+        fmt::format("It is {:.2g} times the kernel width of rock of {:g} m; below {:g} times the speed that rock feels there is off by "
+                    "more than a tenth",
                     opening.width / width, diameter, resolved_by),
         "Compare with kernel.gamma = 0.5"};
 }

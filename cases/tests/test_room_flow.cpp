@@ -190,15 +190,15 @@ TEST_F(RoomFlow, warns_of_what_a_run_may_be_asked_in_spite_of) {
     const std::string open = std::string(k_tank) + k_out + k_free;
     // The radius of 40 mm has 5 kernels of 8 mm and the bore 10 grains; the wall of 10 mm is thinner than its cells.
     EXPECT_THAT(warnings_of(request(open)), HasSubstr("riser is 0.01 m thin in cells of 0.02 m"));
-    EXPECT_THAT(warnings_of(request(open)), Not(HasSubstr("kernel widths")));
+    EXPECT_THAT(warnings_of(request(open)), Not(HasSubstr("times the kernel width")));
     EXPECT_THAT(warnings_of(request(open + "[closures]\ndrag_modifier = 3\n")), HasSubstr("counts it twice"));
     EXPECT_THAT(warnings_of(request(open + "[closures]\nhindrance = \"none\"\n")), HasSubstr("the drag of a single rock is too small"));
-    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\n")), HasSubstr("2.5 kernel widths"));
-    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\nmap = \"centroid\"\n")), Not(HasSubstr("kernel widths")));
+    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\n")), HasSubstr("2.5 times the kernel width"));
+    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\nmap = \"centroid\"\n")), Not(HasSubstr("times the kernel width")));
     const std::string bin =
         "[[solid]]\nname = \"bin\"\ngenerate = \"hopper\"\ncentre_m = [0.12, 0, 0.15]\ninner_radius_m = 0.05\nheight_m = 0.1\n"
         "wall_m = 0.02\norifice_radius_m = 0.0125\n";
-    EXPECT_THAT(warnings_of(request(open + bin)), HasSubstr("opening of bin = 0.025. It is 3.1 kernel widths"));
+    EXPECT_THAT(warnings_of(request(open + bin)), HasSubstr("opening of bin = 0.025. It is 3.1 times the kernel width"));
     std::string coarse = open;
     coarse.replace(coarse.find("diameter_m = 0.008"), 18, "diameter_m = 0.03");
     coarse.replace(coarse.find("count = 50"), 10, "count = 5");

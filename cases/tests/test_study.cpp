@@ -366,10 +366,10 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
         return study_warnings(resolve_study(parse(keys + with_feed("count = 3\n", "diameter_m = " + diameter + "\n")), k_model), k_model);
     };
     // mouth radius 0.1 m, gap 0.03 m
-    EXPECT_TRUE(any_contains(warnings("", "0.026"), "suction.mouth_radius_m = 0.1. It is 3.8 kernel widths"));
+    EXPECT_TRUE(any_contains(warnings("", "0.026"), "suction.mouth_radius_m = 0.1. It is 3.8 times the kernel width"));
     EXPECT_FALSE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m"));
-    EXPECT_TRUE(any_contains(warnings("", "0.02"), "suction.gap_m = 0.03. It is 1.5 kernel widths"));
-    EXPECT_FALSE(any_contains(warnings("", "0.0075"), "kernel widths"));
+    EXPECT_TRUE(any_contains(warnings("", "0.02"), "suction.gap_m = 0.03. It is 1.5 times the kernel width"));
+    EXPECT_FALSE(any_contains(warnings("", "0.0075"), "times the kernel width"));
 }
 
 TEST(Study, warns_of_a_drag_that_counts_other_rock_twice_or_not_at_all) {
