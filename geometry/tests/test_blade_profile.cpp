@@ -105,8 +105,8 @@ TEST(BladeProfile, does_not_count_shaft_and_hub_and_shows_a_ring_as_closed) {
     EXPECT_FALSE(share_flatter_than({{-0.1, 0.5, 1.0}}, 0.1));
 }
 
-// Its sizes are those of heads that dredge: blades 0.25 to 0.4 ring radius deep that lean, steeper than a ladder at 45 degrees.
-TEST(BladeProfile, of_the_crown_with_deep_blades_is_that_of_a_head_that_dredges) {
+// Blades at least a quarter of the ring radius deep that lean, steeper than a ladder at 45 degrees.
+TEST(BladeProfile, of_the_crown_with_deep_blades_is_deep_and_steep) {
     const std::string file = std::string(CUTTERFLOW_SOURCE_DIR) + "/cases/examples/crown_with_deep_blades/crown.toml";
     const CrownParameters deep = read_crown_parameters(file);
     EXPECT_GE(deep.blade_depth_at_ring, 0.25 * deep.ring_radius);
