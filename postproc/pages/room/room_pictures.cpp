@@ -18,6 +18,7 @@ namespace {
 constexpr int k_width = 420, k_highest = 640;  // pixels
 constexpr double k_margin = 1.06;
 constexpr double k_slowest_scale = 0.01;  // [m/s]: slower grains all look at rest
+constexpr double k_edge = 0.002;          // half thickness of the room's edges, of its largest side
 
 Vec3 vec3_in(const nlohmann::json& list) {
     return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
@@ -55,6 +56,38 @@ TriangleSurface solids_at(const nlohmann::json& room, const std::filesystem::pat
         }
     }
     return all;
+}
+
+/// A box along the axes.
+void add_box(const Vec3& lower, const Vec3& upper, TriangleSurface& surface) {
+    const auto corner = [&](int x, int y, int z) {
+        return Vec3(x ? upper.x() : lower.x(), y ? upper.y() : lower.y(), z ? upper.z() : lower.z());
+    };
+    const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+        surface.push_back({a, b, c});
+        surface.push_back({a, c, d});
+    };
+    face(corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0));
+    face(corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1));
+    face(corner(0, 0, 0), corner(1, 0, 0), corner(1, 0, 1), corner(0, 0, 1));
+    face(corner(0, 1, 0), corner(0, 1, 1), corner(1, 1, 1), corner(1, 1, 0));
+    face(corner(0, 0, 0), corner(0, 0, 1), corner(0, 1, 1), corner(0, 1, 0));
+    face(corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1));
+}
+
+/// The twelve edges of the room, as thin bars: its sides have no thickness, and without them a bed seems to lie in the open.
+void add_edges(const nlohmann::json& room, TriangleSurface& surface) {
+    const Vec3 size = vec3_in(room.at("size_m"));
+    const Vec3 lower(-0.5 * size.x(), -0.5 * size.y(), 0.0), half = Vec3::Constant(k_edge * size.maxCoeff());
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int corner : {0, 1, 2, 3}) {
+            Vec3 from = lower;
+            if ((corner & 1) != 0) from[(axis + 1) % 3] += size[(axis + 1) % 3];
+            if ((corner & 2) != 0) from[(axis + 2) % 3] += size[(axis + 2) % 3];
+            Vec3 to = from;
+            to[axis] += size[axis];
+            add_box(from - half, to + half, surface);
+        }
 }
 
 Colour mixed(const Colour& a, const Colour& b, double share) {
@@ -114,6 +147,7 @@ std::string room_pictures(const Page& page, const nlohmann::json& room, const Me
         const double speed = fastest(grains);
         HeadScene scene;
         scene.ghosts = solids_at(room, source.directory(), times[index]);
+        add_edges(room, scene.ghosts);
         scene.rocks = spheres_of(grains, speed);
         const std::string caption =
             fmt::format("{:.4g} s; {} grains; blue: {:.2g} m/s and more, yellow: at rest", times[index], grains.size(), speed);
