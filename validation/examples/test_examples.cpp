@@ -1,5 +1,4 @@
 /// The hand-written cases of cases/examples run as a user runs them, and obey their own force balances.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/falling_rock.hpp"
 
@@ -29,10 +29,6 @@ fs::path run_example(const std::string& name) {
     run_in_case(folder, {"blockMesh"});
     run_cutter_foam(folder);
     return folder;
-}
-
-double largest(const std::vector<double>& values) {
-    return *std::max_element(values.begin(), values.end());
 }
 
 TEST(RockInABox, falls_as_its_force_balance_says) {

@@ -21,6 +21,7 @@
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "geometry/soil/bank.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/killed_run.hpp"
 #include "validation/harness/scenes/rotor_case.hpp"
@@ -186,10 +187,6 @@ Table table_of(const fs::path& folder, const std::string& name) {
     return read_columns(folder / "postProcessing" / name.substr(0, slash) / "0" / name.substr(slash + 1));
 }
 
-double largest(const std::vector<double>& values) {
-    return *std::max_element(values.begin(), values.end());
-}
-
 /// Largest less smallest value of a column from `from` on [s].
 double range_of(const Table& table, const char* column, double from) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -291,7 +288,7 @@ void solve_pressure_to(const fs::path& folder, double tolerance) {
 double largest_with_rock(const Table& balance, const char* column) {
     double most = 0.0;
     for (std::size_t i = 0; i < balance.at("time_s").size(); ++i)
-        if (balance.at("time_s")[i] >= k_begin) most = std::max(most, std::abs(balance.at(column)[i]));
+        if (balance.at("time_s")[i] >= k_begin) most = larger(most, std::abs(balance.at(column)[i]));
     return most;
 }
 

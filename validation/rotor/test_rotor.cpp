@@ -14,6 +14,7 @@
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
 #include "postproc/draw/head/head_series.hpp"
+#include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/killed_run.hpp"
 #include "validation/harness/scenes/rotor_case.hpp"
@@ -57,10 +58,6 @@ using Table = std::map<std::string, std::vector<double>>;
 Table table_of(const fs::path& folder, const std::string& name) {
     const std::string file = name.substr(name.find('/') + 1);
     return read_columns(folder / "postProcessing" / name.substr(0, name.find('/')) / "0" / file);
-}
-
-double largest(const std::vector<double>& values) {
-    return *std::max_element(values.begin(), values.end());
 }
 
 class Rotor : public ::testing::TestWithParam<int> {};
