@@ -46,7 +46,7 @@ std::optional<Mistake> wide_kernel_warning(const Opening& opening, const couplin
         fmt::format("It is {:.2g} times the kernel width of rock of {:g} m; below {:g} times the speed that rock feels there is off by "
                     "more than a tenth",
                     opening.width / width, diameter, resolved_by),
-        "Compare with kernel.gamma = 0.5"};
+        "Compare with kernel.sampling = \"gaussian\", and with kernel.gamma = 0.5"};
 }
 
 }  // namespace cutterflow::cases

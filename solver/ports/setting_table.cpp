@@ -62,6 +62,13 @@ SettingTable<KernelSettings> kernel_rows() {
                                    "they jump from cell to cell and reach through steel. cluster needs a mesh that stands still.")
                           .one_of({k_gaussian_map, k_centroid_map, k_cluster_map})
                           .source("WasserfallCoetzeeMeyer2024"))
+        .add(&S::sampling,
+             ParameterRow("sampling", ParameterKind::choice, "-",
+                          "From where a rock samples the fluid, with map gaussian: mostly 1.5 to 2.8 kernel widths away, clear of "
+                          "what it does to the fluid itself; or with the weight by which it is laid. Beside a mouth or a gap of few "
+                          "kernel widths the first sees far too little.")
+                 .one_of({k_quadratic_sampling, k_gaussian_sampling})
+                 .source("NieuwboerVanRheeKeetels2023"))
         .add(
             &S::cluster_size,
             number("clusterSize", "m", "Side of the cubes of map cluster, a cell or more; with that map only.").at_least(0.0).at_most(10.0))

@@ -253,7 +253,8 @@ const NearbyPoints& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, co
 /// sums. \param through_steel  what a hidden cell counts of one in view
 void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
-    const double quadratic_share = physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width);
+    const double quadratic_share =
+        kernel_.sampling == k_quadratic_sampling ? physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width) : 0.0;
     const bool sees_all = visibility_.sees_all();
     double deposits = 0.0, samples = 0.0, seen = 0.0, behind = 0.0;
     const double reach2 = physics::k_kernel_reach2 * width * width;

@@ -577,6 +577,28 @@ TEST(Redistribution, makes_room_and_keeps_every_rocks_volume) {
     EXPECT_NEAR(mesh / rock, 1.0, 1e-12);
 }
 
+TEST(Sampling, is_with_the_weight_of_deposit_or_clear_of_the_rock) {
+    const SyntheticMesh mesh = cube(0.1, 0.01);
+    const TestRocks rocks = one_rock(Vec3(0.003, 0.002, 0.001), 0.02);
+    SerialCommunicator serial;
+    KernelSettings kernel;
+    Mapping shell(mesh.cells(), mesh.steel(), testing::unit_turn(), kernel, serial);
+    kernel.sampling = k_gaussian_sampling;
+    Mapping near(mesh.cells(), mesh.steel(), testing::unit_turn(), kernel, serial);
+    const Stencils far_away = stencils_of(shell, rocks), nearer = stencils_of(near, rocks);
+    EXPECT_EQ(far_away.deposit, nearer.deposit);
+    const auto within_a_width = [&](const Stencils& s) {
+        double share = 0.0;
+        for (std::size_t i = 0; i < s.cell.size(); ++i) {
+            const auto c = static_cast<std::size_t>(s.cell[i]);
+            if ((mesh.centres[c] - rocks.position[0]).norm() < 0.02) share += s.sample[i] * mesh.volumes[c];
+        }
+        return share;
+    };
+    EXPECT_LT(within_a_width(far_away), 0.02);
+    for (std::size_t i = 0; i < nearer.cell.size(); ++i) EXPECT_NEAR(nearer.sample[i], nearer.deposit[i], 1e-12 * nearer.deposit[i]);
+}
+
 TEST(Redistribution, leaves_dilute_rock_alone) {
     Bench bench(cube(0.1, 0.01));
     const TestRocks rocks = one_rock(Vec3(0.01, 0.02, 0.03), 0.02);
