@@ -101,6 +101,15 @@ std::vector<Ball> inscribed_balls(const TriangleSurface& rock) {
     return balls;
 }
 
+/// \param rock  the target's \param metres  of its length 1
+[[noreturn]] void refuse_thin(const TriangleSurface& rock, double metres) {
+    const double thickness = metres * 2.0 * volume_of(rock) / area_of(rock), length = metres * bounds_of(rock).extent().maxCoeff();
+    throw UserError(
+        fmt::format("the surface is about {:.2g} m thick and {:.3g} m long: no sphere finds a place in it", thickness, length),
+        fmt::format("Spheres begin within it, at points of a lattice of {:.2g} m, 1/{} of its length", length / k_lattice, k_lattice),
+        "Give a thicker surface: a plate or a needle this thin is no rock of spheres");
+}
+
 /// Of the balls the ones that one after the other hold the most centres that are in none before.
 std::vector<Ball> filling_balls(const std::vector<Ball>& choice, int count) {
     std::vector<bool> filled(choice.size(), false);
@@ -275,8 +284,9 @@ ClumpFit fit_clump(const TriangleSurface& rock, int balls) {
     ClumpFit fit;
     fit.of_rock = properties_of(rock);
     const Target target = target_of(rock, fit.of_rock);
-    const Clump inscribed{filling_balls(inscribed_balls(target.surface), balls)};
     const double d = fit.of_rock.equivalent_diameter;
+    const Clump inscribed{filling_balls(inscribed_balls(target.surface), balls)};
+    if (inscribed.balls.empty()) refuse_thin(target.surface, d);
     fit.of_rock.shadow = {d * d * target.extreme.smallest, d * d * target.extreme.largest};
     fit.inscribed_volume = d * d * d * union_mass_properties(inscribed).volume;
     const Clump clump = without_hidden(polished(inscribed, target));

@@ -25,7 +25,8 @@ struct ClumpFit {
 /// with the relative errors e_k of volume, centre of mass over d, the tensor of inertia over its mean moment, and the shadows in the
 /// directions of the rock's smallest and largest; s is the distance of a point of the rock's surface from the clump's,
 /// d the diameter of equal volume. The polished spheres reach out of the rock where they leave it empty elsewhere.
-/// \pre the surface is closed, outward, without self-intersections \throws UserError  when `balls` is not within 1 and k_most_balls
+/// \pre the surface is closed, outward, without self-intersections \throws UserError  when `balls` is not within 1 and k_most_balls, when
+/// the rock is so thin that no point of the lattice lies within, when the spheres do not make one rock
 ClumpFit fit_clump(const TriangleSurface& rock, int balls);
 
 }  // namespace cutterflow::geometry

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -29,6 +30,7 @@ constexpr const char* k_formats = "Cutterflow reads STL (ASCII or binary), OBJ a
 constexpr std::uintmax_t k_largest_file = 500'000'000;  // bytes: ten million triangles of a binary STL
 constexpr double k_import_s = 20.0;                     // core time of an import [s], several times what the slowest valid file takes
 constexpr double k_import_s_per_byte = 2e-6;
+constexpr double k_coarsest_spacing = 1e-4;  // of coordinates, in sizes of the surface: details of 1/100 of its size keep theirs to 1/100
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& rule, const std::string& remedy) {
     throw UserError(std::vector<Mistake>{{file.string(), what, rule, remedy}});
@@ -192,6 +194,19 @@ void append(TriangleSurface& surface, const ImportedMesh& mesh, const fs::path& 
     }
 }
 
+/// STL files and assimp have coordinates in single precision: far from the origin it moves points, joins them and bends faces.
+void require_resolved(const fs::path& file, const TriangleSurface& surface) {
+    const Bounds bounds = bounds_of(surface);
+    const double size = bounds.extent().maxCoeff();
+    const double farthest = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff();
+    const double spacing = farthest - std::nextafter(static_cast<float>(farthest), 0.0f);
+    if (spacing > k_coarsest_spacing * size)
+        refuse(file, fmt::format("the surface is {:.3g} wide and has coordinates of {:.3g}, in the file's unit", size, farthest),
+               fmt::format("Single precision resolves {:.2g} there, and a surface needs {:g} of its size or less", spacing,
+                           k_coarsest_spacing),
+               "Move the origin near the body in CAD and export it again");
+}
+
 }  // namespace
 
 std::string extension_of(const fs::path& file) {
@@ -216,6 +231,7 @@ TriangleSurface read_surface(const fs::path& file) {
     for (const ImportedMesh& mesh : import.meshes) append(surface, mesh, file);
     if (surface.triangles.empty())
         refuse(file, "the file holds no triangles", "A surface is needed, not points or lines", "Export the solid's surface");
+    require_resolved(file, surface);
     return welded(surface);
 }
 

@@ -10,9 +10,8 @@
 namespace cutterflow::geometry {
 
 /// Reads a surface in the file's own unit. Polygons are cut into triangles and points with equal coordinates are joined; nothing is
-/// repaired. \throws UserError  when the file is missing, empty, truncated, no STL, OBJ or PLY, holds no triangles or coordinates that are
-/// not
-///                    finite numbers
+/// repaired. \throws UserError  when the file is missing, empty, truncated, no STL, OBJ or PLY, holds no triangles, coordinates that are
+///                    not finite numbers, or a surface so far from the origin that single precision does not resolve it
 TriangleSurface read_surface(const std::filesystem::path& file);
 
 /// The ending of a file's name with its dot, in lower case: it tells the format.

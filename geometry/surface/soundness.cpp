@@ -120,7 +120,7 @@ std::vector<Mistake> defects_of(const SoundnessReport& report, const std::string
     const auto state = [&](const Defect& defect, const std::string& what, const std::string& rule, const std::string& remedy) {
         if (defect.count > 0) mistakes.push_back({name, fmt::format("{} {}, {}", defect.count, what, place_text(defect)), rule, remedy});
     };
-    const std::string export_again = "Export the head from CAD as one watertight solid";
+    const std::string export_again = "Export it from CAD as one watertight solid";
     state(report.degenerate_triangles, "triangle(s) without area", "Every triangle must have an area", export_again);
     state(report.duplicate_triangles, "duplicate triangle(s)", "Each triangle may appear once", export_again);
     state(report.border_edges, "open edge(s)", "The surface must be closed", "Close the hole in CAD, or export with joined faces");

@@ -1,5 +1,7 @@
 /// Clumps made from surfaces, and shadows of surfaces, against closed forms.
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +10,7 @@
 #include "geometry/clump_fit/fit_clump.hpp"
 #include "geometry/clump_fit/solid_shadow.hpp"
 #include "geometry/surface/simple_solids.hpp"
+#include "geometry/tests/solids.hpp"
 
 namespace cutterflow::geometry {
 namespace {
@@ -60,6 +63,18 @@ TEST(ClumpFit, refuses_a_number_of_spheres_that_makes_no_clump) {
     const TriangleSurface rock = ellipsoid(Vec3(0.02, 0.015, 0.01));
     EXPECT_THROW(fit_clump(rock, 0), UserError);
     EXPECT_THROW(fit_clump(rock, k_most_balls + 1), UserError);
+}
+
+TEST(ClumpFit, refuses_a_plate_that_is_too_thin_for_a_sphere_with_its_thickness) {
+    for (const auto& [thickness, words] : {std::pair(2e-4, "about 0.0002 m thick and 0.04 m long"), {1e-5, "about 1e-05 m thick"}})
+        for (const int balls : {1, 3, 12}) try {
+                fit_clump(testing::box(Vec3::Zero(), Vec3(0.04, 0.04, thickness)), balls);
+                ADD_FAILURE() << thickness;
+            } catch (const UserError& error) {
+                const std::string message = error.what();
+                EXPECT_NE(message.find(words), std::string::npos) << message;
+                EXPECT_NE(message.find("Give a thicker surface"), std::string::npos) << message;
+            }
 }
 
 }  // namespace

@@ -199,6 +199,21 @@ TEST_F(Files, coordinates_that_are_no_numbers_are_refused) {
     expect_refusal(write("nan_ascii.stl", ascii), "finite");
 }
 
+/// Single precision has steps of 1/16 at 1e6.
+TEST_F(Files, a_surface_far_from_the_origin_is_refused_with_that_cause_alone) {
+    const auto cube_at = [this](double x) {
+        write_stl(box(Vec3(x, 0.0, 0.0), Vec3(x + 0.02, 0.02, 0.02)), folder_ / "far.stl");
+        return folder_ / "far.stl";
+    };
+    for (const double x : {1e6, -1e6, 100.0}) {
+        const std::string message = refusal(cube_at(x));
+        EXPECT_NE(message.find("Move the origin near the body"), std::string::npos) << message;
+        EXPECT_EQ(message.find("without area"), std::string::npos) << message;
+    }
+    expect_refusal(cube_at(1e6), "coordinates of 1e+06, in the file's unit. Single precision resolves 0.062 there");
+    EXPECT_EQ(read_surface(cube_at(10.0)).triangles.size(), 12u);
+}
+
 TEST_F(Files, points_alone_are_no_surface) {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n";

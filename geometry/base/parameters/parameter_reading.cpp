@@ -26,6 +26,12 @@ std::string join_key(const std::string& section, const std::string& name) {
     return section.empty() ? name : section + "." + name;
 }
 
+/// "feed" of "feed.class.share", empty without a dot.
+std::string first_section_of(const std::string& key) {
+    const std::size_t dot = key.find('.');
+    return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
 bool is_inside(const std::string& key, const std::string& section) {
     return section.empty() || key.rfind(section + ".", 0) == 0;
 }
@@ -209,28 +215,45 @@ private:
 
     void report_unknown(const std::string& key, const toml::node& node) {
         const bool section = node.is_table() || node.is_array_of_tables();
-        const std::string nearest = section ? nearest_word(key, sections_of(table_)) : nearest_key(key);
+        const std::string nearest = section ? nearest_section(key) : nearest_key(key);
         meant_.insert(nearest);
         mistakes_.push_back({where(node), fmt::format("{} {} is unknown", section ? "section" : "key", key), known_neighbours(key),
                              nearest.empty() ? "Remove it" : fmt::format("Did you mean {}?", nearest)});
     }
 
-    /// Keys that begin with this one, as where one has become several, else one of nearly this name in the same place, else one of this
-    /// very name in another section.
+    /// A section within another one is a misspelling of one of the same table.
+    std::string nearest_section(const std::string& key) const {
+        std::vector<std::string> sections = sections_of(table_);
+        const std::string first = first_section_of(key);
+        const auto is_elsewhere = [&](const std::string& section) { return !first.empty() && first_section_of(section) != first; };
+        sections.erase(std::remove_if(sections.begin(), sections.end(), is_elsewhere), sections.end());
+        return nearest_word(key, sections);
+    }
+
+    /// Keys that begin with this one, as where one has become several, else one of nearly this name in the same table, else one of this
+    /// very name in a section outside of arrays of tables.
     std::string nearest_key(const std::string& key) const {
-        std::vector<std::string> keys, longer;
+        std::vector<std::string> beside, single, longer;
         for (const Parameter& parameter : table_) {
-            keys.push_back(parameter.key);
+            if (first_section_of(parameter.key) == first_section_of(key))
+                beside.push_back(parameter.key);
+            else if (enclosing_array(table_, parameter.key).empty())
+                single.push_back(parameter.key);
             if (parameter.key.rfind(key + "_", 0) == 0) longer.push_back(parameter.key);
         }
         if (!longer.empty()) return join(longer, " and ");
-        std::string nearest = nearest_word(key, keys);
-        if (!nearest.empty()) return nearest;
+        std::string nearest = nearest_word(key, beside);
+        if (nearest.empty()) nearest = of_nearest_name(key, beside);
+        return nearest.empty() ? of_nearest_name(key, single) : nearest;
+    }
+
+    /// Of `keys` one whose name without its section is nearly that of `key`; empty when there is none.
+    static std::string of_nearest_name(const std::string& key, const std::vector<std::string>& keys) {
         std::vector<std::string> names;
         std::transform(keys.begin(), keys.end(), std::back_inserter(names), name_of);
-        const std::string nearest_name = nearest_word(name_of(key), names);
-        const auto found = std::find(names.begin(), names.end(), nearest_name);
-        return found == names.end() ? "" : keys[static_cast<std::size_t>(found - names.begin())];
+        const std::string nearest = nearest_word(name_of(key), names);
+        const auto found = std::find(names.begin(), names.end(), nearest);
+        return nearest.empty() ? "" : keys[static_cast<std::size_t>(found - names.begin())];
     }
 
     std::vector<std::string> named_sections() const {

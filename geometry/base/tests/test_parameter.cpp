@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 
 using namespace cutterflow;
 
@@ -275,6 +276,25 @@ TEST(Parameter, nearest_word_allows_a_third_of_the_letters_to_differ) {
     EXPECT_EQ(nearest_word("abc", {"abd"}), "abd");
     EXPECT_EQ(nearest_word("abc", {"axx"}), "");
     EXPECT_EQ(nearest_word("", {"a"}), "");
+}
+
+/// Keys of arrays of tables mean something in their own tables alone.
+TEST(Parameter, that_is_unknown_is_no_misspelling_of_a_key_of_another_array_of_tables) {
+    Parameter name = make("measure.name", ParameterKind::text);
+    Parameter level = make("prepare.region.above_m", ParameterKind::number);
+    Parameter box = make("prepare.region.box.lower_m", ParameterKind::number);
+    Parameter longest = make("prepare.longest_s", ParameterKind::number);
+    Parameter radius = make("measure.region.ball.radius_m", ParameterKind::number);
+    for (Parameter* row : {&name, &level, &box, &longest, &radius}) row->optional = true;
+    for (Parameter* row : {&name, &longest}) row->repeated = true;
+    const auto remedy = [&](const std::string& toml) {
+        return parse_with_mistakes({name, level, box, longest, radius}, toml, "room.toml").mistakes.at(0).remedy;
+    };
+    EXPECT_EQ(remedy("[[measure]]\nregion = { above_m = 1 }\n"), "Remove it");
+    EXPECT_EQ(remedy("[[measure]]\nregion = { box = { lower_m = 1 } }\n"), "Did you mean measure.region.ball?");
+    EXPECT_EQ(remedy("[[measure]]\nlongest_s = 1\n"), "Remove it");
+    EXPECT_EQ(remedy("[[prepare]]\nabove_m = 1\n"), "Did you mean prepare.region.above_m?");
+    EXPECT_EQ(remedy("[[prepare]]\nregion = { bux = { lower_m = 1 } }\n"), "Did you mean prepare.region.box?");
 }
 
 namespace {
