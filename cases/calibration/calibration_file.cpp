@@ -253,12 +253,45 @@ private:
                            "A target is either a value or a profile", "Give one of them"});
         if (table.has("target.value")) target.values = {table.number("target.value")};
         if (table.has("target.profile")) read_profile(table, target, measured);
+        check_measure(measured, profile && !value, where);
         if (found_.objective != nullptr && found_.objective->relative && !held_out &&
             std::count(target.values.begin(), target.values.end(), 0.0) > 0)
             mistakes_.add({where, fmt::format("the target {} is 0", target.name), "A relative error divides by the target",
                            "Use objective = \"squared_misfit\""});
         (held_out ? found_.targets.held_out : found_.targets.fitted).push_back(target);
         (held_out ? held_out_measured_ : fitted_measured_).push_back(measured);
+    }
+
+    /// The study has the measure of a target, and a profile where the target has one.
+    void check_measure(const Measured& measured, bool has_profile, const std::string& where) {
+        if (measured.measure.empty() || measured.study >= found_.studies.size()) return;
+        const fs::path& study = found_.studies[measured.study];
+        std::vector<StudyMeasure> known;
+        if (!fs::exists(study)) return;
+        try {
+            known = access_.measures(study);
+        } catch (const UserError&) {  // told by check_points
+            return;
+        }
+        std::vector<std::string> names, profiles;
+        for (const StudyMeasure& measure : known) {
+            names.push_back(measure.name);
+            if (measure.has_profile) profiles.push_back(measure.name);
+        }
+        const auto among = [&](const std::vector<std::string>& list) {
+            return std::find(list.begin(), list.end(), measured.measure) != list.end();
+        };
+        if (!names.empty() && !among(names)) {
+            const std::string nearest = nearest_word(measured.measure, names);
+            return mistakes_.add({where, fmt::format("{} has no measure {}", study.string(), measured.measure),
+                                  fmt::format("Its measures are {}", fmt::join(names, ", ")),
+                                  nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest)});
+        }
+        if (has_profile && !among(profiles))
+            mistakes_.add({where, fmt::format("{} of {} has no profile", measured.measure, study.string()),
+                           profiles.empty() ? "Heights of a profile are compared with those of a measure of what = \"profile\""
+                                            : fmt::format("Its measures with a profile are {}", fmt::join(profiles, ", ")),
+                           "Name a measure of what = \"profile\", or give a value in place of the profile"});
     }
 
     std::size_t study_index(const ParameterValues& table, const std::string& where) {
@@ -281,6 +314,19 @@ private:
         return static_cast<std::size_t>(found - stems.begin());
     }
 
+    /// \param wrong  what the file's lines have by themselves
+    static void require_rising(const CsvTable& csv, const fs::path& file, std::vector<Mistake>& wrong) {
+        if (wrong.empty() && csv.rows() < 2)
+            wrong.push_back(
+                {file.string(), fmt::format("the profile has {} line(s)", csv.rows()), "It has two places or more", "Add the others"});
+        for (std::size_t row = 1; row < csv.rows(); ++row) {
+            const double before = csv.at(row - 1, "x_m"), x = csv.at(row, "x_m");
+            if (x > before) continue;
+            wrong.push_back({csv.where(row), fmt::format("the places of the profile do not rise: x_m = {:g} after {:g}", x, before),
+                             "x_m rises from line to line", "Sort the lines"});
+        }
+    }
+
     void read_profile(const ParameterValues& table, calibration::Target& target, Measured& measured) {
         const fs::path file = path_.parent_path() / table.text("target.profile");
         if (!fs::exists(file))
@@ -288,11 +334,7 @@ private:
                                   "Profiles are files beside the calibration, or have paths from it", "Check the path"});
         std::vector<Mistake> wrong;
         const CsvTable csv(file, {"x_m", "height_m"}, {}, wrong);
-        bool rises = csv.rows() >= 2;
-        for (std::size_t row = 1; row < csv.rows(); ++row) rises = rises && csv.at(row, "x_m") > csv.at(row - 1, "x_m");
-        if (wrong.empty() && !rises)
-            wrong.push_back({file.string(), "the places of the profile do not rise", "x_m rises from line to line, over two lines or more",
-                             "Sort the lines"});
+        if (csv.has("x_m") && csv.has("height_m")) require_rising(csv, file, wrong);
         mistakes_.add(wrong);
         if (!wrong.empty()) return;
         profiles_ += sha256_of_file(file);
@@ -335,7 +377,6 @@ private:
         require_own_names(found_.targets.fitted);
         require_own_names(found_.targets.held_out);
         check_held_out();
-        for (const Measured& measured : found_.measured) check_measure(measured);
         for (std::size_t study = 0; study < found_.studies.size(); ++study)
             mistakes_.require(has_target(study), fmt::format("{} has no target", found_.studies[study].string()),
                               "The runs of each study are compared with a target", "Add a [[target]] with this study, or remove it");
@@ -360,21 +401,6 @@ private:
                 if (fitted.study == held_out_measured_[h].study && fitted.measure == held_out_measured_[h].measure)
                     mistakes_.add(fmt::format("the held-out target {} is in the objective as well", found_.targets.held_out[h].name),
                                   "A held-out target never enters the objective", "Remove one of the two");
-    }
-
-    void check_measure(const Measured& measured) {
-        if (measured.measure.empty() || measured.study >= found_.studies.size()) return;
-        const fs::path& study = found_.studies[measured.study];
-        std::vector<std::string> known;
-        try {
-            if (fs::exists(study)) known = access_.measures(study);
-        } catch (const UserError&) {  // told by check_points
-        }
-        if (known.empty() || std::find(known.begin(), known.end(), measured.measure) != known.end()) return;
-        const std::string nearest = nearest_word(measured.measure, known);
-        mistakes_.add(fmt::format("{} has no measure {}", study.string(), measured.measure),
-                      fmt::format("Its measures are {}", fmt::join(known, ", ")),
-                      nearest.empty() ? "Correct it" : fmt::format("Did you mean {}?", nearest));
     }
 
     /// The keys, the ends of the ranges and the grid are allowed in all studies.

@@ -14,6 +14,11 @@ namespace cutterflow::cases {
 
 namespace calibration = postproc::calibration;
 
+struct StudyMeasure {
+    std::string name;
+    bool has_profile = false;  ///< heights over places beside its value
+};
+
 /// What a calibration asks of studies, whatever kind they are of.
 struct StudyAccess {
     using Path = std::filesystem::path;
@@ -22,8 +27,8 @@ struct StudyAccess {
     std::function<std::vector<SweepPoint>(const Path& study, const std::vector<KeyAxis>& axes, int repeats, const Path& folder)> points;
     /// Core seconds of one run; none where the kind has no prediction without building a case.
     std::function<std::optional<double>(const Path& study)> predicted_core_s;
-    /// Names of a study's measures; empty where the results are those of its kind.
-    std::function<std::vector<std::string>(const Path& study)> measures;
+    /// A study's measures; empty where the results are those of its kind.
+    std::function<std::vector<StudyMeasure>(const Path& study)> measures;
 };
 
 struct CalibratedParameter {

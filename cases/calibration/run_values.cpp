@@ -57,8 +57,8 @@ std::vector<double> measure_values(const fs::path& file, const Measured& measure
     const json document = read_json_document(file, {}, "Run it again");
     if (!document.contains(measured.measure)) refuse(file, measured.measure, keys_of_object(document), "Its measures are");
     const json& result = document.at(measured.measure);
-    if (!measured.places.empty()) return profile_of(result, measured, file);
     if (!result.contains("value") || !result.at("value").is_number()) return {};
+    if (!measured.places.empty()) return profile_of(result, measured, file);
     return {result.at("value").get<double>()};
 }
 

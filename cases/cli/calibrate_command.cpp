@@ -14,6 +14,7 @@
 #include "geometry/base/installation.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
+#include "postproc/analysis/measures/measure_table.hpp"
 #include "postproc/pages/calibration_page.hpp"
 
 namespace cutterflow::cli {
@@ -36,14 +37,17 @@ std::vector<cases::SweepPoint> points(const fs::path& study, const std::vector<c
     return kind_of_study(study).points(options, folder);
 }
 
-/// Names of the tables [[measure]]; empty where the kind has none.
-std::vector<std::string> measures(const fs::path& study) {
+/// Of the tables [[measure]]; none where the kind has none. An unknown kind of measure is told with the study.
+std::vector<cases::StudyMeasure> measures(const fs::path& study) {
     const ParameterTable& table = kind_of_study(study).table();
-    std::vector<std::string> names;
-    if (!cases::find_key(table, "measure.name")) return names;
+    std::vector<cases::StudyMeasure> found;
+    if (!cases::find_key(table, "measure.name")) return found;
     const ParameterValues values = read_parameters(table, study);
-    for (const ParameterValues& measure : values.tables("measure")) names.push_back(measure.text("measure.name"));
-    return names;
+    for (const ParameterValues& measure : values.tables("measure")) {
+        const postproc::MeasureKind* kind = postproc::find_measure_kind(measure.text("measure.what"));
+        found.push_back({measure.text("measure.name"), kind == nullptr || kind->has_profile});
+    }
+    return found;
 }
 
 cases::StudyAccess study_access() {

@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "cases/cli/commands.hpp"
+#include "cases/cli/kinds/stage_lines.hpp"
 #include "postproc/analysis/measures/measure_run.hpp"
+#include "postproc/pages/room/room_page.hpp"
 
 namespace cutterflow::cli {
 
@@ -19,6 +21,8 @@ struct MeasureOptions {
 void measure(const MeasureOptions& options) {
     const nlohmann::json results = postproc::write_measures(options.run, options.name);
     std::cout << (options.json ? results.dump(2) + "\n" : postproc::measures_text(results));
+    if (!postproc::is_room_run(options.run)) return;
+    if (const std::string warning = postproc::unfinished_room(options.run); !warning.empty()) say("warning: " + warning);
 }
 
 }  // namespace

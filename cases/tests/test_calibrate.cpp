@@ -81,7 +81,7 @@ protected:
                 },
                 [](const fs::path&) { return std::optional<double>(36.0); },
                 [](const fs::path&) {
-                    return std::vector<std::string>{"angle", "rate", "none"};
+                    return std::vector<StudyMeasure>{{"angle", true}, {"rate"}, {"none"}};
                 }};
     }
 
@@ -299,6 +299,46 @@ TEST_F(Calibrate, takes_a_profile_from_a_file) {
     EXPECT_LT(*outcome.agreements[0].relative_error, 0.01);
 }
 
+TEST_F(Calibrate, tells_what_is_wrong_with_a_profile_s_file) {
+    const auto with = [&](const std::string& csv) {
+        write_file(folder_ / "p.csv", csv);
+        return refusal(
+            calibration_text("study = [\"heap.toml\"]", "[[target]]\nmeasure = \"angle\"\nprofile = \"p.csv\"\ntolerance = 1\n"));
+    };
+    EXPECT_EQ(with("x_m,height_m\n0,0.02\n0.03,0.01\n"), "");
+    EXPECT_THAT(with("x,h\n0,0.02\n0.03,0.01\n"),
+                AllOf(HasSubstr("p.csv:1: column 'x_m' is missing"), HasSubstr("column 'height_m' is missing")));
+    EXPECT_THAT(with("x_m,height_m\n0,high\n0.03,0.01\n0.02,0.01\n"),
+                AllOf(HasSubstr("p.csv:2: height_m = 'high'"), HasSubstr("p.csv:4: the places of the profile do not rise")));
+    EXPECT_THAT(with("x_m,height_m\n0,0.02\n"), HasSubstr("It has two places or more"));
+    EXPECT_THAT(with(""), HasSubstr("is empty"));
+}
+
+TEST_F(Calibrate, refuses_a_profile_of_a_measure_that_has_none_before_any_run) {
+    write_file(folder_ / "p.csv", "x_m,height_m\n0,0.02\n0.03,0.01\n");
+    const std::string text =
+        calibration_text("study = [\"heap.toml\"]", "[[target]]\nmeasure = \"rate\"\nprofile = \"p.csv\"\ntolerance = 1\n");
+    const std::string told = refusal(text);
+    EXPECT_THAT(told, AllOf(HasSubstr("rate of " + (folder_ / "heap.toml").string() + " has no profile"),
+                            HasSubstr("Its measures with a profile are angle")));
+    EXPECT_THAT(told, ::testing::ContainsRegex("calibration.toml:[0-9]+: rate of"));
+    StudyAccess without = access();
+    without.measures = [](const fs::path&) { return std::vector<StudyMeasure>{}; };
+    try {
+        read_calibration(folder_ / "calibration.toml", without);
+        FAIL() << "a number of results.json has no profile";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("has no profile. Heights of a profile are compared"));
+    }
+}
+
+TEST_F(Calibrate, a_profile_that_a_run_could_not_measure_has_no_values) {
+    write_file(folder_ / "run/report/measures.json",
+               R"({"line": {"value": null, "series": null, "detail": {"reason": "the picture at 2 s has no grains"}}})");
+    EXPECT_TRUE(run_values(folder_ / "run", {0, "line", {0.1, 0.2}}).empty());
+    EXPECT_THAT(missing_reason(folder_ / "run", {0, "line", {0.1, 0.2}}), HasSubstr("no grains"));
+}
+
 TEST_F(Calibrate, reads_measures_or_results_and_names_the_nearest) {
     write_file(folder_ / "run/report/results.json", R"({"rock": {"mass_kg": 2.5, "gone": null, "name": "x"}})");
     const auto text_of = [&](const std::string& measure) {
@@ -494,11 +534,11 @@ TEST_F(Calibrate, every_example_reads) {
                             },
                             [](const fs::path&) { return std::optional<double>(); },
                             [](const fs::path& study) {
-                                std::vector<std::string> names;
+                                std::vector<StudyMeasure> measures;
                                 const ParameterValues values = read_parameters(room_table(), study);
                                 for (const ParameterValues& measure : values.tables("measure"))
-                                    names.push_back(measure.text("measure.name"));
-                                return names;
+                                    measures.push_back({measure.text("measure.name")});
+                                return measures;
                             }};
     const fs::path examples = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/calibrate_repose";
     const CalibrationFile glass = read_calibration(examples / "glass.toml", rooms);

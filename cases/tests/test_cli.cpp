@@ -233,6 +233,19 @@ TEST_F(Cli, tells_of_which_kind_a_study_may_be_that_names_none) {
     expect_refused(call({"check", "empty.toml"}), 2, "cutter.file is missing");
 }
 
+TEST_F(Cli, tells_that_a_calibration_is_no_study) {
+    const std::string file = "glass.toml";
+    fs::copy_file(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/calibrate_repose" / file, folder_ / file);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"check", file}, {"run", file}, {"mesh", file}, {"sweep", file, "--repeats", "2"}}) {
+        const Outcome outcome = call(command);
+        expect_refused(outcome, 2, "it is a calibration");
+        expect_contains(outcome.text, "Use cutterflow calibrate glass.toml");
+        EXPECT_EQ(outcome.text.find("unknown"), std::string::npos) << outcome.text;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "runs"));
+}
+
 TEST_F(Cli, params_lists_every_key) {
     const Outcome text = call({"params"});
     expect_contains(text.text, "speed_rpm");

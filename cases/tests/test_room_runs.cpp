@@ -288,7 +288,10 @@ TEST_F(RoomRuns, heap_goes_from_its_study_to_its_report) {
     EXPECT_LT(measures.at("height").at("value").get<double>(), 0.03);
     EXPECT_NE(read_file(folder_ / "heap/report/index.html").find("a small heap"), std::string::npos);
 
-    EXPECT_NE(call({"run", "heap.toml", "-o", "heap"}).find("run: already done"), std::string::npos);
+    const std::string again = call({"run", "heap.toml", "-o", "heap"});
+    EXPECT_NE(again.find("run: already done"), std::string::npos);
+    EXPECT_NE(again.find("height   profile"), std::string::npos) << again;
+    EXPECT_LT(again.find("on_disc  mass_in"), again.find("the report: ")) << again;
     std::string other = read_file(folder_ / "heap.toml");
     other.replace(other.find("friction = 0.5"), 14, "friction = 0.6");
     write_file(folder_ / "other.toml", other);
@@ -316,7 +319,8 @@ TEST_F(RoomRuns, a_bed_that_is_not_at_rest_or_lost_grains_is_refused) {
     const std::string pour = "[[prepare]]\ndo = \"pour\"\ngrains = \"grains\"\ncount = 60\n[[prepare]]\ndo = \"settle\"\n";
     const std::string rest = std::string(k_materials) + "[run]\nend_s = 0.1\n";
     write_file(folder_ / "bed.toml", room + pour + rest);
-    call({"run", "bed.toml", "-o", "bed"});  // of which nothing is measured
+    for (const std::string& said : {call({"check", "bed.toml"}), call({"run", "bed.toml", "-o", "bed"})})
+        EXPECT_NE(said.find("warning: bed.toml: it has no [[measure]]"), std::string::npos) << said;
     EXPECT_NE(read_file(folder_ / "bed/report/index.html").find("What became of the grains"), std::string::npos);
     write_file(folder_ / "hasty.toml", room + pour + "longest_s = 0.02\n" + rest);
     EXPECT_NE(call({"run", "hasty.toml", "-o", "hasty"}, 4).find("are not at rest after 0.02 s"), std::string::npos);
@@ -493,6 +497,7 @@ TEST_F(RoomRuns, a_stopped_run_keeps_what_it_has_computed) {
     const double kept = std::stod(newest_checkpoint(folder_ / "riser").filename().string());
     EXPECT_GE(kept, 0.4);
     EXPECT_LT(kept, 0.7);
+    EXPECT_NE(call({"measure", "riser"}).find("warning: riser is not finished: it has come to 0."), std::string::npos);
     call({"run", "riser.toml", "-o", "riser", "--resume"});
     const postproc::Table balance =
         postproc::read_joined_table(folder_ / "riser", "balance", "balance.csv", {{"time_s", "momentum_error"}, {}, {}, ""});

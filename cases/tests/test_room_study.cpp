@@ -1,6 +1,7 @@
 /// Studies of rooms: reading, mistakes, preparation, files of the cases.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -19,6 +20,8 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/io/write_stl.hpp"
+#include "geometry/surface/simple_solids.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -90,6 +93,12 @@ TEST_F(RoomStudy, template_reads_and_predicts_its_cost) {
 }
 
 /// Its grains find places too.
+TEST_F(RoomStudy, template_measures_the_angle_of_its_heap) {
+    const RoomScene scene = read_room(write(room_template("heap")));
+    ASSERT_EQ(scene.measures.size(), 1u);
+    EXPECT_EQ(scene.measures[0].at("what"), "angle");
+}
+
 TEST_F(RoomStudy, every_example_reads) {
     int studies = 0;
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples")) {
@@ -387,6 +396,34 @@ TEST_F(RoomStudy, names_mistakes_of_all_sections_at_once) {
     EXPECT_THAT(more, HasSubstr("a region outside the room"));
 }
 
+TEST_F(RoomStudy, a_wrong_region_is_told_once_and_not_as_missing) {
+    const auto with = [&](const std::string& keys) { return mistakes_of(changed(k_end, keys + "\n\n[run]\n")); };
+    for (const char* step : {"[[prepare]]\ndo = \"freeze\"\n", "[[prepare]]\ndo = \"trim\"\n"}) {
+        const std::string mistakes = with(std::string(step) + "above_m = 0.1\nbelow_m = 0.05");
+        EXPECT_THAT(mistakes, AllOf(HasSubstr("A step has one region"), Not(HasSubstr("without a region"))));
+    }
+    const std::string two = "region = { above_m = 0.1, below_m = 0.05 }";
+    for (const std::string step : {"[[prepare]]\ndo = \"freeze\"\n", "[[event]]\ndo = \"freeze\"\nat_s = 1\n"}) {
+        EXPECT_THAT(with(step + two), AllOf(HasSubstr("A table has one region"), Not(HasSubstr("without a region"))));
+        EXPECT_THAT(with(step + "region = {}"), AllOf(HasSubstr("region gives no part of space"), Not(HasSubstr("without a region"))));
+    }
+    // A pour whose region is wrong is not judged as one into the whole room.
+    const std::string cylinder = "cylinder = { from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 }";
+    std::string text = changed(cylinder, "box = { lower_m = [0, 0, 0.1], upper_m = [0.01, 0.01, 0.05] }");
+    text.replace(text.find("depth_m = 0.06"), 14, "depth_m = 9");
+    EXPECT_THAT(mistakes_of(text), AllOf(HasSubstr("a box from"), Not(HasSubstr("Their region holds"))));
+}
+
+TEST_F(RoomStudy, a_solid_s_file_in_millimetres_is_told_so) {
+    const auto mistakes = [&](double size) {
+        geometry::write_stl(geometry::generate_box(Vec3(size, size, size), size), folder_ / "block.stl");
+        return mistakes_of(changed(k_end, "[[solid]]\nname = \"block\"\nfile = \"block.stl\"\n\n[run]\n"));
+    };
+    EXPECT_THAT(mistakes(20.0),
+                ContainsRegex("room.toml:[0-9]+: block reaches from .* m. It must lie in the room.*Export solid.file in metres"));
+    for (const double size : {0.5, 2000.0}) EXPECT_THAT(mistakes(size), HasSubstr("Move it, or make the room larger")) << size;
+}
+
 TEST_F(RoomStudy, measures_are_checked_each_by_itself_and_all_in_their_room) {
     const std::string mistakes = mistakes_of(room_template("heap") + R"(
 [[measure]]
@@ -417,6 +454,30 @@ gate = "door"
     EXPECT_THAT(mistakes, HasSubstr("there is no file " + (folder_ / "gone.csv").string()));
     EXPECT_THAT(mistakes, Not(HasSubstr("measure.gate = \"door\""))) << "its own mistake is told";
     EXPECT_THAT(mistakes, Not(HasSubstr("measure.upstream_m")));
+}
+
+TEST_F(RoomStudy, a_given_profile_is_read_before_the_run) {
+    const auto with = [&](const std::string& csv) {
+        write(csv, "p.csv");
+        return mistakes_of(
+            changed(k_end, "[[measure]]\nname = \"x\"\nwhat = \"profile_error\"\nagainst = \"p.csv\"\n\n" + std::string(k_end)));
+    };
+    EXPECT_EQ(with("x_m,height_m\n0,0.02\n0.03,0.01\n"), "");
+    EXPECT_THAT(with("x,h\n0,0.02\n0.03,0.01\n"), HasSubstr("p.csv:1: column 'x_m' is missing"));
+    EXPECT_THAT(with("x_m,height_m\n0,high\n0.03,0.01\n"), HasSubstr("p.csv:2: height_m = 'high'"));
+    EXPECT_THAT(with("x_m,height_m\n0.03,0.02\n0.01,0.01\n"), HasSubstr("p.csv:3: x_m = 0.01 after 0.03"));
+    EXPECT_THAT(with(""), HasSubstr("p.csv: the file cannot be read or is empty"));
+}
+
+TEST_F(RoomStudy, corners_of_a_measure_s_region_have_words_that_hold_for_every_measure) {
+    std::set<std::string> helps;
+    for (const char* key : {"measure.region.box.lower_m", "measure.region.box.upper_m", "measure.region.sphere.centre_m",
+                            "measure.region.cylinder.from_m", "measure.region.half_space.point_m"}) {
+        const auto row = std::find_if(room_table().begin(), room_table().end(), [&](const Parameter& one) { return one.key == key; });
+        ASSERT_NE(row, room_table().end()) << key;
+        EXPECT_TRUE(helps.insert(row->help).second) << row->help;
+        EXPECT_THAT(row->help, Not(HasSubstr("Mass that leaves")));
+    }
 }
 
 TEST_F(RoomStudy, gates_may_lie_on_a_side_of_the_room) {
@@ -503,6 +564,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = \"door\"\n\n[run]\n", "measure.gate = \"door\""},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"profile_error\"\nagainst = \"gone.csv\"\n\n[run]\n",
             "gone.csv. It is a CSV file of a profile"},
+        Bad{k_end,
+            "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\n"
+            "gate = { lower_m = [0.02, -0.025, 0], upper_m = [0.03, 0.025, 0.09], normal = [1, 0, 0] }\n\n[run]\n",
+            "gate.lower_m = [0.02,-0.025,0.0] and upper_m = [0.03,0.025,0.09] are no rectangle"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angle\"\nat_s = -1\n\n[run]\n", "at_s = -1"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"cavity\"\ncell_m = 1e-7\n\n[run]\n",
+            "measure.cell_m = 1e-07 gives a map of 5.78e+09 cells"},
         Bad{k_end,
             "[[measure]]\nname = \"x\"\nwhat = \"pressure_drop\"\nupstream_m = [0, 0, 0]\ndownstream_m = [0, 0, 1]\n"
             "density_kg_m3 = 1\n\n[run]\n",
@@ -605,6 +673,22 @@ TEST_F(RoomStudy, warns_of_a_solid_that_goes_through_a_closed_side) {
     EXPECT_THAT(through_floor[0].text(), HasSubstr("tube moves 0.0899 m through a side of the room"));
     EXPECT_TRUE(warnings(changed(way, "removed_at_s = 0.5\nvelocity_m_s = [0, 0, -0.03]")).empty());  // gone before it gets there
     EXPECT_EQ(warnings(changed(way, "turn_rpm = 5\nturn_axis = [1, 0, 0]\nturn_origin_m = [0, 0, 0.03]")).size(), 1u);
+}
+
+TEST_F(RoomStudy, warns_of_a_feed_that_the_run_s_end_cuts_short) {
+    const auto warnings = [&](const std::string& times) {
+        const RoomRequest request = read_room_request(
+            write(changed(k_end, "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\n" + times +
+                                     "\nrate_kg_s = 0.01\nregion = { box = { lower_m = [-0.01, -0.01, 0.1], upper_m = [0.01, 0.01, 0.15] "
+                                     "} }\n\n[run]\n")));
+        return room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    };
+    EXPECT_TRUE(warnings("from_s = 1\nto_s = 4").empty());
+    const std::vector<Mistake> cut = warnings("from_s = 1\nto_s = 7");
+    ASSERT_EQ(cut.size(), 1u);
+    EXPECT_THAT(cut[0].text(),
+                ContainsRegex("room.toml:[0-9]+: event.to_s = 7 of a feed of beads. The run ends at 4 s: 0.03 of the 0.06 kg "
+                              "that are ordered come in"));
 }
 
 TEST_F(RoomStudy, grains_without_a_way_into_the_room_are_refused) {

@@ -318,6 +318,18 @@ TEST_F(SurfaceStudy, results_join_restarts_and_find_the_events_of_a_pipe) {
     EXPECT_TRUE(std::isnan(gauges.number("pressure_pa")[2]));
 }
 
+TEST_F(SurfaceStudy, comparison_names_a_run_that_has_not_come_to_its_end) {
+    const auto text = [&](const std::string& state) {
+        write_file(folder_ / "a/manifest.json", fmt::format(R"({{"stages": {{"run": {{"state": "{}"}}}}}})", state));
+        return postproc::setting_comparison_text(postproc::compare_surface_runs({folder_ / "a"}));
+    };
+    write_rows(folder_ / "a");
+    std::string scene = read_file(folder_ / "a/scene.json");
+    write_file(folder_ / "a/scene.json", scene.replace(scene.find("\"end_s\": 0.4"), 12, "\"end_s\": 0.9"));
+    EXPECT_THAT(text("started"), HasSubstr("/a is not finished: it has come to 0.4 of 0.9 s"));
+    EXPECT_THAT(text("done"), Not(HasSubstr("not finished"))) << "a stop rule has ended it";
+}
+
 TEST_F(SurfaceStudy, pictures_of_the_page_have_a_bar_of_length_and_a_scale_of_speeds) {
     write_rows(folder_);
     const auto array = [](const std::string& name, const std::string& values) {

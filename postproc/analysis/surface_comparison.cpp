@@ -1,5 +1,7 @@
 #include "postproc/analysis/surface_comparison.hpp"
 
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/run_files.hpp"
 #include "postproc/analysis/surface_results.hpp"
 
 namespace cutterflow::postproc {
@@ -30,10 +32,20 @@ std::vector<RunQuantity> quantities_of(const std::filesystem::path& run) {
     return quantities;
 }
 
+/// By the state of its stage `run`: a stop rule may end a run before end_s. Empty of a run by hand, which has no manifest.
+std::string unfinished_scene(const std::filesystem::path& run) {
+    if (!std::filesystem::exists(run / names::manifest)) return "";
+    const nlohmann::json manifest = nlohmann::json::parse(read_file(run / names::manifest), nullptr, false);
+    const nlohmann::json::json_pointer state("/stages/run/state");
+    if (!manifest.contains(state) || manifest.at(state) == "done") return "";
+    const SurfaceRows rows = read_surface_rows(run);
+    return unfinished_text(run, surface_results(rows).end_s, rows.scene.at("end_s").get<double>());
+}
+
 }  // namespace
 
 std::vector<SettingResults> compare_surface_runs(const std::vector<std::filesystem::path>& runs) {
-    return compare_settings(runs, k_surface_study, quantities_of);
+    return compare_settings(runs, k_surface_study, quantities_of, unfinished_scene);
 }
 
 nlohmann::json surface_comparison_json(const std::vector<SettingResults>& settings) {

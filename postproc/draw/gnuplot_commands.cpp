@@ -75,6 +75,7 @@ private:
     std::string block(const Columns& columns, bool breaks);
     void axis(const Axis& axis, const std::string& name);
     void frame();
+    void fix_range(const Axis& axis, const std::string& name);
     void legend();
     void add(const Field& field);
     void add(const Band& band);
@@ -89,6 +90,7 @@ private:
     std::string settings_;
     std::vector<std::string> parts_;
     int blocks_ = 0;
+    bool has_points_ = false;
 };
 
 std::string Commands::block(const Columns& columns, bool breaks) {
@@ -102,6 +104,7 @@ std::string Commands::block(const Columns& columns, bool breaks) {
             line += (line.empty() ? "" : " ") + number((*column)[row]);
         }
         settings_ += (breaks && has_gap ? "" : line) + "\n";
+        has_points_ = has_points_ || (std::isfinite((*columns[0])[row]) && std::isfinite((*columns[1])[row]));
     }
     settings_ += "END_OF_DATA\n";
     return name;
@@ -140,6 +143,13 @@ void Commands::frame() {
     if (!plot_.y.visible) set("set lmargin 3\nset rmargin 3\nset tmargin 0.4\nset bmargin {}", plot_.x.visible ? 1.6 : 0.4);
     const bool from_data = !plot_.x.from && !plot_.x.to && !plot_.x.logarithmic;
     if (from_data) set("set offsets graph 0.06,graph 0.06,0,0");
+}
+
+/// gnuplot finds no range where there is no point, and draws nothing then.
+void Commands::fix_range(const Axis& axis, const std::string& name) {
+    const auto beside = [&](double end, double steps) { return axis.logarithmic ? end * std::pow(10.0, steps) : end + steps; };
+    const double from = axis.from.value_or(axis.to ? beside(*axis.to, -1.0) : (axis.logarithmic ? 1.0 : 0.0));
+    set("set {}range [{}:{}]", name, number(from), number(axis.to.value_or(beside(from, 1.0))));
 }
 
 void Commands::legend() {
@@ -230,6 +240,11 @@ std::string Commands::text() {
     for (const Series& series : plot_.series) add(series);
     for (const Text& text : plot_.texts) add(text);
     if (parts_.empty()) draw("NaN notitle");
+    if (!has_points_) {
+        fix_range(plot_.x, "x");
+        fix_range(plot_.y, "y");
+        if (plot_.upper_x) fix_range(*plot_.upper_x, "x2");
+    }
     return settings_ + fmt::format("plot {}\n", fmt::join(parts_, ", "));
 }
 

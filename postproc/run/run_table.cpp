@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -63,7 +64,8 @@ void require_columns(const std::vector<std::string>& columns, const TableRules& 
     for (const auto* required : {&rules.numbers, &rules.texts}) {
         for (const std::string& column : *required) {
             if (contains(columns, column)) continue;
-            mistakes.push_back({file.string(), fmt::format("the column {} is missing", column), "The report needs it", rules.remedy});
+            mistakes.push_back({file.string(), fmt::format("the column {} is missing", column),
+                                fmt::format("The report needs it; the table has {}", fmt::join(columns, ", ")), rules.remedy});
         }
     }
     if (!mistakes.empty()) throw UserError(std::move(mistakes));

@@ -158,5 +158,20 @@ TEST(Plot, of_nothing_is_drawn_with_its_axes) {
     EXPECT_THAT(draw_svg(plot, testing::fresh_directory("empty_plot")), HasSubstr("nothing here"));
 }
 
+TEST(Plot, without_a_point_is_drawn_when_no_range_is_given) {
+    Plot plot;
+    plot.name = "no_range";
+    plot.x.title = "nothing here";
+    plot.x.from = 2.0;
+    plot.y.logarithmic = true;
+    EXPECT_THAT(draw_svg(plot, testing::fresh_directory("no_range_plot")), HasSubstr("nothing here"));
+    Series unknown{"unknown", "#000000", {1.0, 2.0}, {k_gap, k_gap}};
+    unknown.mark = Mark::disc;
+    plot.series = {unknown};
+    EXPECT_THAT(draw_svg(plot, testing::fresh_directory("no_range_marks")), HasSubstr("nothing here"));
+    plot.series[0].line_width = 1.0;
+    EXPECT_THAT(draw_svg(plot, testing::fresh_directory("no_range_line")), HasSubstr("nothing here"));
+}
+
 }  // namespace
 }  // namespace cutterflow::postproc

@@ -268,7 +268,7 @@ void read_calibration_file(const fs::path& folder, const std::string& file) {
                                     },
                                     [](const fs::path&) { return std::optional<double>(36.0); },
                                     [](const fs::path&) {
-                                        return std::vector<std::string>{"angle", "profile"};
+                                        return std::vector<cases::StudyMeasure>{{"angle"}, {"profile", true}};
                                     }};
     cases::read_calibration(folder / file, access);
 }

@@ -18,6 +18,7 @@
 #include "geometry/base/process/shell_word.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/versions.hpp"
+#include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/pages/room/room_page.hpp"
 
 namespace cutterflow::cli {
@@ -40,6 +41,16 @@ std::string ranks_option(int ranks) {
     return ranks == 1 ? std::string() : fmt::format(" --ranks {}", ranks);
 }
 
+Mistake no_measure(const std::string& study) {
+    return {study, "it has no [[measure]]", "Runs of rooms are compared by their measures", "Write one into the study"};
+}
+
+std::vector<Mistake> warnings_of(const cases::RoomRequest& request, const std::string& study) {
+    std::vector<Mistake> warnings = cases::room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    if (request.scene.measures.empty()) warnings.push_back(no_measure(study));
+    return warnings;
+}
+
 /// \param mistakes  those found so far, told with the study's
 cases::RoomRequest read_request(const std::string& study, int ranks, Mistakes& mistakes) {
     cases::RoomRequest request;
@@ -56,7 +67,7 @@ void check(const CheckOptions& options) {
     mistakes.gather([&] { cases::require_machine(options.ranks); });
     const cases::RoomRequest request = read_request(options.study, options.ranks, mistakes);
     const cases::RoomPrediction prediction = prediction_of(request);
-    const std::vector<Mistake> warnings = cases::room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    const std::vector<Mistake> warnings = warnings_of(request, options.study);
     if (options.json) {
         nlohmann::json found = to_json(prediction);
         found["warnings"] = mistakes_json(warnings);
@@ -85,8 +96,7 @@ cases::RoomRequest begun_well(const RunOptions& options) {
             programs.emplace_back(program);
     if (options.ranks > 1) programs.insert(programs.end(), {"mpirun", "decomposePar", "reconstructPar"});
     require_programs(programs);
-    for (const Mistake& warning : cases::room_warnings(request.values, request.scene, request.pieces, request.mesh))
-        say("warning: " + warning.text());
+    for (const Mistake& warning : warnings_of(request, options.study)) say("warning: " + warning.text());
     return request;
 }
 
@@ -127,19 +137,25 @@ void prepare(const RunOptions& options) {
     std::cout << std::flush;
 }
 
+/// results.json, or the measures and where the report is. \pre the report is written
+void say_results(const fs::path& folder, bool json) {
+    if (json) {
+        std::cout << read_file(folder / names::results_json) << std::flush;
+        return;
+    }
+    if (postproc::has_measures(folder)) std::cout << postproc::measures_text(postproc::read_measures(folder));
+    std::cout << fmt::format("the report: {}\n", (folder / names::report_page).string()) << std::flush;
+}
+
 void run(const RunOptions& options) {
-    const fs::path folder = go_through(begun_well(options), options, "report");
-    std::cout << (options.json ? read_file(folder / names::results_json)
-                               : fmt::format("the report: {}\n", (folder / names::report_page).string()))
-              << std::flush;
+    say_results(go_through(begun_well(options), options, "report"), options.json);
 }
 
 void report(const ReportOptions& options) {
     if (options.adv_points || options.still_folder)
         throw UserError("--adv or --static with a room", "They belong to cutters", "Leave them out");
-    const fs::path page = postproc::write_room_report(options.folder);
-    std::cout << (options.json ? read_file(fs::path(options.folder) / names::results_json) : fmt::format("the report: {}\n", page.string()))
-              << std::flush;
+    postproc::write_room_report(options.folder);
+    say_results(options.folder, options.json);
 }
 
 std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::path&) {
@@ -150,8 +166,11 @@ std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::pat
         mistakes.require(!given, fmt::format("{} in a sweep of a room", option), "It belongs to cutters",
                          "Use --set KEY=a,b and --repeats");
     mistakes.refuse();
-    return cases::room_sweep_points(options.study, cases::key_axes(cases::room_table(), options.set, k_room_kind.params),
-                                    options.axes.repeats, options.ranks);
+    std::vector<cases::SweepPoint> points = cases::room_sweep_points(
+        options.study, cases::key_axes(cases::room_table(), options.set, k_room_kind.params), options.axes.repeats, options.ranks);
+    if (points.size() > 1 && parse_parameters(cases::room_table(), points.front().text, options.study).tables("measure").empty())
+        say("warning: " + no_measure(options.study).text());
+    return points;
 }
 
 fs::path write_comparison(const std::vector<fs::path>& runs, const fs::path& folder) {

@@ -92,7 +92,7 @@ std::vector<std::string> kind_names();
 /// \pre there is one of that name
 const StudyKind& kind_named(const std::string& name);
 /// By the file's key `kind` or `scene.kind`; a file that is missing or no TOML counts as a cutter's, whose reader tells what is wrong.
-/// \throws UserError  when the file names another kind
+/// \throws UserError  when the file names another kind, or none and is no cutter's study
 const StudyKind& kind_of_study(const std::filesystem::path& file);
 const StudyKind& kind_of_run(const std::filesystem::path& folder);
 

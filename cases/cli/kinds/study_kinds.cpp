@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/calibration/calibration_file.hpp"
 #include "cases/cli/kinds/study_kind.hpp"
 #include "cases/scenes/study_kind.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/parameters/parameter_reading.hpp"
+#include "geometry/base/process/shell_word.hpp"
 
 namespace cutterflow::cli {
 
@@ -29,23 +31,26 @@ const StudyKind& kind_named(const std::string& name) {
 
 namespace {
 
-/// How much is wrong with a text when it is read as a study of that kind; nothing when it is no TOML, of which the reader tells.
-std::size_t mistakes_as(const StudyKind& kind, const std::string& toml) {
+/// How much is wrong with a text when it is read by that table; nothing when it is no TOML, of which the reader tells.
+std::size_t mistakes_by(const ParameterTable& table, const std::string& toml) {
     try {
-        return parse_with_mistakes(kind.table(), toml, "").mistakes.size();
+        return parse_with_mistakes(table, toml, "").mistakes.size();
     } catch (const UserError&) {
         return 0;
     }
 }
 
-/// \throws UserError  when a file that names no kind reads much better as one of another kind than as a cutter's
+/// \throws UserError  when a file that names no kind reads much better as a calibration, or as a study of another kind, than as a cutter's
 void require_cutter(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file)) return;
     const std::string toml = read_file(file);
     const auto& kinds = study_kinds();
     std::vector<std::size_t> mistakes;
-    for (const StudyKind& kind : kinds) mistakes.push_back(mistakes_as(kind, toml));
+    for (const StudyKind& kind : kinds) mistakes.push_back(mistakes_by(kind.table(), toml));
     const auto fewest = std::min_element(mistakes.begin(), mistakes.end());
+    if (2 * mistakes_by(cases::calibration_table(), toml) < *fewest)
+        throw UserError({{file.string(), "it is a calibration", "A study is checked, run and swept; a calibration names studies",
+                          fmt::format("Use cutterflow calibrate {}", shell_word(file.string()))}});
     if (2 * *fewest >= mistakes.front()) return;
     const StudyKind& nearest = kinds[static_cast<std::size_t>(fewest - mistakes.begin())];
     const ParameterTable& table = nearest.table();

@@ -32,14 +32,14 @@ ParameterTable rows_of(const postproc::MeasureKey& measured) {
     const std::string key = std::string(k_array) + "." + of_kind.key;
     switch (measured.shape) {
         case MeasureShape::region:
-            return {numbers(key + ".box.lower_m", 3, of_kind.help),
-                    numbers(key + ".box.upper_m", 3, "Upper corner."),
-                    numbers(key + ".sphere.centre_m", 3, of_kind.help),
+            return {numbers(key + ".box.lower_m", 3, "Lower corner of a box: where the measure looks."),
+                    numbers(key + ".box.upper_m", 3, "Upper corner of the box."),
+                    numbers(key + ".sphere.centre_m", 3, "Centre of a sphere: where the measure looks."),
                     number(key + ".sphere.radius_m", "Of the sphere."),
-                    numbers(key + ".cylinder.from_m", 3, of_kind.help),
+                    numbers(key + ".cylinder.from_m", 3, "One end of a cylinder's axis: where the measure looks."),
                     numbers(key + ".cylinder.to_m", 3, "The other end of its axis."),
                     number(key + ".cylinder.radius_m", "Of the cylinder."),
-                    numbers(key + ".half_space.point_m", 3, of_kind.help),
+                    numbers(key + ".half_space.point_m", 3, "A point of the plane that bounds a half space: where the measure looks."),
                     numbers(key + ".half_space.normal", 3, "Direction into the half space.")};
         case MeasureShape::gate:
             return {ParameterRow(key, ParameterKind::text, "-", of_kind.help).optional().repeated(),

@@ -185,6 +185,20 @@ std::vector<Mistake> softness_warnings(const ParameterValues& values, const Room
     return warnings;
 }
 
+/// Feeds that the run's end cuts short.
+std::vector<Mistake> feed_warnings(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Mistake> warnings;
+    for (const ParameterValues& event : values.tables("event")) {
+        if (event.text("event.do") != "feed" || event.number("event.to_s") <= scene.run.end) continue;
+        const double from = event.number("event.from_s"), to = event.number("event.to_s"), rate = event.number("event.rate_kg_s");
+        warnings.push_back({event.where("event.to_s"), fmt::format("event.to_s = {:g} of a feed of {}", to, event.text("event.grains")),
+                            fmt::format("The run ends at {:g} s: {:.4g} of the {:.4g} kg that are ordered come in", scene.run.end,
+                                        rate * (scene.run.end - from), rate * (to - from)),
+                            "Raise run.end_s, or end the feed earlier"});
+    }
+    return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> models_of(const RoomScene& scene) {
@@ -261,6 +275,7 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
     std::vector<Mistake> warnings = motion_warnings(values, scene);
     for (Mistake& warning : impact_warnings(values, scene)) warnings.push_back(std::move(warning));
     for (Mistake& warning : softness_warnings(values, scene, pieces)) warnings.push_back(std::move(warning));
+    for (Mistake& warning : feed_warnings(values, scene)) warnings.push_back(std::move(warning));
     if (!mesh) return warnings;
     for (Mistake& warning : meshing::room_mesh_warnings(*mesh)) warnings.push_back(std::move(warning));
     if (scene.grains.empty()) return warnings;

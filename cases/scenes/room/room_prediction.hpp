@@ -40,8 +40,10 @@ std::vector<std::string> models_of(const RoomScene& scene);
 /// \param mesh  of the medium; none without one
 RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& pieces, const std::optional<meshing::RoomMeshPlan>& mesh);
 
-/// What a run may be asked in spite of: solids that go through closed sides, grains that are soft for their bed; with a medium hindrance
-/// that counts twice or not at all, openings that kernels do not resolve or that grains may block, solids thinner than cells.
+/// What a run may be asked in spite of: solids that go through closed sides, grains that are soft for their bed, feeds that the run's end
+/// cuts short; with a medium hindrance that counts twice or not at all, openings that kernels do not resolve or that grains may block,
+/// solids thinner than cells.
+///
 /// \param values  of the study
 std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScene& scene, const std::vector<BedPiece>& pieces,
                                    const std::optional<meshing::RoomMeshPlan>& mesh);

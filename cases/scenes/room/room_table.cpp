@@ -357,6 +357,9 @@ std::string room_template(const std::string& name) {
         "[[prepare]]\ndo = \"pour\"\ngrains = \"beads\"\ndepth_m = 0.06\n"
         "region = {{ cylinder = {{ from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 }} }}\n\n"
         "[[prepare]]\ndo = \"settle\"\n\n"
+        "[[measure]]                   # runs are compared by their measures\n"
+        "name = \"angle\"\nwhat = \"angle\"\ncentre_m = [0, 0]\nradius_m = 0.04\nbase_m = 0.03\n"
+        "region = {{ cylinder = {{ from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.04 }} }}\n\n"
         "[run]\nend_s = 4\nstop = {{ settled = true }}\n",
         toml_text(ParameterValue(name)));
 }

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/csv_table.hpp"
 #include "geometry/base/error.hpp"
 #include "postproc/analysis/measures/cavity.hpp"
 #include "postproc/analysis/measures/grain_maps.hpp"
@@ -65,6 +64,10 @@ struct Look {
 Look look(const MeasureSource& source, const MeasureValues& values) {
     const std::size_t picture = source.picture_near(values.optional_number("at_s"));
     return {grains_in(source.grains(picture), region_or_everywhere(values)), source.picture_times()[picture]};
+}
+
+std::string why_no_grains(const MeasureValues& values, double time) {
+    return fmt::format("the picture at {:g} s has no grains{}", time, values.has("region") ? " in the region" : "");
 }
 
 MeasureOutcome without_value(const std::string& unit, const std::string& reason) {
@@ -141,43 +144,26 @@ MeasureOutcome mean_of(const Signal& signal, const MeasureValues& values, const 
 struct MeasuredProfile {
     Profile profile;
     double time = 0.0, diameter = 0.0;
+    std::string reason;  ///< empty: there are grains
 };
 
-MeasuredProfile measured_profile(const MeasureSource& source, const MeasureValues& values) {
+/// Without grains all heights are 0. \return nothing where grains give the ends of the profile, and there are none
+std::optional<MeasuredProfile> measured_profile(const MeasureSource& source, const MeasureValues& values) {
     const Look seen = look(source, values);
     const Eigen::Vector2d direction = values.text("along") == "x" ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
     const int axis = values.text("along") == "x" ? 0 : 1;
     double from = values.optional_number("from_m").value_or(0.0), to = values.optional_number("to_m").value_or(from);
-    if (seen.grains.size() > 0) {
+    const bool empty = seen.grains.size() == 0;
+    if (empty && !(values.has("from_m") && values.has("to_m"))) return std::nullopt;
+    if (!empty) {
         const auto [lower, upper] = bounds_of(seen.grains);
         if (!values.has("from_m")) from = lower[axis];
         if (!values.has("to_m")) to = upper[axis];
     }
     if (from >= to)
         throw UserError(fmt::format("the profile runs from {:g} to {:g} m", from, to), "It has a length", "Give from_m and to_m");
-    return {profile_of(seen.grains, direction, {from, to, values.integer("points")}, values.number("base_m")), seen.time,
-            mean_diameter(seen.grains)};
-}
-
-Profile read_profile(const std::filesystem::path& file) {
-    if (!std::filesystem::is_regular_file(file))
-        throw UserError({{file.string(), "there is no such file", "against names a CSV file; its path is relative to the run directory",
-                          "Put the file there, or correct the path in measures.json"}});
-    std::vector<Mistake> mistakes;
-    const CsvTable table(file, {"x_m", "height_m"}, {}, mistakes);
-    Profile profile;
-    for (std::size_t n = 0; n < table.rows(); ++n) {
-        const double place = table.at(n, "x_m");
-        if (!profile.place.empty() && place <= profile.place.back())
-            mistakes.push_back({table.where(n), fmt::format("x_m = {:g} after {:g}", place, profile.place.back()), "Places increase",
-                                "Sort the rows, and keep one of each place"});
-        profile.place.push_back(place);
-        profile.height.push_back(table.at(n, "height_m"));
-    }
-    if (mistakes.empty() && profile.place.size() < 2)
-        mistakes.push_back({file.string(), fmt::format("{} rows", profile.place.size()), "A profile has two or more", "Add the others"});
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
-    return profile;
+    return MeasuredProfile{profile_of(seen.grains, direction, {from, to, values.integer("points")}, values.number("base_m")), seen.time,
+                           mean_diameter(seen.grains), empty ? why_no_grains(values, seen.time) : ""};
 }
 
 SlopeSearch slope_search(const MeasureValues& values, const Grains& grains) {
@@ -229,19 +215,8 @@ std::size_t lines_to_show(const Spectrum& spectrum) {
     return std::min<std::size_t>(static_cast<std::size_t>(after - spectrum.frequency.begin()), 4 * k_most_points);
 }
 
-/// \throws UserError  when a map would have more than k_most_cells
-void require_map_size(double width, double height, double cell) {
-    const double cells = (width / cell + 1.0) * (height / cell + 1.0);
-    if (cells > k_most_cells)
-        throw UserError(fmt::format("cell_m = {:g} gives a map of {:.3g} cells", cell, cells),
-                        fmt::format("It has at most {:.0f}", k_most_cells), "Take larger cells or a smaller region");
-}
-
 PlaneGrid plane_grid(const MeasureValues& values) {
-    const PlaneGrid grid{std::get<BoxRegion>(region_of(values.raw("region"))), values.text("across")[0] - 'x', values.number("cell_m")};
-    const Vec3 size = grid.box.upper - grid.box.lower;
-    require_map_size(size[grid.first()], size[grid.second()], grid.cell);
-    return grid;
+    return {std::get<BoxRegion>(region_of(values.raw("region"))), values.text("across")[0] - 'x', values.number("cell_m")};
 }
 
 json grid_json(const PlaneGrid& grid) {
@@ -259,6 +234,13 @@ std::string why_no_rate(const PassedMass& passed) {
 }
 
 }  // namespace
+
+std::optional<Mistake> map_size_mistake(double width, double height, double cell) {
+    const double cells = (width / cell + 1.0) * (height / cell + 1.0);
+    if (cells <= k_most_cells) return std::nullopt;
+    return Mistake{"", fmt::format("cell_m = {:g} gives a map of {:.3g} cells over {:.4g} x {:.4g} m", cell, cells, width, height),
+                   fmt::format("It has at most {:.0f}", k_most_cells), "Take larger cells or a smaller region"};
+}
 
 MeasureOutcome measure_passed_mass(const MeasureSource& source, const MeasureValues& values) {
     const PassedMass passed = passed_mass(source, values);
@@ -335,25 +317,30 @@ MeasureOutcome measure_packing(const MeasureSource& source, const MeasureValues&
 }
 
 MeasureOutcome measure_profile(const MeasureSource& source, const MeasureValues& values) {
-    const MeasuredProfile measured = measured_profile(source, values);
+    const std::optional<MeasuredProfile> measured = measured_profile(source, values);
+    if (!measured) return without_value("m", why_no_grains(values, look(source, values).time));
     MeasureOutcome outcome;
-    outcome.value = *std::max_element(measured.profile.height.begin(), measured.profile.height.end());
+    outcome.value = *std::max_element(measured->profile.height.begin(), measured->profile.height.end());
     outcome.unit = "m";
-    outcome.detail = {{"at_s", measured.time}};
-    outcome.series = {{"place_m", numbers(measured.profile.place)}, {"height_m", numbers(measured.profile.height)}};
+    outcome.detail = {{"at_s", measured->time}};
+    if (!measured->reason.empty()) outcome.detail["reason"] = measured->reason;
+    outcome.series = {{"place_m", numbers(measured->profile.place)}, {"height_m", numbers(measured->profile.height)}};
     return outcome;
 }
 
 MeasureOutcome measure_profile_error(const MeasureSource& source, const MeasureValues& values) {
     const Profile given = read_profile(source.directory() / values.text("against"));
-    const MeasuredProfile measured = measured_profile(source, values);
-    const ProfileError error = profile_error(measured.profile, given, measured.diameter);
+    const std::optional<MeasuredProfile> measured = measured_profile(source, values);
+    if (!measured) return without_value("-", why_no_grains(values, look(source, values).time));
+    const ProfileError error = profile_error(measured->profile, given, measured->diameter);
     MeasureOutcome outcome;
     outcome.value = error.error;
     outcome.unit = "-";
-    outcome.detail = {{"at_s", measured.time}, {"points", error.used}, {"left_out", error.left_out}, {"least_height_m", measured.diameter}};
-    outcome.series = {{"place_m", numbers(measured.profile.place)},
-                      {"height_m", numbers(measured.profile.height)},
+    outcome.detail = {
+        {"at_s", measured->time}, {"points", error.used}, {"left_out", error.left_out}, {"least_height_m", measured->diameter}};
+    if (!measured->reason.empty()) outcome.detail["reason"] = measured->reason;
+    outcome.series = {{"place_m", numbers(measured->profile.place)},
+                      {"height_m", numbers(measured->profile.height)},
                       {"given_place_m", numbers(given.place)},
                       {"given_height_m", numbers(given.height)}};
     return outcome;
@@ -361,6 +348,7 @@ MeasureOutcome measure_profile_error(const MeasureSource& source, const MeasureV
 
 MeasureOutcome measure_angle(const MeasureSource& source, const MeasureValues& values) {
     const Look seen = look(source, values);
+    if (seen.grains.size() == 0) return without_value("deg", "no angle: " + why_no_grains(values, seen.time));
     const SlopeSearch search = slope_search(values, seen.grains);
     const Slopes slopes = slopes_of(seen.grains, search);
     MeasureOutcome outcome;
@@ -403,7 +391,7 @@ MeasureOutcome measure_cavity(const MeasureSource& source, const MeasureValues& 
     const auto [lower, upper] = map_extent(grains, region);
     if (!(lower.array() < upper.array()).all()) return without_value(unit, "no grains, or too few for a map");
     const double cell = values.number("cell_m");
-    require_map_size(upper.x() - lower.x(), upper.y() - lower.y(), cell);
+    if (const auto mistake = map_size_mistake(upper.x() - lower.x(), upper.y() - lower.y(), cell)) throw UserError({*mistake});
     const double undisturbed = values.has("undisturbed_m") ? values.number("undisturbed_m")
                                                            : surface_level(grains_of_map(source.grains(0), region), lower, upper, cell);
     const auto cavity = cavity_of(grains, lower, upper, undisturbed, cell);

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/base/error.hpp"
+
 namespace cutterflow::postproc {
 
 class MeasureSource;
@@ -17,6 +19,9 @@ struct MeasureOutcome {
     nlohmann::json detail = nlohmann::json::object();
     nlohmann::json series = nullptr;  ///< arrays by name
 };
+
+/// What is wrong with the cells of a map. \param width, height, cell  [m] \return none: it has no more than a page can show
+std::optional<Mistake> map_size_mistake(double width, double height, double cell);
 
 MeasureOutcome measure_passed_mass(const MeasureSource& source, const MeasureValues& values);
 MeasureOutcome measure_rate(const MeasureSource& source, const MeasureValues& values);

@@ -181,8 +181,8 @@ Signal MeasureSource::wall_force(const std::string& wall, const std::string& com
 
 Signal MeasureSource::column(const std::string& table, const std::string& column) const {
     const fs::path path(table);
-    const Table rows =
-        joined_with(directory_, path.parent_path().string(), path.filename().string(), {{"time_s", column}, {}, {}, k_run_again});
+    const Table rows = joined_with(directory_, path.parent_path().string(), path.filename().string(),
+                                   {{"time_s", column}, {}, {}, "Name a table with time_s, and one of its columns"});
     return {rows.number("time_s"), rows.number(column)};
 }
 

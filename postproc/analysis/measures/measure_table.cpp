@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
 #include "geometry/base/parameters/parameter_words.hpp"
+#include "postproc/analysis/measures/grain_maps.hpp"
 
 namespace cutterflow::postproc {
 
@@ -39,12 +41,13 @@ Keys joined(std::initializer_list<Keys> parts) {
 // --- keys that several kinds share ---------------------------------------------------------------
 
 MeasureKey at_time() {
-    return single(ParameterRow("at_s", k_number, "s", "Time of the picture; the nearest one counts.").derived("the last picture"));
+    return single(
+        ParameterRow("at_s", k_number, "s", "Time of the picture; the nearest one counts.").at_least(0).derived("the last picture"));
 }
 
 Keys window() {
-    return {single(ParameterRow("from_s", k_number, "s", "Start of the window of time.").derived("the start of the run")),
-            single(ParameterRow("to_s", k_number, "s", "End of the window of time.").derived("the end of the run"))};
+    return {single(ParameterRow("from_s", k_number, "s", "Start of the window of time.").at_least(0).derived("the start of the run")),
+            single(ParameterRow("to_s", k_number, "s", "End of the window of time.").at_least(0).derived("the end of the run"))};
 }
 
 MeasureKey grains_in() {
@@ -165,21 +168,36 @@ std::vector<Mistake> angle_rules(const json& measure) {
     return mistakes;
 }
 
+/// A map over a box is no finer than a page can show. \param across  x, y or z: the direction that the map does not have
+void require_map(const json& measure, char across, std::vector<Mistake>& mistakes) {
+    const PlaneGrid grid{std::get<BoxRegion>(region_of(measure["region"])), across - 'x', MeasureValues(measure).number("cell_m")};
+    const Vec3 size = grid.box.upper - grid.box.lower;
+    if (const auto found = map_size_mistake(size[grid.first()], size[grid.second()], grid.cell)) mistakes.push_back(*found);
+}
+
+/// Without a box the extent is known with the grains.
+std::vector<Mistake> cavity_rules(const json& measure) {
+    std::vector<Mistake> mistakes;
+    if (measure.contains("region") && measure["region"].contains("box")) require_map(measure, 'z', mistakes);
+    return mistakes;
+}
+
 std::vector<Mistake> box_rules(const json& measure) {
     std::vector<Mistake> mistakes;
     require_kind_of_region(measure, {"box"}, mistakes);
+    if (mistakes.empty()) require_map(measure, MeasureValues(measure).text("across")[0], mistakes);
     return mistakes;
 }
 
 std::vector<Mistake> velocity_rules(const json& measure) {
     std::vector<Mistake> mistakes = window_rules(measure);
-    require_kind_of_region(measure, {"box"}, mistakes);
+    for (Mistake& found : box_rules(measure)) mistakes.push_back(std::move(found));
     return mistakes;
 }
 
 std::vector<Mistake> void_rules(const json& measure) {
     std::vector<Mistake> mistakes = box_rules(measure);
-    if (!mistakes.empty()) return mistakes;
+    if (!measure["region"].contains("box")) return mistakes;
     const json& box = measure["region"]["box"];
     for (int i = 0; i < 3; ++i) {
         const double seed = measure["seed_m"][i].get<double>();
@@ -191,8 +209,22 @@ std::vector<Mistake> void_rules(const json& measure) {
     return mistakes;
 }
 
+/// A table is a file in a folder of postProcessing/, with one row for each time.
+void require_table(const json& measure, std::vector<Mistake>& mistakes) {
+    const std::string table = measure.value("table", "folder/file"), column = measure.value("column", "");
+    const std::filesystem::path path(table);
+    const bool has_folder = path.has_parent_path() && path.has_filename() && path.is_relative();
+    if (!has_folder || std::find(path.begin(), path.end(), "..") != path.end())
+        mistakes.push_back(mistake(fmt::format("table = \"{}\"", table),
+                                   "It is a file in a folder of postProcessing/, without its time folder", "Write it as loads/loads.csv"));
+    if (table == "rock/walls.csv")
+        mistakes.push_back(mistake(fmt::format("table = \"{}\"", table), "Its rows are those of all walls", "Give a wall and a component"));
+    if (column == "time_s") mistakes.push_back(mistake("column = \"time_s\"", "Time is no signal", "Name another column of the table"));
+}
+
 std::vector<Mistake> spectrum_rules(const json& measure) {
     std::vector<Mistake> mistakes = window_rules(measure);
+    require_table(measure, mistakes);
     require_one_of(measure, "wall", "table", mistakes);
     if (measure.contains("table") != measure.contains("column"))
         mistakes.push_back(mistake(
@@ -274,7 +306,7 @@ std::vector<MeasureKind> make_table() {
                      {required_region("A box, a sphere or a cylinder."), at_time()},
                      packing_rules});
     table.push_back({"profile", measure_profile, "m", "Upper envelope of the grains seen from a side; its value is the greatest height.",
-                     profile_keys(), profile_rules});
+                     profile_keys(), profile_rules, true});
     table.push_back({"profile_error", measure_profile_error, "-",
                      "Mean of |h - h_given| / h_given over the points of a profile. Points where the given height is below 1 mean diameter "
                      "are left out and counted.",
@@ -283,7 +315,7 @@ std::vector<MeasureKind> make_table() {
                                                   "CSV file with the columns x_m,height_m, linear between its points; relative to the "
                                                   "study, in a measures.json by hand to the run directory.")
                                          .source("WasserfallCoetzeeMeyer2024"))}}),
-                     profile_rules});
+                     profile_rules, true});
     table.push_back(angle_kind());
     table.push_back(
         {"cavity",
@@ -296,7 +328,8 @@ std::vector<MeasureKind> make_table() {
           single(ParameterRow("cell_m", k_number, "m", "Cell of the height map.").above(0).by_default(0.005)),
           single(
               ParameterRow("quantity", k_choice, "-", "What the value is.").one_of({"diameter", "depth", "volume"}).by_default("diameter")),
-          grains_in(), at_time()}});
+          grains_in(), at_time()},
+         cavity_rules});
     table.push_back({"void_area",
                      measure_void_area,
                      "m2",
@@ -325,7 +358,9 @@ std::vector<MeasureKind> make_table() {
     table.push_back(
         {"spectrum", measure_spectrum, "Hz", "Frequency of the strongest oscillation of a signal, by Welch's periodogram.",
          joined(
-             {wall_keys(ParameterRow("wall", k_text, "-", "Wall whose force is the signal."), "none: give a table"),
+             {wall_keys(ParameterRow("wall", k_text, "-",
+                                     "Wall whose force is the signal: a solid, or a side of the room that is one, xMin to zMax."),
+                        "none: give a table"),
               {single(ParameterRow("table", k_text, "-", "Table of postProcessing/ without its time folder, as loads/loads.csv.")
                           .derived("none: give a wall")),
                single(ParameterRow("column", k_text, "-", "Column of the table that is the signal.").derived("none: give a wall")),
@@ -344,8 +379,12 @@ std::vector<MeasureKind> make_table() {
                           .by_default("frequency"))},
               window()}),
          spectrum_rules});
-    table.push_back({"wall_force", measure_wall_force, "N", "Mean force of rock on a wall.",
-                     joined({wall_keys(ParameterRow("wall", k_text, "-", "Name of the wall."), ""), window()}), window_rules});
+    table.push_back(
+        {"wall_force", measure_wall_force, "N", "Mean force of rock on a wall.",
+         joined({wall_keys(ParameterRow("wall", k_text, "-", "Name of the wall: a solid, or a side of the room that is one, xMin to zMax."),
+                           ""),
+                 window()}),
+         window_rules});
     table.push_back({"pressure_drop", measure_pressure_drop, "Pa",
                      "Mean of the pressure at a place less that at another, without the weight of the fluid: its dynamic part.",
                      joined({{shaped(MeasureShape::point, ParameterRow("upstream_m", k_number, "m", "The first place.")),
@@ -393,6 +432,21 @@ std::string written(const Form& form) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// As the solver takes the corners of a gate.
+void check_rectangle(const json& value, const std::string& place, std::vector<Mistake>& mistakes) {
+    int flat = 0;
+    bool ordered = true;
+    for (int i = 0; i < 3; ++i) {
+        const double lower = value["lower_m"][i].get<double>(), upper = value["upper_m"][i].get<double>();
+        if (lower == upper) ++flat;
+        ordered = ordered && lower <= upper;
+    }
+    if (flat == 1 && ordered) return;
+    mistakes.push_back(
+        mistake(fmt::format("{}.lower_m = {} and upper_m = {} are no rectangle", place, value["lower_m"].dump(), value["upper_m"].dump()),
+                "They agree in one direction, in the others lower_m lies below upper_m", "Correct the corners"));
+}
+
 /// Mistakes of a table {key = numbers} against its form. \param place  of the table, as "region.box"
 void check_form(const json& value, const Form& form, const std::string& place, std::vector<Mistake>& mistakes) {
     const std::string rule = fmt::format("A {} has {}", form.name, written(form));
@@ -427,6 +481,7 @@ void check_form(const json& value, const Form& form, const std::string& place, s
             return;
         }
     }
+    if (std::string(form.name) == "rectangle") check_rectangle(value, place, mistakes);
     if (std::string(form.name) == "cylinder" && value["from_m"] == value["to_m"])
         mistakes.push_back(mistake(fmt::format("{}.from_m and to_m are the same place, {}", place, value["from_m"].dump()),
                                    "They are the ends of the axis", "Move one of them"));

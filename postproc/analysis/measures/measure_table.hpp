@@ -39,6 +39,7 @@ struct MeasureKind {
     std::vector<MeasureKey> keys;
     /// Rules between keys whose values are right by themselves; null: none. \return mistakes
     std::vector<Mistake> (*rules)(const nlohmann::json& measure) = nullptr;
+    bool has_profile = false;  ///< its series has place_m and height_m
 };
 
 const std::vector<MeasureKind>& measure_table();

@@ -124,6 +124,12 @@ void require_different(const std::vector<fs::path>& runs, const std::vector<RunS
     require_distinct(runs, are_one_run, "seed");
 }
 
+std::vector<std::string> warnings_of(const std::vector<SettingResults>& settings) {
+    std::vector<std::string> warnings;
+    for (const SettingResults& setting : settings) warnings.insert(warnings.end(), setting.warnings.begin(), setting.warnings.end());
+    return warnings;
+}
+
 /// Of every run, the same ones. \throws UserError  with the mistakes of all runs
 std::vector<std::vector<RunQuantity>> quantities_of_all(const std::vector<fs::path>& runs, const std::vector<RunSetting>& of_runs,
                                                         const std::string& study_file,
@@ -159,7 +165,8 @@ std::string verdict_of(const RepeatMean& difference) {
 }
 
 std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, const std::string& study_file,
-                                             const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of) {
+                                             const std::function<std::vector<RunQuantity>(const fs::path&)>& quantities_of,
+                                             const std::function<std::string(const fs::path&)>& warning_of) {
     const std::vector<RunSetting> setting_of_run = settings_of(runs, study_file);
     const std::vector<std::vector<RunQuantity>> of_runs = quantities_of_all(runs, setting_of_run, study_file, quantities_of);
     std::vector<SettingResults> settings;
@@ -176,6 +183,7 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, 
         }
         SettingResults& setting = settings[known->second];
         setting.repeats.push_back(setting_of_run[n].seed);
+        if (const std::string warning = warning_of ? warning_of(runs[n]) : ""; !warning.empty()) setting.warnings.push_back(warning);
         for (std::size_t q = 0; q < quantities.size(); ++q) {
             setting.quantities[q].each.push_back(quantities[q].value);
             if (setting.quantities[q].reason.empty()) setting.quantities[q].reason = quantities[q].reason;
@@ -189,6 +197,10 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, 
         }
     }
     return settings;
+}
+
+std::string unfinished_text(const fs::path& run, double reached, double end) {
+    return fmt::format("{} is not finished: it has come to {:.4g} of {:g} s", run.string(), reached, end);
 }
 
 std::string setting_comparison_text(const std::vector<SettingResults>& settings) {
@@ -208,7 +220,9 @@ std::string setting_comparison_text(const std::vector<SettingResults>& settings)
             text += fmt::format("  ({} run{})\n", setting.repeats.size(), setting.repeats.size() == 1 ? "" : "s");
         }
     }
-    return text + "value +- half the 95 % interval (Student's t over repeats); differences from the first setting, in pairs of repeats\n";
+    text += "value +- half the 95 % interval (Student's t over repeats); differences from the first setting, in pairs of repeats\n";
+    for (const std::string& warning : warnings_of(settings)) text += fmt::format("warning: {}\n", warning);
+    return text;
 }
 
 nlohmann::json setting_comparison_json(const std::vector<SettingResults>& settings, const std::string& schema) {
@@ -222,7 +236,7 @@ nlohmann::json setting_comparison_json(const std::vector<SettingResults>& settin
                 {"verdict", &setting == &settings.front() ? nlohmann::json() : nlohmann::json(verdict_of(quantity.difference))}};
         rows.push_back(row);
     }
-    return {{"schema", schema}, {"settings", rows}};
+    return {{"schema", schema}, {"settings", rows}, {"warnings", warnings_of(settings)}};
 }
 
 fs::path write_setting_comparison(const std::vector<SettingResults>& settings, const std::string& schema, const fs::path& folder) {
@@ -230,6 +244,7 @@ fs::path write_setting_comparison(const std::vector<SettingResults>& settings, c
     fs::create_directories(folder);
     write_file(folder / "comparison.json", setting_comparison_json(settings, schema).dump(2) + "\n");
     std::string body = "<header><h1>Comparison of runs</h1></header>\n";
+    for (const std::string& warning : warnings_of(settings)) body += fmt::format("<p class=\"notice\">{}.</p>\n", html::escape(warning));
     for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
         if (!is_known(settings, q)) continue;
         std::vector<std::vector<std::string>> rows;

@@ -34,6 +34,7 @@ struct SettingResults {
     std::string name;          ///< the first run's folder without _repeat<n>, and that above it where two settings share the name
     std::vector<int> repeats;  ///< their seeds
     std::vector<SettingQuantity> quantities;
+    std::vector<std::string> warnings{};  ///< of its runs
 };
 
 /// A quantity of one run.
@@ -47,10 +48,15 @@ struct RunQuantity {
 /// Runs whose studies differ in name and seed alone are repeats of one setting, whatever their folders are called.
 /// \param study_file  name of the study in a run; a run without it has the setting of its folder's name
 /// \param quantities_of  a run: the same ones of every run
+/// \param warning_of  a run: what a reader of its quantities has to know, or nothing
 /// \throws UserError  when runs have other quantities than the first, or a run comes twice: by its path, as a copy, or with the same study
 /// and seed
 std::vector<SettingResults> compare_settings(const std::vector<std::filesystem::path>& runs, const std::string& study_file,
-                                             const std::function<std::vector<RunQuantity>(const std::filesystem::path&)>& quantities_of);
+                                             const std::function<std::vector<RunQuantity>(const std::filesystem::path&)>& quantities_of,
+                                             const std::function<std::string(const std::filesystem::path&)>& warning_of = nullptr);
+
+/// The warning of a run that has not come to its end. \param reached, end  [s]
+std::string unfinished_text(const std::filesystem::path& run, double reached, double end);
 
 std::string setting_comparison_text(const std::vector<SettingResults>& settings);
 /// \param schema  its name, as "cutterflow.surface_comparison/1"

@@ -121,6 +121,7 @@ std::optional<Plot> profile_plot(const std::string& name, const json& result) {
 
 /// Silhouettes of all views, the first one darker, with the lines through its two sides.
 std::optional<Plot> angle_plot(const std::string& name, const json& result) {
+    if (result["series"]["silhouettes"].empty()) return std::nullopt;  // no grains lie above the base
     Plot plot = plot_of(name, {"distance from the axis [mm]", {".1f", " mm"}}, {"height [mm]", {".1f", " mm"}});
     const json &silhouettes = result["series"]["silhouettes"], &sides = result["detail"]["sides"];
     double reach = 0.0, top = 0.0;

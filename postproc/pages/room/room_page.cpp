@@ -199,10 +199,21 @@ std::string models_and_cost(const fs::path& run, const nlohmann::json& results) 
     return markup + html::table({"stage", "core time"}, rows, true);
 }
 
-std::vector<RunQuantity> quantities_of(const fs::path& run) {
+/// \throws UserError  when there is nothing of a run that could be compared
+void require_measured_room(const fs::path& run) {
     if (!is_room_run(run))
         throw UserError(fmt::format("{} {}", run.string(), fs::exists(run) ? "is no run of a room" : "does not exist"),
                         fmt::format("It has a {}", k_room_file), "Compare runs of one kind");
+    if (fs::exists(run / k_measures) && !has_measures(run))
+        throw UserError(
+            fmt::format("the study of {} has no [[measure]]", run.string()), "Runs of rooms are compared by their measures",
+            fmt::format("Write one into it, and repeat cutterflow run STUDY -o {}: the report alone is made anew, unless the run "
+                        "itself has to record something",
+                        run.string()));
+}
+
+std::vector<RunQuantity> quantities_of(const fs::path& run) {
+    require_measured_room(run);
     std::vector<RunQuantity> quantities;
     const nlohmann::json measures = read_measures(run);
     for (const auto& [name, measure] : measures.items()) {
@@ -218,6 +229,13 @@ std::vector<RunQuantity> quantities_of(const fs::path& run) {
 
 bool is_room_run(const fs::path& run) {
     return fs::exists(run / k_room_file);
+}
+
+std::string unfinished_room(const fs::path& run) {
+    if (start_folders(run, "cost").empty() || !cost_of(run).empty()) return "";
+    const Table steps = read_joined_table(run, "cost", "cost.csv", {{"time_s"}, {}, {}, "Run it again with this version"});
+    const double reached = steps.empty() ? 0.0 : steps.number("time_s").back();
+    return unfinished_text(run, reached, read_room(run).at("end_s").get<double>());
 }
 
 fs::path write_room_report(const fs::path& run) {
@@ -241,7 +259,7 @@ fs::path write_room_report(const fs::path& run) {
 }
 
 std::vector<SettingResults> compare_room_runs(const std::vector<fs::path>& runs) {
-    return compare_settings(runs, names::resolved_study, quantities_of);
+    return compare_settings(runs, names::resolved_study, quantities_of, unfinished_room);
 }
 
 nlohmann::json room_comparison_json(const std::vector<SettingResults>& settings) {

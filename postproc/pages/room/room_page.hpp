@@ -1,6 +1,7 @@
 #pragma once
 /// \file The report of a room's run: report/results.json and report/index.html; runs of rooms beside each other.
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -20,8 +21,11 @@ bool is_room_run(const std::filesystem::path& run_directory);
 /// \throws UserError  when nothing was computed yet or a file breaks its contract
 std::filesystem::path write_room_report(const std::filesystem::path& run_directory);
 
+/// That a run has not come to its end, and how far it has come; empty of one that has, or that keeps no record of its steps.
+std::string unfinished_room(const std::filesystem::path& run_directory);
+
 /// Settings by their measures. A measure without a value is unknown for its setting.
-/// \throws UserError  when a folder is no run of a room, or has other measures than the first
+/// \throws UserError  when a folder is no run of a room, or has no measures, or other ones than the first
 std::vector<SettingResults> compare_room_runs(const std::vector<std::filesystem::path>& runs);
 nlohmann::json room_comparison_json(const std::vector<SettingResults>& settings);
 /// Writes comparison.json and index.html. \return the page

@@ -9,6 +9,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/sphere.hpp"
+#include "postproc/analysis/measures/heap.hpp"
 #include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/analysis/measures/measure_table.hpp"
 #include "postproc/draw/gnuplot.hpp"
@@ -292,13 +293,66 @@ TEST_F(MeasuredRun, refuses_maps_of_more_cells_than_anyone_draws) {
     picture(1.0, two);
     const char* box = R"("region": {"box": {"lower_m": [0, 0, 0], "upper_m": [1, 1, 1]}}, "cell_m": 1e-12)";
     write(k_measures, fmt::format(R"([{{"name": "a", "what": "cavity", {0}}}, {{"name": "b", "what": "bed_velocity", {0}}},
-                                     {{"name": "c", "what": "void_area", "seed_m": [0, 0, 0], {0}}}])",
+                                     {{"name": "c", "what": "void_area", "seed_m": [0, 0, 0], {0}}},
+                                     {{"name": "d", "what": "cavity", "cell_m": 1e-12}}])",
                                   box));
     try {
         measure_run(run_);
         FAIL() << "a map of 1e24 cells";
     } catch (const UserError& error) {
-        EXPECT_EQ(error.mistakes().size(), 3U) << error.what();
+        EXPECT_EQ(error.mistakes().size(), 4U) << error.what();
+    }
+}
+
+TEST_F(MeasuredRun, tells_every_mistake_of_a_given_profile_with_its_line) {
+    const auto refusal = [&](const std::string& text) {
+        write("heap.csv", text);
+        try {
+            read_profile(run_ / "heap.csv");
+        } catch (const UserError& error) {
+            EXPECT_EQ(error.code(), ExitCode::user_input);
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal("x_m,height_m\n0,0.02\n0.03,0.01\n"), "");
+    EXPECT_THAT(refusal("x,h\n0,0.02\n0.03,0.01\n"),
+                AllOf(HasSubstr("heap.csv:1: column 'x_m' is missing"), HasSubstr("column 'height_m' is missing")));
+    EXPECT_THAT(refusal("x_m,height_m\n0,high\n0.03,0.01\n0.02,0.01\n"),
+                AllOf(HasSubstr("heap.csv:2: height_m = 'high'"), HasSubstr("heap.csv:4: x_m = 0.02 after 0.03")));
+    EXPECT_THAT(refusal("x_m,height_m\n0,0.01\n"), HasSubstr("A profile has two or more"));
+    EXPECT_THAT(refusal(""), HasSubstr("is empty"));
+}
+
+TEST_F(MeasuredRun, says_that_there_are_no_grains) {
+    Grains one;
+    one.add({0.0, 0.0, 0.005}, Vec3::Zero(), k_d, k_density);
+    picture(2.0, one);
+    write("heap.csv", "x_m,height_m\n0,0.03\n0.2,0.03\n");
+    const char* away = R"("region": {"half_space": {"point_m": [0, 0, 1], "normal": [0, 0, 1]}})";
+    write(k_measures, fmt::format(R"([{{"name": "repose", "what": "angle", {0}}}, {{"name": "line", "what": "profile", {0}}},
+                                      {{"name": "misfit", "what": "profile_error", "against": "heap.csv", {0}}},
+                                      {{"name": "floor", "what": "profile", "from_m": 0, "to_m": 0.2, {0}}},
+                                      {{"name": "gone", "what": "profile_error", "against": "heap.csv", "from_m": 0, "to_m": 0.2, {0}}}])",
+                                  away));
+    const json results = measure_run(run_);
+    for (const char* name : {"repose", "line", "misfit", "floor", "gone"})
+        EXPECT_THAT(results[name]["detail"]["reason"].get<std::string>(), HasSubstr("the picture at 2 s has no grains in the region"));
+    for (const char* name : {"repose", "line", "misfit"}) EXPECT_TRUE(results[name]["value"].is_null()) << name;
+    EXPECT_EQ(results["floor"]["value"], 0.0) << "the ends are given: an empty floor";
+    EXPECT_EQ(results["gone"]["value"], 1.0);
+    EXPECT_NO_THROW(measure_figures(results));
+}
+
+TEST_F(MeasuredRun, names_the_columns_of_a_table_that_has_not_the_one_asked_for) {
+    write("postProcessing/loads/0/loads.csv", "time_s,torque\n0.1,1\n0.2,2\n");
+    write(k_measures, R"([{"name": "turn", "what": "spectrum", "table": "loads/loads.csv", "column": "torqe"}])");
+    try {
+        measure_run(run_);
+        FAIL() << "there is no such column";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("the column torqe is missing"), HasSubstr("the table has time_s, torque"),
+                                        HasSubstr("one of its columns"), ::testing::Not(HasSubstr("Run it again"))));
     }
 }
 

@@ -96,6 +96,47 @@ TEST(MeasureTable, tells_all_mistakes_at_once_with_the_measure_s_name_and_the_ne
     EXPECT_THAT(found, SizeIs(24));
 }
 
+TEST(MeasureTable, takes_flat_rectangles_as_gates_alone) {
+    const auto gate = [](const char* lower, const char* upper) {
+        return texts(fmt::format(R"([{{"name": "door", "what": "passed_mass", "gate": {{"lower_m": {}, "upper_m": {}}}}}])", lower, upper));
+    };
+    EXPECT_THAT(gate("[0.02, -0.025, 0]", "[0.02, 0.025, 0.09]"), IsEmpty());
+    EXPECT_THAT(gate("[0.02, -0.025, 0]", "[0.03, 0.025, 0.09]"),
+                ::testing::ElementsAre(HasSubstr("gate.lower_m = [0.02,-0.025,0] and upper_m = [0.03,0.025,0.09] are no rectangle")));
+    EXPECT_THAT(gate("[0.02, 0.025, 0]", "[0.02, 0.025, 0.09]"), SizeIs(1)) << "a line";
+    EXPECT_THAT(gate("[0.02, 0.025, 0]", "[0.02, -0.025, 0.09]"), SizeIs(1)) << "corners exchanged";
+}
+
+TEST(MeasureTable, refuses_times_before_the_run) {
+    EXPECT_THAT(texts(R"([{"name": "a", "what": "angle", "at_s": -1}, {"name": "b", "what": "wall_force", "wall": "plate", "to_s": -1},
+                          {"name": "c", "what": "wall_force", "wall": "plate", "from_s": -1}])"),
+                ::testing::ElementsAre(HasSubstr("at_s = -1"), HasSubstr("to_s = -1"), HasSubstr("from_s = -1")));
+}
+
+TEST(MeasureTable, refuses_maps_of_a_box_that_are_too_fine) {
+    const auto of = [](const char* box, const char* more) {
+        return texts(fmt::format(R"([{{"name": "a", "region": {{"box": {}}}, {}}}])", box, more));
+    };
+    const char* high = R"({"lower_m": [0, 0, 0], "upper_m": [0.1, 0.1, 100]})";
+    EXPECT_THAT(of(high, R"("what": "cavity", "cell_m": 0.001)"), IsEmpty()) << "seen from above";
+    EXPECT_THAT(of(high, R"("what": "cavity", "cell_m": 1e-7)"), Contains(HasSubstr("cell_m = 1e-07 gives a map of 1e+12 cells")));
+    EXPECT_THAT(of(high, R"("what": "bed_velocity", "cell_m": 0.001, "across": "z")"), IsEmpty());
+    EXPECT_THAT(of(high, R"("what": "bed_velocity", "cell_m": 0.001)"), Contains(HasSubstr("It has at most 250000")));
+    EXPECT_THAT(of(high, R"("what": "void_area", "cell_m": 0.001, "seed_m": [9, 0, 0])"),
+                ::testing::ElementsAre(HasSubstr("It has at most 250000"), HasSubstr("seed_m")));
+}
+
+TEST(MeasureTable, refuses_tables_that_are_none_of_a_run_or_of_many_walls) {
+    const auto of = [](const char* table, const char* column) {
+        return texts(fmt::format(R"([{{"name": "a", "what": "spectrum", "table": "{}", "column": "{}"}}])", table, column));
+    };
+    EXPECT_THAT(of("loads/loads.csv", "torque_rock_n_m"), IsEmpty());
+    for (const char* table : {"loads.csv", "/loads/loads.csv", "../loads/loads.csv", "loads/"})
+        EXPECT_THAT(of(table, "torque_rock_n_m"), Contains(HasSubstr("It is a file in a folder of postProcessing/"))) << table;
+    EXPECT_THAT(of("rock/walls.csv", "force_x_n"), Contains(HasSubstr("Give a wall and a component")));
+    EXPECT_THAT(of("loads/loads.csv", "time_s"), Contains(HasSubstr("Time is no signal")));
+}
+
 TEST(MeasureTable, refuses_what_is_no_list) {
     EXPECT_THAT(texts(R"({"name": "a"})"), SizeIs(1));
 }

@@ -1,5 +1,6 @@
 /// \file Tables [[measure]], by themselves and in their room.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -13,6 +14,8 @@
 #include "cases/scenes/room/room_measures.hpp"
 #include "cases/scenes/room/vec3_of.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "postproc/analysis/measures/heap.hpp"
+#include "postproc/analysis/measures/measure_kinds.hpp"
 
 namespace cutterflow::cases {
 
@@ -109,15 +112,31 @@ void check_places(RoomReading& room, const ParameterValues& measure) {
     check_levels(room, measure);
 }
 
+/// A profile is read once here, so that no run is made for a file that cannot be used.
+void check_given_profile(RoomReading& room, const ParameterValues& measure) {
+    const fs::path file = room.folder / measure.text("measure.against");
+    if (!fs::is_regular_file(file))
+        return room.refuse(measure.where("measure.against"), fmt::format("measure.against: there is no file {}", file.string()),
+                           "It is a CSV file of a profile; its path is relative to the study", "Correct the path, or put the file there");
+    room.mistakes.gather([&] { postproc::read_profile(file); });
+}
+
+/// Any map covers two grains at least; the extent of a box is known, and checked with its table.
+void require_cell(RoomReading& room, const ParameterValues& measure) {
+    const double extent = 2.0 * room.scene.smallest_grain();
+    if (!std::isfinite(extent) || measure.has("measure.region.box.lower_m")) return;
+    if (const auto mistake = postproc::map_size_mistake(extent, extent, measure.number("measure.cell_m")))
+        room.refuse(measure.where("measure.cell_m"), fmt::format("measure.{}, of two of the smallest grains alone", mistake->what),
+                    mistake->rule, "Take larger cells");
+}
+
 void check_measure(RoomReading& room, const ParameterValues& measure) {
     const std::string &name = measure.text("measure.name"), where = measure.where("measure.name");
     if (measure.text("measure.what") == "pressure_drop" && !room.scene.medium.present())
         room.refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
                     "Remove the measure, or choose a room.medium");
-    if (measure.has("measure.against") && !fs::is_regular_file(room.folder / measure.text("measure.against")))
-        room.refuse(measure.where("measure.against"),
-                    fmt::format("measure.against: there is no file {}", (room.folder / measure.text("measure.against")).string()),
-                    "It is a CSV file of a profile; its path is relative to the study", "Correct the path, or put the file there");
+    if (measure.has("measure.against")) check_given_profile(room, measure);
+    if (measure.has("measure.cell_m")) require_cell(room, measure);
     check_places(room, measure);
     for (const char* key : {"measure.at_s", "measure.from_s"})
         if (measure.has(key)) room.require_in_run(measure.number(key), key, measure);

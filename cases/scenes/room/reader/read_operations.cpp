@@ -86,6 +86,12 @@ std::optional<Region> region_for_grains(RoomReading& room, const std::optional<R
     return std::nullopt;
 }
 
+/// Whether a step has a region, right or wrong.
+bool names_region(const ParameterValues& values) {
+    return !values.where("prepare.region").empty() || !values.where("prepare.above_m").empty() || !values.where("prepare.below_m").empty();
+}
+
+/// None without a region, and with a mistake.
 std::optional<Region> region_of_step(RoomReading& room, const ParameterValues& values, const std::string& where) {
     const bool has_above = values.has("prepare.above_m"), has_below = values.has("prepare.below_m");
     std::optional<Region> region = room.read_region(values, "prepare.region", where);
@@ -127,7 +133,8 @@ void read_compress(RoomReading& room, const ParameterValues& values, const std::
 
 void read_pour(RoomReading& room, const ParameterValues& values, const std::optional<Region>& given, const std::string& where) {
     const RoomGrains* grains = grains_of(room, values, "prepare.grains", where);
-    const std::optional<Region> region = region_for_grains(room, given, "prepare.region", where);
+    const bool wrong = !given && names_region(values);
+    const std::optional<Region> region = wrong ? std::nullopt : region_for_grains(room, given, "prepare.region", where);
     const bool depth = values.has("prepare.depth_m"), mass = values.has("prepare.mass_kg"), count = values.has("prepare.count");
     if (depth + mass + count != 1)
         return room.refuse(where, fmt::format("a pour with {} of depth_m, mass_kg and count", depth + mass + count), "It has one of them",
@@ -171,9 +178,10 @@ void read_step(RoomReading& room, const ParameterValues& values) {
     }
     const std::optional<Region> region = region_of_step(room, values, where);
     if (what == "pour") return read_pour(room, values, region, where);
-    if (!region)
+    if (!names_region(values))
         return room.refuse(where, fmt::format("do = \"{}\" without a region", what), "It is about a part of the room",
                            "Add above_m, below_m or region");
+    if (!region) return;
     room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
     if (what == "trim") room.scene.preparation.emplace_back(TrimStep{*region});
     if (what == "freeze") room.scene.preparation.emplace_back(FreezeStep{*region});

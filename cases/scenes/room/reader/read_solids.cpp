@@ -23,6 +23,8 @@ namespace {
 constexpr double k_tolerance = 1e-9;         // [m]
 constexpr double k_deepest_overlap = 0.5;    // radii, of grains and a solid that hits them
 constexpr double k_narrowest_opening = 3.0;  // largest diameters; a narrower one is plugged by an arch
+constexpr double k_millimetre = 1e-3;        // [m]
+constexpr double k_too_large = 10.0;         // sizes of the room, above which a file is taken to be in millimetres
 
 /// How many of these keys are given.
 int given(const ParameterValues& values, std::initializer_list<const char*> keys) {
@@ -144,15 +146,23 @@ bool read_surface(RoomReading& room, const ParameterValues& values, RoomSolid& s
     return generated ? generate(room, values, solid) : read_file_of(room, values, solid);
 }
 
-void require_inside(RoomReading& room, const RoomSolid& solid, const std::string& where) {
+/// Whether a surface is many times as large as the room, and fits as millimetres.
+bool looks_like_millimetres(const RoomScene& scene, const Vec3& extent) {
+    return extent.maxCoeff() > k_too_large * scene.size.maxCoeff() &&
+           (k_millimetre * extent.array() <= scene.size.array() + scene.tolerance()).all();
+}
+
+void require_inside(RoomReading& room, const RoomSolid& solid, const ParameterValues& values, const std::string& where) {
     const geometry::Bounds bounds = geometry::bounds_of(solid.surface);
     const double allowed = room.scene.tolerance();
     const bool inside = (bounds.min.array() >= room.scene.lower().array() - allowed).all() &&
                         (bounds.max.array() <= room.scene.upper().array() + allowed).all();
-    if (!inside)
-        room.refuse(where, fmt::format("{} reaches from {} to {} m", solid.name, text_of(bounds.min), text_of(bounds.max)),
-                    fmt::format("It must lie in the room, from {} to {} m", text_of(room.scene.lower()), text_of(room.scene.upper())),
-                    "Move it, or make the room larger");
+    if (inside) return;
+    const bool millimetres = values.has("solid.file") && looks_like_millimetres(room.scene, bounds.extent());
+    room.refuse(where, fmt::format("{} reaches from {} to {} m", solid.name, text_of(bounds.min), text_of(bounds.max)),
+                fmt::format("It must lie in the room, from {} to {} m", text_of(room.scene.lower()), text_of(room.scene.upper())),
+                millimetres ? "Export solid.file in metres: it is read as metres, and its numbers look like millimetres"
+                            : "Move it, or make the room larger");
 }
 
 void read_solid(RoomReading& room, const ParameterValues& values) {
@@ -175,7 +185,7 @@ void read_solid(RoomReading& room, const ParameterValues& values) {
     }
     read_motion(room, values, solid);
     if (!read_surface(room, values, solid)) return;
-    require_inside(room, solid, where);
+    require_inside(room, solid, values, where);
     room.scene.solids.push_back(std::move(solid));
 }
 

@@ -94,7 +94,12 @@ std::optional<Region> RoomReading::read_region(const ParameterValues& table, con
     std::vector<std::string> given;
     for (const char* shape : {"box", "cylinder", "sphere", "half_space", "above_m", "below_m"})
         if (!table.where(key + "." + shape).empty()) given.push_back(shape);
-    if (given.empty()) return std::nullopt;
+    if (given.empty()) {
+        if (!table.where(key).empty())
+            refuse(table.where(key), fmt::format("{} gives no part of space", key), "It has one shape, as box = { ... }",
+                   "Give it one, or remove it");
+        return std::nullopt;
+    }
     if (given.size() > 1) {
         refuse(where, fmt::format("{} of one table", fmt::join(given, " and ")), "A table has one region", "Remove all but one");
         return std::nullopt;
