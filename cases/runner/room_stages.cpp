@@ -212,7 +212,8 @@ private:
         throw CheckFailure(
             {"", fmt::format("the grains of {} are not at rest after {:g} s", piece_folder(piece).string(), end),
              "A preparation ends with its mean kinetic energy, without spin, below 1e-6 m g d and its largest speed below 0.01 sqrt(g d)",
-             "Look at its pictures; give the step settle a larger longest_s, or the contacts friction and rolling friction"});
+             "Look at its pictures; give the step settle a larger longest_s, or the contacts friction and rolling friction, and run the "
+             "changed study in another directory with -o"});
     }
 
     /// The solid met too few grains, or they go on giving way.
@@ -229,7 +230,7 @@ private:
                  fmt::format("A step compress ends when grains bear the force to 1 % and are at rest; the solid moves at most {:.2g} m/s",
                              press_speed(scene_, step)),
                  "Look at its pictures; put the solid close to the grains, before them along its direction, or give the step a larger "
-                 "longest_s"});
+                 "longest_s, and run the changed study in another directory with -o"});
         }
         throw std::logic_error(step.solid + " is no wall of its own preparation");
     }

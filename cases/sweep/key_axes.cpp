@@ -135,6 +135,20 @@ ParameterValue counted(const std::optional<KeyPath>& key, const std::string& tex
     return text;
 }
 
+/// Whether one of two keys is a part of the other, as grains.diameter_m and grains.diameter_m.uniform_by_number: a table gives one of them.
+bool exclude_each_other(const std::string& one, const std::string& other) {
+    return one.rfind(other + ".", 0) == 0 || other.rfind(one + ".", 0) == 0;
+}
+
+/// \param axis  the key as it was written
+/// \throws UserError  when the values give a key that excludes this one
+void require_same_form(const ParameterTable& table, const ParameterValues& values, const std::string& key, const std::string& axis) {
+    for (const Parameter& parameter : table)
+        if (exclude_each_other(parameter.key, key) && values.has(parameter.key))
+            throw UserError(fmt::format("--set {}: the study gives {}", axis, parameter.key), "One of the two counts",
+                            "Vary that key, or write this one into the study in its place");
+}
+
 }  // namespace
 
 std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std::string>& words, const std::string& params) {
@@ -244,7 +258,11 @@ std::vector<KeySetting> key_settings(const ParameterTable& table, const Paramete
             for (const std::string& text : axis.values) {
                 KeySetting one = setting;
                 const ParameterValue value = value_of_text(axis.key, *key.parameter, text);
-                if (set_key(one.values, table, key, [&](const ParameterValues&) { return value; }) == 0)
+                const auto checked = [&](const ParameterValues& values) {
+                    require_same_form(table, values, key.parameter->key, axis.key);
+                    return value;
+                };
+                if (set_key(one.values, table, key, checked) == 0)
                     throw UserError(key.member.empty()
                                         ? fmt::format("--set {}: no table of the study gives this key", axis.key)
                                         : fmt::format("--set {}: no table [[{}]] is called {}", axis.key, key.array, key.member),

@@ -354,6 +354,8 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     EXPECT_THAT(text_of("solid.tube.velocity_m_s=1"), HasSubstr("in brackets"));
     for (const char* seed : {"run.seed=1.5", "run.seed=1e300"}) EXPECT_THAT(text_of(seed), HasSubstr("a whole number"));
     EXPECT_THAT(text_of("contact.glass-glass.frictoin=1"), HasSubstr("there is no such key"));
+    EXPECT_THAT(text_of("grains.beads.diameter_m=0.004"), HasSubstr("the study gives grains.diameter_m.uniform_by_number"));
+    EXPECT_EQ(text_of("grains.beads.diameter_m.uniform_by_number=[0.003,0.004]"), "");
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.1"), HasSubstr("friction has 0.1 twice"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,0.2,0.10"), HasSubstr("friction has 0.10 twice"));
     EXPECT_THAT(text_of("contact.glass-glass.friction=0.1,-2"), HasSubstr("--set contact.glass-glass.friction = -2 is too low"));
