@@ -38,7 +38,8 @@ std::vector<Mistake> hindrance_warnings(const ParameterValues& values, bool dens
 }
 
 std::optional<Mistake> wide_kernel_warning(const Opening& opening, const coupling::KernelSettings& kernel, double diameter) {
-    constexpr double resolved_by = 4.0;  // kernel widths
+    // Kernel widths from which on a rock sees the speed at a mouth to a tenth (case mouth): near by, or from a shell.
+    const double resolved_by = kernel.sampling == coupling::k_gaussian_sampling ? 4.0 : 7.0;
     const double width = kernel.gamma * diameter;
     if (kernel.map != coupling::k_gaussian_map || opening.width >= resolved_by * width) return std::nullopt;
     return Mistake{

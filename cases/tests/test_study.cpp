@@ -367,15 +367,18 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
     };
     // mouth radius 0.1 m, gap 0.03 m
     EXPECT_TRUE(any_contains(warnings("", "0.026"), "suction.mouth_radius_m = 0.1. It is 3.8 times the kernel width"));
-    EXPECT_FALSE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m"));
+    EXPECT_TRUE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m = 0.1. It is 5 times the kernel width"));
     EXPECT_TRUE(any_contains(warnings("", "0.02"), "suction.gap_m = 0.03. It is 1.5 times the kernel width"));
-    EXPECT_FALSE(any_contains(warnings("", "0.0075"), "times the kernel width"));
+    EXPECT_FALSE(any_contains(warnings("", "0.00425"), "times the kernel width"));
+    const std::string near_by = "[kernel]\nsampling = \"gaussian\"\n";
+    EXPECT_FALSE(any_contains(warnings(near_by, "0.02"), "suction.mouth_radius_m"));
+    EXPECT_FALSE(any_contains(warnings(near_by, "0.0075"), "times the kernel width"));
 }
 
 TEST(Study, warns_of_a_drag_that_counts_other_rock_twice_or_not_at_all) {
     const auto warnings = [](const std::string& closures, const std::string& feed) {
         return study_warnings(
-            resolve_study(parse(with_feed(feed + "count = 3\n", "diameter_m = 0.005\n") + "[closures]\n" + closures), k_model), k_model);
+            resolve_study(parse(with_feed(feed + "count = 3\n", "diameter_m = 0.004\n") + "[closures]\n" + closures), k_model), k_model);
     };
     EXPECT_TRUE(warnings("", "").empty());
     EXPECT_TRUE(any_contains(warnings("drag_modifier = 3\n", ""), "counts it twice"));
