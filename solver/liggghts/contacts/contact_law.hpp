@@ -63,7 +63,7 @@ struct SlipMemory {
 ///
 /// eta_m is most_slip_damping. In the step of the first touch eta counts 1/2 + 4/5 tau, tau = delta/(|u_n| dt) the part of the step after
 /// the touch: damping sets in with delta^(1/4) and acts from the touch to the middle of the next step. Counted as 1, the restitution of an
-/// impact would depend on where in a step it begins, by up to 2.7 % at e = 0.5 and steps of a tenth of the Rayleigh time.
+/// impact would depend on where in a step it begins, by up to 0.7 % at e = 0.5 and steps of a tenth of the Rayleigh time.
 /// Spring i covers the part l_i of (0, a) from i to i + 1 quarters of the radius that the impact reaches, the last one all beyond, and
 /// bears the share p_i of Hertz' pressure; so slip begins at the edge and works inwards (Cattaneo and Mindlin), and the sums are Mindlin's
 /// stiffness 8 G* a and Coulomb's limit. This is the method of dimensionality reduction, exact as the springs become many while slip keeps
