@@ -9,6 +9,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/redistribution.hpp"
+#include "solver/physics/own_trace.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -225,6 +226,32 @@ void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRoc
 void KernelCoupling::sample() {
     if (!fluid_.feels_rock()) replace_void_fraction();
     sample_with(present_, flow_);
+    if (settings_.kernel.sampling == k_gaussian_sampling && settings_.kernel.map == k_gaussian_map) take_out_own_trace();
+}
+
+/// Where rock samples with the weight by which it is laid: the flow at each as if it were not there, see own_trace().
+void KernelCoupling::take_out_own_trace() {
+    const Rocks& rocks = dem_.rocks();
+    const gsl::span<const double> volumes = mapping_.cells().volumes;
+    std::vector<double> overlap(rocks.size(), 0.0), width(rocks.size(), 0.0);
+    for (std::size_t p = 0; p < rocks.size(); ++p)
+        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i)
+            overlap[p] += present_.deposit[i] * present_.sample[i] * volumes[static_cast<std::size_t>(present_.cell[i])];
+    for (const std::size_t p : present_.shared.led()) width[p] = present_.width[p];
+    communicator_.sum(overlap);
+    communicator_.sum(width);
+    for (std::size_t p = 0; p < rocks.size(); ++p) {
+        FlowAtRock& flow = flow_[p];
+        const double volume = sphere_volume(rocks.diameter[p]), own = volume * overlap[p];
+        const double share = physics::own_trace_share(std::max(0.0, 1.0 - flow.void_fraction - own));
+        flow.void_fraction = std::min(1.0, flow.void_fraction + share * own);
+        if (!fluid_.feels_rock()) continue;
+        const Vec3 slip = flow.velocity - rocks.velocity[p];
+        const physics::OwnTrace trace = physics::own_trace(slip, drag_per_slip(rock_in_fluid(rocks, p, flow), slip.norm()), volume,
+                                                           overlap[p], width[p], properties_.density, properties_.kinematic_viscosity);
+        flow.velocity += share * trace.velocity;
+        flow.acceleration += share * trace.acceleration;
+    }
 }
 
 double KernelCoupling::travel_limit() const {

@@ -88,6 +88,7 @@ private:
     void replace_void_fraction();
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
+    void take_out_own_trace();
     void map_present_rock();
     void require_all_rocks() const;
     void follow_departures();
