@@ -32,25 +32,36 @@ inline double quadratic_weight(double q) {
     return q * s * s * (3.0 - 2.0 * s);
 }
 
-/// Integrals of the two weights over space, in units of sigma^3: what they are compared by.
+/// Width of the near weight over the kernel's.
+inline constexpr double k_near_width = 0.5;
+
+/// Gaussian from fluid to rock, half as wide as the deposit: what a rock feels is the flow over its own size, and a kernel of sigma = d
+/// is 1.7 d across.
+inline double near_weight(double q) {
+    return gaussian_weight(q / (k_near_width * k_near_width));
+}
+
+/// Integrals of the weights over space, in units of sigma^3: what they are compared by.
 inline constexpr double k_gaussian_integral = 11.770376;
 inline constexpr double k_quadratic_integral = 285.71962;
+inline constexpr double k_near_integral = k_near_width * k_near_width * k_near_width * k_gaussian_integral;
 
-/// Share of the quadratic weight in the sampling weight: 1 for rock as large as cells and above (the reference's weight), 0 for
-/// rock below half a cell, smooth between. The quadratic weight is a shell: it samples waves of about 3 sigma with the wrong
-/// sign (-0.14 of their height), so that drag amplifies them. Rock that is small relative to its kernel hardly disturbs the sampled
-/// fluid and uses the deposit kernel, with which drag can only remove energy.
+/// Share of a resolved rock's weight, quadratic or near, in the sampling weight: 1 for rock as large as cells and above, 0 for rock below
+/// half a cell, smooth between. The quadratic weight is a shell: it samples waves of about 3 sigma with the wrong sign (-0.14 of their
+/// height), so that drag amplifies them. Rock that is small relative to its kernel hardly disturbs the sampled fluid and uses the deposit
+/// kernel, with which drag can only remove energy.
 /// \param own_width_share  gamma d / sigma, in (0, 1]
-inline double quadratic_share(double own_width_share) {
+inline double resolved_share(double own_width_share) {
     // sigma = 1.5 dx there, so 1/3 is a rock of half a cell and 2/3 one of a cell.
     const double s = std::min(1.0, std::max(0.0, 3.0 * own_width_share - 1.0));
     return s * s * (3.0 - 2.0 * s);
 }
 
-/// Weight from fluid to rock: the quadratic and the Gaussian weight mixed.
+/// Weight from fluid to rock: a resolved rock's weight and the Gaussian mixed.
+/// \param resolved  quadratic_weight(q) / k_quadratic_integral or near_weight(q) / k_near_integral
 /// \param gaussian  gaussian_weight(q), which a caller needs anyway
-inline double sampling_weight(double q, double gaussian, double share) {
-    return share * quadratic_weight(q) / k_quadratic_integral + (1.0 - share) * gaussian / k_gaussian_integral;
+inline double sampling_weight(double resolved, double gaussian, double share) {
+    return share * resolved + (1.0 - share) * gaussian / k_gaussian_integral;
 }
 
 }  // namespace cutterflow::physics

@@ -65,8 +65,8 @@ SettingTable<KernelSettings> kernel_rows() {
         .add(&S::sampling,
              ParameterRow("sampling", ParameterKind::choice, "-",
                           "From where a rock samples the fluid, with map gaussian: mostly 1.5 to 2.8 kernel widths away, clear of "
-                          "what it does to the fluid itself; or with the weight by which it is laid, less what it does there itself. "
-                          "Beside a mouth or a gap of few kernel widths the first sees far too little.")
+                          "what it does to the fluid itself; or with a Gaussian half as wide as that by which it is laid, less what it "
+                          "does there itself. Beside a mouth or a gap of few kernel widths the first sees far too little.")
                  .one_of({k_quadratic_sampling, k_gaussian_sampling})
                  .source("NieuwboerVanRheeKeetels2023"))
         .add(

@@ -28,7 +28,7 @@ inline constexpr const char* k_cluster_map = "cluster";    ///< evenly over the 
 /// From where a rock samples the fluid.
 inline constexpr const char* k_quadratic_sampling =
     "quadratic";                                                ///< mostly 1.5 to 2.8 widths away, clear of what the rock does to the fluid
-inline constexpr const char* k_gaussian_sampling = "gaussian";  ///< with the weight by which it is laid over cells
+inline constexpr const char* k_gaussian_sampling = "gaussian";  ///< nearer than the kernel by which it is laid
 
 /// The map between rock and cells; the width of its kernels, sigma = max(gamma d, min_width_in_cells dx), and the largest solid fraction
 /// of a cell.

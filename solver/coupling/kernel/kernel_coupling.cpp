@@ -9,6 +9,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/kernel/redistribution.hpp"
+#include "solver/physics/kernels.hpp"
 #include "solver/physics/own_trace.hpp"
 
 namespace cutterflow::coupling {
@@ -247,8 +248,10 @@ void KernelCoupling::take_out_own_trace() {
         flow.void_fraction = std::min(1.0, flow.void_fraction + share * own);
         if (!fluid_.feels_rock()) continue;
         const Vec3 slip = flow.velocity - rocks.velocity[p];
-        const physics::OwnTrace trace = physics::own_trace(slip, drag_per_slip(rock_in_fluid(rocks, p, flow), slip.norm()), volume,
-                                                           overlap[p], width[p], properties_.density, properties_.kinematic_viscosity);
+        const double drag_rate = drag_per_slip(rock_in_fluid(rocks, p, flow), slip.norm()) / properties_.density;
+        const physics::Sampler sampler{volume, overlap[p], width[p],
+                                       physics::resolved_share(settings_.kernel.gamma * rocks.diameter[p] / width[p])};
+        const physics::OwnTrace trace = physics::own_trace(slip, drag_rate, sampler, properties_.kinematic_viscosity, fluid_.time_step());
         flow.velocity += share * trace.velocity;
         flow.acceleration += share * trace.acceleration;
     }

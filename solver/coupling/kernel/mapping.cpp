@@ -253,8 +253,8 @@ const NearbyPoints& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, co
 /// sums. \param through_steel  what a hidden cell counts of one in view
 void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
-    const double quadratic_share =
-        kernel_.sampling == k_quadratic_sampling ? physics::quadratic_share(kernel_.gamma * rocks.diameter[rock] / width) : 0.0;
+    const double share = physics::resolved_share(kernel_.gamma * rocks.diameter[rock] / width);
+    const bool shell = kernel_.sampling == k_quadratic_sampling;
     const bool sees_all = visibility_.sees_all();
     double deposits = 0.0, samples = 0.0, seen = 0.0, behind = 0.0;
     const double reach2 = physics::k_kernel_reach2 * width * width;
@@ -274,7 +274,9 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double thro
             if (visible == 0.0) continue;
             const double q = squared_distance * inverse_width2;
             const double gaussian = physics::gaussian_weight(q);
-            const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(q, gaussian, quadratic_share);
+            const double resolved =
+                shell ? physics::quadratic_weight(q) / physics::k_quadratic_integral : physics::near_weight(q) / physics::k_near_integral;
+            const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(resolved, gaussian, share);
             stencils.cell[entries] = trees_.number(place);
             stencils.deposit[entries] = deposit;
             stencils.sample[entries] = sample;

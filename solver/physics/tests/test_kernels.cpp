@@ -49,34 +49,44 @@ double seen_height(const Weight& weight, double k) {
 }
 
 TEST(Sampling, integrals_are_those_of_the_weights) {
-    double gaussian = 0.0, quadratic = 0.0;
+    double gaussian = 0.0, quadratic = 0.0, near = 0.0;
     const double step = 1e-3;
     for (double r = 0.5 * step; r < k_kernel_reach; r += step) {
         gaussian += 4.0 * k_pi * gaussian_weight(r * r) * r * r * step;
         quadratic += 4.0 * k_pi * quadratic_weight(r * r) * r * r * step;
+        near += 4.0 * k_pi * near_weight(r * r) * r * r * step;
     }
     EXPECT_NEAR(gaussian, k_gaussian_integral, 1e-5 * gaussian);
     EXPECT_NEAR(quadratic, k_quadratic_integral, 1e-5 * quadratic);
+    EXPECT_NEAR(near, k_near_integral, 1e-5 * near);
 }
 
-TEST(Sampling, is_the_quadratic_weight_for_rock_of_a_cell_and_above_and_the_gaussian_for_half_a_cell_and_below) {
-    EXPECT_EQ(quadratic_share(1.0), 1.0);
-    EXPECT_EQ(quadratic_share(2.0 / 3.0), 1.0);
-    EXPECT_EQ(quadratic_share(1.0 / 3.0), 0.0);
-    EXPECT_EQ(quadratic_share(0.1), 0.0);
-    EXPECT_NEAR(quadratic_share(0.5), 0.5, 1e-12);
-    EXPECT_DOUBLE_EQ(sampling_weight(3.0, gaussian_weight(3.0), 1.0), quadratic_weight(3.0) / k_quadratic_integral);
-    EXPECT_DOUBLE_EQ(sampling_weight(3.0, gaussian_weight(3.0), 0.0), gaussian_weight(3.0) / k_gaussian_integral);
+TEST(Sampling, nearby_is_half_as_wide_as_the_deposit) {
+    EXPECT_EQ(near_weight(1.0), gaussian_weight(4.0));
+    EXPECT_EQ(near_weight(2.25), 0.0);
+}
+
+TEST(Sampling, is_the_resolved_weight_for_rock_of_a_cell_and_above_and_the_gaussian_for_half_a_cell_and_below) {
+    EXPECT_EQ(resolved_share(1.0), 1.0);
+    EXPECT_EQ(resolved_share(2.0 / 3.0), 1.0);
+    EXPECT_EQ(resolved_share(1.0 / 3.0), 0.0);
+    EXPECT_EQ(resolved_share(0.1), 0.0);
+    EXPECT_NEAR(resolved_share(0.5), 0.5, 1e-12);
+    EXPECT_DOUBLE_EQ(sampling_weight(0.3, gaussian_weight(3.0), 1.0), 0.3);
+    EXPECT_DOUBLE_EQ(sampling_weight(0.3, gaussian_weight(3.0), 0.0), gaussian_weight(3.0) / k_gaussian_integral);
 }
 
 TEST(Sampling, of_small_rock_sees_no_wave_with_the_wrong_sign) {
     // Drag on what is seen with the wrong sign feeds the wave instead of damping it.
     EXPECT_LT(seen_height(quadratic_weight, 2.0), -0.14);
     for (const double own_width : {0.1, 0.3, 0.45}) {
-        const auto weight = [share = quadratic_share(own_width)](double q) { return sampling_weight(q, gaussian_weight(q), share); };
+        const auto weight = [share = resolved_share(own_width)](double q) {
+            return sampling_weight(quadratic_weight(q) / k_quadratic_integral, gaussian_weight(q), share);
+        };
         for (double k = 0.1; k < 4.0; k += 0.1)
             EXPECT_GT(seen_height(weight, k), 0.0) << "wave number " << k << ", own width " << own_width;
     }
+    for (double k = 0.1; k < 4.0; k += 0.1) EXPECT_GT(seen_height(near_weight, k), 0.0) << "wave number " << k;
 }
 
 }  // namespace

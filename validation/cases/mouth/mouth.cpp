@@ -90,7 +90,7 @@ double integrated_speed(const MouthFlow& flow, const Vec3& place, double width, 
         for (int j = -half; j < half; ++j)
             for (int k = -half; k < half; ++k) {
                 const Vec3 offset = spacing * Vec3(i + 0.5, j + 0.5, k + 0.5), point = place + width * offset;
-                const double q = offset.squaredNorm(), weight = shell ? physics::quadratic_weight(q) : physics::gaussian_weight(q);
+                const double q = offset.squaredNorm(), weight = shell ? physics::quadratic_weight(q) : physics::near_weight(q);
                 if (weight == 0.0 || point.z() >= 0.0) continue;
                 weights += weight;
                 sum += weight * flow.at(point);

@@ -37,8 +37,8 @@ double regression_bound(double ratio) {
 
 /// The same of rock that samples where it is laid.
 double regression_bound_near(double ratio) {
-    if (ratio <= 1.0) return 0.0025;
-    return ratio <= 2.0 ? 0.0075 : 0.0095;
+    if (ratio <= 1.0) return 0.0027;
+    return ratio <= 2.0 ? 0.007 : 0.009;
 }
 
 void settle(Verification& verification, const Room& room) {
