@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cases/scenes/study_kind.hpp"
-#include "geometry/base/csv_table.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
+#include "geometry/base/profiles/profile.hpp"
 
 namespace cutterflow::cases {
 
@@ -187,6 +188,17 @@ private:
             mistakes_.require(stems.insert(study.stem().string()).second, fmt::format("two studies are called {}", study.stem().string()),
                               "Runs are named after their study", "Rename one");
             found_.studies.push_back(study);
+            measures_.push_back(measures_of(study));
+        }
+    }
+
+    /// None of a study that cannot be read, of which check_points tells.
+    std::optional<std::vector<StudyMeasure>> measures_of(const fs::path& study) const {
+        if (!fs::exists(study)) return std::nullopt;
+        try {
+            return access_.measures(study);
+        } catch (const UserError&) {
+            return std::nullopt;
         }
     }
 
@@ -252,7 +264,7 @@ private:
             mistakes_.add({where, fmt::format("the target {} has {}", target.name, value ? "a value and a profile" : "no value"),
                            "A target is either a value or a profile", "Give one of them"});
         if (table.has("target.value")) target.values = {table.number("target.value")};
-        if (table.has("target.profile")) read_profile(table, target, measured);
+        if (table.has("target.profile")) read_target_profile(table, target, measured);
         check_measure(measured, profile && !value, where);
         if (found_.objective != nullptr && found_.objective->relative && !held_out &&
             std::count(target.values.begin(), target.values.end(), 0.0) > 0)
@@ -265,16 +277,11 @@ private:
     /// The study has the measure of a target, and a profile where the target has one.
     void check_measure(const Measured& measured, bool has_profile, const std::string& where) {
         if (measured.measure.empty() || measured.study >= found_.studies.size()) return;
+        const std::optional<std::vector<StudyMeasure>>& known = measures_[measured.study];
+        if (!known) return;
         const fs::path& study = found_.studies[measured.study];
-        std::vector<StudyMeasure> known;
-        if (!fs::exists(study)) return;
-        try {
-            known = access_.measures(study);
-        } catch (const UserError&) {  // told by check_points
-            return;
-        }
         std::vector<std::string> names, profiles;
-        for (const StudyMeasure& measure : known) {
+        for (const StudyMeasure& measure : *known) {
             names.push_back(measure.name);
             if (measure.has_profile) profiles.push_back(measure.name);
         }
@@ -314,39 +321,24 @@ private:
         return static_cast<std::size_t>(found - stems.begin());
     }
 
-    /// \param wrong  what the file's lines have by themselves
-    static void require_rising(const CsvTable& csv, const fs::path& file, std::vector<Mistake>& wrong) {
-        if (wrong.empty() && csv.rows() < 2)
-            wrong.push_back(
-                {file.string(), fmt::format("the profile has {} line(s)", csv.rows()), "It has two places or more", "Add the others"});
-        for (std::size_t row = 1; row < csv.rows(); ++row) {
-            const double before = csv.at(row - 1, "x_m"), x = csv.at(row, "x_m");
-            if (x > before) continue;
-            wrong.push_back({csv.where(row), fmt::format("the places of the profile do not rise: x_m = {:g} after {:g}", x, before),
-                             "x_m rises from line to line", "Sort the lines"});
-        }
-    }
-
-    void read_profile(const ParameterValues& table, calibration::Target& target, Measured& measured) {
+    void read_target_profile(const ParameterValues& table, calibration::Target& target, Measured& measured) {
         const fs::path file = path_.parent_path() / table.text("target.profile");
         if (!fs::exists(file))
             return mistakes_.add({place_of(table, "target.profile", path_), fmt::format("{} does not exist", file.string()),
                                   "Profiles are files beside the calibration, or have paths from it", "Check the path"});
-        std::vector<Mistake> wrong;
-        const CsvTable csv(file, {"x_m", "height_m"}, {}, wrong);
-        if (csv.has("x_m") && csv.has("height_m")) require_rising(csv, file, wrong);
-        mistakes_.add(wrong);
-        if (!wrong.empty()) return;
+        Profile profile;
+        if (!mistakes_.gather([&] { profile = read_profile(file); })) return;
+        const std::vector<double>& places = profile.place;
+        const std::vector<double>& heights = profile.height;
         profiles_ += sha256_of_file(file);
         const double lowest = table.has("target.lowest_m") ? table.number("target.lowest_m") : 0.0;
-        const double first = csv.at(0, "x_m"), last = csv.at(csv.rows() - 1, "x_m");
+        const double first = places.front(), last = places.back();
         for (int i = 0; i < k_profile_places; ++i) {
             const double x = first + (last - first) * i / (k_profile_places - 1);
             std::size_t row = 1;
-            while (row + 1 < csv.rows() && csv.at(row, "x_m") < x) ++row;
-            const double x0 = csv.at(row - 1, "x_m"), x1 = csv.at(row, "x_m");
-            const double share = (x - x0) / (x1 - x0);
-            const double height = (1.0 - share) * csv.at(row - 1, "height_m") + share * csv.at(row, "height_m");
+            while (row + 1 < places.size() && places[row] < x) ++row;
+            const double share = (x - places[row - 1]) / (places[row] - places[row - 1]);
+            const double height = (1.0 - share) * heights[row - 1] + share * heights[row];
             if (height <= lowest) continue;
             measured.places.push_back(x);
             target.values.push_back(height);
@@ -461,7 +453,8 @@ private:
     const StudyAccess& access_;
     Mistakes mistakes_;
     CalibrationFile found_;
-    std::vector<std::string> places_;  // of the parameters
+    std::vector<std::optional<std::vector<StudyMeasure>>> measures_;  // of the studies
+    std::vector<std::string> places_;                                 // of the parameters
     bool studies_are_sound_ = true;
     std::vector<Measured> fitted_measured_, held_out_measured_;
     std::string profiles_;  // their contents' hashes

@@ -31,9 +31,9 @@ void forget_single_beds(std::vector<SweepPoint>& points) {
 
 }  // namespace
 
-std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats, int ranks) {
+std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const ParameterValues& values,
+                                          const std::vector<KeyAxis>& axes, int repeats, int ranks) {
     const ParameterTable& table = room_table();
-    const ParameterValues values = read_placed_room(study);  // the points lie in other folders
     require_free_seed(axes, k_seed, repeats);
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;

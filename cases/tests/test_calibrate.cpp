@@ -309,8 +309,8 @@ TEST_F(Calibrate, tells_what_is_wrong_with_a_profile_s_file) {
     EXPECT_THAT(with("x,h\n0,0.02\n0.03,0.01\n"),
                 AllOf(HasSubstr("p.csv:1: column 'x_m' is missing"), HasSubstr("column 'height_m' is missing")));
     EXPECT_THAT(with("x_m,height_m\n0,high\n0.03,0.01\n0.02,0.01\n"),
-                AllOf(HasSubstr("p.csv:2: height_m = 'high'"), HasSubstr("p.csv:4: the places of the profile do not rise")));
-    EXPECT_THAT(with("x_m,height_m\n0,0.02\n"), HasSubstr("It has two places or more"));
+                AllOf(HasSubstr("p.csv:2: height_m = 'high'"), HasSubstr("p.csv:4: x_m = 0.02 after 0.03. Places of a profile increase")));
+    EXPECT_THAT(with("x_m,height_m\n0,0.02\n"), HasSubstr("the profile has 1 line(s). A profile has two or more places"));
     EXPECT_THAT(with(""), HasSubstr("is empty"));
 }
 
@@ -530,7 +530,8 @@ TEST_F(Calibrate, every_example_reads) {
                                 std::vector<std::string> words;
                                 for (const KeyAxis& axis : axes)
                                     words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
-                                return room_sweep_points(study, key_axes(room_table(), words, "cutterflow params --kind room"), repeats, 1);
+                                return room_sweep_points(study, read_placed_room(study),
+                                                         key_axes(room_table(), words, "cutterflow params --kind room"), repeats, 1);
                             },
                             [](const fs::path&) { return std::optional<double>(); },
                             [](const fs::path& study) {

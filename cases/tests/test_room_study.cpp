@@ -326,7 +326,10 @@ TEST_F(RoomStudy, bed_is_named_by_what_makes_it) {
 TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     const fs::path study = write(room_template("heap"));
     const auto axes = [](const std::vector<std::string>& words) { return key_axes(room_table(), words, "params"); };
-    auto points = room_sweep_points(study, axes({"solid.tube.velocity_m_s=[0,0,0.03],[0,0,0.015]"}), 2, 1);
+    const auto points_of = [&](const std::vector<KeyAxis>& varied, int repeats) {
+        return room_sweep_points(study, read_placed_room(study), varied, repeats, 1);
+    };
+    auto points = points_of(axes({"solid.tube.velocity_m_s=[0,0,0.03],[0,0,0.015]"}), 2);
     ASSERT_EQ(points.size(), 4u);
     EXPECT_EQ(points[2].name, "room_tube.velocity_m_s_0_0_0.015_repeat1");
     EXPECT_EQ(room_scene(parse_parameters(room_table(), points[2].text, "x"), folder_).solids[1].travel->velocity.z(), 0.015);
@@ -334,7 +337,7 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     EXPECT_NE(points[0].design, points[1].design);
     EXPECT_EQ(points[0].shared, (std::vector<std::string>{"geometry", "bed"}));
 
-    points = room_sweep_points(study, axes({"contact.steel-glass.friction=0.1,0.2"}), 1, 1);
+    points = points_of(axes({"contact.steel-glass.friction=0.1,0.2"}), 1);
     ASSERT_EQ(points.size(), 2u);
     EXPECT_TRUE(points[0].design.empty());  // its bed is its own
     const RoomScene scene = room_scene(parse_parameters(room_table(), points[1].text, "x"), folder_);
@@ -343,7 +346,7 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
 
     const auto text_of = [&](const std::string& word) {
         try {
-            room_sweep_points(study, axes({word}), 1, 1);
+            points_of(axes({word}), 1);
         } catch (const UserError& error) {
             return std::string(error.what());
         }
@@ -367,16 +370,16 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     for (const auto& words : {std::vector<std::string>{"contact.glass-glass.friction=0.1,0.2", "contact.friction=0.3"},
                               {"contact.glass-steel.friction=0.1", "contact.steel-glass.friction=0.2"}})
         try {
-            room_sweep_points(study, axes(words), 1, 1);
+            points_of(axes(words), 1);
             ADD_FAILURE() << words.front();
         } catch (const UserError& error) {
             EXPECT_THAT(error.what(), HasSubstr("set the same key of one table"));
         }
-    EXPECT_EQ(room_sweep_points(study, axes({"contact.glass-glass.friction=0.1", "contact.glass-steel.friction=0.2"}), 1, 1).size(), 1u);
+    EXPECT_EQ(points_of(axes({"contact.glass-glass.friction=0.1", "contact.glass-steel.friction=0.2"}), 1).size(), 1u);
     // Placement is checked as well, before anything is run.
     EXPECT_THAT(text_of("prepare.depth_m=0.06,0.13"), HasSubstr("Their region holds"));
-    EXPECT_NO_THROW(room_sweep_points(study, axes({"run.seed=1,2"}), 1, 1));
-    EXPECT_THROW(room_sweep_points(study, axes({"run.seed=1,2"}), 2, 1), UserError);
+    EXPECT_NO_THROW(points_of(axes({"run.seed=1,2"}), 1));
+    EXPECT_THROW(points_of(axes({"run.seed=1,2"}), 2), UserError);
 }
 
 TEST_F(RoomStudy, names_mistakes_of_all_sections_at_once) {

@@ -166,10 +166,10 @@ std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::pat
         mistakes.require(!given, fmt::format("{} in a sweep of a room", option), "It belongs to cutters",
                          "Use --set KEY=a,b and --repeats");
     mistakes.refuse();
-    std::vector<cases::SweepPoint> points = cases::room_sweep_points(
-        options.study, cases::key_axes(cases::room_table(), options.set, k_room_kind.params), options.axes.repeats, options.ranks);
-    if (points.size() > 1 && parse_parameters(cases::room_table(), points.front().text, options.study).tables("measure").empty())
-        say("warning: " + no_measure(options.study).text());
+    const std::vector<cases::KeyAxis> axes = cases::key_axes(cases::room_table(), options.set, k_room_kind.params);
+    const ParameterValues values = cases::read_placed_room(options.study);
+    std::vector<cases::SweepPoint> points = cases::room_sweep_points(options.study, values, axes, options.axes.repeats, options.ranks);
+    if (points.size() > 1 && values.tables("measure").empty()) say("warning: " + no_measure(options.study).text());
     return points;
 }
 

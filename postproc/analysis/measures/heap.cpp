@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/csv_table.hpp"
 #include "geometry/base/error.hpp"
 
 namespace cutterflow::postproc {
@@ -133,28 +132,6 @@ Profile profile_of(const Grains& grains, const Eigen::Vector2d& direction, const
     Profile profile;
     profile.height = upper_envelope(u, z, counted.diameter, columns, 0.0);
     for (int c = 0; c < columns.count; ++c) profile.place.push_back(columns.middle(c));
-    return profile;
-}
-
-Profile read_profile(const std::filesystem::path& file) {
-    if (!std::filesystem::is_regular_file(file))
-        throw UserError({{file.string(), "there is no such file", "against names a CSV file; its path is relative to the run directory",
-                          "Put the file there, or correct the path in measures.json"}});
-    std::vector<Mistake> mistakes;
-    const CsvTable table(file, {"x_m", "height_m"}, {}, mistakes);
-    if (!table.has("x_m") || !table.has("height_m")) throw UserError(std::move(mistakes));
-    Profile profile;
-    for (std::size_t n = 0; n < table.rows(); ++n) {
-        const double place = table.at(n, "x_m");
-        if (!profile.place.empty() && place <= profile.place.back())
-            mistakes.push_back({table.where(n), fmt::format("x_m = {:g} after {:g}", place, profile.place.back()), "Places increase",
-                                "Sort the rows, and keep one of each place"});
-        profile.place.push_back(place);
-        profile.height.push_back(table.at(n, "height_m"));
-    }
-    if (mistakes.empty() && table.rows() < 2)
-        mistakes.push_back({file.string(), fmt::format("{} rows", table.rows()), "A profile has two or more", "Add the others"});
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return profile;
 }
 

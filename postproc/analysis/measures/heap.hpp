@@ -1,26 +1,18 @@
 #pragma once
 /// \file Heaps and hollows: their profile, and the angle of their slopes.
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/base/profiles/profile.hpp"
 #include "postproc/analysis/measures/envelope.hpp"
 #include "postproc/analysis/measures/line_fit.hpp"
 
 namespace cutterflow::postproc {
 
-/// Heights over a line, from a level on.
-struct Profile {
-    std::vector<double> place, height;  ///< [m]
-};
-
 /// Upper envelope of the grains whose centres lie above `base`, less `base`; 0 where there is none.
 /// \param direction  horizontal, of length 1: the profile's axis; it is seen from the side across it
 Profile profile_of(const Grains& grains, const Eigen::Vector2d& direction, const Columns& columns, double base);
-
-/// A given profile: a CSV file with the columns x_m,height_m, whose places increase. \throws UserError  with every mistake and its line
-Profile read_profile(const std::filesystem::path& file);
 
 /// (1/N) sum |h - h_given| / h_given over the N points whose given height is at least `least`.
 struct ProfileError {

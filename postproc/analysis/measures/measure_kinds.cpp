@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/profiles/profile.hpp"
 #include "postproc/analysis/measures/cavity.hpp"
 #include "postproc/analysis/measures/grain_maps.hpp"
 #include "postproc/analysis/measures/heap.hpp"
@@ -328,8 +330,16 @@ MeasureOutcome measure_profile(const MeasureSource& source, const MeasureValues&
     return outcome;
 }
 
+Profile given_profile(const MeasureSource& source, const MeasureValues& values) {
+    const std::filesystem::path file = source.directory() / values.text("against");
+    if (!std::filesystem::is_regular_file(file))
+        throw UserError({{file.string(), "there is no such file", "against names a CSV file; its path is relative to the run directory",
+                          "Put the file there, or correct the path in measures.json"}});
+    return read_profile(file);
+}
+
 MeasureOutcome measure_profile_error(const MeasureSource& source, const MeasureValues& values) {
-    const Profile given = read_profile(source.directory() / values.text("against"));
+    const Profile given = given_profile(source, values);
     const std::optional<MeasuredProfile> measured = measured_profile(source, values);
     if (!measured) return without_value("-", why_no_grains(values, look(source, values).time));
     const ProfileError error = profile_error(measured->profile, given, measured->diameter);

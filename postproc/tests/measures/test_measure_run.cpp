@@ -8,13 +8,14 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/profiles/profile.hpp"
 #include "geometry/base/sphere.hpp"
-#include "postproc/analysis/measures/heap.hpp"
 #include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/analysis/measures/measure_table.hpp"
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/pages/measures/measure_figures.hpp"
 #include "postproc/tests/measures/packed_grains.hpp"
+#include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -30,10 +31,8 @@ class MeasuredRun : public ::testing::Test {
 protected:
     MeasuredRun() {
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        run_ = fs::path(::testing::TempDir()) / fmt::format("measured_run_{}", test->name());
-        fs::remove_all(run_);
+        run_ = testing::fresh_directory(fmt::format("measured_run_{}", test->name()));
     }
-    ~MeasuredRun() override { fs::remove_all(run_); }
 
     void write(const std::string& file, const std::string& text) { write_file(run_ / file, text); }
 

@@ -10,6 +10,7 @@
 #include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/pages/measures/measure_figures.hpp"
 #include "postproc/pages/room/room_page.hpp"
+#include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -24,10 +25,8 @@ class RoomComparison : public ::testing::Test {
 protected:
     RoomComparison() {
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::path(::testing::TempDir()) / fmt::format("room_comparison_{}", test->name());
-        fs::remove_all(folder_);
+        folder_ = testing::fresh_directory(fmt::format("room_comparison_{}", test->name()));
     }
-    ~RoomComparison() override { fs::remove_all(folder_); }
 
     /// A run of 0.8 s whose last start has come to `reached` [s].
     fs::path run(const std::string& name, double reached, bool finished) {

@@ -13,8 +13,8 @@
 #include "cases/scenes/room/reader/room_reading.hpp"
 #include "cases/scenes/room/room_measures.hpp"
 #include "cases/scenes/room/vec3_of.hpp"
+#include "geometry/base/profiles/profile.hpp"
 #include "geometry/cgal/solid_search.hpp"
-#include "postproc/analysis/measures/heap.hpp"
 #include "postproc/analysis/measures/measure_kinds.hpp"
 
 namespace cutterflow::cases {
@@ -118,7 +118,7 @@ void check_given_profile(RoomReading& room, const ParameterValues& measure) {
     if (!fs::is_regular_file(file))
         return room.refuse(measure.where("measure.against"), fmt::format("measure.against: there is no file {}", file.string()),
                            "It is a CSV file of a profile; its path is relative to the study", "Correct the path, or put the file there");
-    room.mistakes.gather([&] { postproc::read_profile(file); });
+    room.mistakes.gather([&] { read_profile(file); });
 }
 
 /// Any map covers two grains at least; the extent of a box is known, and checked with its table.
