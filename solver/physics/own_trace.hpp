@@ -2,28 +2,39 @@
 /// \file What a rock that samples the fluid where it is laid sees of itself: its own solid, the water that makes way for it, its wake. The
 /// drag laws are of the slip against the fluid that the rock does not disturb.
 ///
-/// A rock of volume V with the drag F = D s (s the slip that it sees) in an even stream, laid with w and sampling with psi: linearised
-/// about the stream, the fluid's velocity in Fourier space is  -F (1 - c^2) w / (rho (nu k^2 + i |s| k c)) + c^2 V w s,  c the cosine of
-/// wave and slip. Sampled, with O = sum(w psi) over cells, an isotropic mean of c^2 of 1/3 and one of c^4 of 1/5:
-///   own solid fraction      V O
-///   slip by the wake        s D / (mu sigma / stokes + rho |s| sigma^2 / wake), the exact limits of small and large |s| sigma / nu
-///   slip by making way      -s V O / 3
-///   acceleration            -(2/3) O F / rho, of the share of the wake that inertia makes
-///   by a step dt of Euler   of the slip (dt/2) (2/3) O F / rho, of the acceleration s V O |s|^2 dt <k^2> / 5
-/// Steady: a wake grows in sigma / |s|. [Balachandar2019]
+/// A rock of volume V and drag F = D s (s the slip that it sees) in an even stream, laid with w and sampling with psi: linearised about the
+/// stream, the fluid's velocity in Fourier space is  -F (1 - c^2) w / (rho (nu k^2 + i |s| k c)) + c^2 V w s,  c the cosine of wave and
+/// slip. Sampled, with O = sum(w psi) over cells, an isotropic mean of c^2 of 1/3 and one of c^4 of 1/5:
+///   own solid fraction   V O
+///   velocity by wake     -W s, W = D / (mu sigma / stokes + rho |s| sigma^2 / wake), the exact limits of small and large R = |s| sigma /
+///   nu by making way        +V O s / 3 acceleration         -A s, A = (2/3) O D / rho R^2 / (R^2 + push_1 R + push_2)
+/// A rock that moves at v through the cells is laid elsewhere in each step dt of Euler. That adds, as far as the waves are resolved,
+///   velocity by wake     -(dt/2) A s (v.s)^2 / |s|^4, less where v^2 dt is large beside |s| sigma
+///   acceleration         +V O <k^2> dt (s v^2 + 2 v (v.s)) / 15
+/// Steady: a wake grows in sigma / |s|. Of molecular viscosity: what turbulence spreads of the wake is not in it. [Balachandar2019]
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/base/vec3.hpp"
 
 namespace cutterflow::physics {
 
-/// What a unit force does to what is sampled, sigma = 1, of a rock that samples by the deposit kernel and of one by the near weight.
+/// Of a rock that samples by the deposit kernel and of one by the near weight, sigma = 1.
 struct OwnResponse {
-    double stokes;  ///< mean velocity in a Stokes flow of viscosity 1: integral of g psi' / (6 pi |x - x'|)
-    double wake;    ///< in a wake without viscosity at unit speed and density: half the integral of g times psi, both projected along it
-    double bend;    ///< mean of k^2 of what is sampled of the kernel: integral of grad g times grad psi, over that of g times psi
+    double overlap;         ///< integral of w psi
+    double stokes;          ///< mean velocity by a unit force in a Stokes flow of viscosity 1: integral of w psi' / (6 pi |x - x'|)
+    double wake;            ///< without viscosity at unit speed and density: half the integral of w times psi, both projected along it
+    double bend;            ///< <k^2>: integral of grad w times grad psi, over that of w times psi
+    double push_1, push_2;  ///< fit of the share of inertia in the acceleration, exact to 0.002
 };
-inline constexpr OwnResponse k_deposit_response{0.0337875, 0.0500125, 1.73912}, k_near_response{0.0423918, 0.0783235, 2.66399};
+inline constexpr OwnResponse k_deposit_response{0.0309951, 0.0337875, 0.0500125, 1.73912, 2.9, 3.1};
+inline constexpr OwnResponse k_near_response{0.0603181, 0.0423918, 0.0783235, 2.66399, 3.6, 4.8};
+
+/// Fit of where the step's part of the wake saturates, to 0.1 of it.
+inline constexpr double k_wake_saturation = 0.27;
+
+/// Largest W: what is taken out follows the slip of the step before, which would swing for W above 1/2.
+inline constexpr double k_largest_wake = 1.0 / 3.0;
 
 /// Share of its own trace that a rock among others must not see:  S = (1 - phi)^4 / (1 + 2 phi)^2, the structure factor of hard spheres for
 /// waves longer than their spacing. 1 for a rock alone; near 0 in a bed, where the others leave out as much around a rock as it adds, and
@@ -47,20 +58,31 @@ struct Sampler {
     double share;    ///< of the near weight in what it samples [-]
 };
 
-/// Of a rock alone, see above. \param slip  u_seen - v [m/s], \param drag_rate  D over the fluid's density [m3/s], \param step  the
-/// fluid's last [s]
-inline OwnTrace own_trace(const Vec3& slip, double drag_rate, const Sampler& rock, double kinematic_viscosity, double step) {
+/// Of a rock alone, see above; its velocity by the slip without its wake, s / (1 - W). A wall beside the rock that makes its overlap
+/// larger makes its wake larger alike. \param slip  u_seen - v [m/s], \param velocity  of the rock through the cells [m/s], \param
+/// drag_rate D over the fluid's density [m3/s], \param step  the fluid's last [s]
+inline OwnTrace own_trace(const Vec3& slip, const Vec3& velocity, double drag_rate, const Sampler& rock, double kinematic_viscosity,
+                          double step) {
+    const double speed = slip.norm();
+    if (speed == 0.0) return {};
     const auto of_both = [&](double OwnResponse::*response) {
         return rock.share * k_near_response.*response + (1.0 - rock.share) * k_deposit_response.*response;
     };
-    const double speed = slip.norm(), width2 = rock.width * rock.width;
-    const double by_inertia = speed * width2 / of_both(&OwnResponse::wake);
-    const double by_viscosity = kinematic_viscosity * rock.width / of_both(&OwnResponse::stokes);
-    const double wake = drag_rate / (by_inertia + by_viscosity);
-    const double push = 2.0 / 3.0 * rock.overlap * drag_rate * by_inertia / (by_inertia + by_viscosity);  // [1/s]
+    const double width2 = rock.width * rock.width, reynolds = speed * rock.width / kinematic_viscosity;
+    const double free_overlap = of_both(&OwnResponse::overlap), beside_walls = rock.overlap * width2 * rock.width / free_overlap;
+    const double bend = rock.share * k_near_response.overlap * k_near_response.bend / free_overlap +
+                        (1.0 - rock.share) * k_deposit_response.overlap * k_deposit_response.bend / free_overlap;
+    const double opposed =
+        kinematic_viscosity * rock.width / of_both(&OwnResponse::stokes) + speed * width2 / of_both(&OwnResponse::wake);  // [m3/s]
+    const double wake = std::min(k_largest_wake, beside_walls * drag_rate / opposed);
+    const double push = 2.0 / 3.0 * rock.overlap * drag_rate * reynolds * reynolds /
+                        (reynolds * reynolds + of_both(&OwnResponse::push_1) * reynolds + of_both(&OwnResponse::push_2));  // [1/s]
     const double way = rock.volume * rock.overlap;
-    return {(wake + 0.5 * step * push - way / 3.0) * slip,
-            (push - 0.2 * way * speed * speed * step * of_both(&OwnResponse::bend) / width2) * slip};
+
+    const double along = velocity.dot(slip) / (speed * speed);  // v over s
+    const double of_step = 0.5 * step * push * along * along / (1.0 + k_wake_saturation * along * along * speed * step / rock.width);
+    const Vec3 bent = velocity.squaredNorm() * slip + 2.0 * velocity.dot(slip) * velocity;
+    return {(wake / (1.0 - wake) + of_step - way / 3.0) * slip, push * slip - way * bend * step / (15.0 * width2) * bent};
 }
 
 }  // namespace cutterflow::physics

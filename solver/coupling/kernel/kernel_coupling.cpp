@@ -230,31 +230,42 @@ void KernelCoupling::sample() {
     if (settings_.kernel.sampling == k_gaussian_sampling && settings_.kernel.map == k_gaussian_map) take_out_own_trace();
 }
 
-/// Where rock samples with the weight by which it is laid: the flow at each as if it were not there, see own_trace().
+/// Where rock samples near to where it is laid: the flow at each as if it were not there, see own_trace().
 void KernelCoupling::take_out_own_trace() {
     const Rocks& rocks = dem_.rocks();
-    const gsl::span<const double> volumes = mapping_.cells().volumes;
-    std::vector<double> overlap(rocks.size(), 0.0), width(rocks.size(), 0.0);
-    for (std::size_t p = 0; p < rocks.size(); ++p)
-        for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i)
-            overlap[p] += present_.deposit[i] * present_.sample[i] * volumes[static_cast<std::size_t>(present_.cell[i])];
-    for (const std::size_t p : present_.shared.led()) width[p] = present_.width[p];
-    communicator_.sum(overlap);
-    communicator_.sum(width);
+    enum Known { width, overlap, cell_velocity, k_known = cell_velocity + 3 };  // of the rank that leads a rock
+    std::vector<double> known(k_known * rocks.size(), 0.0);
+    for (const std::size_t p : present_.shared.led()) {
+        known[k_known * p + width] = present_.width[p];
+        known[k_known * p + overlap] = present_.overlap[p];
+        std::copy_n(velocity_of_cells(p).data(), 3, &known[k_known * p + cell_velocity]);
+    }
+    communicator_.sum(known);
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         FlowAtRock& flow = flow_[p];
-        const double volume = sphere_volume(rocks.diameter[p]), own = volume * overlap[p];
+        const double* const of_rock = &known[k_known * p];
+        const double volume = sphere_volume(rocks.diameter[p]), own = volume * of_rock[overlap];
         const double share = physics::own_trace_share(std::max(0.0, 1.0 - flow.void_fraction - own));
         flow.void_fraction = std::min(1.0, flow.void_fraction + share * own);
         if (!fluid_.feels_rock()) continue;
         const Vec3 slip = flow.velocity - rocks.velocity[p];
+        const Vec3 through_cells = rocks.velocity[p] - Eigen::Map<const Vec3>(of_rock + cell_velocity);
         const double drag_rate = drag_per_slip(rock_in_fluid(rocks, p, flow), slip.norm()) / properties_.density;
-        const physics::Sampler sampler{volume, overlap[p], width[p],
-                                       physics::resolved_share(settings_.kernel.gamma * rocks.diameter[p] / width[p])};
-        const physics::OwnTrace trace = physics::own_trace(slip, drag_rate, sampler, properties_.kinematic_viscosity, fluid_.time_step());
+        const physics::Sampler sampler{volume, of_rock[overlap], of_rock[width],
+                                       physics::resolved_share(settings_.kernel.gamma * rocks.diameter[p] / of_rock[width])};
+        const physics::OwnTrace trace =
+            physics::own_trace(slip, through_cells, drag_rate, sampler, properties_.kinematic_viscosity, fluid_.time_step());
         flow.velocity += share * trace.velocity;
         flow.acceleration += share * trace.acceleration;
     }
+}
+
+/// Of the cells where a rock near this rank is [m/s].
+Vec3 KernelCoupling::velocity_of_cells(std::size_t rock) const {
+    const Zone zone = present_.zone[rock];
+    if (zone == k_still_zone) return Vec3::Zero();
+    const ZoneMotion& motion = fluid_.moving_zones()[zone - 1];
+    return motion.speed * motion.axis.direction.cross(dem_.rocks().position[rock] - motion.axis.origin);
 }
 
 double KernelCoupling::travel_limit() const {
@@ -262,12 +273,7 @@ double KernelCoupling::travel_limit() const {
     const double share = fluid_.feels_rock() ? k_travel_share : k_travel_share_one_way;
     double limit = std::numeric_limits<double>::infinity();
     for (const std::size_t p : present_.shared.near()) {
-        Vec3 cell_velocity = Vec3::Zero();
-        if (present_.zone[p] != k_still_zone) {
-            const ZoneMotion& motion = fluid_.moving_zones()[present_.zone[p] - 1];
-            cell_velocity = motion.speed * motion.axis.direction.cross(rocks.position[p] - motion.axis.origin);
-        }
-        double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - cell_velocity).norm());
+        double speed = std::max(rocks.velocity[p].norm(), (rocks.velocity[p] - velocity_of_cells(p)).norm());
         if (fluid_.feels_rock()) speed = std::max(speed, interface_speed_);
         if (speed > 0.0) limit = std::min(limit, share * present_.width[p] / speed);
     }

@@ -89,6 +89,7 @@ private:
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
     void take_out_own_trace();
+    Vec3 velocity_of_cells(std::size_t rock) const;
     void map_present_rock();
     void require_all_rocks() const;
     void follow_departures();

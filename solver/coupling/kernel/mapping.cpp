@@ -42,7 +42,7 @@ constexpr double k_ample = 2.0;
 
 /// Sums over a rock's cells, rock by rock in one array. Room is the cells' volume, which fades to 0 at the kernel's reach so that none
 /// appears with a jump.
-enum RockSum { deposit_sum, sample_sum, seen_room, hidden_room, k_sums };
+enum RockSum { deposit_sum, sample_sum, overlap_sum, seen_room, hidden_room, k_sums };
 
 /// Whether a rock has cells, by the sums of w V and psi V over all ranks.
 bool is_mapped(const std::vector<double>& sums, std::size_t rock) {
@@ -59,6 +59,7 @@ void Stencils::clear() {
     cell.clear();
     deposit.clear();
     sample.clear();
+    overlap.clear();
 }
 
 void Stencils::resize_entries(std::size_t count) {
@@ -132,8 +133,10 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     }
     if (outlook.some_are_cramped) make_room_for_cramped(rocks, stencils, sums, hidden);
 
+    stencils.overlap.assign(rocks.size(), 0.0);
     for (const std::size_t p : stencils.shared.near()) {
         const double deposit_scale = 1.0 / sums[k_sums * p + deposit_sum], sample_scale = 1.0 / sums[k_sums * p + sample_sum];
+        stencils.overlap[p] = sums[k_sums * p + overlap_sum] * deposit_scale * sample_scale;
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
             stencils.deposit[i] *= deposit_scale;
             stencils.sample[i] *= sample_scale;
@@ -185,7 +188,7 @@ void Mapping::lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::ve
             stencils.cell.push_back(member.cell);
             sums[k_sums * p + deposit_sum] += cells().volumes[static_cast<std::size_t>(member.cell)];
         }
-        sums[k_sums * p + sample_sum] = sums[k_sums * p + deposit_sum];
+        sums[k_sums * p + sample_sum] = sums[k_sums * p + overlap_sum] = sums[k_sums * p + deposit_sum];
         stencils.first.push_back(stencils.cell.size());
     }
     stencils.deposit.assign(stencils.cell.size(), 1.0);
@@ -256,7 +259,7 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double thro
     const double share = physics::resolved_share(kernel_.gamma * rocks.diameter[rock] / width);
     const bool shell = kernel_.sampling == k_quadratic_sampling;
     const bool sees_all = visibility_.sees_all();
-    double deposits = 0.0, samples = 0.0, seen = 0.0, behind = 0.0;
+    double deposits = 0.0, samples = 0.0, overlaps = 0.0, seen = 0.0, behind = 0.0;
     const double reach2 = physics::k_kernel_reach2 * width * width;
     std::size_t entries = stencils.cell.size();
     for (Zone zone = 0; zone < frames_.zones(); ++zone) {
@@ -283,12 +286,14 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double thro
             ++entries;
             deposits += deposit * volume;
             samples += sample * volume;
+            overlaps += deposit * sample * volume;
         }
     }
     stencils.resize_entries(entries);
     stencils.first.push_back(stencils.cell.size());
     sums[k_sums * rock + deposit_sum] = deposits;
     sums[k_sums * rock + sample_sum] = samples;
+    sums[k_sums * rock + overlap_sum] = overlaps;
     sums[k_sums * rock + seen_room] = seen;
     sums[k_sums * rock + hidden_room] = behind;
 }

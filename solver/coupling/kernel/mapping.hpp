@@ -32,6 +32,7 @@ struct Stencils {
     std::vector<std::int32_t> cell;  ///< of each entry
     std::vector<double> deposit;     ///< w: from rock to fluid [1/m3]
     std::vector<double> sample;      ///< psi: from fluid to rock [1/m3]
+    std::vector<double> overlap;     ///< of each rock that is near: sum of w psi V over the cells of all ranks [1/m3], as laid at first
     std::size_t size() const { return width.size(); }
     /// Empties the stencils but keeps their capacity.
     void clear();

@@ -247,7 +247,8 @@ TEST(OwnTrace, of_a_rock_alone_is_not_in_what_it_samples) {
     // This fluid stays still whatever is done to it: all of the correction is seen. Wake less making way, of the slip 0.5 m/s.
     const double drag = physics::drag_coefficient_per_slip({0.02, testing::k_water.density, testing::k_water.kinematic_viscosity}, 0.5,
                                                            physics::find_drag_law(settings.closures.drag), physics::no_hindrance);
-    const double wake = physics::k_near_response.wake * drag / (testing::k_water.density * 0.02 * 0.02), own = k_pi / 6.0 * 0.060318;
+    const double wake = physics::k_near_response.wake * drag / (testing::k_water.density * 0.02 * 0.02),
+                 own = k_pi / 6.0 * physics::k_near_response.overlap;
     EXPECT_NEAR(flow.velocity.z(), wake - 0.5 * own / 3.0, 0.05 * wake);
     EXPECT_GT(flow.acceleration.z(), 0.0);
 }
@@ -268,7 +269,7 @@ TEST_P(DenseRock, is_hindered_as_the_closures_say) {
     // Rock at rest on a lattice in a uniform upflow of its hindered terminal slip: drag carries its weight.
     const double d = 0.02, spacing = 0.03, solid = k_pi / 6.0 * std::pow(d / spacing, 3);
     // Where rock sees itself, rock that lies at random would see so much of it too much; on a lattice it is missing.
-    const double own = k_pi / 6.0 * std::pow(d / (1.5 * 0.015), 3) * 0.060318;
+    const double own = k_pi / 6.0 * std::pow(d / (1.5 * 0.015), 3) * physics::k_near_response.overlap;
     const double left_out = GetParam() == std::string(k_gaussian_sampling) ? own * physics::own_trace_share(solid) : 0.0;
     physics::SettlingRock reference{{d, k_water.density, k_water.kinematic_viscosity, 1.0 - solid}, 2650.0, 9.81};
     const double slip = physics::terminal_slip_speed(reference);
@@ -395,7 +396,10 @@ TEST(Exchange, counts_cells_that_hold_more_rock_than_is_allowed) {
     EXPECT_EQ(with_room.step().overfull_cells, 0);
 }
 
-TEST(Ranks, exchange_the_same_as_one) {
+class Ranks : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Sampled, Ranks, ::testing::Values(k_quadratic_sampling, k_gaussian_sampling));
+
+TEST_P(Ranks, exchange_the_same_as_one) {
     const auto due = [] {
         std::vector<FeedRock> rocks;
         for (int i = 0; i < 8; ++i) rocks.push_back(rock(i + 1, Vec3(0.02 * i - 0.07, 0.004 * i - 0.01, 0.0), 0.02, Vec3(0.2, 0.1 * i, 0)));
@@ -403,7 +407,9 @@ TEST(Ranks, exchange_the_same_as_one) {
     }();
     const SyntheticMesh whole = box(0.12, 0.01);
     const auto run = [&](FakeFluid& fluid, FakeDem& dem, Communicator& communicator) {
-        KernelCoupling coupling(settings_with_rock(), k_water, fluid, dem, communicator);
+        CouplingSettings settings = settings_with_rock();
+        settings.kernel.sampling = GetParam();
+        KernelCoupling coupling(settings, k_water, fluid, dem, communicator);
         dem.gravity = Vec3(0, 0, -9.81);
         coupling.insert(due);
         double worst = 0.0;
