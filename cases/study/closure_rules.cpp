@@ -38,16 +38,18 @@ std::vector<Mistake> hindrance_warnings(const ParameterValues& values, bool dens
 }
 
 std::optional<Mistake> wide_kernel_warning(const Opening& opening, const coupling::KernelSettings& kernel, double diameter) {
-    // Kernel widths from which on a rock sees the speed at a mouth to a tenth (case mouth): near by, or from a shell.
-    const double resolved_by = kernel.sampling == coupling::k_gaussian_sampling ? 4.0 : 7.0;
+    // Kernel widths from which on a rock that samples from a shell sees the speed at a mouth to a tenth; near by it does from one width on
+    // (case mouth). What it takes of room and momentum is spread over a kernel all the same.
+    const bool near = kernel.sampling == coupling::k_gaussian_sampling;
+    const double resolved_by = near ? 4.0 : 7.0;
     const double width = kernel.gamma * diameter;
     if (kernel.map != coupling::k_gaussian_map || opening.width >= resolved_by * width) return std::nullopt;
-    return Mistake{
-        opening.where, fmt::format("{} = {:.6g}", opening.name, opening.width),
-        fmt::format("It is {:.2g} times the kernel width of rock of {:g} m; below {:g} times the speed that rock feels there is off by "
-                    "more than a tenth",
-                    opening.width / width, diameter, resolved_by),
-        "Compare with kernel.sampling = \"gaussian\", and with kernel.gamma = 0.5"};
+    return Mistake{opening.where, fmt::format("{} = {:.6g}", opening.name, opening.width),
+                   fmt::format("It is {:.2g} times the kernel width of rock of {:g} m; below {:g} times {}", opening.width / width,
+                               diameter, resolved_by,
+                               near ? "the room and the momentum that rock takes from the water there are spread past the opening"
+                                    : "the speed that rock feels there is off by more than a tenth"),
+                   near ? "Compare with kernel.gamma = 0.5" : "Set kernel.sampling = \"gaussian\", and compare with kernel.gamma = 0.5"};
 }
 
 }  // namespace cutterflow::cases

@@ -372,6 +372,7 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
     EXPECT_FALSE(any_contains(warnings("", "0.00425"), "times the kernel width"));
     const std::string near_by = "[kernel]\nsampling = \"gaussian\"\n";
     EXPECT_FALSE(any_contains(warnings(near_by, "0.02"), "suction.mouth_radius_m"));
+    EXPECT_TRUE(any_contains(warnings(near_by, "0.02"), "are spread past the opening. Compare with kernel.gamma = 0.5"));
     EXPECT_FALSE(any_contains(warnings(near_by, "0.0075"), "times the kernel width"));
 }
 

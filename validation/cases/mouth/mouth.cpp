@@ -134,10 +134,10 @@ void stones_below_the_pipe(Verification& verification, const MouthFlow& flow) {
         }
 }
 
-/// The rule of `check`: an opening of 4 kernel widths, of 7 with the shell.
-void openings_of_some_widths(Verification& verification, const MouthFlow& flow, double widths) {
+/// The rule of `check`: an opening of 7 kernel widths with the shell, of one with the Gaussian.
+void opening_of_some_widths(Verification& verification, const MouthFlow& flow, double widths, const std::vector<Sampling>& samplings) {
     const double diameter = k_mouth / widths;
-    for (const Sampling& sampling : {k_samplings[0], k_samplings[2]})
+    for (const Sampling& sampling : samplings)
         for (const Place& place :
              {Place{"on the axis", Vec3(0, 0, -0.01 - 0.5 * diameter)}, Place{"below the lip", Vec3(k_mouth, 0, -0.01 - 0.5 * diameter)}})
             verification.absolute(
@@ -149,7 +149,8 @@ void openings_of_some_widths(Verification& verification, const MouthFlow& flow, 
 void run(Verification& verification) {
     const MouthFlow flow;
     stones_below_the_pipe(verification, flow);
-    for (const double widths : {4.0, 7.0}) openings_of_some_widths(verification, flow, widths);
+    opening_of_some_widths(verification, flow, 1.0, {k_samplings[2]});
+    for (const double widths : {4.0, 7.0}) opening_of_some_widths(verification, flow, widths, {k_samplings[0], k_samplings[2]});
 }
 
 }  // namespace
