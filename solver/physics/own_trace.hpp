@@ -6,8 +6,10 @@
 /// stream, the fluid's velocity in Fourier space is  -F (1 - c^2) w / (rho (nu k^2 + i |s| k c)) + c^2 V w s,  c the cosine of wave and
 /// slip. Sampled, with O = sum(w psi) over cells, an isotropic mean of c^2 of 1/3 and one of c^4 of 1/5:
 ///   own solid fraction   V O
-///   velocity by wake     -W s, W = D / (mu sigma / stokes + rho |s| sigma^2 / wake), the exact limits of small and large R = |s| sigma /
-///   nu by making way        +V O s / 3 acceleration         -A s, A = (2/3) O D / rho R^2 / (R^2 + push_1 R + push_2)
+///   velocity by wake     -W s, W = D / (mu sigma / stokes + rho |s| sigma^2 / wake); the limits of small and large R are exact
+///   by making way        +V O s / 3
+///   acceleration         -A s, A = (2/3) O D / rho R^2 / (R^2 + push_1 R + push_2)
+/// with R = |s| sigma / nu.
 /// A rock that moves at v through the cells is laid elsewhere in each step dt of Euler. That adds, as far as the waves are resolved,
 ///   velocity by wake     -(dt/2) A s (v.s)^2 / |s|^4, less where v^2 dt is large beside |s| sigma
 ///   acceleration         +V O <k^2> dt (s v^2 + 2 v (v.s)) / 15

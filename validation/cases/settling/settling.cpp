@@ -29,16 +29,11 @@ constexpr double k_fall = 14.0;            // distance until the speed is read [
 constexpr double k_long_tolerance = 1e-6;  // of the pressure in the largest rooms: as exact, to nine digits of the speed, as 1e-9
 constexpr double k_start_share = 0.95;     // of the terminal speed
 
-/// Three times the largest error of the speed that rooms of this ratio had when the bound was set.
-double regression_bound(double ratio) {
-    if (ratio <= 1.0) return 2e-4;
-    return ratio <= 2.0 ? 0.0042 : 0.009;
-}
-
-/// The same of rock that samples where it is laid.
-double regression_bound_near(double ratio) {
-    if (ratio <= 1.0) return 0.0027;
-    return ratio <= 2.0 ? 0.007 : 0.009;
+/// Three times the largest error of the speed that rooms of this ratio and sampling had when the bound was set.
+double regression_bound(const Room& room) {
+    if (room.ratio <= 1.0) return room.near ? 0.0027 : 2e-4;
+    if (room.ratio <= 2.0) return room.near ? 0.007 : 0.0042;
+    return 0.009;
 }
 
 void settle(Verification& verification, const Room& room) {
@@ -75,8 +70,7 @@ void settle(Verification& verification, const Room& room) {
     verification.relative(quantity, "m/s", speed, reference, 0.014,
                           {"NieuwboerVanRheeKeetels2023",
                            fmt::format("after {:g} diameters; terminal {:.4f} m/s; {} cells", k_fall, expected, box.cell_count()), 0.005});
-    verification.relative(quantity + ", as good as it was", "m/s", speed, reference,
-                          room.near ? regression_bound_near(room.ratio) : regression_bound(room.ratio),
+    verification.relative(quantity + ", as good as it was", "m/s", speed, reference, regression_bound(room),
                           {"exact", "bound: three times the largest error of this ratio in 2026-11", {}});
 }
 
