@@ -26,8 +26,8 @@ struct Opening {
     double width = 0.0;  ///< [m]
 };
 
-/// A kernel averages the flow over an opening that is not much wider, so that rock there feels a wrong speed: below 4 widths by more than a
-/// tenth (measured in the field of a disc sink). Maps
+/// A kernel spreads what rock takes of room and momentum past an opening below 4 of its widths; with kernel.sampling quadratic rock also
+/// feels a speed that is off by more than a tenth, below 7 widths (case mouth). Maps
 /// without kernels have no warning. \param diameter  of the largest rock [m]
 std::optional<Mistake> wide_kernel_warning(const Opening& opening, const coupling::KernelSettings& kernel, double diameter);
 

@@ -172,7 +172,7 @@ TEST(Coupling, has_the_keys_of_the_contract) {
                               "rotating        true;",
                               "type            cylinder;",
                               "map             gaussian;",
-                              "sampling        quadratic;",
+                              "sampling        gaussian;",
                               "clusterSize     0;",
                               "gamma           1;",
                               "minWidthInCells 1.5;",

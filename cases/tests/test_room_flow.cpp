@@ -190,8 +190,8 @@ TEST_F(RoomFlow, warns_of_what_a_run_may_be_asked_in_spite_of) {
     const std::string open = std::string(k_tank) + k_out + k_free;
     // The radius of 40 mm has 5 kernels of 8 mm and the bore 10 grains; the wall of 10 mm is thinner than its cells.
     EXPECT_THAT(warnings_of(request(open)), HasSubstr("riser is 0.01 m thin in cells of 0.02 m"));
-    EXPECT_THAT(warnings_of(request(open)), HasSubstr("It is 5 times the kernel width"));
-    EXPECT_THAT(warnings_of(request(open + "[kernel]\nsampling = \"gaussian\"\n")), Not(HasSubstr("times the kernel width")));
+    EXPECT_THAT(warnings_of(request(open + "[kernel]\nsampling = \"quadratic\"\n")), HasSubstr("It is 5 times the kernel width"));
+    EXPECT_THAT(warnings_of(request(open)), Not(HasSubstr("times the kernel width")));
     EXPECT_THAT(warnings_of(request(open + "[closures]\ndrag_modifier = 3\n")), HasSubstr("counts it twice"));
     EXPECT_THAT(warnings_of(request(open + "[closures]\nhindrance = \"none\"\n")), HasSubstr("the drag of a single rock is too small"));
     EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\n")), HasSubstr("2.5 times the kernel width"));

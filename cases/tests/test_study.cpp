@@ -366,14 +366,14 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
         return study_warnings(resolve_study(parse(keys + with_feed("count = 3\n", "diameter_m = " + diameter + "\n")), k_model), k_model);
     };
     // mouth radius 0.1 m, gap 0.03 m
-    EXPECT_TRUE(any_contains(warnings("", "0.026"), "suction.mouth_radius_m = 0.1. It is 3.8 times the kernel width"));
-    EXPECT_TRUE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m = 0.1. It is 5 times the kernel width"));
-    EXPECT_TRUE(any_contains(warnings("", "0.02"), "suction.gap_m = 0.03. It is 1.5 times the kernel width"));
-    EXPECT_FALSE(any_contains(warnings("", "0.00425"), "times the kernel width"));
-    const std::string near_by = "[kernel]\nsampling = \"gaussian\"\n";
-    EXPECT_FALSE(any_contains(warnings(near_by, "0.02"), "suction.mouth_radius_m"));
-    EXPECT_TRUE(any_contains(warnings(near_by, "0.02"), "are spread past the opening. Compare with kernel.gamma = 0.5"));
-    EXPECT_FALSE(any_contains(warnings(near_by, "0.0075"), "times the kernel width"));
+    const std::string shell = "[kernel]\nsampling = \"quadratic\"\n";
+    EXPECT_TRUE(any_contains(warnings(shell, "0.026"), "suction.mouth_radius_m = 0.1. It is 3.8 times the kernel width"));
+    EXPECT_TRUE(any_contains(warnings(shell, "0.02"), "suction.mouth_radius_m = 0.1. It is 5 times the kernel width"));
+    EXPECT_TRUE(any_contains(warnings(shell, "0.02"), "suction.gap_m = 0.03. It is 1.5 times the kernel width"));
+    EXPECT_FALSE(any_contains(warnings(shell, "0.00425"), "times the kernel width"));
+    EXPECT_FALSE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m"));
+    EXPECT_TRUE(any_contains(warnings("", "0.02"), "are spread past the opening. Compare with kernel.gamma = 0.5"));
+    EXPECT_FALSE(any_contains(warnings("", "0.0075"), "times the kernel width"));
 }
 
 TEST(Study, warns_of_a_drag_that_counts_other_rock_twice_or_not_at_all) {

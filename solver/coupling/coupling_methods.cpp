@@ -52,7 +52,8 @@ ModelNote map_in_use(const KernelSettings& kernel) {
     if (kernel.map == k_cluster_map)
         return {fmt::format("mapping: a rock is spread evenly over the cells of a cube of {:.4g} m", kernel.cluster_size), "kernel.map"};
     return {fmt::format("mapping: Gaussian to the fluid, {} to the rock, width max({:.3g} d, {:.3g} dx)",
-                        kernel.sampling == k_quadratic_sampling ? "quadratic" : "Gaussian", kernel.gamma, kernel.min_width_in_cells),
+                        kernel.sampling == k_quadratic_sampling ? "quadratic" : "Gaussian half as wide", kernel.gamma,
+                        kernel.min_width_in_cells),
             "rock may be larger than cells; steel hides what lies behind it"};
 }
 

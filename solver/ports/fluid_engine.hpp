@@ -117,7 +117,7 @@ public:
 
     virtual double time() const = 0;            ///< of fields() [s]
     virtual std::string time_name() const = 0;  ///< of fields(), as the engine's own folders are called
-    virtual double time_step() const = 0;       ///< of the step under way or just done [s]
+    virtual double time_step() const = 0;       ///< of the step under way or just done, before a resumed run's first too [s]
     /// False when the end time is reached or the user asked to stop (controlDict stopAt, signals).
     virtual bool running() = 0;
 

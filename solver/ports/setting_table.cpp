@@ -64,10 +64,10 @@ SettingTable<KernelSettings> kernel_rows() {
                           .source("WasserfallCoetzeeMeyer2024"))
         .add(&S::sampling,
              ParameterRow("sampling", ParameterKind::choice, "-",
-                          "From where a rock samples the fluid, with map gaussian: mostly 1.5 to 2.8 kernel widths away, clear of "
-                          "what it does to the fluid itself; or with a Gaussian half as wide as that by which it is laid, less what it "
-                          "does there itself. Beside a mouth or a gap of few kernel widths the first sees far too little.")
-                 .one_of({k_quadratic_sampling, k_gaussian_sampling})
+                          "From where a rock samples the fluid, with map gaussian: with a Gaussian half as wide as that by which it is "
+                          "laid, less what it does there itself; or, quadratic, mostly 1.5 to 2.8 kernel widths away, clear of what it "
+                          "does to the fluid itself. Beside a mouth or a gap of few kernel widths the second sees far too little.")
+                 .one_of({k_gaussian_sampling, k_quadratic_sampling})
                  .source("NieuwboerVanRheeKeetels2023"))
         .add(
             &S::cluster_size,

@@ -26,19 +26,19 @@ inline constexpr const char* k_centroid_map = "centroid";  ///< as a whole in th
 inline constexpr const char* k_cluster_map = "cluster";    ///< evenly over the cells of a cube
 
 /// From where a rock samples the fluid.
-inline constexpr const char* k_quadratic_sampling =
-    "quadratic";                                                ///< mostly 1.5 to 2.8 widths away, clear of what the rock does to the fluid
 inline constexpr const char* k_gaussian_sampling = "gaussian";  ///< nearer than the kernel by which it is laid
+inline constexpr const char* k_quadratic_sampling =
+    "quadratic";  ///< mostly 1.5 to 2.8 widths away, clear of what the rock does to the fluid
 
 /// The map between rock and cells; the width of its kernels, sigma = max(gamma d, min_width_in_cells dx), and the largest solid fraction
 /// of a cell.
 struct KernelSettings {
     std::string map = k_gaussian_map;
-    std::string sampling = k_quadratic_sampling;  ///< of map gaussian
-    double cluster_size = 0.0;                    ///< side of the cubes of map cluster [m]; 0: none given
-    double gamma = 1.0;                           ///< [-]
-    double min_width_in_cells = 1.5;              ///< [-]
-    double max_solid_fraction = 0.7;              ///< [-]
+    std::string sampling = k_gaussian_sampling;  ///< of map gaussian
+    double cluster_size = 0.0;                   ///< side of the cubes of map cluster [m]; 0: none given
+    double gamma = 1.0;                          ///< [-]
+    double min_width_in_cells = 1.5;             ///< [-]
+    double max_solid_fraction = 0.7;             ///< [-]
 };
 
 template <>

@@ -512,7 +512,7 @@ void expect_same_to_the_bit(CouplingSettings settings, const TemporaryFolder& fo
     // What OpenFOAM would have written with the checkpoint.
     std::vector<Vec3> velocity, acceleration;
     std::vector<double> void_fraction;
-    double saved_time = 0.0;
+    double saved_time = 0.0, saved_step = 0.0;
     std::filesystem::path checkpoint;
     std::size_t events_at_checkpoint = 0;
     while (whole.fluid.time() < 0.2) {
@@ -524,6 +524,7 @@ void expect_same_to_the_bit(CouplingSettings settings, const TemporaryFolder& fo
             acceleration = whole.fluid.acceleration;
             void_fraction = whole.fluid.void_fraction;
             saved_time = whole.fluid.time();
+            saved_step = whole.fluid.time_step();
             events_at_checkpoint = through.events.size();
         }
     }
@@ -536,7 +537,7 @@ void expect_same_to_the_bit(CouplingSettings settings, const TemporaryFolder& fo
     resumed.fluid.velocity = velocity;
     resumed.fluid.acceleration = acceleration;
     resumed.fluid.void_fraction = void_fraction;
-    resumed.fluid.restart_at(saved_time);
+    resumed.fluid.restart_at(saved_time, saved_step);
     resumed.run->resume(checkpoint);
     while (resumed.fluid.time() < 0.2) resumed.run->step();
 

@@ -582,6 +582,7 @@ TEST(Sampling, is_near_to_the_rock_or_clear_of_it) {
     const TestRocks rocks = one_rock(Vec3(0.003, 0.002, 0.001), 0.02);
     SerialCommunicator serial;
     KernelSettings kernel;
+    kernel.sampling = k_quadratic_sampling;
     Mapping shell(mesh.cells(), mesh.steel(), testing::unit_turn(), kernel, serial);
     kernel.sampling = k_gaussian_sampling;
     Mapping near(mesh.cells(), mesh.steel(), testing::unit_turn(), kernel, serial);

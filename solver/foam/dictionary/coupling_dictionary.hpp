@@ -32,7 +32,7 @@ struct CouplingDictionary {
 ///     domain   { type box; lower (0 0 0); upper (1 1 1); walls (zMin); }
 ///     // domain { type cylinder; axisPoint (0 0 0); radius 1; zMin 0; zMax 1; walls (zMin zMax); }
 /// }
-/// kernel     { map gaussian; gamma 1; minWidthInCells 1.5; maxSolidFraction 0.7; }                      // optional
+/// kernel     { map gaussian; sampling gaussian; gamma 1; minWidthInCells 1.5; maxSolidFraction 0.7; }  // optional
 /// closures   { drag brown_lawler; hindrance di_felice; addedMass 0.5; lift none; }        // optional
 /// fates      { contour "constant/contour.csv"; ringRadius 0.4; zBackplate 0.03; binWidth 0.03; mouth { ... } }   // optional
 /// outflow    { offset 0.015; startTime 1; }                   // optional, needs fates

@@ -93,7 +93,7 @@ rock
     );
     domain { type cylinder; axisPoint (0.1 0 0); radius 2.5; zMin -0.875; zMax 0.435; walls (zMin); }
 }
-kernel { map cluster; sampling gaussian; clusterSize 0.06; gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
+kernel { map cluster; sampling quadratic; clusterSize 0.06; gamma 1.25; minWidthInCells 2; maxSolidFraction 0.6; }
 closures { drag brown_lawler; hindrance di_felice; addedMass 0.4; dragModifier 1.1; sphericity 0.8; lift mei; viscousForce no; }
 fates
 {
@@ -118,7 +118,7 @@ TEST(CouplingDictionary, ReadsEveryKeyOfTheContract) {
     EXPECT_THAT(c.rock_feed.string(), HasSubstr("dictionary_complete"));
     EXPECT_EQ(c.rock_feed.string().find("processor"), std::string::npos);
     EXPECT_EQ(c.kernel.map, "cluster");
-    EXPECT_EQ(c.kernel.sampling, "gaussian");
+    EXPECT_EQ(c.kernel.sampling, "quadratic");
     EXPECT_DOUBLE_EQ(c.kernel.cluster_size, 0.06);
     EXPECT_DOUBLE_EQ(c.kernel.gamma, 1.25);
     EXPECT_DOUBLE_EQ(c.kernel.min_width_in_cells, 2.0);

@@ -96,7 +96,8 @@ public:
     void write_now() override { log += "write "; }
 
     /// Restarts at a given time, as a resumed run.
-    void restart_at(double time) { time_ = time; }
+    /// \param step  the last one, for rock that samples near to itself
+    void restart_at(double time, double step = 0.0) { time_ = time, step_ = step; }
 
     SyntheticMesh mesh;
     std::vector<ZoneMotion> moving;

@@ -169,7 +169,7 @@ struct Bed {
     int grains_across, layers;  ///< of the loose lattice it begins as
 };
 constexpr Bed k_small_bed{7.0, 5.0, 4.0, 15.0, 11, 35};
-// Rock is laid on cells and finds its void fraction through the same kernel, of sigma = 1.5 diameters. Both together reach 3 sqrt(2) sigma.
+// Rock is laid on cells with sigma = 1.5 diameters, and finds its void fraction over no more: both together reach at most 3 sqrt(2) sigma.
 constexpr double k_felt = 6.4;
 constexpr Bed k_wide_bed{10.0, 9.0, 4.0, 20.0, 16, 40};
 

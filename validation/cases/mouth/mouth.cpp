@@ -134,7 +134,7 @@ void stones_below_the_pipe(Verification& verification, const MouthFlow& flow) {
         }
 }
 
-/// The rule of `check`: an opening of 7 kernel widths with the shell, of one with the Gaussian.
+/// The opening from which on rock sees the speed to a tenth: of 7 kernel widths with the shell, as `check` says, of one with the Gaussian.
 void opening_of_some_widths(Verification& verification, const MouthFlow& flow, double widths, const std::vector<Sampling>& samplings) {
     const double diameter = k_mouth / widths;
     for (const Sampling& sampling : samplings)
