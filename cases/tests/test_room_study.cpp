@@ -109,6 +109,24 @@ TEST_F(RoomStudy, every_example_reads) {
     EXPECT_EQ(studies, 16);
 }
 
+/// The lines of a section of a study.
+std::string section_of(const std::string& text, const std::string& name) {
+    const std::size_t start = text.find("\n[" + name + "]\n");
+    return start == std::string::npos ? "" : text.substr(start, text.find("\n[", start + 1) - start);
+}
+
+/// What lifts gravel into a pipe slows it in a box too: nothing is fitted to one of the two.
+TEST_F(RoomStudy, examples_of_gravel_under_water_have_one_set_of_closures) {
+    const fs::path examples = fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples";
+    const std::string closures = section_of(read_file(examples / "suction_pipe/study.toml"), "closures");
+    EXPECT_THAT(closures, HasSubstr("haider_levenspiel"));
+    for (const char* study : {"suction_pipe/short.toml", "draw_down/submerged.toml", "draw_down/small_submerged.toml"}) {
+        const std::string text = read_file(examples / study);
+        EXPECT_EQ(section_of(text, "closures"), closures) << study;
+        EXPECT_EQ(section_of(text, "kernel"), "") << study;
+    }
+}
+
 /// Grains of a pour lie in its region as a whole, clear of each other and of the solids; batches come when earlier ones have fallen.
 TEST_F(RoomStudy, poured_grains_have_room) {
     const RoomRequest request = read_room_request(write(changed("depth_m = 0.06", "depth_m = 0.07")));

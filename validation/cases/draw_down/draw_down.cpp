@@ -1,6 +1,7 @@
 /// \file By how much water slows a draw-down of gravel, from pours of the example studies.
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,11 +36,17 @@ struct Setting {
     std::vector<Flow> flows;
 };
 
+/// The text with lines added at the start of a section.
+std::string with_lines(std::string text, const std::string& section, const std::string& lines) {
+    const std::string head = "\n[" + section + "]\n";
+    const std::size_t start = text.find(head);
+    if (start == std::string::npos) throw std::runtime_error("the example has no section [" + section + "]");
+    return text.insert(start + head.size(), lines);
+}
+
 /// A study of the example with another seed.
 std::string study_text(const std::string& study, int seed) {
-    std::string text = read_file(installation().data / "cases/examples/draw_down" / study);
-    const std::string run = "[run]\n";
-    return text.insert(text.find(run) + run.size(), fmt::format("seed = {}\n", seed));
+    return with_lines(read_file(installation().data / "cases/examples/draw_down" / study), "run", fmt::format("seed = {}\n", seed));
 }
 
 /// The text with the line of a key replaced.
@@ -77,22 +84,21 @@ public:
     Pours(Verification& verification, Rig rig) : verification_(verification), rig_(std::move(rig)) {}
 
     Setting dry() { return run("dry", rig_.dry_study, "", false); }
-    /// From the beds of the dry pours. \param closures  section of the study; empty: the defaults
-    Setting wet(const std::string& name, const std::string& closures = "") {
-        return run(name, rig_.wet_study, closures.empty() ? "" : "\n[closures]\n" + closures, true);
-    }
+    /// From the beds of the dry pours. \param closures  added to those of the study
+    Setting wet(const std::string& name, const std::string& closures = "") { return run(name, rig_.wet_study, closures, true); }
     /// Of all runs so far and their beds.
     double core_s() const { return core_s_; }
 
 private:
-    /// \param end  further sections of the study
-    Setting run(const std::string& name, const std::string& study, const std::string& end, bool from_dry) {
+    Setting run(const std::string& name, const std::string& study, const std::string& closures, bool from_dry) {
         side_by_side(static_cast<std::size_t>(rig_.pours), cases::available_cores(), [&](std::size_t pour) {
             const int seed = static_cast<int>(pour) + 1;
             const fs::path own = folder(name, seed);
-            const std::string text = study_text(study, seed);
+            std::string text = study_text(study, seed);
+            if (rig_.end_s > 0.0) text = with_line(std::move(text), "end_s", fmt::format("{}", rig_.end_s));
+            if (!closures.empty()) text = with_lines(std::move(text), "closures", closures);
             fs::create_directories(own);
-            write_file(own / "study.toml", (rig_.end_s > 0.0 ? with_line(text, "end_s", fmt::format("{}", rig_.end_s)) : text) + end);
+            write_file(own / "study.toml", text);
             run_study(own, from_dry ? folder("dry", seed) / "run" : fs::path());
         });
         Setting setting{name, {}};
