@@ -42,7 +42,9 @@ tmp<volVectorField> CutterFluid::pressure_gradient() const {
 
 void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {
     if (!pimple_.momentumPredictor()) return;
-    solve(momentum == -pressure_gradient());
+    tmp<fvVectorMatrix> predictor(momentum == -pressure_gradient());
+    if (!half_turn_.empty()) predictor.ref().source() -= mesh_.V() * turning_force();
+    solve(predictor);
     sources_.correct(U_);
 }
 

@@ -88,6 +88,15 @@ TEST_F(Couette, IsTheSameThroughAnInterfaceAtRest) {
     EXPECT_LE(still.velocity_error, 0.01);
 }
 
+/// A predictor that does not turn with the mesh has too little speed, and passes it on through the viscous terms.
+TEST_F(Couette, HasATorqueThatDoesNotDependOnTheStep) {
+    testing::TurningAnnulus shape;
+    shape.cells_in_rotor = shape.cells_in_stator = 8;
+    shape.cells_around_quarter = shape.stator_cells_around_quarter = 16;
+    const auto torque = [&](double step) { return run_couette("couette_torque", shape, true, step).loads.torque_viscous; };
+    EXPECT_NEAR(torque(8e-3) / torque(2e-3), 1.0, 5e-4);
+}
+
 TEST_F(Couette, ErrorFallsWithTheSquareOfTheCellSize) {
     testing::TurningAnnulus coarse, fine;
     coarse.cells_in_rotor = coarse.cells_in_stator = 4;
