@@ -25,6 +25,7 @@ sed -i '1s/.*/# The title of the moved copy/' "$readme"
 "$program" verify closures --fast -o verification >verify.log 2>&1 || { cat verify.log; fail "verify closures did not pass"; }
 "$program" generate-cutter "$prefix/share/cutterflow/cases/examples/model_cutter/crown.toml" -o crown.stl || fail "the example's crown could not be made"
 cp -r "$prefix/share/cutterflow/cases/examples/rock_in_a_box" example
+sed -i 's/^endTime .*/endTime 0.02;/' example/system/controlDict  # test_examples runs it to its end
 env -u WM_PROJECT_DIR PATH="$prefix/bin:$PATH" example/Allrun >example.log 2>&1 || { cat example.log example/log.*; fail "the example rock_in_a_box did not run"; }
 code=0
 "$program" verify --publish -o verification >publish.log 2>&1 || code=$?

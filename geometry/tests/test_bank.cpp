@@ -303,7 +303,7 @@ TEST(Wall, with_a_hole_is_no_surface_of_its_soil) {
     // In the cut face, as large as a rock of 20 mm.
     const TriangleSurface broken = without(wall, wall.points[wall.triangles.front()[0]], 0.02);
     ASSERT_LT(broken.triangles.size(), wall.triangles.size());
-    EXPECT_GT(bank.wall_error(broken, soil, k_reach, 0.005), 10.0 * k_tolerance);
+    EXPECT_GT(bank.wall_error(broken, soil, k_reach, 0.01), 10.0 * k_tolerance);
 }
 
 TEST(Bank, knows_where_it_would_overhang) {
