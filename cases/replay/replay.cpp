@@ -53,7 +53,10 @@ RecordedRun open_run(const fs::path& run) {
     const RunDirectory directory(run);
     RunHead head = read_run_head(directory);
     // A file that was changed by hand may lack keys.
-    ParameterValues values = resolve_study(read_study(directory.file(names::resolved_study)), head.size);
+    ParameterValues study = read_study(directory.file(names::resolved_study));
+    if (study.where("kernel.sampling").empty())
+        study.set("kernel.sampling", std::string(coupling::k_quadratic_sampling));  // before the key
+    ParameterValues values = resolve_study(study, head.size);
     return {fs::absolute(run).lexically_normal(), std::move(values), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }

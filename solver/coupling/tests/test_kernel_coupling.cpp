@@ -225,14 +225,16 @@ TEST(Departure, returns_impulse_and_makes_no_source) {
 }
 
 TEST(Settling, of_one_rock_in_a_fluid_that_stays_still_follows_the_equation_of_motion) {
-    Rig rig(box(0.12, 0.02), {}, 1e-3);
+    CouplingSettings settings = settings_with_rock();
+    settings.kernel.sampling = k_quadratic_sampling;  // a fluid that stays still has no wake to take out
+    Rig rig(box(0.12, 0.02), {}, 1e-3, settings);
     rig.fluid.flow = [](const Vec3&, double) -> Vec3 { return Vec3::Zero(); };
     rig.dem.gravity = Vec3(0, 0, -9.81);
     rig.coupling.insert({rock(1, Vec3(0, 0, 0.11), 0.01)});
     physics::SettlingRock reference{{0.01, k_water.density, k_water.kinematic_viscosity, 1.0}, 2650.0, 9.81};
     for (int n = 0; n < 200; ++n) rig.step();
     const double time = rig.fluid.time();
-    // What was not taken out of the rock's own solid is in the void fraction at the rock.
+    // The rock's own solid thins the fluid around it a little, which the void fraction at the rock shows.
     reference.rock.void_fraction = rig.coupling.flow()[0].void_fraction;
     const auto states = physics::testing::fall_from_rest(reference, 0.5, time, time / 1000.0);
     EXPECT_NEAR(-rig.dem.rocks().velocity[0][2], states[1000].speed, 2e-3 * states[1000].speed);

@@ -153,7 +153,6 @@ void CutterFluid::end_step(gsl::span<const double> void_fraction_old, gsl::span<
         take_void_fraction(void_fraction_old, void_fraction_new);
         take_exchange(exchange);
     }
-    turn_velocity();
     alphaPhi_ = alphaf_ * phi_;
     domain_surplus_ = 0.0;
     clipped_cells_ = 0;

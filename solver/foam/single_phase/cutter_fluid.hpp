@@ -112,7 +112,6 @@ private:
     void warn_of_long_step(double travel_limit);
     void move_mesh();
     void update_half_turns();
-    void turn_velocity();
     Foam::scalarField old_fluid_share() const;
     Foam::vectorField turning_rate() const;
     Foam::vectorField turning_force() const;

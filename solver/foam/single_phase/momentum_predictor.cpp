@@ -42,9 +42,14 @@ tmp<volVectorField> CutterFluid::pressure_gradient() const {
 
 void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {
     if (!pimple_.momentumPredictor()) return;
-    tmp<fvVectorMatrix> predictor(momentum == -pressure_gradient());
-    if (!half_turn_.empty()) predictor.ref().source() -= mesh_.V() * turning_force();
+    fvVectorMatrix predictor(momentum == -pressure_gradient());
     solve(predictor);
+    if (!half_turn_.empty()) {
+        // What turns follows from the change in the step, which the first solution has: exactly where it is uniform.
+        fvVectorMatrix turned(predictor);
+        turned.source() -= mesh_.V() * turning_force();
+        solve(turned);
+    }
     sources_.correct(U_);
 }
 

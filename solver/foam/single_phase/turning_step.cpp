@@ -27,18 +27,6 @@ void CutterFluid::update_half_turns() {
     forAll(half_turn_, cell) half_turn_[cell] = of_zones[zones_.of_cells[static_cast<std::size_t>(cell)]];
 }
 
-/// The explicit parts of the first matrix of a step read the velocity as it stands. In turning cells it turns with them, as their fluxes,
-/// pressure and turbulence do; u_old stays.
-void CutterFluid::turn_velocity() {
-    if (half_turn_.empty()) return;
-    vectorField& velocity = U_.primitiveFieldRef();
-    forAll(velocity, cell) {
-        const vector& h = half_turn_[cell];
-        velocity[cell] += 2.0 / (1.0 + magSqr(h)) * (h ^ (velocity[cell] + (h ^ velocity[cell])));
-    }
-    U_.correctBoundaryConditions();
-}
-
 /// h x (u - u_old)/dt [m/s2]. \pre half_turn_ is not empty
 vectorField CutterFluid::turning_rate() const {
     return half_turn_ ^ ((U_.primitiveField() - U_.oldTime().primitiveField()) / time_.deltaTValue());
