@@ -53,10 +53,7 @@ RecordedRun open_run(const fs::path& run) {
     const RunDirectory directory(run);
     RunHead head = read_run_head(directory);
     // A file that was changed by hand may lack keys.
-    ParameterValues study = read_study(directory.file(names::resolved_study));
-    if (study.where("kernel.sampling").empty())
-        study.set("kernel.sampling", std::string(coupling::k_quadratic_sampling));  // before the key
-    ParameterValues values = resolve_study(study, head.size);
+    ParameterValues values = resolve_study(study_as_recorded(read_study(directory.file(names::resolved_study))), head.size);
     return {fs::absolute(run).lexically_normal(), std::move(values), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }
@@ -361,6 +358,11 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
 
 std::vector<Mistake> check_rock_study(const ParameterValues& planned, const fs::path& study) {
     return read_rock_study(planned, study, false).mistakes;
+}
+
+ParameterValues study_as_recorded(ParameterValues study) {
+    if (study.where("kernel.sampling").empty()) study.set("kernel.sampling", std::string(coupling::k_quadratic_sampling));
+    return study;
 }
 
 void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::path& folder) {

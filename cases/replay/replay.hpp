@@ -50,6 +50,9 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
 /// \throws UserError  as read_parameters
 std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std::filesystem::path& study);
 
+/// The study of a run by the program that ran it: before the key kernel.sampling existed, rock sampled from a shell.
+ParameterValues study_as_recorded(ParameterValues study);
+
 /// Runs every replay and writes replays.csv and replays.json into the folder.
 /// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, and as RunDirectory
 /// \throws ToolError    when a replay fails
