@@ -46,9 +46,8 @@ void CutterFluid::predict_velocity(fvVectorMatrix& momentum) {
     solve(predictor);
     if (!half_turn_.empty()) {
         // What turns follows from the change in the step, which the first solution has: exactly where it is uniform.
-        fvVectorMatrix turned(predictor);
-        turned.source() -= mesh_.V() * turning_force();
-        solve(turned);
+        predictor.source() -= mesh_.V() * turning_force();
+        solve(predictor);
     }
     sources_.correct(U_);
 }
