@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "validation/harness/continuity_log.hpp"
 #include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/scenes/tank_mesh.hpp"
@@ -84,20 +85,8 @@ double displaced_ratio(const std::filesystem::path& folder, double time_step) {
 
 /// Largest sum over the cells of |d(alpha)/dt + div(alpha u)| V at the end of a step, over the volume rate that the rock displaces [-].
 double continuity_error(const std::filesystem::path& folder, double time_step, const BoxCase& room) {
-    std::ifstream log(folder / "log.cutterFoam");
-    double last = 0.0, worst = 0.0;
-    int lines = 0;
-    const std::string mark = "sum local = ";
-    for (std::string line; std::getline(log, line);) {
-        if (line.rfind("Time = ", 0) == 0) worst = larger(worst, last);
-        const std::size_t at = line.find(mark);
-        if (at == std::string::npos) continue;
-        last = std::stod(line.substr(at + mark.size()));
-        ++lines;
-    }
-    if (lines == 0) throw std::runtime_error(folder.string() + "/log.cutterFoam tells nothing of continuity");
     const double volume = k_pi * room.upper.x() * room.upper.x() * (room.upper.z() - room.lower.z());
-    return larger(worst, last) * volume / time_step / (k_speed * k_pi / 4.0 * k_diameter * k_diameter);
+    return read_continuity(folder / "log.cutterFoam").largest_local * volume / time_step / (k_speed * k_pi / 4.0 * k_diameter * k_diameter);
 }
 
 void cross(Verification& verification, int fineness, double dt) {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/axis_frame.hpp"
-#include "validation/harness/largest.hpp"
+#include "validation/harness/continuity_log.hpp"
 #include "validation/harness/scenes/annulus_case.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 #include "validation/harness/verification.hpp"
@@ -20,31 +20,6 @@ using namespace cutterflow::validation;
 constexpr double k_speed = 2.0 * k_pi;  // [rad/s]
 constexpr int k_turns = 20;
 constexpr double k_study_step = 1.0 / 256.0;  ///< [s], longer than any of a study at this speed; its sums are exact
-
-struct Continuity {
-    double cumulative = 0.0;     ///< sum over time of the room's surplus, over its volume [-]
-    double largest_local = 0.0;  ///< of all steps: sum over cells of |surplus| in a step, over the room's volume [-]
-};
-
-/// Continuity errors in the solver's log.
-Continuity read_continuity(const std::filesystem::path& log) {
-    std::ifstream stream(log);
-    const std::string step = "Time = ", local = "sum local = ", cumulative = "cumulative = ";
-    Continuity continuity;
-    int lines = 0;
-    double of_step = 0.0;  // what its last corrector so far left; the next one mends it
-    for (std::string line; std::getline(stream, line);) {
-        if (line.rfind(step, 0) == 0) continuity.largest_local = larger(continuity.largest_local, of_step);
-        const std::size_t at = line.find(local), end = line.find(cumulative);
-        if (at == std::string::npos || end == std::string::npos) continue;
-        of_step = std::stod(line.substr(at + local.size()));
-        continuity.cumulative = std::stod(line.substr(end + cumulative.size()));
-        ++lines;
-    }
-    continuity.largest_local = larger(continuity.largest_local, of_step);
-    if (lines == 0) throw std::runtime_error(log.string() + " tells nothing of continuity");
-    return continuity;
-}
 
 struct Outcome {
     Continuity continuity;
