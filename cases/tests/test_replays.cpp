@@ -82,12 +82,12 @@ TEST(Replays, of_a_sweep_are_a_table_of_its_settings) {
                   "60rpm,1,0.96,,,,,,,,,,,0\n");
 }
 
-// Pairs are of a coupled run and the replay of its placement.
 TEST(Replays, of_a_run_from_before_the_key_sample_as_that_run) {
     EXPECT_EQ(study_as_recorded(study("")).text("kernel.sampling"), "quadratic");
     EXPECT_EQ(study_as_recorded(study("[kernel]\nsampling = \"gaussian\"\n")).text("kernel.sampling"), "gaussian");
 }
 
+// Pairs are of a coupled run and the replay of its placement.
 TEST(Replays, are_refused_where_rock_changes_the_flow) {
     const auto with_correction = [](double correction) {
         return postproc::estimate_spillage({0.5, 0.52}, {{0.5 + correction, 0.5}, {0.52 + correction, 0.52}});

@@ -16,6 +16,13 @@ inline CouplingSettings settings_with_rock() {
     return settings;
 }
 
+/// Rock that samples clear of itself: near by it takes its wake out of what it sees, which a prescribed flow does not have.
+inline CouplingSettings settings_with_shell() {
+    CouplingSettings settings = settings_with_rock();
+    settings.kernel.sampling = k_quadratic_sampling;
+    return settings;
+}
+
 /// A box of cells about the origin.
 inline SyntheticMesh box(double half, double dx) {
     SyntheticMesh mesh;

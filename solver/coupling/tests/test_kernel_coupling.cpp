@@ -17,6 +17,7 @@ using testing::FakeDem;
 using testing::FakeFluid;
 using testing::k_water;
 using testing::settings_with_rock;
+using testing::settings_with_shell;
 using testing::SyntheticMesh;
 
 FeedRock rock(int id, const Vec3& x, double d, std::optional<Vec3> v = std::nullopt) {
@@ -97,9 +98,7 @@ TEST(Exchange, does_not_ring_where_drag_is_stiff) {
 // same.
 TEST(Exchange, slows_down_waves_within_the_kernels_of_a_dense_bed) {
     const double dx = 0.02, spacing = 0.0215, wavelength = 0.08;
-    CouplingSettings settings = settings_with_rock();
-    settings.kernel.sampling = k_quadratic_sampling;
-    Rig rig(box(0.12, dx), {}, 2e-3, settings);
+    Rig rig(box(0.12, dx), {}, 2e-3, settings_with_shell());
     std::vector<FeedRock> due;
     for (int i = 0; i < 1331; ++i) {
         due.push_back(rock(i + 1, spacing * (Vec3(i % 11, i / 11 % 11, i / 121) - Vec3::Constant(5.0)), 0.02, Vec3::Zero()));
@@ -132,8 +131,7 @@ TEST(Exchange, slows_down_waves_within_the_kernels_of_a_dense_bed) {
 }
 
 TEST(Exchange, gives_back_to_the_fluid_what_lift_and_viscous_stress_do_to_rock) {
-    CouplingSettings settings = settings_with_rock();
-    settings.kernel.sampling = k_quadratic_sampling;  // in curl and stress that are given there is no wake to take out
+    CouplingSettings settings = settings_with_shell();
     settings.closures.lift = "mei";
     settings.closures.viscous_force = false;
     Rig rig(box(0.15, 0.01), {}, 1e-5, settings);
@@ -225,9 +223,7 @@ TEST(Departure, returns_impulse_and_makes_no_source) {
 }
 
 TEST(Settling, of_one_rock_in_a_fluid_that_stays_still_follows_the_equation_of_motion) {
-    CouplingSettings settings = settings_with_rock();
-    settings.kernel.sampling = k_quadratic_sampling;  // a fluid that stays still has no wake to take out
-    Rig rig(box(0.12, 0.02), {}, 1e-3, settings);
+    Rig rig(box(0.12, 0.02), {}, 1e-3, settings_with_shell());
     rig.fluid.flow = [](const Vec3&, double) -> Vec3 { return Vec3::Zero(); };
     rig.dem.gravity = Vec3(0, 0, -9.81);
     rig.coupling.insert({rock(1, Vec3(0, 0, 0.11), 0.01)});
@@ -260,9 +256,7 @@ TEST(OwnTrace, of_a_rock_alone_is_not_in_what_it_samples) {
 }
 
 TEST(OwnTrace, of_a_rock_alone_stays_in_what_the_shell_samples) {
-    CouplingSettings settings = testing::settings_with_rock();
-    settings.kernel.sampling = k_quadratic_sampling;
-    Rig rig(box(0.15, 0.01), {}, 1e-3, settings);
+    Rig rig(box(0.15, 0.01), {}, 1e-3, settings_with_shell());
     rig.fluid.flow = [](const Vec3&, double) -> Vec3 { return Vec3::Zero(); };
     rig.coupling.insert({rock(1, Vec3(0.002, 0.001, 0.0), 0.02, Vec3(0, 0, -0.5))});
     rig.step();

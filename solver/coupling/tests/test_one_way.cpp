@@ -37,7 +37,7 @@ struct Follower {
     explicit Follower(FluidEngine& engine)
         : fluid(engine),
           dem(testing::unit_turn().front(), 0.5, testing::k_water.density),
-          coupling(settings(), testing::k_water, engine, dem, serial) {
+          coupling(testing::settings_with_shell(), testing::k_water, engine, dem, serial) {
         FeedRock rock;
         rock.id = 1;
         rock.diameter = k_diameter;
@@ -52,12 +52,6 @@ struct Follower {
         coupling.map();
         fluid.end_step(coupling.void_fraction_old(), coupling.void_fraction_new(), coupling.exchange());
         coupling.book();
-    }
-    /// Near by a rock would take its wake out of the solver's flow, which here has none.
-    static CouplingSettings settings() {
-        CouplingSettings found = testing::settings_with_rock();
-        found.kernel.sampling = k_quadratic_sampling;
-        return found;
     }
     FluidEngine& fluid;
     FakeDem dem;

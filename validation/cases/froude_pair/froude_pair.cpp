@@ -86,18 +86,18 @@ void compare_outflow(Verification& verification, const nlohmann::json& small, co
 }
 
 void compare_spillage(Verification& verification, const nlohmann::json& small, const nlohmann::json& large) {
-    const auto bound = [](const nlohmann::json& results, const char* key) { return results.at("spillage").at(key).get<double>(); };
-    verification.at_most(
-        "gap between the bounds of the two spillage ratios", "-",
-        std::max(bound(small, "ratio_min"), bound(large, "ratio_min")) - std::min(bound(small, "ratio_max"), bound(large, "ratio_max")),
-        0.0, {"exact", "below 0 they overlap; each interval holds what undecided rock may still do", {}});
+    const auto spillage = [](const nlohmann::json& results, const char* key) { return results.at("spillage").at(key).get<double>(); };
+    verification.at_most("gap between the bounds of the two spillage ratios", "-",
+                         std::max(spillage(small, "ratio_min"), spillage(large, "ratio_min")) -
+                             std::min(spillage(small, "ratio_max"), spillage(large, "ratio_max")),
+                         0.0, {"exact", "below 0 they overlap; each interval holds what undecided rock may still do", {}});
     ExhibitTable table{
         "Rock at 1.2 revolutions", {"length", "placed", "spilled", "sucked up", "in the cutter", "never entered", "spillage ratio"}, {}};
     for (const auto& [results, scale] : {std::pair(&small, 1.0), std::pair(&large, k_length_ratio)})
         table.rows.push_back({fmt::format("{:g}", scale), std::to_string(results->at("rock").at("placed").get<int>()),
                               count(*results, "spilled"), count(*results, "sucked_up"), count(*results, "in_cutter"),
                               count(*results, "never_entered"),
-                              fmt::format("{:.3f} to {:.3f}", bound(*results, "ratio_min"), bound(*results, "ratio_max"))});
+                              fmt::format("{:.3f} to {:.3f}", spillage(*results, "ratio_min"), spillage(*results, "ratio_max"))});
     verification.table(table);
     const auto share = [](const nlohmann::json& results) {
         const double placed = results.at("rock").at("placed").get<double>();
@@ -106,10 +106,9 @@ void compare_spillage(Verification& verification, const nlohmann::json& small, c
     verification.at_least(
         "spilled over placed at length 1", "-", share(small), 0.1,
         {"exact", "where no rock is spilled, both ratios are 0 and so is the gap between their bounds: nothing is compared", {}});
-    const auto of_decided = [](const nlohmann::json& results) { return results.at("spillage").at("ratio").get<double>(); };
-    const double p = 0.5 * (of_decided(small) + of_decided(large));
+    const double p = 0.5 * (spillage(small, "ratio") + spillage(large, "ratio"));
     verification.absolute(
-        "spilled over decided at length 4", "-", of_decided(large), of_decided(small), 0.02,
+        "spilled over decided at length 4", "-", spillage(large, "ratio"), spillage(small, "ratio"), 0.02,
         {"exact",
          fmt::format("the reference is length 1; two batches of {} rocks differ by {:.3f} (standard deviation) by chance alone", k_rocks,
                      std::sqrt(2.0 * p * (1.0 - p) / k_rocks)),

@@ -74,10 +74,9 @@ void settle(Verification& verification, const Room& room) {
                           {"exact", "bound: three times the largest error of this ratio in 2026-11", {}});
     Room shell = room;
     shell.shell = true;
-    if (regression_bound(shell) < regression_bound(room) && verification.wants(Effort::standard)) {
+    if (regression_bound(shell) < regression_bound(room) && verification.wants(Effort::standard))
         verification.relative(quantity + ", within the bound of kernel.sampling quadratic", "m/s", speed, reference,
                               regression_bound(shell), {"exact", "what was asked while the shell was the default", {}});
-    }
 }
 
 void run(Verification& verification) {
