@@ -25,8 +25,6 @@
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "meshing/dictionary/foam_command.hpp"
-#include "postproc/analysis/spillage.hpp"
-#include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -162,31 +160,20 @@ fs::path cost_file(const fs::path& folder) {
     return folder / "postProcessing" / "cost" / "0" / "cost.json";
 }
 
-/// What a replay found that is too short to tell a production.
-std::string no_window_text(const fs::path& folder) {
-    const postproc::Table ledger = postproc::read_ledger(folder);
-    if (ledger.empty()) return "no rock was fed";
-    const auto last = [&](const char* column) { return ledger.number(column).back(); };
-    return fmt::format("no whole revolution is left after the start-up: of {:.3g} kg {:.3g} kg are delivered and {:.3g} kg in the head",
-                       last("fed_kg"), last("delivered_kg"), last("in_head_kg"));
+postproc::RockAnswer answer_of(const fs::path& folder, const RecordedRun& run) {
+    const Study study = make_study(run.values, run.folder);
+    return postproc::rock_answer(folder, study.is_fed_by_cutting(), study.period(), run.head.size.blades);
 }
 
 void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
-    const postproc::Table fates = postproc::read_fates(folder);
-    const postproc::SpillageRatios ratios = postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1));
-    const Study study = make_study(run.values, run.folder);
-    if (study.is_fed_by_cutting()) {
-        replay.fed = postproc::fed_head_of(postproc::read_ledger(folder), study.period(), study.period() / run.head.size.blades);
-        if (!replay.fed)
-            throw CheckFailure({folder.string(), no_window_text(folder),
-                                "Production is told over whole revolutions once the head has filled", "Raise run.max_revolutions"});
-        replay.spillage = replay.fed->production.undelivered;
-    } else {
-        if (!ratios.ratio)
-            throw CheckFailure({folder.string(), ratios.reason, "A replay ends when rock has left the head", "Raise run.max_revolutions"});
-        replay.spillage = *ratios.ratio;
-    }
-    replay.undecided = ratios.undecided.value_or(1.0);
+    const postproc::RockAnswer answer = answer_of(folder, run);
+    if (!answer.spillage)
+        throw CheckFailure({folder.string(), answer.reason,
+                            "Spillage is told once rock has left the head, of a head that is fed over whole revolutions once it has filled",
+                            "Raise run.max_revolutions"});
+    replay.spillage = *answer.spillage;
+    replay.undecided = answer.undecided;
+    replay.fed = answer.fed;
     replay.core_s =
         read_json_document(cost_file(folder), {{"core_s", JsonKind::number, true}}, "Start again in another folder").at("core_s");
 }
@@ -274,13 +261,6 @@ void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>&
             {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", "Name a new folder with -o"}});
     fs::create_directories(settings.folder);
     write_file(file, plan.dump(2) + "\n");
-}
-
-/// Spillage of a coupled run by its own rock, which is no feed from a cut face; none while it has put in none.
-std::optional<double> coupled_spillage(const fs::path& run) {
-    const postproc::Table fates = postproc::read_fates(run);
-    if (fates.empty()) return std::nullopt;
-    return postproc::ratios_of(postproc::fates_at(fates, fates.rows() - 1)).ratio;
 }
 
 nlohmann::json optional_json(const std::optional<double>& value) {
@@ -414,14 +394,16 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     std::vector<double> spillage;
     std::vector<postproc::FedHead> fed;
     for (const Replay& replay : results.replays) {
-        if (replay.fed) fed.push_back(*replay.fed);  // of another study: there are no pairs
-        if (!replay.is_pair) {
-            spillage.push_back(replay.spillage);
-        } else if (const std::optional<double> coupled = coupled_spillage(replay.run)) {
-            results.pairs.push_back({*coupled, replay.spillage});
-        } else {
-            say(fmt::format("{}: no rock has left its head yet, so it corrects nothing", replay.run.string()));
-        }
+        if (replay.is_pair) continue;
+        spillage.push_back(replay.spillage);
+        if (replay.fed) fed.push_back(*replay.fed);
+    }
+    for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) {
+        const postproc::RockAnswer coupled = answer_of(runs[r].folder, runs[r]);
+        if (coupled.spillage)
+            results.pairs.push_back({*coupled.spillage, results.replays[r].spillage});
+        else
+            say(fmt::format("{} corrects nothing: {}", runs[r].folder.string(), coupled.reason));
     }
     if (!fed.empty()) results.fed = postproc::fed_replays_of(fed);
     results.estimate = postproc::estimate_spillage(spillage, results.pairs);

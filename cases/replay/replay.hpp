@@ -28,7 +28,7 @@ struct Replay {
     bool is_pair = false;       ///< has the placement of `run`
     std::int64_t seed = 0;      ///< of the first feed
     double start_revolution = 0.0;
-    double spillage = 0.0;   ///< of a batch spilled / (spilled + sucked up), of a feed 1 - delivered/fed in its window [-]
+    double spillage = 0.0;   ///< as postproc::RockAnswer
     double undecided = 0.0;  ///< share of the placed mass
     double core_s = 0.0;
     std::optional<postproc::FedHead> fed;  ///< of a head that is fed all the time
@@ -36,9 +36,9 @@ struct Replay {
 
 struct ReplayResults {
     std::vector<Replay> replays;
-    std::vector<postproc::ReplayPair> pairs;  ///< of the runs that put in rock
+    std::vector<postproc::ReplayPair> pairs;  ///< of the runs whose spillage is known
     postproc::ReplayEstimate estimate;
-    std::optional<postproc::FedReplays> fed;  ///< of a study that is fed all the time
+    std::optional<postproc::FedReplays> fed;  ///< of the replays of a head that is fed all the time, without pairs
 };
 
 /// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,

@@ -128,10 +128,6 @@ bool is_cut_face(const ParameterValues& feed) {
     return feed.text("feed.kind") == "cut_face";
 }
 
-bool has_cut_face(const ParameterValues& study) {
-    return std::any_of(study.tables("feed").begin(), study.tables("feed").end(), is_cut_face);
-}
-
 bool has_size_law(const ParameterValues& feed) {
     return feed.text("feed.size_law") != "classes";
 }
@@ -449,8 +445,6 @@ void check_recording(const ParameterValues& study, Rules& rules) {
     const char* key = "run.record_revolutions";
     rules.require(recorded >= 1.0, key, "The rotor passes all its phases in one revolution", "Use 1 or more, or 0 for no recording");
     rules.require(!study.tables("feed").empty(), key, "A recording is for rock", "Add a feed, or use 0");
-    rules.require(!has_cut_face(study), key, "Rock from a cut face is replayed in the flow of another run, by cutterflow replay --study",
-                  "Use 0, or feed.kind = \"batch\"");
     for (const ParameterValues& feed : study.tables("feed"))
         rules.require(
             recorded <= feed.number("feed.start_revolution"), key,

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <gsl/assert>
 
+#include "postproc/analysis/spillage.hpp"
+#include "postproc/run/run_reader.hpp"
+
 namespace cutterflow::postproc {
 namespace {
 
@@ -34,7 +37,38 @@ std::string fed_text(const FedReplays& fed) {
     return text;
 }
 
+/// What a fed head found that is too short to tell a production.
+std::string no_window_text(const Table& ledger) {
+    if (ledger.empty()) return "no rock was fed";
+    const auto last = [&](const char* column) { return ledger.number(column).back(); };
+    return fmt::format("no whole revolution is left after the start-up: of {:.3g} kg {:.3g} kg are delivered and {:.3g} kg in the head",
+                       last("fed_kg"), last("delivered_kg"), last("in_head_kg"));
+}
+
 }  // namespace
+
+RockAnswer rock_answer(const std::filesystem::path& folder, bool is_fed_by_cutting, double revolution, int blades) {
+    const Table fates = read_fates(folder);
+    RockAnswer answer;
+    if (fates.empty()) {
+        answer.reason = "no rock has come in yet";
+        return answer;
+    }
+    const SpillageRatios ratios = ratios_of(fates_at(fates, fates.rows() - 1));
+    answer.undecided = ratios.undecided.value_or(1.0);
+    if (!is_fed_by_cutting) {
+        answer.spillage = ratios.ratio;
+        answer.reason = ratios.reason;
+        return answer;
+    }
+    const Table ledger = read_ledger(folder);
+    answer.fed = fed_head_of(ledger, revolution, revolution / blades);
+    if (answer.fed)
+        answer.spillage = answer.fed->production.undelivered;
+    else
+        answer.reason = no_window_text(ledger);
+    return answer;
+}
 
 FedReplays fed_replays_of(const std::vector<FedHead>& heads) {
     Expects(!heads.empty());

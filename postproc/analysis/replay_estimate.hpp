@@ -1,5 +1,6 @@
 #pragma once
 /// \file Spillage from many replays of one recorded flow and a few coupled runs.
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,19 @@
 #include "postproc/analysis/results.hpp"
 
 namespace cutterflow::postproc {
+
+/// What became of the rock of a coupled run or of a replay.
+struct RockAnswer {
+    /// Of a batch spilled / (spilled + sucked up), of a feed from a cut face 1 - delivered/fed in its window; nothing while it cannot be
+    /// told
+    std::optional<double> spillage;
+    std::string reason;          ///< why not
+    double undecided = 0.0;      ///< share of the placed mass
+    std::optional<FedHead> fed;  ///< of a head that is fed from a cut face
+};
+
+/// \param folder  of the run or the replay, with its fates and its ledger \param revolution  of the rotor [s]
+RockAnswer rock_answer(const std::filesystem::path& folder, bool is_fed_by_cutting, double revolution, int blades);
 
 /// What replays of a head that is fed all the time say beside their spillage, which is 1 - delivered/fed in the window of each.
 struct FedReplays {
@@ -24,7 +38,7 @@ FedReplays fed_replays_of(const std::vector<FedHead>& heads);
 
 /// A coupled run and the replay of the same rock in the flow that it recorded before the rock came in.
 struct ReplayPair {
-    double coupled = 0.0;  ///< spilled / (spilled + sucked up) [-]
+    double coupled = 0.0;  ///< spillage, as RockAnswer
     double replayed = 0.0;
 };
 

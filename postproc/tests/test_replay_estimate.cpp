@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "postproc/analysis/replay_estimate.hpp"
+#include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -146,6 +147,44 @@ TEST(FedReplays, have_no_bounds_where_all_have_settled) {
     const std::string text = replay_text(estimate_spillage({0.5}, {}), fed);
     EXPECT_EQ(text.find("bounds"), std::string::npos) << text;
     EXPECT_EQ(text.find("full"), std::string::npos) << text;
+}
+
+constexpr double k_revolution = 1.0;  // of the small run [s]
+constexpr int k_blades = 2;
+
+/// In masses of a small rock: 3 and the large one's 8 are spilled, 3 are sucked up.
+TEST(RockAnswer, of_a_batch_is_told_by_what_has_left) {
+    const testing::SmallRun run("batch_answer");
+    run.write();
+    const RockAnswer answer = rock_answer(run.directory, false, k_revolution, k_blades);
+    ASSERT_TRUE(answer.spillage);
+    EXPECT_NEAR(*answer.spillage, 11.0 / 14.0, 1e-6);
+    EXPECT_FALSE(answer.fed);
+}
+
+/// Fates alone would say 11/14: a head that is fed all the time is told by its own window, coupled or replayed.
+TEST(RockAnswer, of_a_fed_head_is_one_less_what_is_delivered_in_its_window) {
+    const testing::SmallRun run("fed_answer");
+    run.write();
+    testing::make_fed(run, 20.0);
+    const RockAnswer answer = rock_answer(run.directory, true, k_revolution, k_blades);
+    ASSERT_TRUE(answer.fed);
+    ASSERT_TRUE(answer.spillage);
+    EXPECT_NEAR(*answer.spillage, 0.4, 0.01);
+}
+
+TEST(RockAnswer, says_why_there_is_none) {
+    testing::SmallRun run("no_answer");
+    run.with_rock = false;
+    run.write();
+    EXPECT_EQ(rock_answer(run.directory, false, k_revolution, k_blades).reason, "no rock has come in yet");
+
+    const testing::SmallRun fed("short_answer");
+    fed.write();
+    testing::make_fed(fed, 20.0);
+    const RockAnswer answer = rock_answer(fed.directory, true, 100.0, k_blades);  // of a rotor that never came round
+    EXPECT_FALSE(answer.spillage);
+    EXPECT_NE(answer.reason.find("no whole revolution is left after the start-up: of 300 kg"), std::string::npos) << answer.reason;
 }
 
 }  // namespace
