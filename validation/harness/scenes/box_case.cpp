@@ -100,10 +100,10 @@ void write_system(const fs::path& folder, const BoxCase& box) {
                     box.convection));
     write_foam_dictionary(
         folder, "system/fvSolution", "dictionary",
-        fmt::format("solvers\n{{\n    \"p.*\" {{ solver GAMG; smoother DICGaussSeidel; tolerance {:g}; relTol 0; }}\n"
+        fmt::format("solvers\n{{\n    \"p.*\" {{ {} tolerance {:g}; relTol 0; }}\n"
                     "    \"U.*\" {{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }}\n}}\n"
                     "PIMPLE {{ nOuterCorrectors 1; nCorrectors 2; nNonOrthogonalCorrectors 0; pRefCell 0; pRefValue 0; }}",
-                    box.pressure_tolerance));
+                    box.pressure_solver, box.pressure_tolerance));
 }
 
 }  // namespace

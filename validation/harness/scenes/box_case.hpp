@@ -47,8 +47,9 @@ struct BoxCase {
     double viscosity = 1.0034e-6;  ///< kinematic [m2/s]
     double end_time = 0.1;
     double time_step = 1e-3;
-    double write_interval = 1e9;       ///< [s]
-    double pressure_tolerance = 1e-9;  ///< of the linear solver, without a relative one
+    double write_interval = 1e9;                                            ///< [s]
+    std::string pressure_solver = "solver GAMG; smoother DICGaussSeidel;";  ///< without its tolerance
+    double pressure_tolerance = 1e-9;                                       ///< of the linear solver, without a relative one
     std::vector<BoxRock> rocks;
     std::string convection = "linearUpwindV grad(U)";  ///< scheme of div(phi,U); a study's unless set
     std::string kernel = "gamma 1.0; minWidthInCells 1.5; maxSolidFraction 0.7;";
