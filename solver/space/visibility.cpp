@@ -41,6 +41,10 @@ const std::array<Vec3, 13>& view_points() {
     return points;
 }
 
+/// Largest coordinate of a view point, of the golden ratio's rectangle, rounded up: where the rock touches a plane wall, the box of its
+/// view points does not.
+constexpr double k_view_extent = 0.850651;
+
 /// Offset of the lattice from multiples of its spacing. Steel often has round coordinates: for a node in the plane of a face
 /// rounding would decide the visibility.
 const Vec3 k_lattice_offset(0.381966, 0.236068, 0.618034);
@@ -227,6 +231,8 @@ Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::arra
 double Visibility::seen_share(Zone steel, const Vec3& position, double clearance, double spacing, const SamplePoint& node) const {
     if ((node.position - position).norm() <= clearance) return 1.0;
     const double radius = std::min(clearance, spacing);
+    const Vec3 extent = Vec3::Constant(k_view_extent * radius);
+    if (!steel_[steel].may_meet({node.position.cwiseMin(position - extent), node.position.cwiseMax(position + extent)})) return 1.0;
     int seen = 0;
     std::int32_t last = -1;
     for (const Vec3& direction : view_points()) {
