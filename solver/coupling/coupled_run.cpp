@@ -70,6 +70,15 @@ void require_closed_volume(const BalanceRow& balance) {
          "Check that velocities on the boundary let nothing in or out; else report this as a defect"});
 }
 
+/// Continuity and the flow balance hold in a flow that has blown up as in any other.
+void require_calm(const BalanceRow& balance, const std::optional<double>& largest_speed) {
+    if (!largest_speed || balance.speed_max <= *largest_speed) return;
+    throw CheckFailure(
+        {"",
+         fmt::format("at time {:.9g} s the fluid in a cell moves at {:.4g} m/s; its flow has blown up", balance.time, balance.speed_max),
+         fmt::format("Nothing here drives it to more than largestSpeed = {:.4g} m/s", *largest_speed), "Report this as a defect"});
+}
+
 std::vector<std::size_t> all_of(const Rocks& rocks) {
     std::vector<std::size_t> numbers(rocks.size());
     std::iota(numbers.begin(), numbers.end(), std::size_t{0});
@@ -379,6 +388,7 @@ void CoupledRun::report_loads_and_balance() {
     balance.solid_fraction_max = balance_.solid_fraction_max;
     balance.overfull_cells = balance_.overfull_cells;
     balance.courant_max = loads.courant_max;
+    balance.speed_max = loads.speed_max;
     balance.overlap_ratio_max = moved_.max_overlap_ratio;
     balance.dem_substeps = moved_.substeps;
     balance.contacts = moved_.contacts;
@@ -390,6 +400,7 @@ void CoupledRun::report_loads_and_balance() {
     }
     recorder_.balance(balance);
     require_closed_volume(balance);
+    require_calm(balance, settings_.largest_speed);
 }
 
 void CoupledRun::report_ledger() {

@@ -143,6 +143,7 @@ struct BalanceRow {
     double solid_fraction_max = 0.0;
     int overfull_cells = 0;
     double courant_max = 0.0;
+    double speed_max = 0.0;  ///< of the fluid in a cell [m/s]
     double overlap_ratio_max = 0.0;
     int dem_substeps = 0, rocks = 0, contacts = 0;
     double exchanged_volume = 0.0;    ///< of fluid displaced by rock since the start, less fluid that replaced removed rock [m3]

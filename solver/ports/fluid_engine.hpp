@@ -78,6 +78,7 @@ struct FluidLoads {
     double domain_surplus = 0.0;       ///< of a closed domain: |volume that a step's continuity has too much| / volume; 0 of an open one
     int clipped_cells = 0;             ///< in which a field of the turbulence model was raised to its least value, over all fields
     double courant_max = 0.0;
+    double speed_max = 0.0;          ///< of the fluid in a cell [m/s]
     std::optional<Vec3> soil_force;  ///< of the water on the soil, by p* and stress [N]; none without soil
     // With rock only, over the last step:
     Vec3 boundary_impulse =

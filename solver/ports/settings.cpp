@@ -148,6 +148,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
             mistakes.add("rock.feed is missing", "Rock enters through a feed file, or is there from the start on (rock.start)",
                          "Name a CSV file");
     }
+    if (settings.largest_speed) mistakes.positive("largestSpeed", *settings.largest_speed);
     mistakes.add(setting_mistakes(settings.soil, "soil", where));
     if (settings.fates)
         check_fates(mistakes, *settings.fates);

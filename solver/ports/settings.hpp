@@ -179,7 +179,8 @@ const SettingTable<SoilSettings>& setting_table<SoilSettings>();
 /// the contour of `fates`, which `outflow` needs too.
 struct CouplingSettings {
     bool has_rock = false;
-    bool has_medium = true;  ///< false: rock moves by weight and contacts alone, without mesh and fields
+    bool has_medium = true;               ///< false: rock moves by weight and contacts alone, without mesh and fields
+    std::optional<double> largest_speed;  ///< that the fluid in a cell may have [m/s]; none: any
     PatchSettings patches;
     std::optional<SoilSettings> soil;
     std::filesystem::path rock_feed;   ///< CSV, with rock

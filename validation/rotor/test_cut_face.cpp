@@ -312,6 +312,19 @@ TEST(CutFace, of_a_head_that_travels_keeps_volume) {
     EXPECT_LE(largest(ledger.at("error")), 1e-9);
 }
 
+/// The mouth draws in more than the stream brings, so that water comes in against the stream on its lee side.
+TEST(CutFace, of_a_head_that_travels_slowly_stays_calm) {
+    CutFaceRun run = head_that_travels();
+    run.with_rock = false;
+    run.hauling = Vec3(0.0, -0.02, 0.0);
+    const fs::path folder = scratch_folder("cut_face_hauled_slowly");
+    write_run(folder, run);
+    run_cutter_foam(folder, 1);
+    const std::vector<double> speed = table_of(folder, "balance/balance.csv").at("speed_max_m_s");
+    fmt::print("head that travels slowly: fastest water {:.3f} m/s, tip {:.3f} m/s\n", largest(speed), k_speed * k_outer_radius);
+    EXPECT_LE(largest(speed), 2.0 * k_speed * k_outer_radius);
+}
+
 /// The balance is relative to the submerged weight of 16 rocks, which are nearly as light as water. What the pressure solver leaves of
 /// continuity carries momentum of the whole flow, so that the pressure is solved to rounding (docs/design/012, "Measured").
 TEST(CutFace, of_a_head_that_travels_keeps_momentum) {

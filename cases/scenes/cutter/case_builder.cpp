@@ -132,6 +132,7 @@ void copy_surface(const fs::path& run_directory, const WallSource& surface) {
 meshing::FoamDictionary coupling_dictionary(const CaseInputs& inputs) {
     const coupling::CouplingSettings settings = solver_settings(inputs);
     meshing::FoamDictionary coupling;
+    if (settings.largest_speed) coupling.add("largestSpeed", *settings.largest_speed);
     coupling.add("patches", meshing::FoamDictionary().add("outlet", settings.patches.outlet));
     if (settings.soil) coupling.add("soil", soil_section(*settings.soil));
     if (settings.has_rock)

@@ -71,17 +71,17 @@ std::vector<FoamFile> field_files(const CaseInputs& inputs) {
     const Turbulence start = initial_turbulence(inputs);
     const Turbulence inlet = inlet_turbulence(inputs);
 
-    // In the frame of a head that travels the water far from it moves past: it comes in with its velocity, and goes out at its pressure.
+    // In the frame of a head that travels the water far from it moves past. All around it has its own pressure, and what comes in has its
+    // velocity, also where the mouth draws it in against the stream.
     const bool travels = inputs.hauling != Vec3::Zero();
     const meshing::FoamValue far = inputs.hauling;
     const Boundary velocity = {
-        travels ? typed("freestreamVelocity", far).add("freestreamValue", uniform(far)) : typed("pressureInletOutletVelocity", zero),
+        travels ? typed("inletOutlet", far).add("inletValue", uniform(far)) : typed("pressureInletOutletVelocity", zero),
         typed("flowRateOutletVelocity").add("volumetricFlowRate", inputs.discharge).add("value", uniform(zero)),
         typed("movingWallVelocity", zero), typed("noSlip"), travels ? typed("fixedValue", far) : typed("noSlip")};
     // Where the velocity is given: the gradient that balances the forces of rock near the patch; zero without rock.
     const meshing::FoamDictionary given_flux = typed("fixedFluxPressure", 0.0);
-    const Boundary pressure = {travels ? typed("freestreamPressure", 0.0).add("freestreamValue", uniform(0.0)) : typed("fixedValue", 0.0),
-                               given_flux, given_flux, given_flux, given_flux};
+    const Boundary pressure = {typed("fixedValue", 0.0), given_flux, given_flux, given_flux, given_flux};
     const meshing::FoamDictionary calculated = typed("calculated", 0.0);
     const meshing::FoamDictionary wall_viscosity = typed("nutkWallFunction", 0.0);
 

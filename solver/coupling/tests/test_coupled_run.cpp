@@ -127,6 +127,22 @@ TEST(CoupledRun, ends_when_a_closed_domain_has_water_too_much) {
     }
 }
 
+/// A fluid whose balances all hold while its flow blows up.
+TEST(CoupledRun, ends_when_the_fluid_is_faster_than_anything_drives_it) {
+    for (const double speed : {31.0, std::numeric_limits<double>::quiet_NaN()}) {
+        const TemporaryFolder folder;
+        MemoryRecorder recorder;
+        CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+        settings.largest_speed = 30.0;
+        Rig rig(settings, folder.path(), recorder, Vec3::Zero());
+        rig.fluid.given_loads.speed_max = 30.0;
+        rig.run->step();
+        rig.fluid.given_loads.speed_max = speed;
+        EXPECT_THROW(rig.run->step(), CheckFailure) << speed;
+        EXPECT_FALSE(recorder.balance_rows.back().speed_max <= 30.0) << "the row that tells why is written";
+    }
+}
+
 TEST(CoupledRun, counts_processor_time_and_no_waiting) {
     const TemporaryFolder folder;
     MemoryRecorder recorder;

@@ -382,6 +382,9 @@ void read_file(DictionarySection& file, const std::filesystem::path& folder, Cou
             if (file.section(key, k_optional))
                 file.report(key, "with medium none", "Without a medium rock is neither mapped nor dragged", "Remove the section");
         });
+    if (!settings.has_medium && file.has("largestSpeed"))
+        file.report("largestSpeed", "with medium none", "Without a medium no fluid moves", "Remove it");
+    if (file.has("largestSpeed")) file.read("largestSpeed", settings.largest_speed.emplace(), k_required);
     read_section(file, "patches", k_optional, [&](DictionarySection& section) {
         section.read("outlet", settings.patches.outlet, k_optional);
         section.read("steel", settings.patches.steel, k_optional);

@@ -102,6 +102,7 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     loads.domain_surplus = fluid.domain_surplus();
     loads.clipped_cells = static_cast<int>(fluid.clipped_cells());
     loads.courant_max = fluid.courant_max();
+    loads.speed_max = gMax(mag(fluid.velocity().primitiveField())());
     if (fluid.soil() != nullptr) loads.soil_force = fluid.density() * to_vec3(fluid.soil()->force(fluid.velocity()));
     loads.boundary_impulse = fluid.density() * to_vec3(fluid.outside_momentum().boundary);
     loads.interface_impulse = fluid.density() * to_vec3(fluid.outside_momentum().interface);

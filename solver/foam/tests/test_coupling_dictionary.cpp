@@ -542,13 +542,21 @@ TEST(CouplingDictionary, CalmsRockWithoutAMediumOnly) {
 TEST(CouplingDictionary, RefusesWhatNeedsAFluidWithoutAMedium) {
     std::string text = k_dry;
     text.replace(text.find("false"), 5, "true");
-    EXPECT_THAT(mistakes_of([&] {
-                    read("dictionary_wet",
-                         text + "kernel { gamma 2; }\nclosures { addedMass 0; }\nrecord { startTime 1; endTime 2; blades 6; }");
-                }),
-                ::testing::UnorderedElementsAre(HasSubstr("wet restitution with density 0"), HasSubstr("kernel with medium none"),
-                                                HasSubstr("closures with medium none"), HasSubstr("section record with medium none")));
+    EXPECT_THAT(
+        mistakes_of([&] {
+            read("dictionary_wet",
+                 text + "kernel { gamma 2; }\nclosures { addedMass 0; }\nrecord { startTime 1; endTime 2; blades 6; }\nlargestSpeed 9;");
+        }),
+        ::testing::UnorderedElementsAre(HasSubstr("wet restitution with density 0"), HasSubstr("kernel with medium none"),
+                                        HasSubstr("closures with medium none"), HasSubstr("section record with medium none"),
+                                        HasSubstr("largestSpeed with medium none")));
     EXPECT_THAT(mistakes_of([&] { read("dictionary_air", "medium air;"); }), ElementsAre(HasSubstr("medium = air")));
+}
+
+TEST(CouplingDictionary, BoundsTheSpeedOfTheFluidOnRequest) {
+    EXPECT_FALSE(read("no_largest_speed", "").coupling.largest_speed);
+    EXPECT_EQ(read("largest_speed", "largestSpeed 22.5;").coupling.largest_speed, 22.5);
+    EXPECT_THAT(mistakes_of([&] { read("largest_speed_zero", "largestSpeed 0;"); }), ElementsAre(HasSubstr("largestSpeed = 0")));
 }
 
 TEST(CouplingDictionary, RefusesTimeStepsThatAreNotAboveZeroInAPureFlow) {
