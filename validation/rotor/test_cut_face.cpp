@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -275,15 +274,6 @@ TEST(CutFace, of_a_swing_ten_times_as_fast_fills_the_head_and_loses_nothing) {
     fmt::print("ten times the swing: {:.0f} % of {:.3f} kg waits\n", 100.0 * owed / fed, fed);
 }
 
-/// Solves for pressure to `tolerance`, relative to the through-flow.
-void solve_pressure_to(const fs::path& folder, double tolerance) {
-    const fs::path file = folder / "system/fvSolution";
-    const std::string shipped = read_file(file);
-    const std::string text = std::regex_replace(shipped, std::regex("tolerance +2e-08;"), fmt::format("tolerance {:g};", tolerance));
-    ASSERT_NE(text, shipped);
-    write_file(file, text);
-}
-
 /// Largest value of a column from the first rock on.
 double largest_with_rock(const Table& balance, const char* column) {
     double most = 0.0;
@@ -298,8 +288,10 @@ CutFaceRun head_that_travels() {
     return run;
 }
 
-/// The head travels towards the bank at +y: water, bank and bed come from there.
-TEST(CutFace, of_a_head_that_travels_keeps_volume) {
+/// The head travels towards the bank at +y: water, bank and bed come from there. The balance of momentum is relative to the submerged
+/// weight of 16 rocks, which are nearly as light as water. Far water that changes sides at every evaluation shows in it: with the
+/// conditions of before 2026-11-28 it was 7e-5 to 8e-4 (docs/design/014, "The far water").
+TEST(CutFace, of_a_head_that_travels_keeps_volume_and_momentum) {
     const fs::path folder = scratch_folder("cut_face_hauled");
     write_run(folder, head_that_travels());
     run_cutter_foam(folder, 1);
@@ -310,6 +302,9 @@ TEST(CutFace, of_a_head_that_travels_keeps_volume) {
     EXPECT_LE(largest_with_rock(balance, "outlet_flow_m3_s"), 1e-3);
     EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
     EXPECT_LE(largest(ledger.at("error")), 1e-9);
+    const double momentum = largest_with_rock(balance, "momentum_error");
+    fmt::print("head that travels: momentum error {:.1e}\n", momentum);
+    EXPECT_LE(momentum, 1e-5);
 }
 
 /// The mouth draws in more than the stream brings, so that water comes in against the stream on its lee side.
@@ -323,18 +318,6 @@ TEST(CutFace, of_a_head_that_travels_slowly_stays_calm) {
     const std::vector<double> speed = table_of(folder, "balance/balance.csv").at("speed_max_m_s");
     fmt::print("head that travels slowly: fastest water {:.3f} m/s, tip {:.3f} m/s\n", largest(speed), k_speed * k_outer_radius);
     EXPECT_LE(largest(speed), 2.0 * k_speed * k_outer_radius);
-}
-
-/// The balance is relative to the submerged weight of 16 rocks, which are nearly as light as water. What the pressure solver leaves of
-/// continuity carries momentum of the whole flow, so that the pressure is solved to rounding (docs/design/012, "Measured").
-TEST(CutFace, of_a_head_that_travels_keeps_momentum) {
-    const fs::path folder = scratch_folder("cut_face_hauled_to_rounding");
-    write_run(folder, head_that_travels());
-    solve_pressure_to(folder, 1e-12);
-    run_cutter_foam(folder, 1);
-    const double momentum = largest_with_rock(table_of(folder, "balance/balance.csv"), "momentum_error");
-    EXPECT_LE(momentum, 1e-5);
-    fmt::print("head that travels: momentum error {:.1e}\n", momentum);
 }
 
 class KilledFeed : public ::testing::TestWithParam<int> {};
