@@ -95,7 +95,7 @@ std::vector<std::string> replay_settings(const SweepOptions& options, const std:
     std::vector<std::string> failures;
     for (const auto& [name, runs] : runs_by_setting(points, done)) {
         const fs::path replays = folder / ("replays_" + name);
-        say(fmt::format("{}: {} replays in {}", name, options.replays, replays.string()));
+        say(fmt::format("{}: {} replay{} in {}", name, options.replays, options.replays == 1 ? "" : "s", replays.string()));
         try {
             ReplayAnswer answer = replay_answer(runs, options.replay_study, options.replays, replays, fs::exists(replays));
             std::cout << name << '\n' << answer.lines;

@@ -106,14 +106,15 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
 }
 
 std::string replay_text(const ReplayEstimate& estimate, const std::optional<FedReplays>& fed) {
-    std::string text = fmt::format("replayed    {}, {} placements; rock does not change this flow\n",
-                                   percent(estimate.replays.mean, estimate.replay_interval), estimate.replays.count);
+    std::string text = fmt::format("replayed    {}, {} placement{}; rock does not change this flow\n",
+                                   percent(estimate.replays.mean, estimate.replay_interval), estimate.replays.count,
+                                   estimate.replays.count == 1 ? "" : "s");
     if (fed) text += fed_text(*fed);
     if (estimate.corrections.count == 0) return text + "coupled     no run: what the recorded flow leaves out is not known\n";
     text += fmt::format(
-        "coupled     {:+.1f} points{}, {} run(s) with the same placements as their replays\n", 100.0 * estimate.corrections.mean,
+        "coupled     {:+.1f} points{}, {} run{} with the same placement{} as in replays\n", 100.0 * estimate.corrections.mean,
         estimate.correction_interval ? fmt::format(" +- {:.1f} (95 %)", 100.0 * *estimate.correction_interval) : ", no interval",
-        estimate.corrections.count);
+        estimate.corrections.count, estimate.corrections.count == 1 ? "" : "s", estimate.corrections.count == 1 ? "" : "s");
     text += fmt::format("spillage    {}\n", percent(estimate.spillage, estimate.interval));
     if (!estimate.interval)
         text += "            two coupled runs or more, with other placements, give an interval: cutterflow sweep --repeats\n";
