@@ -86,10 +86,6 @@ void add_up_wall_motion(const Foam::fvMesh& mesh, std::vector<double>& of_cells)
     }
 }
 
-void append(const std::vector<coupling::SteelTriangle>& triangles, std::vector<coupling::SteelTriangle>& to) {
-    to.insert(to.end(), triangles.begin(), triangles.end());
-}
-
 }  // namespace
 
 struct FoamFluidEngine::Parts {
@@ -135,11 +131,10 @@ coupling::Cells FoamFluidEngine::cells() const {
 }
 coupling::Steel FoamFluidEngine::steel() const {
     Parts& p = *parts_;
-    if (p.steel.empty()) {
-        p.steel = gather_steel_faces(p.fluid.mesh(), p.roles.steel, p.zones, time());
-        if (p.fluid.soil() != nullptr) append(p.fluid.soil()->surface().triangles(), p.steel[coupling::k_still_zone]);
-    }
-    return {{p.steel.begin(), p.steel.end()}};
+    if (p.steel.empty()) p.steel = gather_steel_faces(p.fluid.mesh(), p.roles.steel, p.zones, time());
+    coupling::Steel steel{{p.steel.begin(), p.steel.end()}};
+    if (p.fluid.soil() != nullptr) steel.soil = p.fluid.soil()->surface().triangles();
+    return steel;
 }
 gsl::span<const coupling::ZoneMotion> FoamFluidEngine::moving_zones() const {
     return parts_->zones.motion;

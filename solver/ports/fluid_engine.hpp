@@ -40,9 +40,10 @@ struct SteelTriangle {
     Vec3 a, b, c;
 };
 
-/// All steel faces of the whole mesh (every rank has all of them): what hides a cell from a rock.
+/// All steel faces of the whole mesh (every rank has all of them): what hides a cell from a rock. And the soil, whose cells take no rock.
 struct Steel {
     std::vector<gsl::span<const SteelTriangle>> of_zone;  ///< by zone
+    gsl::span<const SteelTriangle> soil{};                ///< its closed surface, at rest; empty where there is none
 };
 
 /// Fields at the present time, one value per cell of this rank.

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_head_file = "recording.json";
 constexpr const char* k_steel_file = "steel";
-constexpr const char* k_schema = "cutterflow.recording/1";
+constexpr const char* k_schema = "cutterflow.recording/2";
 constexpr const char* k_remedy = "Record the flow again";
 
 const std::vector<JsonField> k_head_fields{{"schema", JsonKind::text, true},
@@ -31,6 +31,7 @@ const std::vector<JsonField> k_head_fields{{"schema", JsonKind::text, true},
                                            {"axis_origin_m/*", JsonKind::number, true},
                                            {"axis_direction/*", JsonKind::number, true},
                                            {"steel_triangles/*", JsonKind::whole, true},
+                                           {"soil_triangles", JsonKind::whole, true},
                                            {"still_weight_s/*", JsonKind::number, true},
                                            {"turning_weight_s/*", JsonKind::number, true}};
 
@@ -90,6 +91,7 @@ void write_cells(const fs::path& file, const FlowRecording& recording) {
 void write_steel(const fs::path& file, const FlowRecording& recording) {
     std::ofstream stream(file, std::ios::binary);
     for (const std::vector<SteelTriangle>& triangles : recording.steel) put(stream, triangles);
+    put(stream, recording.soil);
     close_written(stream, file);
 }
 
@@ -109,6 +111,7 @@ nlohmann::json head_of(const FlowRecording& recording, int ranks) {
             {"axis_origin_m", to_vector(zone.axis.origin)},
             {"axis_direction", to_vector(zone.axis.direction)},
             {"steel_triangles", steel},
+            {"soil_triangles", recording.soil.size()},
             {"still_weight_s", recording.weight[0]},
             {"turning_weight_s", recording.weight[1]}};
 }
@@ -163,12 +166,13 @@ private:
     std::vector<std::size_t> counts_;
 };
 
-void read_steel(const fs::path& file, const nlohmann::json& counts, FlowRecording& recording) {
-    std::uintmax_t triangles = 0;
+void read_steel(const fs::path& file, const nlohmann::json& counts, std::size_t of_soil, FlowRecording& recording) {
+    std::uintmax_t triangles = of_soil;
     for (const auto& count : counts) triangles += count.get<std::size_t>();
     require_size(file, triangles * sizeof(SteelTriangle));
     std::ifstream stream(file, std::ios::binary);
     for (const auto& count : counts) get(stream, count.get<std::size_t>(), recording.steel.emplace_back());
+    get(stream, of_soil, recording.soil);
     if (!stream) refuse(file, "it cannot be read");
 }
 
@@ -212,7 +216,7 @@ FlowRecording read_recording(const fs::path& folder) {
     const RotationAxis axis{to_vec3(head.at("axis_origin_m"), file), to_vec3(head.at("axis_direction"), file)};
     recording.moving = {{axis, head.at("speed_rad_s"), head.at("zone")}};
     recording.weight = {head.at("still_weight_s").get<std::vector<double>>(), head.at("turning_weight_s").get<std::vector<double>>()};
-    read_steel(folder / k_steel_file, head.at("steel_triangles"), recording);
+    read_steel(folder / k_steel_file, head.at("steel_triangles"), head.at("soil_triangles"), recording);
     require_consistent(recording, file);
     CellReader(recording, folder, head.at("ranks")).read();
     for (const std::uint8_t zone : recording.cells.zone)

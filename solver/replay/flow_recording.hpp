@@ -32,6 +32,7 @@ struct FlowRecording {
     double start = 0.0, end = 0.0;                  ///< of the recorded interval [s]
     std::vector<ZoneMotion> moving;                 ///< one
     std::vector<std::vector<SteelTriangle>> steel;  ///< by zone
+    std::vector<SteelTriangle> soil;                ///< as of Steel
     RecordedCells cells;
     std::array<std::vector<double>, k_periods> weight;  ///< time that each phase stands for [s]
     std::vector<float> velocity, acceleration;          ///< [m/s], [m/s2]; component + 3 (cell + cells phase)

@@ -14,7 +14,7 @@ public:
 
     bool feels_rock() const override { return false; }
     Cells cells() const override { return recording_.cells.view(); }
-    Steel steel() const override { return {{recording_.steel.begin(), recording_.steel.end()}}; }
+    Steel steel() const override { return {{recording_.steel.begin(), recording_.steel.end()}, recording_.soil}; }
     gsl::span<const ZoneMotion> moving_zones() const override { return recording_.moving; }
     FluidFields fields() const override { return {velocity_, acceleration_, void_fraction_}; }
     double time() const override { return clock_.time(); }

@@ -38,8 +38,9 @@ PhaseRecorder::PhaseRecorder(const RecordSettings& settings, const FluidEngine& 
     recording_.start = settings.start_time;
     recording_.end = settings.end_time;
     recording_.moving.assign(fluid.moving_zones().begin(), fluid.moving_zones().end());
-    for (const gsl::span<const SteelTriangle>& triangles : fluid.steel().of_zone)
-        recording_.steel.emplace_back(triangles.begin(), triangles.end());
+    const Steel steel = fluid.steel();
+    for (const gsl::span<const SteelTriangle>& triangles : steel.of_zone) recording_.steel.emplace_back(triangles.begin(), triangles.end());
+    recording_.soil.assign(steel.soil.begin(), steel.soil.end());
     recording_.cells = copy_of(fluid.cells());
     const auto phases = static_cast<std::size_t>(settings.phases);
     for (std::vector<double>& weight : recording_.weight) weight.assign(phases, 0.0);

@@ -37,7 +37,7 @@ CheckFailure no_cell_near(const RockShapes& rocks, std::size_t rock, double dist
                          "Rock must stay inside the mesh", "Let rock.domain end inside the mesh"});
 }
 
-// A rock that sees less than this many times the room that it needs also lies in cells behind steel.
+// A rock that sees less than this many times the room that it needs also lies in cells behind steel and in soil.
 constexpr double k_ample = 2.0;
 
 /// Sums over a rock's cells, rock by rock in one array. Room is the cells' volume, which fades to 0 at the kernel's reach so that none
@@ -76,6 +76,7 @@ Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMot
       boxes_(trees_, communicator),
       sizes_(cells, frames_.zones(), communicator),
       visibility_(steel, trees_, frames_, view),
+      soil_(steel.soil, trees_, moving, sizes_, frames_, communicator),
       kernel_(kernel),
       communicator_(communicator),
       angles_(moving_.size(), 0.0) {
@@ -89,6 +90,7 @@ void Mapping::set_time(double time) {
     angles_ = std::move(angles);
     frames_ = ZoneFrames(moving_, time);
     visibility_.set_frames(frames_);
+    soil_.set_frames(frames_);
     has_turned_ = true;
     last_ = {};
 }
@@ -154,7 +156,7 @@ void Mapping::lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vect
             continue;
         }
         look_from(rocks, p, stencils.width[p]);
-        add_entries(rocks, p, 0.0, stencils, sums);
+        add_entries(rocks, p, {0.0, 0.0}, stencils, sums);
     }
 }
 
@@ -253,8 +255,9 @@ const NearbyPoints& Mapping::nearby_cells(KnownVicinity& vicinity, Zone zone, co
 }
 
 /// Unnormalised weights of this rank's cells around a rock, with the visibility as it was last looked at, and their part of the rock's
-/// sums. \param through_steel  what a hidden cell counts of one in view
-void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums) {
+/// sums.
+void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, const Through& through, Stencils& stencils,
+                          std::vector<double>& sums) {
     const double width = stencils.width[rock], inverse_width2 = 1.0 / (width * width);
     const double share = physics::resolved_share(kernel_.gamma * rocks.diameter[rock] / width);
     const bool shell = kernel_.sampling == k_quadratic_sampling;
@@ -269,17 +272,18 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, double thro
         for (const std::int32_t place : nearby.indices) {
             const double squared_distance = (trees_.centre(place) - here).squaredNorm();
             if (squared_distance >= reach2) continue;
-            const double in_view = sees_all ? 1.0 : visibility_.visible_fraction(place);
+            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(place), open = soil_.open(place);
+            const double in_view = visible * open;
             const double volume = trees_.volume(place), room = (1.0 - squared_distance / reach2) * volume;
             seen += in_view * room;
             behind += (1.0 - in_view) * room;
-            const double visible = in_view + (1.0 - in_view) * through_steel;
-            if (visible == 0.0) continue;
+            const double counts = (visible + (1.0 - visible) * through.steel) * (open + (1.0 - open) * through.soil);
+            if (counts == 0.0) continue;
             const double q = squared_distance * inverse_width2;
             const double gaussian = physics::gaussian_weight(q);
             const double resolved =
                 shell ? physics::quadratic_weight(q) / physics::k_quadratic_integral : physics::near_weight(q) / physics::k_near_integral;
-            const double deposit = visible * gaussian, sample = visible * physics::sampling_weight(resolved, gaussian, share);
+            const double deposit = counts * gaussian, sample = counts * physics::sampling_weight(resolved, gaussian, share);
             stencils.cell[entries] = trees_.number(place);
             stencils.deposit[entries] = deposit;
             stencils.sample[entries] = sample;
@@ -330,8 +334,8 @@ void Mapping::lay_again(const std::vector<std::size_t>& again, const Lay& lay, S
     stencils = std::move(replaced);
 }
 
-/// Rocks without a visible cell (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie inside the
-/// mesh's steel) are mapped from the centre of the nearest cell. \return those near this rank
+/// Rocks without a visible cell of water (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie
+/// inside the mesh's steel) are mapped from the centre of the nearest cell, soil or not. \return those near this rank
 std::vector<std::size_t> Mapping::replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
     had_hidden_rock_ = true;
     std::vector<std::size_t> hidden;
@@ -339,25 +343,25 @@ std::vector<std::size_t> Mapping::replace_hidden(const RockShapes& rocks, Stenci
         if (!is_mapped(sums, p)) hidden.push_back(p);
     const auto lay = [&](std::size_t p, Stencils& replaced, std::vector<double>& new_sums) {
         look_from_nearest_cell(rocks, p, replaced.width[p]);
-        add_entries(rocks, p, 0.0, replaced, new_sums);
+        add_entries(rocks, p, {0.0, 1.0}, replaced, new_sums);
     };
     lay_again(hidden, lay, stencils, sums);
     return hidden;
 }
 
-/// What a hidden cell counts for a rock: 0 when it sees k_ample times the room that holds it at kernel.maxSolidFraction, 1 when it sees
-/// nothing, between them in proportion.
-double Mapping::share_through_steel(double diameter, double seen) const {
+/// What a cell out of view, or of soil, counts for a rock: 0 when it sees k_ample times the room that holds it at kernel.maxSolidFraction,
+/// 1 when it sees nothing, between them in proportion.
+double Mapping::share_beyond(double diameter, double seen) const {
     const double ample = k_ample * sphere_volume(diameter) / kernel_.max_solid_fraction;
     return std::max(0.0, 1.0 - seen / ample);
 }
 
 bool Mapping::is_cramped(const RockShapes& rocks, const std::vector<double>& sums, std::size_t rock) const {
-    return sums[k_sums * rock + hidden_room] > 0.0 && share_through_steel(rocks.diameter[rock], sums[k_sums * rock + seen_room]) > 0.0;
+    return sums[k_sums * rock + hidden_room] > 0.0 && share_beyond(rocks.diameter[rock], sums[k_sums * rock + seen_room]) > 0.0;
 }
 
-/// A rock in a nook of the mesh, where it sees too few cells to lie in, is laid over cells behind the steel as well. Otherwise no cell in
-/// its reach had room for it.
+/// A rock in a nook of the mesh, where it sees too few cells to lie in, is laid over cells behind the steel, or in soil, as well. Otherwise
+/// no cell in its reach had room for it.
 void Mapping::make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
                                     const std::vector<std::size_t>& hidden) {
     had_cramped_rock_ = true;
@@ -369,7 +373,8 @@ void Mapping::make_room_for_cramped(const RockShapes& rocks, Stencils& stencils,
             look_from_nearest_cell(rocks, p, replaced.width[p]);
         else
             look_from(rocks, p, replaced.width[p]);
-        add_entries(rocks, p, share_through_steel(rocks.diameter[p], sums[k_sums * p + seen_room]), replaced, new_sums);
+        const double beyond = share_beyond(rocks.diameter[p], sums[k_sums * p + seen_room]);
+        add_entries(rocks, p, {beyond, beyond}, replaced, new_sums);
     };
     lay_again(cramped, lay, stencils, sums);
 }

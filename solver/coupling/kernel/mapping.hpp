@@ -10,6 +10,7 @@
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/settings.hpp"
 #include "solver/space/size_field.hpp"
+#include "solver/space/soil_share.hpp"
 #include "solver/space/visibility.hpp"
 
 namespace cutterflow::coupling {
@@ -40,9 +41,9 @@ struct Stencils {
     void resize_entries(std::size_t count);
 };
 
-/// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock; or, with another
-/// map than gaussian, one group of cells per rock. Each rank builds those of the rocks near its cells, and sums over a rock's kernel are
-/// messages between the ranks near to it.
+/// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock and the share of the
+/// cell that is not soil; or, with another map than gaussian, one group of cells per rock. Each rank builds those of the rocks near its
+/// cells, and sums over a rock's kernel are messages between the ranks near to it.
 class Mapping {
 public:
     /// Keeps references to the engine's arrays. The mesh is at its position at time 0. \param view  one node is enough where no fluid feels
@@ -61,9 +62,9 @@ public:
 
     const SizeField& sizes() const { return sizes_; }
     const Cells& cells() const { return trees_.cells(); }
-    /// Whether a rock (of all builds so far, on any rank) saw no cell and was mapped from the nearest cell's centre instead.
+    /// Whether a rock (of all builds so far, on any rank) saw no cell of water and was mapped from the nearest cell's centre instead.
     bool had_hidden_rock() const { return had_hidden_rock_; }
-    /// Whether a rock saw so few cells that it was laid over cells behind steel as well.
+    /// Whether a rock saw so few cells that it was laid over cells behind steel and in soil as well.
     bool had_cramped_rock() const { return had_cramped_rock_; }
     const Visibility& visibility() const { return visibility_; }
 
@@ -90,11 +91,16 @@ private:
     void lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void look_from(const RockShapes& rocks, std::size_t rock, double width);
     void look_from_nearest_cell(const RockShapes& rocks, std::size_t rock, double width);
-    void add_entries(const RockShapes& rocks, std::size_t rock, double through_steel, Stencils& stencils, std::vector<double>& sums);
+    /// What a cell counts of one in open water.
+    struct Through {
+        double steel;  ///< behind steel
+        double soil;   ///< in soil
+    };
+    void add_entries(const RockShapes& rocks, std::size_t rock, const Through& through, Stencils& stencils, std::vector<double>& sums);
     template <typename Lay>
     void lay_again(const std::vector<std::size_t>& again, const Lay& lay, Stencils& stencils, std::vector<double>& sums);
     std::vector<std::size_t> replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
-    double share_through_steel(double diameter, double seen) const;
+    double share_beyond(double diameter, double seen) const;
     bool is_cramped(const RockShapes& rocks, const std::vector<double>& sums, std::size_t rock) const;
     void make_room_for_cramped(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums,
                                const std::vector<std::size_t>& hidden);
@@ -105,6 +111,7 @@ private:
     RankBoxes boxes_;
     SizeField sizes_;
     Visibility visibility_;
+    SoilShare soil_;
     KernelSettings kernel_;
     Communicator& communicator_;
     std::optional<CellGroups> groups_;  // none: map gaussian

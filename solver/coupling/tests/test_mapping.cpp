@@ -513,6 +513,48 @@ TEST(Ranks, share_the_cells_without_a_trace) {
     for (std::size_t p = 0; p < rocks.id.size(); ++p) EXPECT_NEAR(found_sample[p], expected_sample[p], 1e-12);
 }
 
+/// A turning drum of cubes of 10 mm in cells at rest, with soil below a level top.
+SyntheticMesh drum_over_ground(double ground) {
+    SyntheticMesh mesh;
+    const auto is_in_drum = [](const Vec3& x) { return x.head<2>().norm() < 0.1; };
+    mesh.add_box(Vec3::Constant(-0.15), Vec3::Constant(0.15), 0.01, true, is_in_drum);
+    mesh.add_box(Vec3::Constant(-0.15), Vec3::Constant(0.15), 0.01, false, [&](const Vec3& x) { return !is_in_drum(x); });
+    mesh.add_box_of_soil(Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, ground));
+    return mesh;
+}
+
+TEST(Mapping, lays_nothing_into_soil_and_half_as_much_into_a_cell_that_is_half_soil) {
+    const double ground = -0.025, d = 0.02;  // through the middle of a layer of cells
+    Bench bench(drum_over_ground(ground));
+    bench.mapping.set_time(0.4);
+    Bench open_water(cube(0.15, 0.01));
+    const Vec3 rock(0.06, 0.0, ground + 0.5 * d);
+    const Stencils stencils = bench.build(one_rock(rock, d)), free = open_water.build(one_rock(rock, d));
+    EXPECT_LE(bench.normalisation(stencils), 1e-12);
+    double half = 0.0, whole = 0.0, half_free = 0.0, whole_free = 0.0;
+    const auto weigh = [&](const Bench& of, const Stencils& s, double& in_half, double& in_whole) {
+        for (std::size_t i = 0; i < s.cell.size(); ++i) {
+            const auto c = static_cast<std::size_t>(s.cell[i]);
+            const double height = of.mesh.centres[c][2] - ground;
+            const double laid = s.deposit[i] * of.mesh.volumes[c];
+            (std::abs(height) < 1e-9 ? in_half : in_whole) += height > -1e-9 ? laid : 0.0;
+            if (&of == &bench) {
+                EXPECT_GT(height, -1e-9) << "soil";
+            }
+        }
+    };
+    weigh(bench, stencils, half, whole);
+    weigh(open_water, free, half_free, whole_free);
+    EXPECT_NEAR(half / whole, 0.5 * half_free / whole_free, 0.02 * half / whole) << "the drum is turned against its surroundings";
+}
+
+TEST(Mapping, of_a_rock_deep_in_soil_lays_it_there) {
+    Bench bench(drum_over_ground(0.09));
+    const Stencils stencils = bench.build(one_rock(Vec3(0.02, 0.0, 0.0), 0.005));
+    EXPECT_LE(bench.normalisation(stencils), 1e-12);
+    EXPECT_TRUE(bench.mapping.had_hidden_rock());
+}
+
 /// Rock in a row across four ranks, each of which has a slab of cells as wide as half of what a kernel spans.
 class FourSlabs : public ::testing::Test {
 protected:

@@ -96,8 +96,8 @@ void Soil::make_grid(const coupling::ZoneMotion& motion) {
     const Vec3 middle = motion.axis.origin + 0.5 * (first + last) * n;
     const Vec3 half = 0.5 * (last - first) * n.cwiseAbs() + radius * (Vec3::Ones() - n.cwiseProduct(n)).cwiseMax(0.0).cwiseSqrt();
     const double reach = k_reach * std::cbrt(largest);
-    grid_ = std::make_unique<DistanceGrid>(middle - half, middle + half, 0.5 * std::cbrt(volume / cells),
-                                           [&](const Vec3& point) { return surface_.distance(point, reach); });
+    grid_ = std::make_unique<coupling::DistanceGrid>(middle - half, middle + half, 0.5 * std::cbrt(volume / cells),
+                                                     [this, reach](const Vec3& point) { return surface_.distance(point, reach); });
 }
 
 /// Volume over the mean area that the cell shows along the normal.

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "solver/foam/mesh_motion/moving_zones.hpp"
-#include "solver/foam/soil/distance_grid.hpp"
 #include "solver/foam/soil/soil_surface.hpp"
 #include "solver/ports/settings.hpp"
+#include "solver/space/distance_grid.hpp"
 
 #include "fvMesh.H"
 #include "surfaceFields.H"
@@ -56,7 +56,7 @@ public:
     /// Force of the water on the soil of the whole mesh over density [m4/s2]; collective.
     Foam::vector force(const Foam::volVectorField& velocity) const;
 
-    const SoilSurface& surface() const { return surface_; }
+    const coupling::SoilSurface& surface() const { return surface_; }
 
 private:
     template <class Distance>
@@ -65,11 +65,11 @@ private:
     void make_grid(const coupling::ZoneMotion& motion);
 
     const Foam::fvMesh& mesh_;
-    SoilSurface surface_;
+    coupling::SoilSurface surface_;
     double permeability_;  // [m2]
     Foam::dimensionedVector velocity_;
-    Foam::labelList turning_;             // cells
-    std::unique_ptr<DistanceGrid> grid_;  // of the place through which they turn
+    Foam::labelList turning_;                       // cells
+    std::unique_ptr<coupling::DistanceGrid> grid_;  // of the place through which they turn
     Foam::volScalarField share_;
     Foam::scalarField shear_;  // g/w^2 [1/m2]
     Foam::volScalarField sink_;

@@ -21,7 +21,7 @@ void require(bool holds, const std::filesystem::path& file, const std::string& w
 
 }  // namespace
 
-SoilSurface read_soil_surface(const std::filesystem::path& file) {
+coupling::SoilSurface read_soil_surface(const std::filesystem::path& file) {
     require(std::filesystem::is_regular_file(file), file, "there is no such file", "It names the closed surface of the soil",
             "Name an STL file [m], relative to the case");
     std::string ending = file.extension().string();
@@ -38,7 +38,7 @@ SoilSurface read_soil_surface(const std::filesystem::path& file) {
     const Foam::pointField& points = surface.points();
     for (const Foam::labelledTri& corners : surface)
         triangles.push_back({to_vec3(points[corners[0]]), to_vec3(points[corners[1]]), to_vec3(points[corners[2]])});
-    return SoilSurface(std::move(triangles));
+    return coupling::SoilSurface(std::move(triangles));
 }
 
 }  // namespace cutterflow::foam

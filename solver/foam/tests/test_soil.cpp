@@ -246,12 +246,13 @@ TEST(SoilOnTheMove, DoesNotDisturbAStreamThatItMovesWith) {
     EXPECT_GE(disturbance_of_a_stream("soil_against_stream", Vec3::Zero()), 0.5) << "a block at rest does";
 }
 
-TEST(Soil, HidesWhatIsInIt) {
+TEST(Soil, IsNoSteel) {
     testing::Box box;
     for (int& cells : box.cells) cells = 4;
     const fs::path folder = testing::build_case(box_case("soil_hides", box, 0.1, 1.0));
     FluidRun run(folder, false, {}, soil_of(folder, {Vec3(0.5, 0.2, 0.5), Vec3(0.3, 0.1, 0.3)}));
-    EXPECT_EQ(run.engine().steel().of_zone.at(0).size(), 6u * 16u * 2u + 12u);
+    EXPECT_EQ(run.engine().steel().of_zone.at(0).size(), 6u * 16u * 2u);
+    EXPECT_EQ(run.engine().steel().soil.size(), 12u);
 }
 
 template <class Action>

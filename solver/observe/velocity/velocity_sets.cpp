@@ -55,7 +55,8 @@ VelocitySets::VelocitySets(const VelocitySettings& settings, const FluidEngine& 
       interval_(settings.interval * k_degree),
       motion_(fluid.moving_zones().empty() ? ZoneMotion{} : fluid.moving_zones()[0]),
       rotor_steel_(motion_.speed == 0.0 ? gsl::span<const SteelTriangle>() : fluid.steel().of_zone[1]),
-      stator_steel_(fluid.steel().of_zone[k_still_zone]) {
+      stator_steel_(fluid.steel().of_zone[k_still_zone]),
+      soil_(fluid.steel().soil) {
     std::vector<Mistake> mistakes;
     if (motion_.speed == 0.0)
         mistakes.push_back({names::coupling_properties, "section velocity with a rotor at rest", "Velocities are averaged over revolutions",
@@ -70,7 +71,7 @@ VelocitySets::VelocitySets(const VelocitySettings& settings, const FluidEngine& 
     if (!mistakes.empty()) throw UserError(mistakes);
     for (const VelocitySet& set : sets_) points_.insert(points_.end(), set.points.begin(), set.points.end());
     for (const SamplePoint& point : points_)
-        always_dry_.push_back((point.rotating ? rotor_steel_ : stator_steel_).contains(point.place) ? 1 : 0);
+        always_dry_.push_back(point.rotating ? rotor_steel_.contains(point.place) : is_dry_at_rest(point.place));
     place_.resize(points_.size());
 }
 
@@ -102,13 +103,18 @@ void VelocitySets::find_places(double time) {
         place_[i] = points_[i].rotating ? rotate_about(motion_.axis, motion_.angle(time), points_[i].place) : points_[i].place;
 }
 
+/// Whether what does not turn is at a place.
+bool VelocitySets::is_dry_at_rest(const Vec3& place) const {
+    return stator_steel_.contains(place) || soil_.contains(place);
+}
+
 std::vector<std::uint8_t> VelocitySets::wet_points(double rotor_angle) const {
     std::vector<std::uint8_t> wet(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
-        // The steel that moves past the point, in the frame in which that steel rests.
-        const SteelTree& passing = points_[i].rotating ? stator_steel_ : rotor_steel_;
-        const Vec3 there = points_[i].rotating ? place_[i] : rotate_about(motion_.axis, -rotor_angle, place_[i]);
-        wet[i] = always_dry_[i] == 0 && !passing.contains(there) ? 1 : 0;
+        // What moves past the point, in the frame in which it rests.
+        const bool is_passed =
+            points_[i].rotating ? is_dry_at_rest(place_[i]) : rotor_steel_.contains(rotate_about(motion_.axis, -rotor_angle, place_[i]));
+        wet[i] = always_dry_[i] == 0 && !is_passed ? 1 : 0;
     }
     return wet;
 }

@@ -48,17 +48,18 @@ public:
 private:
     double turned(double time) const;
     void find_places(double time);
+    bool is_dry_at_rest(const Vec3& place) const;
     std::vector<std::uint8_t> wet_points(double rotor_angle) const;
 
     double start_time_, interval_;
     ZoneMotion motion_;
-    SteelTree rotor_steel_, stator_steel_;
+    SteelTree rotor_steel_, stator_steel_, soil_;
     std::vector<VelocitySet> sets_;
     double next_ = 0.0;  // angle since start_time_ at which the next sample is due
 
     // All sets one after the other.
     std::vector<SamplePoint> points_;
-    std::vector<std::uint8_t> always_dry_;  // inside steel that does not move relative to the point
+    std::vector<std::uint8_t> always_dry_;  // inside what does not move relative to the point
     std::vector<Vec3> place_;               // at present, absolute frame
 };
 

@@ -21,10 +21,10 @@ struct SyntheticMesh {
     std::vector<double> volumes, sizes;
     std::vector<std::uint8_t> in_rotor;
     std::vector<std::int64_t> ids;
-    std::vector<SteelTriangle> rotor_steel, stator_steel;
+    std::vector<SteelTriangle> rotor_steel, stator_steel, soil;
 
     Cells cells() const { return {centres, volumes, sizes, in_rotor, ids}; }
-    Steel steel() const { return {{stator_steel, rotor_steel}}; }
+    Steel steel() const { return {{stator_steel, rotor_steel}, soil}; }
     std::size_t size() const { return centres.size(); }
 
     void add_cell(const Vec3& centre, double volume, double cell_size, bool rotor) {
@@ -74,11 +74,31 @@ struct SyntheticMesh {
             }
     }
 
+    /// The sides of a box of soil, without its top and bottom, which lines of sight that are nearly level do not meet.
+    void add_sides_of_soil(const Vec3& lower, const Vec3& upper) {
+        const Vec3 corners[] = {lower, {upper[0], lower[1], lower[2]}, {upper[0], upper[1], lower[2]}, {lower[0], upper[1], lower[2]}};
+        const Vec3 up(0.0, 0.0, upper[2] - lower[2]);
+        for (int i = 0; i < 4; ++i) {
+            const Vec3 &a = corners[i], &b = corners[(i + 1) % 4];
+            soil.push_back({a, b, b + up});
+            soil.push_back({a, b + up, a + up});
+        }
+    }
+    void add_box_of_soil(const Vec3& lower, const Vec3& upper) {
+        add_sides_of_soil(lower, upper);
+        const Vec3 b(upper[0], lower[1], lower[2]), c(lower[0], upper[1], lower[2]), up(0.0, 0.0, upper[2] - lower[2]);
+        for (const Vec3& shift : {Vec3(Vec3::Zero()), up}) {
+            soil.push_back({lower + shift, b + shift, c + shift});
+            soil.push_back({b + shift, upper - up + shift, c + shift});
+        }
+    }
+
     /// The cells that `mine` picks, with all of the steel: one rank's share.
     SyntheticMesh part(const std::function<bool(std::size_t)>& mine) const {
         SyntheticMesh share;
         share.rotor_steel = rotor_steel;
         share.stator_steel = stator_steel;
+        share.soil = soil;
         for (std::size_t c = 0; c < size(); ++c) {
             if (!mine(c)) continue;
             share.add_cell(centres[c], volumes[c], sizes[c], in_rotor[c] != 0);
