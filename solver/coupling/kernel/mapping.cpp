@@ -76,7 +76,7 @@ Mapping::Mapping(const Cells& cells, const Steel& steel, gsl::span<const ZoneMot
       boxes_(trees_, communicator),
       sizes_(cells, frames_.zones(), communicator),
       visibility_(steel, trees_, frames_, view),
-      soil_(steel.soil, trees_, moving, sizes_, frames_, communicator),
+      open_(steel.soil, trees_, moving, sizes_, frames_, communicator),
       kernel_(kernel),
       communicator_(communicator),
       angles_(moving_.size(), 0.0) {
@@ -90,7 +90,7 @@ void Mapping::set_time(double time) {
     angles_ = std::move(angles);
     frames_ = ZoneFrames(moving_, time);
     visibility_.set_frames(frames_);
-    soil_.set_frames(frames_);
+    open_.set_frames(frames_);
     has_turned_ = true;
     last_ = {};
 }
@@ -272,7 +272,7 @@ void Mapping::add_entries(const RockShapes& rocks, std::size_t rock, const Throu
         for (const std::int32_t place : nearby.indices) {
             const double squared_distance = (trees_.centre(place) - here).squaredNorm();
             if (squared_distance >= reach2) continue;
-            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(place), open = soil_.open(place);
+            const double visible = sees_all ? 1.0 : visibility_.visible_fraction(place), open = open_.at(place);
             const double in_view = visible * open;
             const double volume = trees_.volume(place), room = (1.0 - squared_distance / reach2) * volume;
             seen += in_view * room;

@@ -9,8 +9,8 @@
 #include "solver/coupling/kernel/shared_rocks.hpp"
 #include "solver/ports/communicator.hpp"
 #include "solver/ports/settings.hpp"
+#include "solver/space/open_share.hpp"
 #include "solver/space/size_field.hpp"
-#include "solver/space/soil_share.hpp"
 #include "solver/space/visibility.hpp"
 
 namespace cutterflow::coupling {
@@ -42,7 +42,7 @@ struct Stencils {
 };
 
 /// Builds stencils: kernels on geometric distance over all zones and all ranks, times the visible fraction of the rock and the share of the
-/// cell that is not soil; or, with another map than gaussian, one group of cells per rock. Each rank builds those of the rocks near its
+/// cell that soil leaves; or, with another map than gaussian, one group of cells per rock. Each rank builds those of the rocks near its
 /// cells, and sums over a rock's kernel are messages between the ranks near to it.
 class Mapping {
 public:
@@ -111,7 +111,7 @@ private:
     RankBoxes boxes_;
     SizeField sizes_;
     Visibility visibility_;
-    SoilShare soil_;
+    OpenShare open_;
     KernelSettings kernel_;
     Communicator& communicator_;
     std::optional<CellGroups> groups_;  // none: map gaussian

@@ -1,4 +1,4 @@
-#include "solver/space/soil_share.hpp"
+#include "solver/space/open_share.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,18 +46,18 @@ double grid_spacing(const Cells& cells, Communicator& communicator) {
 
 }  // namespace
 
-SoilShare::SoilShare(gsl::span<const SteelTriangle> soil, const CellTrees& trees, gsl::span<const ZoneMotion> moving,
+OpenShare::OpenShare(gsl::span<const SteelTriangle> soil, const CellTrees& trees, gsl::span<const ZoneMotion> moving,
                      const SizeField& sizes, const ZoneFrames& frames, Communicator& communicator)
     : trees_(trees), frames_(frames) {
     if (soil.empty()) return;
     surface_ = std::make_unique<SoilSurface>(std::vector<SteelTriangle>(soil.begin(), soil.end()));
-    open_.resize(trees.cells().centres.size());
-    computed_at_.resize(open_.size(), 0);
+    shares_.resize(trees.cells().centres.size());
+    computed_at_.resize(shares_.size(), 0);
     make_grid(moving, grid_spacing(trees.cells(), communicator), k_reach * sizes.largest());
 }
 
 /// \param reach  [m], from which on distances do not matter
-void SoilShare::make_grid(gsl::span<const ZoneMotion> moving, double spacing, double reach) {
+void OpenShare::make_grid(gsl::span<const ZoneMotion> moving, double spacing, double reach) {
     Box box;
     for (std::size_t i = 0; i < moving.size(); ++i)
         if (const PointTree& centres = trees_.of(static_cast<Zone>(i + 1)); centres.size() > 0) box.extend(box_around(centres, moving[i]));
@@ -66,25 +66,25 @@ void SoilShare::make_grid(gsl::span<const ZoneMotion> moving, double spacing, do
                                            [this, reach](const Vec3& point) { return surface_->distance(point, reach); });
 }
 
-void SoilShare::set_frames(const ZoneFrames& frames) {
+void OpenShare::set_frames(const ZoneFrames& frames) {
     frames_ = frames;
     ++stamp_;
 }
 
-double SoilShare::open(std::int32_t place) {
+double OpenShare::at(std::int32_t place) {
     if (!surface_) return 1.0;
     const auto p = static_cast<std::size_t>(place);
-    if (computed_at_[p] >= stamp_) return open_[p];
+    if (computed_at_[p] >= stamp_) return shares_[p];
     const auto cell = static_cast<std::size_t>(trees_.number(place));
     const auto zone = static_cast<Zone>(trees_.cells().zone[cell]);
     const double size = trees_.cells().sizes[cell];
-    open_[p] = std::clamp(0.5 + distance(zone, trees_.centre(place), size) / size, 0.0, 1.0);
+    shares_[p] = std::clamp(2.0 * distance(zone, trees_.centre(place), size) / size, 0.0, 1.0);
     computed_at_[p] = zone == k_still_zone ? k_for_ever : stamp_;
-    return open_[p];
+    return shares_[p];
 }
 
 /// Of a centre in its zone's frame from the soil [m], below 0 in it.
-double SoilShare::distance(Zone zone, const Vec3& centre, double size) {
+double OpenShare::distance(Zone zone, const Vec3& centre, double size) {
     return zone == k_still_zone ? surface_->distance(centre, k_reach * size) : grid_->at(frames_.to_absolute(zone, centre));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// \file How much of a cell is soil, so that no rock is laid there.
+/// \file How much of a cell takes rock beside soil.
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -14,20 +14,20 @@
 
 namespace cutterflow::coupling {
 
-/// Shares of soil in this rank's cells: chi = 1/2 - d/dx within [0, 1], with d the distance of the cell's centre outside the soil's surface
-/// and dx its size. Soil is at rest in the absolute frame. Cells that turn through it take d from a grid about half as wide as they are,
-/// the same on all ranks.
-class SoilShare {
+/// Shares of this rank's cells that take rock: 2 d/dx within [0, 1], with d the distance of the cell's centre outside the soil's surface
+/// and dx its size: 0 where the centre lies in soil, 1 where the whole cell is out of it. Soil is at rest in the absolute frame. Cells that
+/// turn through it take d from a grid about half as wide as they are, the same on all ranks.
+class OpenShare {
 public:
     /// Collective.
-    SoilShare(gsl::span<const SteelTriangle> soil, const CellTrees& trees, gsl::span<const ZoneMotion> moving, const SizeField& sizes,
+    OpenShare(gsl::span<const SteelTriangle> soil, const CellTrees& trees, gsl::span<const ZoneMotion> moving, const SizeField& sizes,
               const ZoneFrames& frames, Communicator& communicator);
 
     /// Sets the position of the mesh.
     void set_frames(const ZoneFrames& frames);
 
-    /// 1 - chi [-] of the cell at a place of CellTrees.
-    double open(std::int32_t place);
+    /// [-] of the cell at a place of CellTrees.
+    double at(std::int32_t place);
 
 private:
     void make_grid(gsl::span<const ZoneMotion> moving, double spacing, double reach);
@@ -38,7 +38,7 @@ private:
     std::unique_ptr<DistanceGrid> grid_;    // of the place through which cells turn
     ZoneFrames frames_;
     std::uint64_t stamp_ = 1;
-    std::vector<double> open_;                // by place
+    std::vector<double> shares_;              // by place
     std::vector<std::uint64_t> computed_at_;  // stamp, by place
 };
 

@@ -1,11 +1,11 @@
-// Shares of soil in cells at rest and in cells that turn through its surface.
+// Shares of cells that take rock, of cells at rest and of cells that turn through the soil's surface.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "solver/ports/testing/synthetic_mesh.hpp"
 #include "solver/ports/testing/threaded_ranks.hpp"
-#include "solver/space/soil_share.hpp"
+#include "solver/space/open_share.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -29,26 +29,26 @@ std::vector<ZoneMotion> about_y() {
 }
 
 double open_by_height(double height) {
-    return std::clamp(0.5 + (height - k_ground) / k_cell, 0.0, 1.0);
+    return std::clamp(2.0 * (height - k_ground) / k_cell, 0.0, 1.0);
 }
 
 /// Largest difference to the closed form over all cells. \param share  at the position `frames`
-double worst_of(SoilShare& share, const CellTrees& trees, const ZoneFrames& frames) {
+double worst_of(OpenShare& share, const CellTrees& trees, const ZoneFrames& frames) {
     double worst = 0.0;
     for (std::int32_t place = 0; place < static_cast<std::int32_t>(trees.cells().centres.size()); ++place) {
         const auto zone = static_cast<Zone>(trees.cells().zone[static_cast<std::size_t>(trees.number(place))]);
         const double height = frames.to_absolute(zone, trees.centre(place))[2];
-        worst = std::max(worst, std::abs(share.open(place) - open_by_height(height)));
+        worst = std::max(worst, std::abs(share.at(place) - open_by_height(height)));
     }
     return worst;
 }
 
-TEST(SoilShare, of_level_ground_follows_the_height_of_the_centre_as_cells_turn_through_it) {
+TEST(OpenShare, of_level_ground_follows_the_height_of_the_centre_as_cells_turn_through_it) {
     const testing::SyntheticMesh mesh = drum_in_soil();
     SerialCommunicator serial;
     const CellTrees trees(mesh.cells(), 2);
     const SizeField sizes(mesh.cells(), 2, serial);
-    SoilShare share(mesh.steel().soil, trees, about_y(), sizes, ZoneFrames(about_y(), 0.0), serial);
+    OpenShare share(mesh.steel().soil, trees, about_y(), sizes, ZoneFrames(about_y(), 0.0), serial);
     for (const double angle : {0.0, 0.01, 0.4, 2.5}) {
         const ZoneFrames frames(about_y(), angle);
         share.set_frames(frames);
@@ -56,24 +56,24 @@ TEST(SoilShare, of_level_ground_follows_the_height_of_the_centre_as_cells_turn_t
     }
 }
 
-TEST(SoilShare, is_nothing_where_there_is_no_soil) {
+TEST(OpenShare, is_one_where_there_is_no_soil) {
     testing::SyntheticMesh mesh = drum_in_soil();
     mesh.soil.clear();
     SerialCommunicator serial;
     const CellTrees trees(mesh.cells(), 2);
-    SoilShare share(mesh.steel().soil, trees, about_y(), SizeField(mesh.cells(), 2, serial), ZoneFrames(about_y(), 0.0), serial);
-    for (std::int32_t place = 0; place < static_cast<std::int32_t>(mesh.size()); ++place) ASSERT_EQ(share.open(place), 1.0);
+    OpenShare share(mesh.steel().soil, trees, about_y(), SizeField(mesh.cells(), 2, serial), ZoneFrames(about_y(), 0.0), serial);
+    for (std::int32_t place = 0; place < static_cast<std::int32_t>(mesh.size()); ++place) ASSERT_EQ(share.at(place), 1.0);
 }
 
-TEST(SoilShare, does_not_depend_on_the_number_of_ranks) {
+TEST(OpenShare, does_not_depend_on_the_number_of_ranks) {
     const testing::SyntheticMesh whole = drum_in_soil();
     const ZoneFrames frames(about_y(), 0.3);
     const auto shares_of = [&](const testing::SyntheticMesh& mesh, Communicator& communicator) {
         const CellTrees trees(mesh.cells(), 2);
-        SoilShare share(mesh.steel().soil, trees, about_y(), SizeField(mesh.cells(), 2, communicator), frames, communicator);
+        OpenShare share(mesh.steel().soil, trees, about_y(), SizeField(mesh.cells(), 2, communicator), frames, communicator);
         std::vector<double> open(mesh.size());
         for (std::int32_t place = 0; place < static_cast<std::int32_t>(mesh.size()); ++place)
-            open[static_cast<std::size_t>(trees.number(place))] = share.open(place);
+            open[static_cast<std::size_t>(trees.number(place))] = share.at(place);
         return open;
     };
     SerialCommunicator serial;
