@@ -25,6 +25,7 @@
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "meshing/dictionary/foam_command.hpp"
+#include "solver/ports/recording_head.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -56,11 +57,17 @@ RecordedRun open_run(const fs::path& run) {
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }
 
-/// \throws UserError  with every run without a recording
-void require_recordings(const std::vector<fs::path>& runs) {
+/// \throws UserError  with every run without a recording that this program reads
+void require_recordings(const std::vector<fs::path>& runs, const std::function<void(const std::string&)>& say) {
     Mistakes mistakes;
     for (const fs::path& run : runs) {
-        if (fs::exists(run / names::recording)) continue;
+        if (fs::exists(run / names::recording)) {
+            mistakes.gather([&] {
+                if (const auto warning = coupling::warning_of_change(coupling::read_recording_head(run / names::recording).change))
+                    say(fmt::format("warning: {}: {}", run.string(), *warning));
+            });
+            continue;
+        }
         if (!fs::exists(run)) {
             mistakes.add({run.string(), "there is no such folder", "A replay goes on from runs", "Correct the path"});
             continue;
@@ -377,7 +384,7 @@ std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
 
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say) {
     require_openfoam_path(fs::absolute(settings.folder));
-    require_recordings(settings.runs);
+    require_recordings(settings.runs, say);
     std::vector<RecordedRun> runs;
     for (const fs::path& run : settings.runs) runs.push_back(open_run(run));
     if (!settings.study.empty()) {

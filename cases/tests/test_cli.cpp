@@ -414,6 +414,16 @@ TEST_F(Cli, check_names_mistakes_of_files_rules_and_sizes_together) {
     expect_contains(files.text, "cutter.file = \"cutter.stl\"");
 }
 
+TEST_F(Cli, check_tells_broken_rules_of_feeds_and_banks_and_goes_no_further) {
+    const std::string swing = "[swing]\nspeed_m_min = 1.8\n", bank = "[bank]\nmodel = \"wall\"\n",
+                      cut_face = "[[feed]]\nkind = \"cut_face\"\n", rock = "[[feed.class]]\ndiameter_m = 0.03\n";
+    expect_refused(call({"check", study(swing + bank + cut_face)}), 2, "feed 1 has no class of rock");
+    expect_refused(call({"check", study("[[feed]]\ncount = 10\n")}), 2, "feed 1 has no class of rock");
+    expect_refused(call({"check", study(swing + cut_face + rock)}), 2, "Rock comes from a cut face only where the head cuts a bank");
+    for (const char* far : {"clearance_m = 3\n", "pick_length_m = 100\n"})
+        expect_refused(call({"check", study(swing + bank + far + cut_face + rock)}), 2, "Soil begins nearer to the head than 0.5 times");
+}
+
 TEST_F(Cli, repair_says_where_it_cannot_and_shows_the_faces) {
     geometry::TriangleSurface half{crown().points, {}};
     for (const geometry::Triangle& t : crown().triangles)

@@ -14,6 +14,7 @@
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupling_methods.hpp"
 #include "solver/observe/gate_crossings.hpp"
+#include "solver/ports/recording_head.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -501,11 +502,13 @@ void CoupledRun::record_flow() {
     if (!phases_) return;
     phases_->sample(fluid_);
     if (!phases_->is_over(fluid_.time())) return;
-    if (phases_->is_complete())
+    if (phases_->is_complete()) {
+        if (const auto warning = warning_of_change(phases_->tell_change(communicator_))) recorder_.warning(fluid_.time(), *warning);
         write_whole(case_folder_ / names::recording, [&](const fs::path& folder) { phases_->write(folder, communicator_); });
-    else
+    } else {
         recorder_.warning(fluid_.time(),
                           "the flow is not recorded: the rotor did not pass all its phases between record.startTime and endTime");
+    }
     phases_.reset();
 }
 

@@ -9,16 +9,14 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
+#include "solver/ports/recording_head.hpp"
 
 namespace cutterflow::coupling {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_head_file = "recording.json";
 constexpr const char* k_steel_file = "steel";
-constexpr const char* k_schema = "cutterflow.recording/2";
-constexpr const char* k_remedy = "Record the flow again";
 
 const std::vector<JsonField> k_head_fields{{"schema", JsonKind::text, true},
                                            {"ranks", JsonKind::whole, true},
@@ -36,7 +34,7 @@ const std::vector<JsonField> k_head_fields{{"schema", JsonKind::text, true},
                                            {"turning_weight_s/*", JsonKind::number, true}};
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-    throw UserError({{file.string(), what, "A recording is read as it was written", k_remedy}});
+    throw UserError({{file.string(), what, "A recording is read as it was written", k_recording_remedy}});
 }
 
 template <class T>
@@ -100,12 +98,13 @@ nlohmann::json head_of(const FlowRecording& recording, int ranks) {
     const ZoneMotion& zone = recording.moving.front();
     nlohmann::json steel = nlohmann::json::array();
     for (const std::vector<SteelTriangle>& triangles : recording.steel) steel.push_back(triangles.size());
-    return {{"schema", k_schema},
+    return {{"schema", k_recording_schema},
             {"ranks", ranks},
             {"phases", recording.phases},
             {"blades", recording.blades},
             {"start_s", recording.start},
             {"end_s", recording.end},
+            {"change", recording.change ? nlohmann::json(*recording.change) : nlohmann::json()},
             {"zone", zone.name},
             {"speed_rad_s", zone.speed},
             {"axis_origin_m", to_vector(zone.axis.origin)},
@@ -201,18 +200,19 @@ void write_recording(const fs::path& folder, const FlowRecording& recording, int
     write_cells(folder / cells_file(rank), recording);
     if (rank != 0) return;
     write_steel(folder / k_steel_file, recording);
-    write_file(folder / k_head_file, head_of(recording, ranks).dump(2) + "\n");
+    write_file(folder / k_recording_head, head_of(recording, ranks).dump(2) + "\n");
 }
 
 FlowRecording read_recording(const fs::path& folder) {
-    const fs::path file = folder / k_head_file;
-    const nlohmann::json head = read_json_document(file, k_head_fields, k_remedy);
-    if (head.at("schema") != k_schema) refuse(file, fmt::format("its schema is not {}", k_schema));
+    const fs::path file = folder / k_recording_head;
+    const RecordingHead own = read_recording_head(folder);
+    const nlohmann::json head = read_json_document(file, k_head_fields, k_recording_remedy);
     FlowRecording recording;
     recording.phases = head.at("phases");
     recording.blades = head.at("blades");
     recording.start = head.at("start_s");
     recording.end = head.at("end_s");
+    recording.change = own.change;
     const RotationAxis axis{to_vec3(head.at("axis_origin_m"), file), to_vec3(head.at("axis_direction"), file)};
     recording.moving = {{axis, head.at("speed_rad_s"), head.at("zone")}};
     recording.weight = {head.at("still_weight_s").get<std::vector<double>>(), head.at("turning_weight_s").get<std::vector<double>>()};

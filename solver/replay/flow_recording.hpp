@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "solver/ports/fluid_engine.hpp"
@@ -30,6 +31,7 @@ struct FlowRecording {
     int phases = 0;                                 ///< of either period
     int blades = 1;                                 ///< B
     double start = 0.0, end = 0.0;                  ///< of the recorded interval [s]
+    std::optional<double> change{};                 ///< of the flow over one revolution, see PhaseRecorder
     std::vector<ZoneMotion> moving;                 ///< one
     std::vector<std::vector<SteelTriangle>> steel;  ///< by zone
     std::vector<SteelTriangle> soil;                ///< as of Steel

@@ -1,6 +1,7 @@
 #include "solver/replay/phase_recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -54,6 +55,7 @@ void PhaseRecorder::sample(const FluidEngine& fluid) {
     const ZoneMotion& rotor = recording_.moving.front();
     const double angle = rotor.angle(fluid.time());
     const Eigen::Matrix3d into_rotor(Eigen::AngleAxisd(-angle, rotor.axis.direction));
+    follow_change(fluid, angle, into_rotor);
     const FluidFields fields = fluid.fields();
     const std::size_t cells = recording_.cells.size();
     for (std::size_t period = 0; period < FlowRecording::k_periods; ++period) {
@@ -73,6 +75,38 @@ void PhaseRecorder::sample(const FluidEngine& fluid) {
             }
         }
     }
+}
+
+void PhaseRecorder::follow_change(const FluidEngine& fluid, double angle, const Eigen::Matrix3d& into_rotor) {
+    if (is_resumed_) return;
+    const bool is_first = !first_angle_;
+    const double step_angle = std::abs(recording_.moving.front().speed) * fluid.time_step();
+    if (is_first)
+        first_angle_ = angle;
+    else if (std::abs(std::abs(angle - *first_angle_) - 2.0 * k_pi) > 1.5 * step_angle)
+        return;
+    const gsl::span<const Vec3> velocity = fluid.fields().velocity;
+    if (is_first) first_.assign(velocity.size(), Vec3::Zero());
+    Change change;
+    for (std::size_t c = 0; c < velocity.size(); ++c) {
+        if (recording_.cells.zone[c] == k_still_zone) continue;
+        const Vec3 here = into_rotor * velocity[c];
+        if (is_first) {
+            first_[c] = here;
+            continue;
+        }
+        change.squares += recording_.cells.volumes[c] * here.squaredNorm();
+        change.of_differences += recording_.cells.volumes[c] * (here - first_[c]).squaredNorm();
+    }
+    if (!is_first) change_ = change;
+}
+
+std::optional<double> PhaseRecorder::tell_change(Communicator& communicator) {
+    if (!change_) return {};
+    double sums[] = {change_->of_differences, change_->squares};
+    communicator.sum(sums);
+    recording_.change = sums[1] > 0.0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
+    return recording_.change;
 }
 
 bool PhaseRecorder::is_complete() const {
@@ -106,6 +140,7 @@ void PhaseRecorder::restore(const std::filesystem::path& folder) {
         }
     }
     recording_.weight = saved.weight;
+    is_resumed_ = true;
 }
 
 }  // namespace cutterflow::coupling

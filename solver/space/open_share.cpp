@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/space/swept_body.hpp"
+
 namespace cutterflow::coupling {
 namespace {
 
@@ -10,24 +12,16 @@ namespace {
 constexpr double k_reach = 3.0;
 constexpr std::uint64_t k_for_ever = ~std::uint64_t{0};
 
-/// Around the bodies that the cells of a zone sweep as it turns. \param centres  in the zone's frame
-Box box_around(const PointTree& centres, const ZoneMotion& motion) {
-    // The corners of the box around the centres sweep more than the centres do.
+/// Around what the corners of the box around the centres sweep, which is more than the centres do. \param centres  in the zone's frame
+Box box_around(const PointTree& centres, const RotationAxis& axis) {
     const Box bounds = centres.bounds();
-    double radius = 0.0, first = std::numeric_limits<double>::infinity(), last = -first;
+    SweptBody body;
     for (unsigned corner = 0; corner < 8; ++corner) {
         Vec3 place;
         for (int i = 0; i < 3; ++i) place[i] = (corner >> i & 1u) != 0 ? bounds.upper[i] : bounds.lower[i];
-        const Vec3 arm = place - motion.axis.origin;
-        const double along = motion.axis.direction.dot(arm);
-        radius = std::max(radius, (arm - along * motion.axis.direction).norm());
-        first = std::min(first, along);
-        last = std::max(last, along);
+        body.add(axis, place);
     }
-    const Vec3& n = motion.axis.direction;
-    const Vec3 middle = motion.axis.origin + 0.5 * (first + last) * n;
-    const Vec3 half = 0.5 * (last - first) * n.cwiseAbs() + radius * (Vec3::Ones() - n.cwiseProduct(n)).cwiseMax(0.0).cwiseSqrt();
-    return {middle - half, middle + half};
+    return body.box(axis);
 }
 
 /// About half the size of a cell that turns [m], in quarter octaves, so that the order of a sum does not matter; 0 when none turns.
@@ -60,7 +54,8 @@ OpenShare::OpenShare(gsl::span<const SteelTriangle> soil, const CellTrees& trees
 void OpenShare::make_grid(gsl::span<const ZoneMotion> moving, double spacing, double reach) {
     Box box;
     for (std::size_t i = 0; i < moving.size(); ++i)
-        if (const PointTree& centres = trees_.of(static_cast<Zone>(i + 1)); centres.size() > 0) box.extend(box_around(centres, moving[i]));
+        if (const PointTree& centres = trees_.of(static_cast<Zone>(i + 1)); centres.size() > 0)
+            box.extend(box_around(centres, moving[i].axis));
     if ((box.lower.array() > box.upper.array()).any()) return;
     grid_ = std::make_unique<DistanceGrid>(box.lower, box.upper, spacing,
                                            [this, reach](const Vec3& point) { return surface_->distance(point, reach); });

@@ -68,6 +68,7 @@ CheckedStudy read_checked_study(const fs::path& file) {
     Mistakes mistakes;
     const ReadParameters read = read_with_mistakes(file, mistakes);
     if (!read.complete || missing_file(read.values, "cutter.file", folder)) mistakes.refuse();
+    const bool rules_hold = check_file_rules(read.values, file).empty();
     std::optional<CheckedStudy> study;
     mistakes.gather([&] {
         geometry::GeometryInspection inspection = import_study_cutter(read.values, folder);
@@ -75,7 +76,7 @@ CheckedStudy read_checked_study(const fs::path& file) {
         ParameterValues resolved = resolve_study(read.values, size);
         const std::vector<Mistake> broken = check_study(resolved, size);
         mistakes.add(broken);
-        if (!broken.empty() || !has_sizes(resolved, folder)) return;
+        if (!rules_hold || !broken.empty() || !has_sizes(resolved, folder)) return;
         PlacedStudy placed = place_study(resolved, *inspection.head, folder);
         study = CheckedStudy{std::move(resolved), std::move(inspection), std::move(placed)};
     });

@@ -30,6 +30,8 @@ constexpr double k_edge_per_ring_radius = 0.25;
 constexpr double k_measured_per_ring_radius = 0.0125;
 constexpr int k_pick_heights = 32;
 constexpr double k_patch_per_ring_radius = 0.05;
+// Farther off soil holds no rock in the head.
+constexpr double k_farthest_soil = 0.5;
 constexpr double k_most_solids = 0.3;  // of a mixture that is pumped, by volume
 
 /// Volume of the grains that are cut over that of the mixture that is sucked up.
@@ -244,6 +246,12 @@ std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study&
                                         "error of the contour",
                                         study.bank->pick_length, profile.error - study.bank->pick_length),
                             "Raise it"));
+    if (!(standing_out < k_farthest_soil * size.ring_radius))
+        mistakes.add(
+            {resolved.where("bank.clearance_m"), fmt::format("bank.pick_length_m + bank.clearance_m = {:g} m", standing_out),
+             fmt::format("Soil begins nearer to the head than {:g} times its ring radius of {:g} m", k_farthest_soil, size.ring_radius),
+             "Shorten the picks or the clearance; lengths are in m"});
+    if (!mistakes.empty()) return mistakes.take();
     check_shape(resolved, study, size, bank_of(study, contour), mistakes);
     if (!mistakes.empty()) return mistakes.take();
     mistakes.gather([&] {

@@ -9,6 +9,7 @@
 #include "geometry/base/run_files.hpp"
 #include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
+#include "solver/space/swept_body.hpp"
 
 #include "fvc.H"
 #include "snGradScheme.H"
@@ -75,28 +76,23 @@ Soil::Soil(const fvMesh& mesh, const MovingZones& zones, const coupling::SoilSet
 
 /// Over the round body that the centres of the turning cells sweep.
 void Soil::make_grid(const coupling::ZoneMotion& motion) {
-    double radius = 0.0, first = GREAT, last = -GREAT, volume = 0.0, largest = 0.0;
+    coupling::SweptBody body;
+    double volume = 0.0, largest = 0.0;
     for (const label cell : turning_) {
-        const Vec3 arm = to_vec3(mesh_.C()[cell]) - motion.axis.origin;
-        const double along = motion.axis.direction.dot(arm);
-        radius = std::max(radius, (arm - along * motion.axis.direction).norm());
-        first = std::min(first, along);
-        last = std::max(last, along);
+        body.add(motion.axis, to_vec3(mesh_.C()[cell]));
         volume += mesh_.V()[cell];
         largest = std::max(largest, mesh_.V()[cell]);
     }
-    reduce(radius, maxOp<scalar>());
-    reduce(first, minOp<scalar>());
-    reduce(last, maxOp<scalar>());
+    reduce(body.radius, maxOp<scalar>());
+    reduce(body.first, minOp<scalar>());
+    reduce(body.last, maxOp<scalar>());
     reduce(volume, sumOp<scalar>());
     reduce(largest, maxOp<scalar>());
     const label cells = returnReduce(turning_.size(), sumOp<label>());
     if (cells == 0) return;
-    const Vec3& n = motion.axis.direction;
-    const Vec3 middle = motion.axis.origin + 0.5 * (first + last) * n;
-    const Vec3 half = 0.5 * (last - first) * n.cwiseAbs() + radius * (Vec3::Ones() - n.cwiseProduct(n)).cwiseMax(0.0).cwiseSqrt();
+    const coupling::Box box = body.box(motion.axis);
     const double reach = k_reach * std::cbrt(largest);
-    grid_ = std::make_unique<coupling::DistanceGrid>(middle - half, middle + half, 0.5 * std::cbrt(volume / cells),
+    grid_ = std::make_unique<coupling::DistanceGrid>(box.lower, box.upper, 0.5 * std::cbrt(volume / cells),
                                                      [this, reach](const Vec3& point) { return surface_.distance(point, reach); });
 }
 

@@ -1,9 +1,12 @@
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "solver/ports/recording_head.hpp"
 #include "solver/ports/testing/fake_engines.hpp"
 #include "solver/ports/testing/temporary_folder.hpp"
 #include "solver/replay/frozen_fluid.hpp"
@@ -179,6 +182,54 @@ TEST(Recording, goes_on_from_a_checkpoint_as_if_it_had_not_stopped) {
     EXPECT_EQ(a.velocity, b.velocity);
     EXPECT_EQ(a.acceleration, b.acceleration);
     EXPECT_EQ(a.weight, b.weight);
+}
+
+/// Of a flow whose strength grows by `growth` in a revolution.
+std::optional<double> change_of_flow(double growth, Communicator& communicator) {
+    FakeFluid fluid = fake_flow(1e-2);
+    PhaseRecorder recorder(one_turn(), fluid);
+    while (fluid.time() < 1.0 + k_turn - 1e-9) {
+        fluid.begin_step(1.0, 1.0 + k_turn);
+        set_flow(fluid);
+        for (Vec3& u : fluid.velocity) u *= 1.0 + growth * (fluid.time() - 1.0) / k_turn;
+        recorder.sample(fluid);
+    }
+    return recorder.tell_change(communicator);
+}
+
+TEST(Recording, tells_how_much_the_flow_changed_over_the_revolution) {
+    SerialCommunicator serial;
+    const std::optional<double> developed = change_of_flow(0.0, serial), young = change_of_flow(0.25, serial);
+    ASSERT_TRUE(developed && young);
+    EXPECT_LT(*developed, 0.03) << "the angle of a step";
+    EXPECT_NEAR(*young, 0.25 / 1.25, 0.03);
+    EXPECT_FALSE(warning_of_change(developed));
+    EXPECT_NE(warning_of_change(young).value_or("").find("changed by 20 %"), std::string::npos) << warning_of_change(young).value_or("");
+    EXPECT_FALSE(warning_of_change({}));
+}
+
+TEST(Recording, says_nothing_of_a_change_when_it_was_resumed_in_between) {
+    const TemporaryFolder half;
+    FakeFluid fluid = fake_flow(1e-2);
+    PhaseRecorder recorder(one_turn(), fluid);
+    record(fluid, recorder, 4.0);
+    recorder.write(half.path(), SerialCommunicator());
+    PhaseRecorder other(one_turn(), fluid);
+    other.restore(half.path());
+    record(fluid, other, 1.0 + k_turn);
+    SerialCommunicator serial;
+    EXPECT_FALSE(other.tell_change(serial));
+}
+
+TEST(Recording, of_another_version_is_told_as_such) {
+    const TemporaryFolder folder;
+    write_file(folder.path() / "recording.json", "{\"schema\": \"cutterflow.recording/1\"}");
+    try {
+        read_recording(folder.path());
+        FAIL() << "an older recording was read";
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("its schema is cutterflow.recording/1"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Recording, of_two_ranks_is_joined) {
