@@ -307,7 +307,8 @@ private:
         if (!table.has("target.study")) {
             if (stems.size() <= 1) return 0;
             mistakes_.add({where, fmt::format("the target {} names no study", text_of(table, "target.measure")),
-                           fmt::format("With several studies each target belongs to one: {}", fmt::join(stems, ", ")), "Add study = "});
+                           fmt::format("With several studies each target belongs to one: {}", fmt::join(stems, ", ")),
+                           fmt::format("Add study = \"{}\"", stems.front())});
             return stems.size();
         }
         const std::string name = table.text("target.study");

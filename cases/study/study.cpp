@@ -264,9 +264,14 @@ void check_cut_face(const ParameterValues& study, const ParameterValues& feed, i
     check_sizes(feed, index, rules);
     const double start = feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : study.number("run.flow_revolutions");
     const double end = start * period_of(study) + feed.number("feed.duration_s");
-    rules.require(end <= end_time_of(study) * (1.0 + 1e-9), feed, "feed.duration_s",
-                  fmt::format("The feed would end at {:.4g} s, after the run's end at {:.4g} s", end, end_time_of(study)),
-                  "Shorten it, raise run.max_revolutions, or use 0 for the whole run");
+    if (feed.number("feed.duration_s") > 0.0)
+        rules.require(end <= end_time_of(study) * (1.0 + 1e-9), feed, "feed.duration_s",
+                      fmt::format("The feed would end at {:.4g} s, after the run's end at {:.4g} s", end, end_time_of(study)),
+                      "Shorten it, raise run.max_revolutions, or use 0 for the whole run");
+    else if (feed.has("feed.start_revolution"))
+        rules.require(end < end_time_of(study), feed, "feed.start_revolution",
+                      fmt::format("The feed would begin at {:.4g} s, not before the run's end at {:.4g} s", end, end_time_of(study)),
+                      "Let it begin earlier, or raise run.max_revolutions");
     if (study.tables("feed").size() > 1)
         rules.add(fmt::format("feed {} is a cut face among {} feeds", index, study.tables("feed").size()),
                   "A study has batches or one cut face: rates and batches are not told apart in the results", "Remove the other feeds");

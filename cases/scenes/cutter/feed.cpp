@@ -111,8 +111,9 @@ PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const 
     if (schedule.share_without_blade > k_share_without_blade)
         feed.reasons.push_back(
             fmt::format("{:.0f} % of the cut face is passed by closed steel, a hub or a ring, where no blade takes rock in. "
-                        "Its rock starts ahead of the blades beside it; look at the cutter's lowest part, or choose a "
-                        "longer bank.step_m or a flatter ladder",
+                        "Its rock starts ahead of the blades beside it; look at the cutter's lowest part. A bank.step_m up to "
+                        "about the ring radius or a flatter ladder may make it smaller, soil far from the head (bank.pick_length_m, "
+                        "bank.clearance_m) makes it larger",
                         100.0 * schedule.share_without_blade));
     feed.requested = feed.rocks.size();
     return feed;
