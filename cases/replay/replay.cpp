@@ -25,7 +25,7 @@
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "meshing/dictionary/foam_command.hpp"
-#include "solver/ports/recording_head.hpp"
+#include "solver/ports/recording_summary.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -63,7 +63,7 @@ void require_recordings(const std::vector<fs::path>& runs, const std::function<v
     for (const fs::path& run : runs) {
         if (fs::exists(run / names::recording)) {
             mistakes.gather([&] {
-                if (const auto warning = coupling::warning_of_change(coupling::read_recording_head(run / names::recording).change))
+                if (const auto warning = coupling::warning_of_change(coupling::read_recording_summary(run / names::recording).change))
                     say(fmt::format("warning: {}: {}", run.string(), *warning));
             });
             continue;

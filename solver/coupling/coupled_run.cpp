@@ -14,7 +14,7 @@
 #include "geometry/base/sphere.hpp"
 #include "solver/coupling/coupling_methods.hpp"
 #include "solver/observe/gate_crossings.hpp"
-#include "solver/ports/recording_head.hpp"
+#include "solver/ports/recording_summary.hpp"
 
 namespace cutterflow::coupling {
 namespace {

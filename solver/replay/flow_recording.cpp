@@ -9,7 +9,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
-#include "solver/ports/recording_head.hpp"
+#include "solver/ports/recording_summary.hpp"
 
 namespace cutterflow::coupling {
 namespace {
@@ -200,12 +200,12 @@ void write_recording(const fs::path& folder, const FlowRecording& recording, int
     write_cells(folder / cells_file(rank), recording);
     if (rank != 0) return;
     write_steel(folder / k_steel_file, recording);
-    write_file(folder / k_recording_head, head_of(recording, ranks).dump(2) + "\n");
+    write_file(folder / k_recording_summary, head_of(recording, ranks).dump(2) + "\n");
 }
 
 FlowRecording read_recording(const fs::path& folder) {
-    const fs::path file = folder / k_recording_head;
-    const RecordingHead own = read_recording_head(folder);
+    const fs::path file = folder / k_recording_summary;
+    const RecordingSummary own = read_recording_summary(folder);
     const nlohmann::json head = read_json_document(file, k_head_fields, k_recording_remedy);
     FlowRecording recording;
     recording.phases = head.at("phases");

@@ -36,14 +36,14 @@ bool has_sizes(const ParameterValues& values, const fs::path& folder) {
 
 }  // namespace
 
-PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& head, const fs::path& folder) {
+PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& head, const fs::path& folder, bool feeds_are_sound) {
     const Study study = make_study(resolved, folder);
     PlacedStudy placed{study, head_size(head), head_contour(head, study.suction.gap), {}};
     Mistakes mistakes;
     mistakes.add(bank_mistakes(resolved, study, placed.size, head.contour));
     const bool bank_stands = mistakes.empty();
     if (study.report.adv_points) mistakes.gather([&] { require_adv_points(study, placed.size, head.surface); });
-    if (bank_stands)
+    if (bank_stands && feeds_are_sound)
         mistakes.gather([&] { placed.feeds = place_feeds(study, feed_scene(study, placed.size, placed.contour, head.surface)); });
     mistakes.refuse();
     return placed;
@@ -76,8 +76,8 @@ CheckedStudy read_checked_study(const fs::path& file) {
         ParameterValues resolved = resolve_study(read.values, size);
         const std::vector<Mistake> broken = check_study(resolved, size);
         mistakes.add(broken);
-        if (!rules_hold || !broken.empty() || !has_sizes(resolved, folder)) return;
-        PlacedStudy placed = place_study(resolved, *inspection.head, folder);
+        if (!broken.empty() || !has_sizes(resolved, folder)) return;
+        PlacedStudy placed = place_study(resolved, *inspection.head, folder, rules_hold);
         study = CheckedStudy{std::move(resolved), std::move(inspection), std::move(placed)};
     });
     mistakes.refuse();

@@ -20,8 +20,10 @@ struct PlacedStudy {
 };
 
 /// \pre check_study finds no mistake \param folder  of the study, to which the names of its files are relative
+/// \param feeds_are_sound  else rock is not placed
 /// \throws UserError  with every mistake of the bank, of the points of velocities and, unless the bank has some, of the places of rock
-PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& head, const std::filesystem::path& folder);
+PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& head, const std::filesystem::path& folder,
+                        bool feeds_are_sound = true);
 
 /// What a head and its study may be run with in spite of.
 std::vector<Mistake> head_warnings(const ParameterValues& resolved, const PlacedStudy& placed, const geometry::Head& head);

@@ -246,12 +246,13 @@ std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study&
                                         "error of the contour",
                                         study.bank->pick_length, profile.error - study.bank->pick_length),
                             "Raise it"));
-    if (!(standing_out < k_farthest_soil * size.ring_radius))
+    if (!(standing_out < k_farthest_soil * size.ring_radius)) {
         mistakes.add(
             {resolved.where("bank.clearance_m"), fmt::format("bank.pick_length_m + bank.clearance_m = {:g} m", standing_out),
              fmt::format("Soil begins nearer to the head than {:g} times its ring radius of {:g} m", k_farthest_soil, size.ring_radius),
              "Shorten the picks or the clearance; lengths are in m"});
-    if (!mistakes.empty()) return mistakes.take();
+        return mistakes.take();
+    }
     check_shape(resolved, study, size, bank_of(study, contour), mistakes);
     if (!mistakes.empty()) return mistakes.take();
     mistakes.gather([&] {

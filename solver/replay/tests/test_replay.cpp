@@ -6,7 +6,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
-#include "solver/ports/recording_head.hpp"
+#include "solver/ports/recording_summary.hpp"
 #include "solver/ports/testing/fake_engines.hpp"
 #include "solver/ports/testing/temporary_folder.hpp"
 #include "solver/replay/frozen_fluid.hpp"

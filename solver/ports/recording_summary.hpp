@@ -6,18 +6,18 @@
 
 namespace cutterflow::coupling {
 
-inline constexpr const char* k_recording_head = "recording.json";
+inline constexpr const char* k_recording_summary = "recording.json";
 inline constexpr const char* k_recording_schema = "cutterflow.recording/2";
 inline constexpr const char* k_recording_remedy = "Record the flow again";
 
-struct RecordingHead {
+struct RecordingSummary {
     /// Of the flow in the turning zone over a revolution [-]: root mean square of the difference over that of the velocity. None when it is
     /// not known.
     std::optional<double> change{};
 };
 
 /// \throws UserError  when recording.json is missing, cannot be read or was written by another version of the program
-RecordingHead read_recording_head(const std::filesystem::path& folder);
+RecordingSummary read_recording_summary(const std::filesystem::path& folder);
 
 /// What is to be said of a recorded flow that has not developed; nothing of one that has, or of which it is not known.
 std::optional<std::string> warning_of_change(const std::optional<double>& change);
