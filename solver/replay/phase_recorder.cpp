@@ -77,28 +77,35 @@ void PhaseRecorder::sample(const FluidEngine& fluid) {
     }
 }
 
-void PhaseRecorder::follow_change(const FluidEngine& fluid, double angle, const Eigen::Matrix3d& into_rotor) {
-    if (is_resumed_) return;
-    const bool is_first = !first_angle_;
-    const double step_angle = std::abs(recording_.moving.front().speed) * fluid.time_step();
-    if (is_first)
-        first_angle_ = angle;
-    else if (std::abs(std::abs(angle - *first_angle_) - 2.0 * k_pi) > 1.5 * step_angle)
-        return;
+/// Velocity of the turning cells in the rotor's frame, 0 of the others.
+std::vector<Vec3> PhaseRecorder::turning_velocity(const FluidEngine& fluid, const Eigen::Matrix3d& into_rotor) const {
     const gsl::span<const Vec3> velocity = fluid.fields().velocity;
-    if (is_first) first_.assign(velocity.size(), Vec3::Zero());
-    Change change;
-    for (std::size_t c = 0; c < velocity.size(); ++c) {
-        if (recording_.cells.zone[c] == k_still_zone) continue;
-        const Vec3 here = into_rotor * velocity[c];
-        if (is_first) {
-            first_[c] = here;
-            continue;
-        }
-        change.squares += recording_.cells.volumes[c] * here.squaredNorm();
-        change.of_differences += recording_.cells.volumes[c] * (here - first_[c]).squaredNorm();
+    std::vector<Vec3> turning(velocity.size(), Vec3::Zero());
+    for (std::size_t c = 0; c < turning.size(); ++c)
+        if (recording_.cells.zone[c] != k_still_zone) turning[c] = into_rotor * velocity[c];
+    return turning;
+}
+
+void PhaseRecorder::follow_change(const FluidEngine& fluid, double angle, const Eigen::Matrix3d& into_rotor) {
+    if (!first_angle_) {
+        if (has_samples()) return;  // the first one was before a checkpoint
+        first_angle_ = angle;
+        first_ = turning_velocity(fluid, into_rotor);
+        return;
     }
-    if (!is_first) change_ = change;
+    const double step_angle = std::abs(recording_.moving.front().speed) * fluid.time_step();
+    if (std::abs(std::abs(angle - *first_angle_) - 2.0 * k_pi) > 1.5 * step_angle) return;
+    const std::vector<Vec3> present = turning_velocity(fluid, into_rotor);
+    change_.emplace();
+    for (std::size_t c = 0; c < present.size(); ++c) {
+        change_->squares += recording_.cells.volumes[c] * present[c].squaredNorm();
+        change_->of_differences += recording_.cells.volumes[c] * (present[c] - first_[c]).squaredNorm();
+    }
+}
+
+bool PhaseRecorder::has_samples() const {
+    const std::vector<double>& weights = recording_.weight.front();
+    return std::any_of(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; });
 }
 
 std::optional<double> PhaseRecorder::tell_change(Communicator& communicator) {
@@ -140,7 +147,6 @@ void PhaseRecorder::restore(const std::filesystem::path& folder) {
         }
     }
     recording_.weight = saved.weight;
-    is_resumed_ = true;
 }
 
 }  // namespace cutterflow::coupling

@@ -12,7 +12,7 @@ namespace cutterflow::coupling {
 /// nearness and to the step's length: a flow that is linear in the angle is recorded as it is.
 ///
 /// A flow that has developed is the same after each revolution. Of one that is recorded over a revolution or more the change is told, of
-/// the turning cells from the first sample to the last one, to a step's angle a revolution later: sqrt(sum V |du|^2 / sum V |u|^2).
+/// the turning cells from the first sample to the one a revolution later, to a step's angle: sqrt(sum V |du|^2 / sum V |u|^2).
 class PhaseRecorder {
 public:
     /// \throws UserError  when not exactly one zone turns. Collective.
@@ -39,13 +39,14 @@ private:
     struct Change {
         double squares = 0.0, of_differences = 0.0;
     };
+    std::vector<Vec3> turning_velocity(const FluidEngine& fluid, const Eigen::Matrix3d& into_rotor) const;
+    bool has_samples() const;
     void follow_change(const FluidEngine& fluid, double angle, const Eigen::Matrix3d& into_rotor);
 
     RecordSettings settings_;
     FlowRecording recording_;
     std::vector<Vec3> first_;            // velocity of turning cells in the rotor's frame at the first sample
     std::optional<double> first_angle_;  // of the rotor [rad]
-    bool is_resumed_ = false;
     std::optional<Change> change_;
 };
 

@@ -18,11 +18,22 @@ namespace fs = std::filesystem;
 
 constexpr const char* k_files[] = {"cutter.file", "bank.file", "report.adv_points"};
 
+struct ReadStudy {
+    ParameterValues values;
+    bool complete = false;    ///< no value is wrong or missing
+    bool rules_hold = false;  ///< of a complete study
+};
+
 /// What can be read of a study; mistakes of its text, rules and files are added. Rules are checked when no value is wrong or missing.
-ReadParameters read_with_mistakes(const fs::path& file, Mistakes& mistakes) {
-    ReadParameters read = parse_with_mistakes(study_table(), read_file(file), file.string());
-    mistakes.add(read.mistakes);
-    if (read.complete) mistakes.add(check_file_rules(read.values, file));
+ReadStudy read_with_mistakes(const fs::path& file, Mistakes& mistakes) {
+    ReadParameters text = parse_with_mistakes(study_table(), read_file(file), file.string());
+    mistakes.add(text.mistakes);
+    ReadStudy read{std::move(text.values), text.complete};
+    if (read.complete) {
+        const std::vector<Mistake> broken = check_file_rules(read.values, file);
+        mistakes.add(broken);
+        read.rules_hold = broken.empty();
+    }
     for (const char* key : k_files)
         if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
     return read;
@@ -66,9 +77,8 @@ void require_study_file(const fs::path& file) {
 CheckedStudy read_checked_study(const fs::path& file) {
     const fs::path folder = file.parent_path();
     Mistakes mistakes;
-    const ReadParameters read = read_with_mistakes(file, mistakes);
+    const ReadStudy read = read_with_mistakes(file, mistakes);
     if (!read.complete || missing_file(read.values, "cutter.file", folder)) mistakes.refuse();
-    const bool rules_hold = check_file_rules(read.values, file).empty();
     std::optional<CheckedStudy> study;
     mistakes.gather([&] {
         geometry::GeometryInspection inspection = import_study_cutter(read.values, folder);
@@ -77,7 +87,7 @@ CheckedStudy read_checked_study(const fs::path& file) {
         const std::vector<Mistake> broken = check_study(resolved, size);
         mistakes.add(broken);
         if (!broken.empty() || !has_sizes(resolved, folder)) return;
-        PlacedStudy placed = place_study(resolved, *inspection.head, folder, rules_hold);
+        PlacedStudy placed = place_study(resolved, *inspection.head, folder, read.rules_hold);
         study = CheckedStudy{std::move(resolved), std::move(inspection), std::move(placed)};
     });
     mistakes.refuse();

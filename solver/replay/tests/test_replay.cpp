@@ -164,21 +164,27 @@ TEST(Recording, is_incomplete_while_a_phase_was_not_seen) {
     EXPECT_FALSE(recorder.is_over(fluid.time()));
 }
 
+/// One that goes on from what a recorder writes now.
+PhaseRecorder resumed(const PhaseRecorder& recorder, const FakeFluid& fluid, const std::filesystem::path& folder) {
+    recorder.write(folder, SerialCommunicator());
+    PhaseRecorder other(one_turn(), fluid);
+    other.restore(folder);
+    return other;
+}
+
 TEST(Recording, goes_on_from_a_checkpoint_as_if_it_had_not_stopped) {
-    const TemporaryFolder half, resumed, whole;
+    const TemporaryFolder half, rest, whole;
     FakeFluid fluid = fake_flow(1e-2);
     PhaseRecorder recorder(one_turn(), fluid);
     record(fluid, recorder, 4.0);
-    recorder.write(half.path(), SerialCommunicator());
-    PhaseRecorder other(one_turn(), fluid);
-    other.restore(half.path());
+    PhaseRecorder other = resumed(recorder, fluid, half.path());
     FakeFluid again = fake_flow(1e-2);
     again.restart_at(fluid.time());
     record(fluid, recorder, 1.0 + k_turn);
     record(again, other, 1.0 + k_turn);
     recorder.write(whole.path(), SerialCommunicator());
-    other.write(resumed.path(), SerialCommunicator());
-    const FlowRecording a = read_recording(whole.path()), b = read_recording(resumed.path());
+    other.write(rest.path(), SerialCommunicator());
+    const FlowRecording a = read_recording(whole.path()), b = read_recording(rest.path());
     EXPECT_EQ(a.velocity, b.velocity);
     EXPECT_EQ(a.acceleration, b.acceleration);
     EXPECT_EQ(a.weight, b.weight);
@@ -208,17 +214,23 @@ TEST(Recording, tells_how_much_the_flow_changed_over_the_revolution) {
     EXPECT_FALSE(warning_of_change({}));
 }
 
-TEST(Recording, says_nothing_of_a_change_when_it_was_resumed_in_between) {
-    const TemporaryFolder half;
+/// Of a developed flow that was recorded until a time and went on after a checkpoint.
+std::optional<double> change_after_resuming_at(double time) {
+    const TemporaryFolder folder;
     FakeFluid fluid = fake_flow(1e-2);
     PhaseRecorder recorder(one_turn(), fluid);
-    record(fluid, recorder, 4.0);
-    recorder.write(half.path(), SerialCommunicator());
-    PhaseRecorder other(one_turn(), fluid);
-    other.restore(half.path());
+    record(fluid, recorder, time);
+    PhaseRecorder other = resumed(recorder, fluid, folder.path());
     record(fluid, other, 1.0 + k_turn);
     SerialCommunicator serial;
-    EXPECT_FALSE(other.tell_change(serial));
+    return other.tell_change(serial);
+}
+
+TEST(Recording, says_nothing_of_a_change_only_when_it_was_resumed_in_between) {
+    EXPECT_FALSE(change_after_resuming_at(4.0));
+    const std::optional<double> before_it_began = change_after_resuming_at(0.5);
+    ASSERT_TRUE(before_it_began);
+    EXPECT_LT(*before_it_began, 0.03);
 }
 
 TEST(Recording, of_another_version_is_told_as_such) {

@@ -58,9 +58,8 @@ struct Batch {
             const double r = 0.1 + 0.2 * along + t(random) * 0.12;
             const double azimuth = (i % 2 + a(random)) * k_pi / 3.0 + along * 70.0 * k_pi / 180.0;
             id.push_back(i + 1);
-            if (scene == Scene::trough)
-                position.push_back(t(random) < 0.5 ? in_trough(0.25 + 0.5 * a(random), -0.5 * t(random), 0.03 * t(random))
-                                                   : Vec3(r * std::cos(azimuth), r * std::sin(azimuth), -0.44 + 0.44 * along));
+            if (scene == Scene::trough && t(random) < 0.5)
+                position.push_back(in_trough(0.25 + 0.5 * a(random), -0.5 * t(random), 0.03 * t(random)));
             else
                 position.emplace_back(r * std::cos(azimuth), r * std::sin(azimuth), -0.44 + 0.44 * along);
             velocity.emplace_back(v(random), v(random), v(random));
