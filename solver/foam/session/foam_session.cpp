@@ -61,15 +61,34 @@ const Foam::argList& parse_arguments(int argc, char** argv) {
     return *arguments;
 }
 
+/// The name of the folder at the start, of whatever digits. OpenFOAM tries 18, 17, ... and gives up where two names are equal
+/// (Time::setControls): 3.109868444137758 is 3.1098684441377582 with 18 digits and with 17.
+Foam::word folder_of_start(const Foam::Time& time) {
+    Foam::word name = time.timeName();
+    for (const Foam::instant& folder : time.times()) {
+        if (folder.name() == time.timeName()) return folder.name();
+        if (folder.name() != time.constant() && folder.value() == time.startTime().value()) name = folder.name();
+    }
+    return name;
+}
+
+struct PreviousStep : Foam::Time {
+    /// What a restart takes for the step before its first one.
+    static void set(Foam::Time& time, double step) { time.*(&PreviousStep::deltaTSave_) = step; }
+};
+
 /// A directory name has few digits of the time; the exact value and time step are in uniform/time. Without them a restarted rotor
 /// would have another angle than before.
 void restore_exact_time(Foam::Time& time) {
+    const Foam::word folder = folder_of_start(time);
     const Foam::IOdictionary saved(
-        Foam::IOobject("time", time.timeName(), "uniform", time, Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false));
+        Foam::IOobject("time", folder, "uniform", time, Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false));
     Foam::string name;
-    Foam::scalar value = 0.0;
-    if (!saved.readIfPresent("name", name) || name != time.timeName() || !saved.readIfPresent("value", value)) return;
-    time.setTime(Foam::instant(value, time.timeName()), time.timeIndex());
+    Foam::scalar value = time.startTime().value();
+    if (saved.readIfPresent("name", name) && name == folder) saved.readIfPresent("value", value);
+    if (folder == time.timeName() && value == time.value()) return;
+    time.setTime(Foam::instant(value, folder), time.timeIndex());
+    PreviousStep::set(time, time.deltaTValue());
 }
 
 std::string latest_times_to_refuse(const std::filesystem::path& case_folder) {

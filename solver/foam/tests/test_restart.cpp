@@ -5,6 +5,8 @@
 
 #include "solver/foam/tests/fluid_run.hpp"
 
+#include "Pstream.H"
+
 namespace cutterflow::foam {
 namespace {
 
@@ -99,6 +101,20 @@ TEST(Restart, ContinuesTheSameRun) {
     EXPECT_LE(resumed.largest(worst), 1e-14);
     EXPECT_NEAR(state.loads.torque_viscous / uninterrupted.loads.torque_viscous, 1.0, 1e-10);
     EXPECT_NE(state.loads.torque_viscous, 0.0);
+}
+
+/// OpenFOAM itself looks for these folders as 3.1098684441377582 and 3.10710961834521981.
+TEST(Restart, FindsAFolderOfAnyDigits) {
+    for (const std::string name : {"3.109868444137758", "3.1", "0.00012345678901", "2.5e-05"}) {
+        const std::filesystem::path folder = testing::build_case(stirred_annulus("digits_of_time"));
+        const std::filesystem::path of_rank =
+            Foam::UPstream::parRun() ? folder / ("processor" + std::to_string(Foam::UPstream::myProcNo())) : folder;
+        std::filesystem::rename(of_rank / "0", of_rank / name);
+        FluidRun run(folder, true);
+        EXPECT_EQ(run.engine().time_name(), name);
+        step_with_rock(run);
+        EXPECT_GT(run.engine().time(), std::stod(name));
+    }
 }
 
 TEST(TimeStep, KeepsWithinTheTravelLimitAndTheCourantNumber) {
