@@ -149,7 +149,9 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     const double flow_revolutions = prediction.first_release / study.period();
     const double rock_revolutions = prediction.revolutions - flow_revolutions;
     const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
-    prediction.steps = flow_revolutions * flow_steps + rock_revolutions * rock_steps;
+    const double development = study.development_end() / study.period();
+    const double full_flow_revolutions = flow_revolutions - development + development / k_development_step_ratio;  // by their steps
+    prediction.steps = full_flow_revolutions * flow_steps + rock_revolutions * rock_steps;
     const double mouth = study.suction.mouth_radius;
     prediction.tip_speed = omega * head.tip_radius;
     prediction.mouth_speed = study.suction.discharge / (k_pi * mouth * mouth);
@@ -165,7 +167,7 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     prediction.mesh_seconds = machine.slowness * k_mesh_seconds_per_cell * plan.prediction.cells;
     prediction.start_seconds = machine.slowness * k_start_seconds_per_cell * k_start_iterations * plan.prediction.cells;
     prediction.core_hours =
-        flow_revolutions * prediction.core_hours_per_revolution + rock_revolutions * prediction.core_hours_per_revolution_with_rock;
+        full_flow_revolutions * prediction.core_hours_per_revolution + rock_revolutions * prediction.core_hours_per_revolution_with_rock;
     prediction.mesh_disk = k_mesh_bytes + k_mesh_bytes_per_cell * plan.prediction.cells;
     prediction.run_disk = (writes_of_fields(study) * k_field_bytes_per_cell + 2.0 * k_carry_bytes_per_cell) * plan.prediction.cells +
                           prediction.steps * k_table_bytes_per_step;

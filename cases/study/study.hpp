@@ -16,6 +16,9 @@
 
 namespace cutterflow::cases {
 
+/// Revolutions in which a flow forgets the frozen rotor from which it starts (docs/design/013-replays.md).
+constexpr double k_developed_revolutions = 6.0;
+
 /// Stages of a run that keys of the study belong to (Parameter::stage). A stage depends on the ones before it as a whole.
 inline constexpr const char* k_geometry_stage = "geometry";
 inline constexpr const char* k_mesh_stage = "mesh";
@@ -124,7 +127,9 @@ struct Study {
     double period() const;         ///< of one revolution [s]
     double end_time() const;       ///< [s]
     double first_release() const;  ///< [s]; of a study with rock
-    double bank_side() const;      ///< 1 with the bank at azimuth 90 degrees, -1 at -90
+    /// Until when the flow develops in longer steps [s]: one revolution before it is recorded, averaged or meets rock; 0 for never.
+    double development_end() const;
+    double bank_side() const;  ///< 1 with the bank at azimuth 90 degrees, -1 at -90
     bool is_fed_by_cutting() const;
     AxialCylinder water(const HeadSize& head) const;
 };

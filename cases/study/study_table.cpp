@@ -235,14 +235,17 @@ ParameterTable run_rows() {
             .at_least(1e-3)
             .at_most(1e3)
             .by_default(1.0),
-        number(k_case_stage, "run.flow_revolutions", "-", "Revolutions of the flow alone before rock is released.")
+        number(
+            k_case_stage, "run.flow_revolutions", "-",
+            "Revolutions of the flow alone before rock is released. It forgets the frozen rotor from which it starts in some six; all but "
+            "those that are recorded and one more are computed in longer steps.")
             .at_least(0.0)
             .at_most(k_most_revolutions)
-            .by_default(1.0),
+            .by_default(k_developed_revolutions),
         number(k_case_stage, "run.max_revolutions", "-", "Revolutions after which the run ends, those of the flow alone included.")
             .at_least(1e-3)
             .at_most(k_most_revolutions)
-            .by_default(4.0),
+            .by_default(9.0),
         setting<coupling::StopSettings>("run.stop_undecided", "undecided").by_default(0.0),
         setting<coupling::StopSettings>("run.target_half_width", "targetHalfWidth").by_default(0.03),
         number(k_case_stage, "run.record_revolutions", "-",

@@ -233,7 +233,7 @@ TEST(CutFaceFeed, sizes_follow_their_law) {
 TEST(CutFaceFeed, of_a_study_follows_from_its_bank_and_soil) {
     const std::string text =
         "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n[swing]\nspeed_m_min = 6\n"
-        "[bank]\nmodel = \"wall\"\n[soil]\nporosity = 0.3\ngrain_density_kg_m3 = 2700\n[run]\nmax_revolutions = 4\n"
+        "[bank]\nmodel = \"wall\"\n[soil]\nporosity = 0.3\ngrain_density_kg_m3 = 2700\n[run]\nflow_revolutions = 1\nmax_revolutions = 4\n"
         "[[feed]]\nkind = \"cut_face\"\ndisintegration = 0.8\nsize_law = \"log_normal\"\nsize_d50_m = 0.02\nsize_spread = 0.3\n"
         "size_min_m = 0.01\nsize_max_m = 0.04\nsize_classes = 4\n";
     HeadSize size{0.40, 0.40, 0.485};
@@ -259,7 +259,7 @@ TEST(CutFaceFeed, of_a_study_follows_from_its_bank_and_soil) {
 TEST(CutFaceFeed, of_a_study_brings_what_the_swing_before_left) {
     const std::string text =
         "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n[swing]\nspeed_m_min = 6\n"
-        "[bank]\nmodel = \"wall\"\n[bed]\nspill_layer_m = 0.05\n[soil]\nbulking = 1.25\n[run]\nmax_revolutions = 4\n"
+        "[bank]\nmodel = \"wall\"\n[bed]\nspill_layer_m = 0.05\n[soil]\nbulking = 1.25\n[run]\nflow_revolutions = 1\nmax_revolutions = 4\n"
         "[[feed]]\nkind = \"cut_face\"\ndisintegration = 0.8\n[[feed.class]]\ndiameter_m = 0.02\n";
     HeadSize size{0.40, 0.40, 0.485};
     size.blades = 6;

@@ -84,13 +84,13 @@ TEST_F(StudyFile, a_feeds_quantity_is_given_once_and_its_rock_sinks) {
     EXPECT_TRUE(any_contains(mistakes_of(minimal("[[feed]]\ncount = 3\n")), "no class of rock"));
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nduration_s = 2\n")), "A batch is released at once"));
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n", "diameter_m = 0.02\ndensity_kg_m3 = 900\n")), "denser than the fluid"));
-    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nstart_revolution = 4\n")), "released before run.max_revolutions = 4"));
-    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n") + "[run]\nflow_revolutions = 4\n"), "no rock is ever released"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nstart_revolution = 9\n")), "released before run.max_revolutions = 9"));
+    EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\n") + "[run]\nflow_revolutions = 9\n"), "no rock is ever released"));
 }
 
 /// A feed from a cut face, without a bank.
 std::string with_cut_face(const std::string& keys) {
-    return minimal("[run]\nmax_revolutions = 4\n[[feed]]\nkind = \"cut_face\"\n" + keys);
+    return minimal("[run]\nflow_revolutions = 1\nmax_revolutions = 4\n[[feed]]\nkind = \"cut_face\"\n" + keys);
 }
 
 TEST_F(StudyFile, mistakes_of_a_cut_face_are_told_at_once) {
@@ -168,7 +168,7 @@ TEST(Study, is_in_si_units_and_radians) {
                                    "/folder");
     EXPECT_NEAR(study.rotation_speed, 2.0 * k_pi, 1e-12);
     EXPECT_NEAR(study.period(), 1.0, 1e-12);
-    EXPECT_NEAR(study.end_time(), 4.0, 1e-12);
+    EXPECT_NEAR(study.end_time(), 9.0, 1e-12);
     EXPECT_NEAR(study.inclination, k_pi / 6.0, 1e-12);
     EXPECT_EQ(study.cutter.file, "/folder/c.stl");
     ASSERT_EQ(study.feeds.size(), 1u);
@@ -279,10 +279,10 @@ TEST(Study, refuses_sizes_that_contradict_each_other) {
     EXPECT_TRUE(any_contains(mistakes("[tank]\nheight_m = 0.9\n"), "Make the tank higher"));
     EXPECT_TRUE(any_contains(mistakes("[tank]\nradius_m = 0.5\n"), "1.5 times the radius of head (0.4 m)"));
     EXPECT_EQ(mistakes("mouth_offset_m = 0.31\n")[0].where, "study.toml:7") << "the key that the file gives";
-    EXPECT_TRUE(any_contains(mistakes("[report]\noutflow_start_s = 4\n"), "The run ends at 4 s"));
+    EXPECT_TRUE(any_contains(mistakes("[report]\noutflow_start_s = 9\n"), "The run ends at 9 s"));
     EXPECT_TRUE(
         any_contains(mistakes("[[feed]]\ncount = 1\ndepth_to_m = 0.6\n[[feed.class]]\ndiameter_m = 0.02\n"), "The head ends 0.485 m"));
-    EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n[tank]\nheight_m = 0.9\n[report]\noutflow_start_s = 4\n").size(), 4u)
+    EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n[tank]\nheight_m = 0.9\n[report]\noutflow_start_s = 9\n").size(), 4u)
         << "ring and backplate, tank, report";
     EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n")[0].where, "study.toml:7");
 }
@@ -318,7 +318,7 @@ TEST(Study, records_whole_revolutions_before_the_rock) {
     const std::string feed = with_feed("count = 3\n");
     EXPECT_TRUE(mistakes(feed + "[run]\nrecord_revolutions = 1\n").empty());
     EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 0.5\n"), "all its phases in one revolution"));
-    EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 2\n"), "at most the flow before the rock"));
+    EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 7\n"), "at most the flow before the rock"));
     EXPECT_TRUE(any_contains(mistakes(minimal("[run]\nrecord_revolutions = 1\n")), "A recording is for rock"));
 }
 
@@ -340,13 +340,36 @@ TEST(Study, refuses_sizes_out_of_proportion_to_the_head) {
     only("[report]\nbin_width_m = 4.8e-4\n", "at most 1000 are counted");
     none("[report]\nbin_width_m = 4.9e-4\n");
     only("[report]\noutflow_offset_m = 2.2\n", "the water ends at tank.radius_m = 2.5");  // 0.40 + 2.2 > 2.5
-    only("[run]\nwrite_interval_s = 3.9e-4\n", "at most 10000");                          // of 4 s
+    only("[run]\nwrite_interval_s = 8.9e-4\n", "at most 10000");                          // of 9 s
     only("[run]\ncheckpoint_interval_s = 1e-300\n", "at most 10000");
-    none("[run]\nwrite_interval_s = 4.1e-4\n");
+    none("[run]\nwrite_interval_s = 9.1e-4\n");
     // A rock of 20 mm and 2650 kg/m3 has 11.1 g.
     only("[[feed]]\nmass_kg = 0.005\n[[feed.class]]\ndiameter_m = 0.02\n", "less than half a rock");
     none("[[feed]]\nmass_kg = 0.006\n[[feed.class]]\ndiameter_m = 0.02\n");
     only("[[feed]]\ncount = 1\n[[feed.class]]\ndiameter_m = 0.8\n", "whose diameter is 0.8 m");
+}
+
+TEST(Study, warns_of_rock_that_meets_a_flow_which_remembers_its_start) {
+    const auto warnings = [](const std::string& text) { return study_warnings(resolve_study(parse(text), k_model), k_model); };
+    const char* warning = "start_revolution = 5.5. For some 6 revolutions the flow remembers the frozen rotor";
+    EXPECT_TRUE(any_contains(warnings(with_feed("count = 3\n") + "[run]\nflow_revolutions = 5.5\n"), warning));
+    EXPECT_TRUE(any_contains(warnings(with_feed("count = 3\nstart_revolution = 5.5\n")), warning));
+    EXPECT_FALSE(any_contains(warnings(with_feed("count = 3\n")), "remembers"));
+    EXPECT_FALSE(any_contains(warnings(minimal("[run]\nflow_revolutions = 1\n")), "remembers"));
+}
+
+TEST(Study, develops_the_flow_in_longer_steps_until_a_revolution_before_it_is_looked_at) {
+    const auto end = [](const std::string& text) {  // the period is 1 s
+        return make_study(resolve_study(parse(text), k_model), "/tmp").development_end();
+    };
+    const std::string feed = with_feed("count = 3\n");
+    EXPECT_NEAR(end(feed), 5.0, 1e-12);
+    EXPECT_NEAR(end(feed + "[run]\nrecord_revolutions = 1\n"), 4.0, 1e-12);
+    EXPECT_NEAR(end(feed + "[run]\nflow_revolutions = 0.5\n"), 0.0, 1e-12);
+    EXPECT_NEAR(end(with_feed("count = 3\nstart_revolution = 3\n")), 2.0, 1e-12);
+    EXPECT_NEAR(end(feed + "[report]\noutflow_start_s = 2.5\n"), 1.5, 1e-12);
+    EXPECT_NEAR(end(minimal()), 5.0, 1e-12);
+    EXPECT_NEAR(end(minimal("[run]\nmax_revolutions = 4\n")), 1.0, 1e-12);  // averaged from half of it on
 }
 
 TEST(Study, warns_of_rock_larger_than_a_third_of_the_passage) {

@@ -313,7 +313,7 @@ TEST_F(SoilOfAFile, must_be_closed_beside_the_head_and_below_the_water) {
 
 // Rock is fed within the head's contour, from which soil keeps its distance.
 TEST(StudyBank, has_no_fed_rock_in_its_soil) {
-    const std::string keys = std::string(k_bank) + "[run]\nmax_revolutions = 2\n[[feed]]\n";
+    const std::string keys = std::string(k_bank) + "[run]\nflow_revolutions = 1\nmax_revolutions = 2\n[[feed]]\n";
     const Study without = study_of(k_bank);
     const HeadSize size = head_size(model_head());
     const geometry::SolidSearch soil(bank_surface(without, size, contour_of(without)));

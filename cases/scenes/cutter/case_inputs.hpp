@@ -26,6 +26,7 @@ struct RunTimes {
     double end = 0.0;
     double write_interval = 0.0;   ///< fields and rocks
     double first_time_step = 0.0;  ///< the Courant limit takes over after it
+    double development_end = 0.0;  ///< until then steps are longer by k_development_step_ratio; 0 for never
 };
 
 /// A point at which the run averages the velocity.
@@ -92,6 +93,9 @@ double mouth_speed(const CaseInputs& inputs);
 
 /// Gravity [m/s2] in the run's frame for a ladder `inclination` [rad] below horizontal: g (cos, 0, -sin).
 Vec3 gravity_of(double inclination);
+
+/// How much longer steps are while the flow develops and nothing looks at it.
+constexpr double k_development_step_ratio = 3.0;
 
 /// Longest time step [s] whatever the Courant number: the rotor turns one degree.
 /// \param speed  of the rotor [rad/s], either sign

@@ -133,6 +133,8 @@ std::vector<FoamFile> run_system_files(const CaseInputs& inputs) {
         .add("adjustTimeStep", true)
         .add("maxCo", inputs.numerics.max_courant)
         .add("maxDeltaT", largest_time_step(inputs.rotor.speed))
+        .add("developmentEnd", times.development_end)
+        .add("developmentStepRatio", k_development_step_ratio)
         .add("writeControl", "adjustableRunTime")
         .add("writeInterval", times.write_interval)
         .add("purgeWrite", 0)

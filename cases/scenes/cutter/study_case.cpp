@@ -145,6 +145,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
     inputs.times.end = study.end_time();
     inputs.times.write_interval = study.run.write_interval;
     inputs.times.first_time_step = k_first_step_per_revolution * study.period();
+    inputs.times.development_end = study.development_end();
     inputs.checkpoint.interval = study.run.checkpoint_interval;
     inputs.kernel = study.kernel;
     inputs.closures = study.closures;

@@ -361,6 +361,7 @@ void check_time_control(const Foam::Time& time, Findings& findings) {
     require_above_zero(control, "deltaT", k_required);
     require_above_zero(control, "maxCo", k_optional);
     require_above_zero(control, "maxDeltaT", k_optional);
+    require_above_zero(control, "developmentStepRatio", k_optional);
     require_above_zero(control, "writeInterval", k_optional);
 }
 

@@ -31,10 +31,12 @@ void CutterFluid::choose_time_step(double travel_limit, double stop_time) {
         warn_of_long_step(travel_limit);
         return;
     }
-    const scalar headroom = control.lookupOrDefault<scalar>("maxCo", 1.0) / (courant_max_ + SMALL);
+    const bool develops = time_.value() < control.lookupOrDefault<scalar>("developmentEnd", 0.0);
+    const scalar ratio = develops ? control.lookupOrDefault<scalar>("developmentStepRatio", 1.0) : 1.0;
+    const scalar headroom = ratio * control.lookupOrDefault<scalar>("maxCo", 1.0) / (courant_max_ + SMALL);
     const bool first = time_.timeIndex() == 0;
     const scalar growth = first ? 1.0 : std::min(1.0 + 0.1 * headroom, 1.2);
-    const scalar limit = std::min<scalar>(control.lookupOrDefault<scalar>("maxDeltaT", GREAT), travel_limit);
+    const scalar limit = std::min<scalar>(ratio * control.lookupOrDefault<scalar>("maxDeltaT", GREAT), travel_limit);
     const scalar step = std::min(std::min(headroom, growth) * time_.deltaTValue(), limit);
     // OpenFOAM's own way of meeting write times counts from the run's start, which a restart moves.
     const scalar ahead = std::min(next_write_time(), stop_time) - time_.value();

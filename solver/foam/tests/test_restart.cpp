@@ -1,7 +1,10 @@
 // A run that is stopped and continued is the run that was not stopped.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "solver/foam/tests/fluid_run.hpp"
 
@@ -130,6 +133,26 @@ TEST(TimeStep, KeepsWithinTheTravelLimitAndTheCourantNumber) {
     // Steps are a little shorter than the limit, so that a whole number of them leads to the end of the run.
     EXPECT_LE(run.engine().time_step(), 0.4 * free_step * (1.0 + 1e-12));
     EXPECT_GE(run.engine().time_step(), 0.999 * 0.4 * free_step);
+}
+
+TEST(TimeStep, IsLongerWhileTheFlowDevelops) {
+    const auto steps = [](const std::string& name, const std::string& control) {
+        testing::TinyCase tiny = stirred_annulus(name);
+        tiny.files["system/controlDict"] += control;
+        FluidRun run(testing::build_case(tiny), false);
+        std::vector<double> lengths;
+        for (int step = 0; step < 40; ++step) {
+            run.begin();
+            run.end({}, {});
+            lengths.push_back(run.engine().time_step());
+        }
+        return lengths;
+    };
+    const double usual = steps("usual", "").back();
+    EXPECT_NEAR(steps("develops", "developmentEnd 1e9; developmentStepRatio 3;").back() / usual, 3.0, 0.1);
+    const std::vector<double> back = steps("developed", fmt::format("developmentEnd {}; developmentStepRatio 3;", 20.0 * usual));
+    EXPECT_GT(*std::max_element(back.begin(), back.end()), 2.0 * usual);
+    EXPECT_NEAR(back.back() / usual, 1.0, 0.05);
 }
 
 TEST(TimeStep, MeetsAReleaseWithoutAStepMuchShorterThanTheOthers) {
