@@ -14,6 +14,7 @@
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/study/feed_keys.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
@@ -51,8 +52,13 @@ struct RecordedRun {
 RecordedRun open_run(const fs::path& run) {
     const RunDirectory directory(run);
     RunHead head = read_run_head(directory);
+    const fs::path file = directory.file(names::resolved_study);
+    ParameterValues values = study_as_recorded(read_parameters(study_table(), file));
+    Mistakes mistakes;
+    mistakes.add(check_file_rules(values, file));
+    mistakes.refuse();
     // A file that was changed by hand may lack keys.
-    ParameterValues values = resolve_study(study_as_recorded(read_study(directory.file(names::resolved_study))), head.size);
+    values = resolve_study(values, head.size);
     return {fs::absolute(run).lexically_normal(), std::move(values), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }
@@ -349,6 +355,8 @@ std::vector<Mistake> check_rock_study(const ParameterValues& planned, const fs::
 
 ParameterValues study_as_recorded(ParameterValues study) {
     if (study.where("kernel.sampling").empty()) study.set("kernel.sampling", std::string(coupling::k_quadratic_sampling));
+    for (ParameterValues& feed : study.tables_for_writing("feed"))
+        for (const auto& [key, mistake] : keys_in_vain(feed, study_table())) feed.remove(key);
     return study;
 }
 

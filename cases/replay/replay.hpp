@@ -50,7 +50,8 @@ std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const Para
 /// \throws UserError  as read_parameters
 std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std::filesystem::path& study);
 
-/// The study of a run by the program that ran it: before the key kernel.sampling existed, rock sampled from a shell.
+/// The study of a run by the program that ran it: before the key kernel.sampling existed, rock sampled from a shell, and keys that a feed
+/// does not use were allowed.
 ParameterValues study_as_recorded(ParameterValues study);
 
 /// Runs every replay and writes replays.csv and replays.json into the folder.

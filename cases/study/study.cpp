@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 
 #include "cases/study/closure_rules.hpp"
+#include "cases/study/feed_keys.hpp"
 #include "cases/study/size_law.hpp"
 #include "cases/study/study_section.hpp"
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/physics/catalogue.hpp"
@@ -37,7 +40,16 @@ double end_time_of(const ParameterValues& values) {
 }
 
 void fill(ParameterValues& values, const char* key, double derived) {
-    if (!values.has(key)) values.set(key, derived);
+    if (!values.gives(key)) values.set(key, derived);
+}
+
+/// As fill, of what follows from other keys: none where one of them was refused.
+template <class Derive>
+void fill_from(ParameterValues& values, const char* key, Derive derive) {
+    try {
+        fill(values, key, derive());
+    } catch (const NoValue&) {
+    }
 }
 
 /// Young's modulus [Pa] with which the densest rock at tip speed overlaps steel of the same modulus by the accepted share of its radius;
@@ -58,11 +70,12 @@ double needed_youngs_modulus(const ParameterValues& values, const HeadSize& head
 
 /// What the file does not give of the pairs of materials comes from its preset.
 void resolve_pairs(ParameterValues& values) {
+    if (!values.has(k_preset_key)) return;
     coupling::ContactSettings contact;
     coupling::use_preset(contact, values.text(k_preset_key));
     for (const coupling::MaterialPair& pair : coupling::k_material_pairs)
         for (const coupling::Setting<coupling::PairSettings>& setting : coupling::setting_table<coupling::PairSettings>())
-            if (!values.has(key_of(pair, setting))) values.set(key_of(pair, setting), setting.value_in(contact.*pair.settings));
+            if (!values.gives(key_of(pair, setting))) values.set(key_of(pair, setting), setting.value_in(contact.*pair.settings));
 }
 
 /// \param resolved  with every key of the pairs
@@ -117,24 +130,26 @@ Study::Bank make_bank(const ParameterValues& resolved, const std::filesystem::pa
             number("bed.spill_layer_m")};
 }
 
+bool is_cut_face(const ParameterValues& feed) {
+    return feed.text("feed.kind") == k_cut_face;
+}
+
 void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
-    fill(feed, "feed.start_revolution", study.number("run.flow_revolutions"));
-    fill(feed, "feed.azimuth_centre_deg", bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")));
+    fill_from(feed, "feed.start_revolution", [&] { return study.number("run.flow_revolutions"); });
+    if (!feed.has("feed.kind") || is_cut_face(feed)) return;
+    fill_from(feed, "feed.azimuth_centre_deg",
+              [&] { return bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")); });
     fill(feed, "feed.radius_to_m", head.tip_radius);
     fill(feed, "feed.depth_to_m", head.depth);
 }
 
-bool is_cut_face(const ParameterValues& feed) {
-    return feed.text("feed.kind") == "cut_face";
-}
-
 bool has_size_law(const ParameterValues& feed) {
-    return feed.text("feed.size_law") != "classes";
+    return feed.text("feed.size_law") != k_classes;
 }
 
 /// Keys that the law of a feed needs.
 std::vector<const char*> keys_of_law(const ParameterValues& feed) {
-    const bool rosin = feed.text("feed.size_law") == "rosin_rammler";
+    const bool rosin = feed.text("feed.size_law") == k_rosin_rammler;
     return {rosin ? "feed.size_d63_m" : "feed.size_d50_m", "feed.size_spread", "feed.size_min_m", "feed.size_max_m"};
 }
 
@@ -145,18 +160,15 @@ bool is_law_complete(const ParameterValues& feed) {
 
 /// \pre is_law_complete
 SizeDistribution sizes_of(const ParameterValues& feed) {
-    const bool rosin = feed.text("feed.size_law") == "rosin_rammler";
+    const bool rosin = feed.text("feed.size_law") == k_rosin_rammler;
     return {rosin ? SizeLaw::rosin_rammler : SizeLaw::log_normal, feed.number(keys_of_law(feed).front()), feed.number("feed.size_spread"),
             feed.number("feed.size_min_m"), feed.number("feed.size_max_m")};
 }
 
-/// \param end_time  of the run [s] \param grain_density  of the soil [kg/m3]
-FeedRequest make_feed(const ParameterValues& feed, double period, double end_time, double grain_density) {
-    FeedRequest request;
+/// What a feed has of a batch alone.
+void take_batch(const ParameterValues& feed, FeedRequest& request) {
     if (feed.has("feed.count")) request.count = feed.integer("feed.count");
     if (feed.has("feed.mass_kg")) request.mass = feed.number("feed.mass_kg");
-    request.start = feed.number("feed.start_revolution") * period;
-    request.seed = feed.integer("feed.seed");
     request.spacing = feed.number("feed.spacing_diameters");
     request.azimuth_centre = feed.number("feed.azimuth_centre_deg") * k_degree;
     request.azimuth_width = feed.number("feed.azimuth_width_deg") * k_degree;
@@ -164,10 +176,10 @@ FeedRequest make_feed(const ParameterValues& feed, double period, double end_tim
     request.radius_to = feed.number("feed.radius_to_m");
     request.depth_from = feed.number("feed.depth_from_m");
     request.depth_to = feed.number("feed.depth_to_m");
-    for (const ParameterValues& rock : feed.tables("feed.class"))
-        request.classes.push_back(
-            {rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"), rock.number("feed.class.mass_share")});
-    if (!is_cut_face(feed)) return request;
+}
+
+/// What a feed has of rock from a cut face alone. \param end_time  of the run [s] \param grain_density  of the soil [kg/m3]
+void take_cut_face(const ParameterValues& feed, double end_time, double grain_density, FeedRequest& request) {
     request.kind = FeedKind::cut_face;
     const double duration = feed.number("feed.duration_s");
     request.end = duration > 0.0 ? request.start + duration : end_time;
@@ -176,6 +188,20 @@ FeedRequest make_feed(const ParameterValues& feed, double period, double end_tim
     if (has_size_law(feed) && is_law_complete(feed))  // check_file_rules refuses others
         for (const double diameter : equal_mass_diameters(sizes_of(feed), static_cast<int>(feed.integer("feed.size_classes"))))
             request.classes.push_back({diameter, grain_density, 1.0});
+}
+
+/// \param end_time  of the run [s] \param grain_density  of the soil [kg/m3]
+FeedRequest make_feed(const ParameterValues& feed, double period, double end_time, double grain_density) {
+    FeedRequest request;
+    request.start = feed.number("feed.start_revolution") * period;
+    request.seed = feed.integer("feed.seed");
+    for (const ParameterValues& rock : feed.tables("feed.class"))
+        request.classes.push_back(
+            {rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"), rock.number("feed.class.mass_share")});
+    if (is_cut_face(feed))
+        take_cut_face(feed, end_time, grain_density, request);
+    else
+        take_batch(feed, request);
     return request;
 }
 
@@ -193,6 +219,14 @@ public:
     }
     void add(const std::string& what, const std::string& rule, const std::string& remedy) { mistakes_.add(what, rule, remedy); }
     void add(const Mistake& mistake) { mistakes_.add(mistake); }
+    /// Rules of values some of which may have been refused: from one that needs such a value on they say nothing.
+    template <class Check>
+    void where_known(Check check) {
+        try {
+            check();
+        } catch (const NoValue&) {
+        }
+    }
     std::vector<Mistake> take() { return mistakes_.take(); }
 
 private:
@@ -222,7 +256,7 @@ void check_bank_keys(const ParameterValues& study, Rules& rules) {
 
 /// Sizes by a law, or by classes.
 void check_sizes(const ParameterValues& feed, int index, Rules& rules) {
-    const bool has_classes = !feed.tables("feed.class").empty();
+    const bool has_classes = feed.gives("feed.class");
     if (!has_size_law(feed)) {
         if (!has_classes)
             rules.add(fmt::format("feed {} has no class of rock", index), "Its sizes are [[feed.class]] tables or a feed.size_law",
@@ -238,7 +272,7 @@ void check_sizes(const ParameterValues& feed, int index, Rules& rules) {
     if (has_classes)
         rules.add(fmt::format("feed {} has a size_law and [[feed.class]]", index), "Its sizes are given once", "Remove one of them");
     for (const char* key : keys_of_law(feed))
-        if (!feed.has(key))
+        if (!feed.gives(key))
             rules.require(false, feed, "feed.size_law", fmt::format("It needs {}", key), fmt::format("Add {} to this [[feed]]", key));
     if (!is_law_complete(feed)) return;
     const SizeDistribution sizes = sizes_of(feed);
@@ -252,17 +286,20 @@ void check_sizes(const ParameterValues& feed, int index, Rules& rules) {
 }
 
 /// Rock from a cut face: its quantity follows from the bank.
-void check_cut_face(const ParameterValues& study, const ParameterValues& feed, int index, Rules& rules) {
+void check_cut(const ParameterValues& study, const ParameterValues& feed, Rules& rules) {
+    for (const char* key : {"feed.count", "feed.mass_kg"})
+        if (feed.has(key))
+            rules.require(false, feed, key, "The quantity of rock from a cut face follows from swing, bank and soil", "Remove it");
     rules.require(has_bank(study), feed, "feed.kind", "Rock comes from a cut face only where the head cuts a bank",
                   "Set bank.model = \"wall\", or feed.kind = \"batch\"");
     if (study.has("swing.speed_m_min"))
         rules.require(!has_bank(study) || study.number("swing.speed_m_min") > 0.0, "swing.speed_m_min",
                       "A head that does not swing cuts nothing", "Give the speed of the swing, or set feed.kind = \"batch\"");
-    for (const char* key : {"feed.count", "feed.mass_kg"})
-        if (feed.has(key))
-            rules.require(false, feed, key, "The quantity of rock from a cut face follows from swing, bank and soil", "Remove it");
-    check_sizes(feed, index, rules);
-    const double start = feed.has("feed.start_revolution") ? feed.number("feed.start_revolution") : study.number("run.flow_revolutions");
+}
+
+/// When rock comes from a cut face.
+void check_duration(const ParameterValues& study, const ParameterValues& feed, Rules& rules) {
+    const double start = feed.gives("feed.start_revolution") ? feed.number("feed.start_revolution") : study.number("run.flow_revolutions");
     const double end = start * period_of(study) + feed.number("feed.duration_s");
     if (feed.number("feed.duration_s") > 0.0)
         rules.require(end <= end_time_of(study) * (1.0 + 1e-9), feed, "feed.duration_s",
@@ -272,17 +309,23 @@ void check_cut_face(const ParameterValues& study, const ParameterValues& feed, i
         rules.require(end < end_time_of(study), feed, "feed.start_revolution",
                       fmt::format("The feed would begin at {:.4g} s, not before the run's end at {:.4g} s", end, end_time_of(study)),
                       "Let it begin earlier, or raise run.max_revolutions");
+}
+
+void check_cut_face(const ParameterValues& study, const ParameterValues& feed, int index, Rules& rules) {
+    rules.where_known([&] { check_cut(study, feed, rules); });
+    rules.where_known([&] { check_sizes(feed, index, rules); });
+    rules.where_known([&] { check_duration(study, feed, rules); });
     if (study.tables("feed").size() > 1)
         rules.add(fmt::format("feed {} is a cut face among {} feeds", index, study.tables("feed").size()),
                   "A study has batches or one cut face: rates and batches are not told apart in the results", "Remove the other feeds");
 }
 
 void check_batch(const ParameterValues& feed, int index, Rules& rules) {
-    const bool has_count = feed.has("feed.count");
-    if (has_count == feed.has("feed.mass_kg"))
+    const bool has_count = feed.gives("feed.count");
+    if (has_count == feed.gives("feed.mass_kg"))
         rules.add(fmt::format("feed {} has {}", index, has_count ? "both count and mass_kg" : "neither count nor mass_kg"),
                   "A feed's quantity is given once", has_count ? "Remove one of them" : "Add count = <number of rocks> to this [[feed]]");
-    if (feed.tables("feed.class").empty())
+    if (!feed.gives("feed.class"))
         rules.add(fmt::format("feed {} has no class of rock", index), "A feed needs one or more [[feed.class]] with diameter_m",
                   "Add [[feed.class]] with diameter_m below this [[feed]]");
     rules.require(!has_size_law(feed), feed, "feed.size_law", "A batch has its sizes in [[feed.class]]; laws are for rock from a cut face",
@@ -291,23 +334,35 @@ void check_batch(const ParameterValues& feed, int index, Rules& rules) {
                   "Use 0, several [[feed]] tables with different start_revolution, or feed.kind = \"cut_face\"");
 }
 
+void check_kind(const ParameterValues& study, const ParameterValues& feed, int index, Rules& rules) {
+    if (is_cut_face(feed))
+        check_cut_face(study, feed, index, rules);
+    else
+        check_batch(feed, index, rules);
+}
+
 /// What can be said of the feeds without the cutter.
 void check_feed_quantities(const ParameterValues& study, Rules& rules) {
     int index = 0;
     for (const ParameterValues& feed : study.tables("feed")) {
         ++index;
-        if (is_cut_face(feed))
-            check_cut_face(study, feed, index, rules);
-        else
-            check_batch(feed, index, rules);
+        rules.where_known([&] { check_kind(study, feed, index, rules); });
+        rules.where_known([&] {
+            for (const auto& [key, mistake] : keys_in_vain(feed, study_table())) rules.add(mistake);
+        });
         for (const ParameterValues& rock : feed.tables("feed.class"))
-            rules.require(rock.number("feed.class.density_kg_m3") > study.number("fluid.density_kg_m3"), rock, "feed.class.density_kg_m3",
-                          fmt::format("Rock must be denser than the fluid ({} kg/m3)", study.number("fluid.density_kg_m3")),
-                          "Correct the density");
+            rules.where_known([&] {
+                rules.require(rock.number("feed.class.density_kg_m3") > study.number("fluid.density_kg_m3"), rock,
+                              "feed.class.density_kg_m3",
+                              fmt::format("Rock must be denser than the fluid ({} kg/m3)", study.number("fluid.density_kg_m3")),
+                              "Correct the density");
+            });
         if (feed.has("feed.start_revolution"))
-            rules.require(feed.number("feed.start_revolution") < study.number("run.max_revolutions"), feed, "feed.start_revolution",
-                          fmt::format("Rock must be released before run.max_revolutions = {}", study.number("run.max_revolutions")),
-                          "Release it earlier or run longer");
+            rules.where_known([&] {
+                rules.require(feed.number("feed.start_revolution") < study.number("run.max_revolutions"), feed, "feed.start_revolution",
+                              fmt::format("Rock must be released before run.max_revolutions = {}", study.number("run.max_revolutions")),
+                              "Release it earlier or run longer");
+            });
     }
 }
 
@@ -352,25 +407,23 @@ bool has_quantity(const ParameterValues& feed) {
     return feed.has("feed.count") != feed.has("feed.mass_kg") && !feed.tables("feed.class").empty();
 }
 
-void check_rocks(const ParameterValues& study, const HeadSize& head, Rules& rules) {
-    for (const ParameterValues& feed : study.tables("feed")) {
-        for (const ParameterValues& rock : feed.tables("feed.class"))
-            rules.require(rock.number("feed.class.diameter_m") < 2.0 * head.tip_radius, rock, "feed.class.diameter_m",
+void check_rocks(const ParameterValues& feed, const HeadSize& head, Rules& rules) {
+    const auto require_smaller_than_head = [&](const ParameterValues& table, const char* key) {
+        if (table.has(key))
+            rules.require(table.number(key) < 2.0 * head.tip_radius, table, key,
                           fmt::format("Rock must be smaller than the head, whose diameter is {:.4g} m", 2.0 * head.tip_radius),
                           "Correct the diameter; its unit is m");
-        if (feed.has("feed.size_max_m"))
-            rules.require(feed.number("feed.size_max_m") < 2.0 * head.tip_radius, feed, "feed.size_max_m",
-                          fmt::format("Rock must be smaller than the head, whose diameter is {:.4g} m", 2.0 * head.tip_radius),
-                          "Correct the diameter; its unit is m");
-        if (!has_quantity(feed)) continue;
-        const double number = number_of_rocks(feed);
-        if (feed.has("feed.mass_kg"))
-            rules.require(number >= 1.0, feed, "feed.mass_kg", "It is less than half a rock of each class: nothing would be released",
-                          "Release more, or give count");
-        rules.require(number <= k_most_rocks, feed, feed.has("feed.count") ? "feed.count" : "feed.mass_kg",
-                      fmt::format("It makes {:.3g} rocks; a feed has at most {:.3g}, as each is followed on its own", number, k_most_rocks),
-                      "Release less, or larger rock");
-    }
+    };
+    for (const ParameterValues& rock : feed.tables("feed.class")) require_smaller_than_head(rock, "feed.class.diameter_m");
+    require_smaller_than_head(feed, "feed.size_max_m");
+    if (!has_quantity(feed)) return;
+    const double number = number_of_rocks(feed);
+    if (feed.has("feed.mass_kg"))
+        rules.require(number >= 1.0, feed, "feed.mass_kg", "It is less than half a rock of each class: nothing would be released",
+                      "Release more, or give count");
+    rules.require(number <= k_most_rocks, feed, feed.has("feed.count") ? "feed.count" : "feed.mass_kg",
+                  fmt::format("It makes {:.3g} rocks; a feed has at most {:.3g}, as each is followed on its own", number, k_most_rocks),
+                  "Release less, or larger rock");
 }
 
 void check_discharge(const ParameterValues& study, Rules& rules) {
@@ -404,18 +457,16 @@ void check_tank(const ParameterValues& study, const HeadSize& head, Rules& rules
                   "Widen the tank, or check cutter.unit");
 }
 
-void check_feed_region(const ParameterValues& study, const HeadSize& head, Rules& rules) {
-    for (const ParameterValues& feed : study.tables("feed")) {
-        const double from = feed.number("feed.depth_from_m");
-        const double to = feed.number("feed.depth_to_m");
-        rules.require(feed.number("feed.radius_to_m") > feed.number("feed.radius_from_m"), feed, "feed.radius_to_m",
-                      fmt::format("It must be more than radius_from_m = {}", feed.number("feed.radius_from_m")),
-                      "Exchange or correct them");
-        rules.require(to > from, feed, "feed.depth_to_m", fmt::format("It must be more than depth_from_m = {}", from),
-                      "Exchange or correct them");
-        rules.require(to <= head.depth, feed, "feed.depth_to_m", fmt::format("The head ends {:.4g} m below the ring plane", head.depth),
-                      "Keep the wedge inside the head");
-    }
+void check_feed_region(const ParameterValues& feed, const HeadSize& head, Rules& rules) {
+    if (is_cut_face(feed)) return;
+    const double from = feed.number("feed.depth_from_m");
+    const double to = feed.number("feed.depth_to_m");
+    rules.require(feed.number("feed.radius_to_m") > feed.number("feed.radius_from_m"), feed, "feed.radius_to_m",
+                  fmt::format("It must be more than radius_from_m = {}", feed.number("feed.radius_from_m")), "Exchange or correct them");
+    rules.require(to > from, feed, "feed.depth_to_m", fmt::format("It must be more than depth_from_m = {}", from),
+                  "Exchange or correct them");
+    rules.require(to <= head.depth, feed, "feed.depth_to_m", fmt::format("The head ends {:.4g} m below the ring plane", head.depth),
+                  "Keep the wedge inside the head");
 }
 
 void check_report(const ParameterValues& study, const HeadSize& head, Rules& rules) {
@@ -490,7 +541,7 @@ bool has_bank(const ParameterValues& values) {
 }
 
 bool lacks_swing(const ParameterValues& values) {
-    return has_bank(values) && !values.has("swing.speed_m_min");
+    return has_bank(values) && !values.gives("swing.speed_m_min");
 }
 
 double bank_azimuth_deg(const std::string& swing_direction, const std::string& rotor_direction) {
@@ -509,21 +560,25 @@ void vary_release(ParameterValues& values, std::int64_t seeds, double revolution
 
 std::vector<Mistake> check_file_rules(const ParameterValues& study, const std::filesystem::path& file) {
     Rules rules(study, file.string());
-    check_bank_keys(study, rules);
+    rules.where_known([&] { check_bank_keys(study, rules); });
     check_feed_quantities(study, rules);
     if (!study.tables("feed").empty())
-        rules.require(
-            study.number("run.flow_revolutions") < study.number("run.max_revolutions"), "run.flow_revolutions",
-            fmt::format("It must be less than run.max_revolutions = {}, or no rock is ever released", study.number("run.max_revolutions")),
-            "Raise run.max_revolutions");
+        rules.where_known([&] {
+            rules.require(study.number("run.flow_revolutions") < study.number("run.max_revolutions"), "run.flow_revolutions",
+                          fmt::format("It must be less than run.max_revolutions = {}, or no rock is ever released",
+                                      study.number("run.max_revolutions")),
+                          "Raise run.max_revolutions");
+        });
     return rules.take();
 }
 
 ParameterValues read_study(const std::filesystem::path& file) {
-    ParameterValues values = read_parameters(study_table(), file);
-    std::vector<Mistake> mistakes = check_file_rules(values, file);
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
-    return values;
+    ReadParameters read = parse_with_mistakes(study_table(), read_file(file), file.string());
+    Mistakes mistakes;
+    mistakes.add(read.mistakes);
+    mistakes.add(check_file_rules(read.values, file));
+    mistakes.refuse();
+    return std::move(read.values);
 }
 
 ParameterValues resolve_study(const ParameterValues& values, const HeadSize& head) {
@@ -537,15 +592,15 @@ ParameterValues resolve_study(const ParameterValues& values, const HeadSize& hea
     fill(resolved, "suction.pipe_wall_m", 0.025 * ring);
     fill(resolved, "tank.radius_m", 6.25 * ring);
     fill(resolved, "tank.bed_clearance_m", 0.975 * ring);
-    fill(resolved, "tank.height_m", resolved.number("tank.bed_clearance_m") + head.depth + 1.0875 * ring);
-    fill(resolved, "rock.youngs_modulus_pa", needed_youngs_modulus(values, head));
+    fill_from(resolved, "tank.height_m", [&] { return resolved.number("tank.bed_clearance_m") + head.depth + 1.0875 * ring; });
+    fill_from(resolved, "rock.youngs_modulus_pa", [&] { return needed_youngs_modulus(values, head); });
     resolve_pairs(resolved);
-    if (has_bank(values)) resolve_bank(resolved, head);
-    fill(resolved, "run.checkpoint_interval_s", 0.25 * period_of(values));
-    fill(resolved, "run.write_interval_s", 0.25 * period_of(values));
+    if (values.has("bank.model") && has_bank(values)) resolve_bank(resolved, head);
+    fill_from(resolved, "run.checkpoint_interval_s", [&] { return 0.25 * period_of(values); });
+    fill_from(resolved, "run.write_interval_s", [&] { return 0.25 * period_of(values); });
     fill(resolved, "report.bin_width_m", 0.075 * ring);
     fill(resolved, "report.outflow_offset_m", 0.0375 * ring);
-    fill(resolved, "report.outflow_start_s", derived_outflow_start(values));
+    fill_from(resolved, "report.outflow_start_s", [&] { return derived_outflow_start(values); });
     if (values.has("report.adv_points")) {
         fill(resolved, "report.adv_probe_diameter_m", 0.006);
         fill(resolved, "report.adv_probe_length_m", 0.009);
@@ -602,19 +657,27 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
 
 std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
-    check_suction(resolved, head, rules);
-    check_discharge(resolved, rules);
-    check_tank(resolved, head, rules);
-    check_feed_region(resolved, head, rules);
-    check_rocks(resolved, head, rules);
-    check_report(resolved, head, rules);
-    check_intervals(resolved, rules);
-    check_recording(resolved, rules);
-    for (const Mistake& mistake : closure_mistakes(resolved)) rules.add(mistake);
-    rules.require(resolved.text("kernel.map") != coupling::k_cluster_map, "kernel.map",
-                  "Clusters of cells do not turn with the rotor, and reach through its blades", "Set kernel.map = \"gaussian\"");
-    rules.require(resolved.number("kernel.cluster_size_m") == 0.0, "kernel.cluster_size_m",
-                  "Only map cluster has cubes, and a cutter's mesh turns", "Remove it");
+    rules.where_known([&] { check_suction(resolved, head, rules); });
+    rules.where_known([&] { check_discharge(resolved, rules); });
+    rules.where_known([&] { check_tank(resolved, head, rules); });
+    for (const ParameterValues& feed : resolved.tables("feed")) {
+        rules.where_known([&] { check_feed_region(feed, head, rules); });
+        rules.where_known([&] { check_rocks(feed, head, rules); });
+    }
+    rules.where_known([&] { check_report(resolved, head, rules); });
+    rules.where_known([&] { check_intervals(resolved, rules); });
+    rules.where_known([&] { check_recording(resolved, rules); });
+    rules.where_known([&] {
+        for (const Mistake& mistake : closure_mistakes(resolved)) rules.add(mistake);
+    });
+    rules.where_known([&] {
+        rules.require(resolved.text("kernel.map") != coupling::k_cluster_map, "kernel.map",
+                      "Clusters of cells do not turn with the rotor, and reach through its blades", "Set kernel.map = \"gaussian\"");
+    });
+    rules.where_known([&] {
+        rules.require(resolved.number("kernel.cluster_size_m") == 0.0, "kernel.cluster_size_m",
+                      "Only map cluster has cubes, and a cutter's mesh turns", "Remove it");
+    });
     return rules.take();
 }
 

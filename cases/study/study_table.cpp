@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/study/feed_keys.hpp"
 #include "cases/study/study.hpp"
 #include "cases/study/study_section.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
@@ -287,9 +288,9 @@ ParameterTable run_rows() {
 
 ParameterTable feed_rows() {
     return {
-        choice(k_case_stage, "feed.kind", {"batch", "cut_face"},
+        choice(k_case_stage, "feed.kind", {k_batch, k_cut_face},
                "A batch of rock released at once inside the head, or rock that comes all the time where the head cuts the bank.")
-            .by_default(std::string("batch")),
+            .by_default(std::string(k_batch)),
         integer(k_case_stage, "feed.count", "Number of rocks of a batch; give this or mass_kg.").at_least(1.0).derived("from mass_kg"),
         number(k_case_stage, "feed.mass_kg", "kg", "Mass of the rocks of a batch; give this or count.").above(0.0).derived("from count"),
         number(k_case_stage, "feed.start_revolution", "-", "Revolution at which the rock is released.")
@@ -310,9 +311,9 @@ ParameterTable feed_rows() {
             .above(0.0)
             .at_most(1.0)
             .by_default(1.0),
-        choice(k_case_stage, "feed.size_law", {"classes", "rosin_rammler", "log_normal"},
+        choice(k_case_stage, "feed.size_law", {k_classes, k_rosin_rammler, k_log_normal},
                "Sizes of rock from a cut face: the [[feed.class]] tables, or a law of mass over diameter, cut into classes of equal mass.")
-            .by_default(std::string("classes")),
+            .by_default(std::string(k_classes)),
         number(k_case_stage, "feed.size_d63_m", "m", "Diameter d63 of rosin_rammler, F(d) = 1 - exp(-(d/d63)^spread).")
             .at_least(1e-5)
             .at_most(10.0)
@@ -341,12 +342,12 @@ ParameterTable feed_rows() {
             .at_least(0.0)
             .by_default(std::int64_t{1}),
         number(k_case_stage, "feed.spacing_diameters", "-",
-               "Distance between neighbouring rocks, centre to centre, over the largest diameter.")
+               "Distance between neighbouring rocks of a batch, centre to centre, over the largest diameter.")
             .at_least(1.01)
             .at_most(20.0)
             .by_default(1.5),
         number(k_case_stage, "feed.azimuth_centre_deg", "deg",
-               "Middle of the wedge in which rock is placed, in the fixed frame when it is released.")
+               "Middle of the wedge in which rock of a batch is placed, in the fixed frame when it is released.")
             .at_least(-360.0)
             .at_most(360.0)
             .derived("the bank's side, from swing.direction and rotor.direction"),

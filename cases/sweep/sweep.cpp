@@ -484,7 +484,9 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
             points.push_back({name, text, cutter.lexically_normal().string() + shape_of(values, axes.keys),
                               combination.repeat > 0 ? first : std::string()});
             const ParameterValues resolved = resolve_study(placed_here, head_size(head));
-            const std::vector<Mistake> wrong = check_study(resolved, head_size(head));
+            std::vector<Mistake> wrong = check_file_rules(placed_here, name);
+            const std::vector<Mistake> beside_head = check_study(resolved, head_size(head));
+            wrong.insert(wrong.end(), beside_head.begin(), beside_head.end());
             for (Mistake mistake : wrong) {
                 mistake.where = name;
                 add_once(mistake, mistakes);

@@ -87,6 +87,14 @@ TEST(Replays, of_a_run_from_before_the_key_sample_as_that_run) {
     EXPECT_EQ(study_as_recorded(study("[kernel]\nsampling = \"gaussian\"\n")).text("kernel.sampling"), "gaussian");
 }
 
+TEST(Replays, of_a_run_from_before_unused_keys_were_refused_leave_them_out) {
+    const ParameterValues recorded =
+        study_as_recorded(study("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[[feed]]\nkind = \"cut_face\"\ndepth_to_m = 0.3\n"
+                                "[[feed.class]]\ndiameter_m = 0.02\n"));
+    EXPECT_FALSE(recorded.tables("feed").at(0).has("feed.depth_to_m"));
+    EXPECT_THAT(check_file_rules(recorded, "study.toml"), ::testing::IsEmpty());
+}
+
 // Pairs are of a coupled run and the replay of its placement.
 TEST(Replays, are_refused_where_rock_changes_the_flow) {
     const auto with_correction = [](double correction) {

@@ -10,6 +10,7 @@
 #include "cases/scenes/study_kind.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/parameters/parameter_reading.hpp"
 #include "solver/physics/contact.hpp"
 
 using namespace cutterflow;
@@ -109,6 +110,40 @@ TEST_F(StudyFile, mistakes_of_a_cut_face_are_told_at_once) {
     EXPECT_TRUE(any_contains(mistakes_of(with_cut_face(rock) + "[swing]\nspeed_m_min = 0\n[bank]\nmodel = \"wall\"\n"),
                              "swing.speed_m_min = 0. A head that does not swing cuts nothing"));
     EXPECT_TRUE(any_contains(mistakes_of(with_cut_face(rock + "[[feed]]\ncount = 3\n" + rock) + bank), "one cut face"));
+}
+
+TEST_F(StudyFile, keys_that_a_feed_does_not_use_are_refused) {
+    const std::string bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n", rock = "[[feed.class]]\ndiameter_m = 0.02\n";
+    const std::vector<Mistake> of_cut_face =
+        mistakes_of(with_cut_face("azimuth_width_deg = 90\nradius_from_m = 0.1\nradius_to_m = 0.2\ndepth_to_m = 0.3\nsize_d63_m = 0.02\n"
+                                  "size_classes = 3\n" +
+                                  rock) +
+                    bank);
+    EXPECT_EQ(of_cut_face.size(), 6u);
+    EXPECT_TRUE(any_contains(of_cut_face,
+                             "study.toml:11: feed.azimuth_width_deg = 90. It places a batch; rock from a cut face comes in where the "
+                             "blades cut. Remove it, or set feed.kind = \"batch\""));
+    EXPECT_TRUE(any_contains(of_cut_face, "feed.size_d63_m = 0.02. It belongs to a law of sizes, and feed.size_law = \"classes\""));
+    const std::vector<Mistake> of_batch =
+        mistakes_of(with_feed("count = 3\ndisintegration = 0.5\nvelocity_share = 1\nsize_min_m = 0.01\nsize_spread = 1\n"));
+    EXPECT_EQ(of_batch.size(), 4u);
+    EXPECT_TRUE(any_contains(of_batch, "feed.disintegration = 0.5. It belongs to rock from a cut face, and feed.kind = \"batch\""));
+    const std::string bounds = "size_spread = 1\nsize_min_m = 0.01\nsize_max_m = 0.04\nsize_d63_m = 0.02\nsize_d50_m = 0.02\n";
+    for (const auto& [law, key] : {std::pair{"rosin_rammler", "feed.size_d50_m"}, std::pair{"log_normal", "feed.size_d63_m"}}) {
+        const std::vector<Mistake> of_law = mistakes_of(with_cut_face(std::string("size_law = \"") + law + "\"\n" + bounds) + bank);
+        ASSERT_EQ(of_law.size(), 1u) << law;
+        EXPECT_TRUE(any_contains(of_law, key)) << of_law.front().text();
+    }
+}
+
+// As files have them that the program writes: with every default, and lengths only where they are used.
+TEST_F(StudyFile, defaults_of_another_feed_say_nothing) {
+    const std::string bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n", rock = "[[feed.class]]\ndiameter_m = 0.02\n";
+    EXPECT_TRUE(mistakes_of(with_cut_face("azimuth_width_deg = 120\n" + rock) + bank).empty());
+    for (const std::string& study : {with_feed("count = 3\n"), with_cut_face(rock) + bank}) {
+        const ParameterValues resolved = resolve_study(parse(study), k_model);
+        EXPECT_TRUE(mistakes_of(commented_toml(study_table(), &resolved)).empty());
+    }
 }
 
 TEST_F(StudyFile, sizes_of_a_cut_face_lie_within_their_bounds) {

@@ -139,6 +139,17 @@ TEST_F(Sweep, refuses_a_point_whose_bank_the_head_cannot_cut) {
     }
 }
 
+TEST_F(Sweep, refuses_a_point_whose_feed_does_not_use_the_key) {
+    SweepAxes axes;
+    axes.keys = key_axes(study_table(), {"feed.velocity_share=0,1"}, "params");
+    try {
+        points(axes);
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("feed.velocity_share = 1. It belongs to rock from a cut face"));
+    }
+}
+
 TEST_F(Sweep, ends_with_wrong_input_when_that_is_all_that_failed) {
     const std::string refuse = "; case $4 in *30rpm) exit 2;; *45rpm) exit CODE;; esac";
     const auto outcome_with = [&](const std::string& code) {

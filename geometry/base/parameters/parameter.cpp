@@ -8,6 +8,10 @@ bool ParameterValues::has(const std::string& key) const {
     return values_.count(key) > 0;
 }
 
+bool ParameterValues::gives(const std::string& key) const {
+    return has(key) || !where(key).empty();
+}
+
 const ParameterValue* ParameterValues::find(const std::string& key) const {
     const auto found = values_.find(key);
     return found == values_.end() ? nullptr : &found->second;
@@ -16,7 +20,7 @@ const ParameterValue* ParameterValues::find(const std::string& key) const {
 template <typename T>
 const T& ParameterValues::get(const std::string& key) const {
     const ParameterValue* value = find(key);
-    if (value == nullptr) throw std::logic_error("parameter " + key + " has no value");
+    if (value == nullptr) throw NoValue(key);
     const T* typed = std::get_if<T>(value);
     if (typed == nullptr) throw std::logic_error("parameter " + key + " is read as another type than it has");
     return *typed;
@@ -52,6 +56,10 @@ const std::vector<ParameterValues>& ParameterValues::tables(const std::string& n
 
 void ParameterValues::set(const std::string& key, ParameterValue value) {
     values_[key] = std::move(value);
+}
+void ParameterValues::remove(const std::string& key) {
+    values_.erase(key);
+    where_.erase(key);
 }
 std::vector<ParameterValues>& ParameterValues::tables_for_writing(const std::string& name) {
     return tables_[name];

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,10 +45,17 @@ using ParameterTable = std::vector<Parameter>;
 /// What is wrong with a value of the parameter's type: not finite, outside the bounds, not among the choices. None: it is allowed.
 std::optional<Mistake> value_mistake(const Parameter& parameter, const ParameterValue& value);
 
-/// The values of one file (or of one of its repeated tables).
+/// A key is read that has no value. Of a file without mistakes that is a defect.
+class NoValue : public std::logic_error {
+public:
+    explicit NoValue(const std::string& key) : std::logic_error("parameter " + key + " has no value") {}
+};
+
+/// The values of one file (or of one of its repeated tables). A key whose value was refused has none, but its place.
 class ParameterValues {
 public:
     bool has(const std::string& key) const;
+    bool gives(const std::string& key) const;                  ///< it has a value, or the file gives one that was refused
     const ParameterValue* find(const std::string& key) const;  ///< null when it has no value
     double number(const std::string& key) const;               ///< also of an integer
     std::int64_t integer(const std::string& key) const;
@@ -59,6 +67,7 @@ public:
     const std::vector<ParameterValues>& tables(const std::string& name) const;
 
     void set(const std::string& key, ParameterValue value);
+    void remove(const std::string& key);
     std::vector<ParameterValues>& tables_for_writing(const std::string& name);
 
     /// Place of a key ("study.toml:12"), for messages; empty when it has its default.

@@ -188,6 +188,7 @@ private:
         const toml::array* array = node.as_array();
         const bool tables_only =
             array != nullptr && std::all_of(array->begin(), array->end(), [](const toml::node& item) { return item.is_table(); });
+        values.set_where(key, where(node));
         if (!tables_only)
             return add(where(node), fmt::format("{} is not a list of tables", key), fmt::format("{} may occur several times", key),
                        fmt::format("Write [[{}]] with two brackets and its keys below", key));
@@ -283,9 +284,7 @@ private:
     /// Defaults and missing keys of one place: the file outside its arrays of tables (section ""), or one table of an array.
     void fill_in(ParameterValues& values, const std::string& repeated_section, const std::string& place) {
         for (const Parameter& parameter : table_) {
-            if (enclosing_array(table_, parameter.key) != repeated_section || values.has(parameter.key) ||
-                !values.where(parameter.key).empty())
-                continue;
+            if (enclosing_array(table_, parameter.key) != repeated_section || values.gives(parameter.key)) continue;
             if (parameter.default_value) {
                 values.set(parameter.key, *parameter.default_value);
             } else if (!parameter.optional && meant_.count(parameter.key) > 0) {
