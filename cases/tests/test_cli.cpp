@@ -613,6 +613,20 @@ TEST_F(Cli, names_a_bank_without_a_swing_with_all_other_mistakes) {
     expect_contains(call({"check", "study.toml"}).text, "suction.mouth_radius_m = 3. The mouth must lie inside the ring");
 }
 
+TEST_F(Cli, names_mistakes_beside_the_head_with_those_of_the_text) {
+    study("mouth_radius_m = 3\n[tank]\nbed_clearance_m = -1\n");
+    const Outcome outcome = call({"check", "study.toml"});
+    expect_refused(outcome, 2, "tank.bed_clearance_m = -1");
+    expect_contains(outcome.text, "suction.mouth_radius_m = 3. The mouth must lie inside the ring");
+    EXPECT_EQ(outcome.text.find("tank.height_m"), std::string::npos) << outcome.text;
+    write_file(folder_ / "study.toml",
+               "[cutter]\nfile = \"cutter.stl\"\nunit = \"furlong\"\n[rotor]\nspeed_rpm = 60\n[suction]\n"
+               "discharge_m3_s = 0.12\nmouth_radius_m = 3\n");
+    const Outcome without_unit = call({"check", "study.toml"});
+    expect_refused(without_unit, 2, "cutter.unit = \"furlong\" is no choice");
+    EXPECT_EQ(without_unit.text.find("mouth"), std::string::npos) << without_unit.text;
+}
+
 TEST_F(Cli, names_all_mistakes_of_a_cut_face_at_once) {
     study(
         "mouth_radius_m = 3\n[swing]\nspeed_m_min = 6\n[bank]\nstep_m = 2\n"

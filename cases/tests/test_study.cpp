@@ -158,6 +158,23 @@ TEST_F(StudyFile, sizes_of_a_cut_face_lie_within_their_bounds) {
     EXPECT_TRUE(any_contains(mistakes_of(with_feed("count = 3\nsize_law = \"log_normal\"\n")), "laws are for rock from a cut face"));
 }
 
+// A value out of bounds beside broken rules: all are told, and none that needs the value.
+TEST_F(StudyFile, a_wrong_value_does_not_hide_rules_between_others) {
+    const std::vector<Mistake> mistakes =
+        mistakes_of(with_feed("count = 0\nduration_s = 2\ndisintegration = 0.5\n", "diameter_m = 0.02\ndensity_kg_m3 = 900\n") +
+                    "[[feed]]\nstart_revolution = 4\n[[feed.class]]\ndiameter_m = -1\n[bank]\nmodel = \"wall\"\nstep_m = 0.1\n[swing]\n"
+                    "speed_m_min = -6\n");
+    for (const char* part : {"feed.count = 0 is too low", "A batch is released at once", "It belongs to rock from a cut face",
+                             "denser than the fluid", "feed 2 has neither count nor mass_kg", "released before run.max_revolutions = 4",
+                             "feed.class.diameter_m = -1", "swing.speed_m_min = -6"})
+        EXPECT_TRUE(any_contains(mistakes, part)) << part;
+    EXPECT_EQ(mistakes.size(), 8u);
+    const std::vector<Mistake> no_speed = mistakes_of(
+        "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 0\n[suction]\ndischarge_m3_s = 0.12\n[[feed]]\nkind = \"cut_face\"\n"
+        "count = 3\nduration_s = 9\nclass = 3\n[bank]\nmodel = \"cliff\"\nstep_m = 1\n");
+    EXPECT_EQ(no_speed.size(), 4u) << "speed, class, model, count";
+}
+
 TEST_F(StudyFile, the_template_reads_back) {
     EXPECT_TRUE(mistakes_of(study_template("my study", "Cutter Head (rev B).STL", "mm")).empty());
     const ParameterValues values = read_study(file_);
@@ -320,6 +337,19 @@ TEST(Study, refuses_sizes_that_contradict_each_other) {
     EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n[tank]\nheight_m = 0.9\n[report]\noutflow_start_s = 9\n").size(), 4u)
         << "ring and backplate, tank, report";
     EXPECT_EQ(mistakes("mouth_radius_m = 0.19\n")[0].where, "study.toml:7");
+}
+
+TEST(Study, sizes_beside_a_refused_value_are_checked_without_it) {
+    const ParameterValues values =
+        parse_with_mistakes(study_table(),
+                            minimal("mouth_radius_m = -1\n[tank]\nheight_m = 0.9\n[rock]\npreset = \"sand\"\n[swing]\ndirection = "
+                                    "\"up\"\n[[feed]]\ncount = 1\ndepth_to_m = 0.6\nradius_from_m = -1\n[[feed.class]]\ndiameter_m = 3\n"),
+                            "study.toml")
+            .values;
+    const std::vector<Mistake> mistakes = check_study(resolve_study(values, k_model), k_model);
+    EXPECT_EQ(mistakes.size(), 2u);
+    EXPECT_TRUE(any_contains(mistakes, "Make the tank higher"));
+    EXPECT_TRUE(any_contains(mistakes, "Rock must be smaller than the head"));
 }
 
 TEST(Study, refuses_values_that_no_dredger_has) {

@@ -20,20 +20,18 @@ constexpr const char* k_files[] = {"cutter.file", "bank.file", "report.adv_point
 
 struct ReadStudy {
     ParameterValues values;
-    bool complete = false;    ///< no value is wrong or missing
-    bool rules_hold = false;  ///< of a complete study
+    bool complete = false;  ///< no value is wrong or missing
+    bool rules_hold = false;
 };
 
-/// What can be read of a study; mistakes of its text, rules and files are added. Rules are checked when no value is wrong or missing.
+/// What can be read of a study; mistakes of its text, rules and files are added.
 ReadStudy read_with_mistakes(const fs::path& file, Mistakes& mistakes) {
     ReadParameters text = parse_with_mistakes(study_table(), read_file(file), file.string());
     mistakes.add(text.mistakes);
     ReadStudy read{std::move(text.values), text.complete};
-    if (read.complete) {
-        const std::vector<Mistake> broken = check_file_rules(read.values, file);
-        mistakes.add(broken);
-        read.rules_hold = broken.empty();
-    }
+    const std::vector<Mistake> broken = check_file_rules(read.values, file);
+    mistakes.add(broken);
+    read.rules_hold = broken.empty();
     for (const char* key : k_files)
         if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
     return read;
@@ -78,7 +76,8 @@ CheckedStudy read_checked_study(const fs::path& file) {
     const fs::path folder = file.parent_path();
     Mistakes mistakes;
     const ReadStudy read = read_with_mistakes(file, mistakes);
-    if (!read.complete || missing_file(read.values, "cutter.file", folder)) mistakes.refuse();
+    const bool knows_unit = read.values.has("cutter.unit") == read.values.gives("cutter.unit");
+    if (!read.values.has("cutter.file") || !knows_unit || missing_file(read.values, "cutter.file", folder)) mistakes.refuse();
     std::optional<CheckedStudy> study;
     mistakes.gather([&] {
         geometry::GeometryInspection inspection = import_study_cutter(read.values, folder);
@@ -86,7 +85,7 @@ CheckedStudy read_checked_study(const fs::path& file) {
         ParameterValues resolved = resolve_study(read.values, size);
         const std::vector<Mistake> broken = check_study(resolved, size);
         mistakes.add(broken);
-        if (!broken.empty() || !has_sizes(resolved, folder)) return;
+        if (!broken.empty() || !read.complete || !has_sizes(resolved, folder)) return;
         PlacedStudy placed = place_study(resolved, *inspection.head, folder, read.rules_hold);
         study = CheckedStudy{std::move(resolved), std::move(inspection), std::move(placed)};
     });

@@ -29,7 +29,7 @@ PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& h
 std::vector<Mistake> head_warnings(const ParameterValues& resolved, const PlacedStudy& placed, const geometry::Head& head);
 
 /// \throws UserError  with every mistake of a study that can be seen without reading its cutter: those of its text, of the files
-/// that it names, and of its rules unless a value is wrong or missing
+/// that it names, and of its rules as far as they do not need a value that is wrong or missing
 void require_study_file(const std::filesystem::path& file);
 
 /// A study without a mistake, and its cutter.
