@@ -664,6 +664,16 @@ TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
     expect_refused(call({"check", study("[report]\nadv_points = \"nowhere.csv\"\n")}), 2, "nowhere.csv");
 }
 
+// The bank stands at azimuth -90 degrees, beside and below the head.
+TEST_F(Cli, checks_points_of_measurement_against_soil) {
+    const std::string header = call({"report", "--adv-template"}).text,
+                      keys = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[report]\nadv_points = \"points.csv\"\n";
+    write_file(folder_ / "points.csv", header + "S1,600,-90,-200,still,,,\nS2,600,-90,-200,rotating,,,\nS3,600,90,-200,still,,,\n");
+    const Outcome outcome = call({"check", study(keys)});
+    expect_refused(outcome, 2, "point S1 (r = 0.6 m, theta = -90 deg, z = -0.2 m) lies inside soil");
+    for (const char* part : {"point S2 (", "point S3 (", "inside steel"}) EXPECT_EQ(outcome.text.find(part), std::string::npos) << part;
+}
+
 TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
     const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
     expect_refused(outcome, 2, "x is not a number above 0");

@@ -51,7 +51,9 @@ PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& h
     Mistakes mistakes;
     mistakes.add(bank_mistakes(resolved, study, placed.size, head.contour));
     const bool bank_stands = mistakes.empty();
-    if (study.report.adv_points) mistakes.gather([&] { require_adv_points(study, placed.size, head.surface); });
+    std::optional<geometry::TriangleSurface> soil;
+    if (study.report.adv_points && study.bank && bank_stands) soil = bank_surface(study, placed.size, placed.contour);
+    if (study.report.adv_points) mistakes.gather([&] { require_adv_points(study, placed.size, head.surface, soil); });
     if (bank_stands && feeds_are_sound)
         mistakes.gather([&] { placed.feeds = place_feeds(study, feed_scene(study, placed.size, placed.contour, head.surface)); });
     mistakes.refuse();

@@ -30,12 +30,11 @@ std::vector<double> spaced(double a, double b, int n) {
     return values;
 }
 
-/// Lies a point of measurement in steel at all angles between the rotor and it?
-bool always_in_steel(const postproc::AdvPoint& point, const geometry::SolidSearch& cutter,
-                     const geometry::StationarySteelParameters& stationary) {
-    std::function<bool(const Vec3&)> at_rest = [&](const Vec3& place) { return geometry::is_in_stationary_steel(stationary, place); };
-    std::function<bool(const Vec3&)> passing = [&](const Vec3& place) { return cutter.contains(place); };
-    if (point.rotating) std::swap(at_rest, passing);
+using IsInside = std::function<bool(const Vec3&)>;
+
+/// Lies a point of measurement in a solid at all angles between the rotor and it?
+bool always_inside(const postproc::AdvPoint& point, const IsInside& turning, const IsInside& still) {
+    const IsInside &at_rest = point.rotating ? turning : still, &passing = point.rotating ? still : turning;
     if (at_rest(point.position())) return true;
     for (int i = 0; i < k_angles; ++i)
         if (!passing(rotate_about({}, 2.0 * k_pi * i / k_angles, point.position()))) return false;
@@ -71,9 +70,16 @@ VelocitySetInput adv_set(const Study& study) {
     return set;
 }
 
-void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter) {
+void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter,
+                        const std::optional<geometry::TriangleSurface>& soil) {
     const geometry::SolidSearch rotor(cutter);
     const geometry::StationarySteelParameters stationary = stationary_steel_of(study, head);
+    std::optional<geometry::SolidSearch> ground;
+    if (soil) ground.emplace(*soil);
+    const IsInside in_cutter = [&](const Vec3& place) { return rotor.contains(place); };
+    const IsInside in_steel = [&](const Vec3& place) { return geometry::is_in_stationary_steel(stationary, place); };
+    const IsInside in_soil = [&](const Vec3& place) { return ground && ground->contains(place); };
+    const IsInside in_either = [&](const Vec3& place) { return in_steel(place) || in_soil(place); };
     const AxialCylinder water = study.water(head);
     std::vector<Mistake> mistakes;
     for (const postproc::AdvPoint& point : postproc::read_adv_points(*study.report.adv_points)) {
@@ -85,8 +91,9 @@ void require_adv_points(const Study& study, const HeadSize& head, const geometry
                 {point.where, what + " lies outside the water",
                  fmt::format("The water is the cylinder r < {:.4g} m, {:.4g} m < z < {:.4g} m", water.radius, water.z_min, water.z_max),
                  "Check the unit in the header and the frame: ring plane z = 0, the head below it"});
-        else if (always_in_steel(point, rotor, stationary))
-            mistakes.push_back({point.where, what + " lies inside steel",
+        else if (always_inside(point, in_cutter, in_either))
+            mistakes.push_back({point.where,
+                                what + (always_inside(point, in_cutter, in_steel) ? " lies inside steel" : " lies inside soil"),
                                 point.rotating ? "A point that turns with the head must be in water"
                                                : "A still point must be in water at some angle of the rotor",
                                 "Check position, unit and frame"});

@@ -1,5 +1,7 @@
 #pragma once
 /// \file Where the run averages the velocity: planes for pictures, points of measurement.
+#include <optional>
+
 #include "cases/scenes/cutter/case_inputs.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/surface/surface.hpp"
@@ -18,11 +20,12 @@ VelocitySetInput plane_under_ring(const Study& study, const HeadSize& head);
 /// \pre  the study names points \throws UserError  with every mistake of their file
 VelocitySetInput adv_set(const Study& study);
 
-/// Refuses points of measurement that lie outside the tank, or in steel whatever the rotor's angle. A still point through which the blades
-/// pass is in water between them.
-/// \param cutter  at rotor angle 0, run's frame
+/// Refuses points of measurement that lie outside the tank, or in steel or soil whatever the rotor's angle. A still point through which the
+/// blades pass is in water between them.
+/// \param cutter  at rotor angle 0, run's frame \param soil  none: no bank stands beside the head
 /// \pre  the study names points \throws UserError  with every mistake of their file
-void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter);
+void require_adv_points(const Study& study, const HeadSize& head, const geometry::TriangleSurface& cutter,
+                        const std::optional<geometry::TriangleSurface>& soil);
 
 /// What the run's sampling depends on of a file of points: places and frames, not what was measured there.
 std::string adv_places_hash(const std::filesystem::path& points_file);
