@@ -12,6 +12,7 @@
 #include "cases/cli/numbers.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "geometry/io/write_vtp.hpp"
@@ -64,15 +65,31 @@ geometry::repair::RepairLimits limits_of(const RepairOptions& options, const geo
     throw UserError(std::move(mistakes));
 }
 
-void run_repair(const RepairOptions& options) {
-    require_new_file(options.output);
+/// The surface. \throws UserError  with what is wrong with it and with the options
+geometry::ImportedSurface import_and_check(const RepairOptions& options) {
+    Mistakes mistakes;
+    mistakes.gather([&] { require_new_file(options.output); });
     if (options.report) {
-        require_new_file(*options.report);
-        require_different_places("--output", options.output, "--report", *options.report);
+        mistakes.gather([&] { require_new_file(*options.report); });
+        mistakes.gather([&] { require_different_places("--output", options.output, "--report", *options.report); });
     }
     std::optional<geometry::LengthUnit> unit;
-    if (options.unit) unit = geometry::length_unit_of(*options.unit);
-    const geometry::ImportedSurface imported = geometry::import_cutter(options.input, unit);
+    std::optional<geometry::ImportedSurface> imported;
+    const bool unit_is_known = mistakes.gather([&] {
+        if (options.unit) unit = geometry::length_unit_of(*options.unit);
+    });
+    mistakes.gather([&] {
+        if (unit_is_known)
+            imported = geometry::import_cutter(options.input, unit);
+        else
+            geometry::read_surface(options.input);  // has to be a surface whatever its unit
+    });
+    mistakes.refuse();
+    return std::move(*imported);
+}
+
+void run_repair(const RepairOptions& options) {
+    const geometry::ImportedSurface imported = import_and_check(options);
     const geometry::repair::RepairOutcome outcome =
         geometry::repair::repair_surface(imported.surface, limits_of(options, imported.surface), options.input);
 

@@ -57,6 +57,9 @@ void require_recorded_points(const SweepOptions& options) {
     mistakes.require(options.replay_study.empty() || options.axes.repeats == 1,
                      fmt::format("--replay-study with --repeats {}", options.axes.repeats),
                      "Another study's rock is replayed in one flow of each setting", "Leave --repeats out");
+    mistakes.require(options.replay_study.empty() || fs::exists(options.replay_study),
+                     fmt::format("--replay-study {} does not exist", options.replay_study), "Its path is relative to the current folder",
+                     "Check the path");
     mistakes.refuse();
     if (options.replays == 0) return;
     if (!kind_of_study(options.study).replays || options.launcher != "local" || options.emit)

@@ -674,6 +674,17 @@ TEST_F(Cli, checks_points_of_measurement_against_soil) {
     for (const char* part : {"point S2 (", "point S3 (", "inside steel"}) EXPECT_EQ(outcome.text.find(part), std::string::npos) << part;
 }
 
+TEST_F(Cli, names_all_mistakes_of_a_repair_and_of_a_report_at_once) {
+    write_file(folder_ / "there.stl", "mine");
+    write_file(folder_ / "there.json", "mine");
+    const Outcome repair = call({"repair", "none.stl", "-o", "there.stl", "--report", "there.json", "--unit", "furlong"});
+    expect_refused(repair, 2, "there.stl is there already");
+    for (const char* part : {"there.json is there already", "none.stl", "furlong"}) expect_contains(repair.text, part);
+    const Outcome report = call({"report", "no_run", "--adv", "no.csv"});
+    expect_refused(report, 2, "no.csv");
+    expect_contains(report.text, "no_run");
+}
+
 TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
     const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
     expect_refused(outcome, 2, "x is not a number above 0");

@@ -1,5 +1,8 @@
 #include "geometry/base/error.hpp"
 
+#include <algorithm>
+#include <set>
+
 namespace cutterflow {
 namespace {
 
@@ -20,6 +23,14 @@ std::string join(const std::vector<Mistake>& mistakes) {
     return text;
 }
 
+/// One that several checks found is told once.
+std::vector<Mistake> told_once(std::vector<Mistake> mistakes) {
+    std::set<std::string> told;
+    mistakes.erase(std::remove_if(mistakes.begin(), mistakes.end(), [&](const Mistake& one) { return !told.insert(one.text()).second; }),
+                   mistakes.end());
+    return mistakes;
+}
+
 }  // namespace
 
 std::string Mistake::text() const {
@@ -30,7 +41,8 @@ std::string Mistake::text() const {
     return where.empty() ? sentences : where + ": " + sentences;
 }
 
-UserError::UserError(std::vector<Mistake> mistakes) : Failure(ExitCode::user_input, join(mistakes)), mistakes_(std::move(mistakes)) {}
+UserError::UserError(std::vector<Mistake> mistakes)
+    : Failure(ExitCode::user_input, join(told_once(mistakes))), mistakes_(told_once(std::move(mistakes))) {}
 
 ToolError::ToolError(const std::vector<Mistake>& mistakes) : Failure(ExitCode::external_program, join(mistakes)) {}
 

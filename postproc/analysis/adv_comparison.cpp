@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/head/head_names.hpp"
 #include "postproc/run/run_reader.hpp"
 
@@ -222,8 +223,13 @@ AdvAgreement agreement(const AdvComparison& comparison, bool inside, std::option
 }
 
 AdvComparison compare_with_measurement(const fs::path& directory, const fs::path& points_file, std::optional<int> wanted) {
-    const std::vector<AdvPoint> points = read_adv_points(points_file);
-    const RunData run = read_run(directory);
+    Mistakes inputs;
+    std::vector<AdvPoint> points;
+    std::optional<RunData> read;
+    inputs.gather([&] { points = read_adv_points(points_file); });
+    inputs.gather([&] { read = read_run(directory); });
+    inputs.refuse();
+    const RunData& run = *read;
     const Sampled sampled = read_sampled(directory);
     AdvComparison comparison;
     comparison.run = run.operating_point.study_name;

@@ -23,6 +23,7 @@ namespace {
 using nlohmann::json;
 
 const double k_normal_factor = 1.959964;
+constexpr const char* k_release = "seed or time of release";  // tells repeats apart
 
 std::optional<double> half_width_of(const Sample& sample) {
     if (sample.count < k_fewest_repeats) return std::nullopt;
@@ -477,7 +478,7 @@ void require_different(const std::vector<ComparedRun>& runs) {
         const RunData &first = runs[a].run, &second = runs[b].run;
         return !second.release.empty() && first.setting == second.setting && first.release == second.release;
     };
-    require_distinct(directories, have_one_release, "seed or time of release");
+    require_distinct(directories, have_one_release, k_release);
 }
 
 }  // namespace
@@ -487,20 +488,18 @@ bool is_count(double value) {
 }
 
 Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
-    if (directories.size() < 2)
-        throw UserError(fmt::format("{} run given", directories.size()), "A comparison needs two or more", "Name more run directories");
     Comparison comparison;
-    std::vector<Mistake> mistakes;
-    for (const auto& directory : directories) {
-        try {
+    Mistakes mistakes;
+    mistakes.require(directories.size() >= 2, fmt::format("{} run given", directories.size()), "A comparison needs two or more",
+                     "Name more run directories");
+    mistakes.gather([&] { require_distinct(directories, {}, k_release); });
+    for (const auto& directory : directories)
+        mistakes.gather([&] {
             RunData run = read_run(directory);
             Results results = compute_results(run);
             comparison.runs.push_back({std::move(run), std::move(results)});
-        } catch (const UserError& error) {
-            mistakes.insert(mistakes.end(), error.mistakes().begin(), error.mistakes().end());
-        }
-    }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+        });
+    mistakes.refuse();
     require_different(comparison.runs);
     require_one_kind_of_feed(comparison.runs);
     comparison.settings = group(comparison.runs);
@@ -545,7 +544,7 @@ const Quantity* find_quantity(const Comparison& comparison, const std::string& k
 void add_measured(Comparison& comparison, const std::vector<std::filesystem::path>& files) {
     Mistakes mistakes;
     for (const auto& file : files) mistakes.gather([&] { comparison.measured.push_back(read_measured_points(file)); });
-    if (!files.empty() && !find_quantity(comparison, "ratio"))
+    if (!files.empty() && !comparison.runs.empty() && !find_quantity(comparison, "ratio"))
         mistakes.add({"", "measured points beside runs without rock", "They are spillage and production", "Compare runs with rock"});
     mistakes.refuse();
 }

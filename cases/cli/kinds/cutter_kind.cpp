@@ -170,8 +170,12 @@ void report(const ReportOptions& options) {
 
 std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::path& folder) {
     cases::SweepAxes axes = options.axes;
-    axes.keys = cases::key_axes(cases::study_table(), options.set, k_cutter_kind.params);
-    return cases::sweep_points(options.study, axes, folder);
+    std::vector<cases::SweepPoint> points;
+    Mistakes mistakes;
+    mistakes.gather([&] { axes.keys = cases::key_axes(cases::study_table(), options.set, k_cutter_kind.params); });
+    mistakes.gather([&] { points = cases::sweep_points(options.study, axes, folder); });
+    mistakes.refuse();
+    return points;
 }
 
 fs::path write_comparison(const std::vector<fs::path>& runs, const fs::path& folder) {
@@ -179,11 +183,15 @@ fs::path write_comparison(const std::vector<fs::path>& runs, const fs::path& fol
 }
 
 void compare(const CompareOptions& options) {
-    postproc::Comparison comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()});
-    postproc::add_measured(comparison, {options.measured.begin(), options.measured.end()});
-    if (options.output && options.still_folder) require_different_places("--output", *options.output, "--static", *options.still_folder);
+    Mistakes mistakes;
+    postproc::Comparison comparison;
+    const bool compared = mistakes.gather([&] { comparison = postproc::compare_runs({options.runs.begin(), options.runs.end()}); });
+    mistakes.gather([&] { postproc::add_measured(comparison, {options.measured.begin(), options.measured.end()}); });
+    if (options.output && options.still_folder)
+        mistakes.gather([&] { require_different_places("--output", *options.output, "--static", *options.still_folder); });
     for (const auto& folder : {options.output, options.still_folder})
-        if (folder) postproc::require_own_comparison(comparison, *folder);
+        if (folder && compared) mistakes.gather([&] { postproc::require_own_comparison(comparison, *folder); });
+    mistakes.refuse();
     std::cout << (options.json ? postproc::comparison_json(comparison).dump(2) + "\n" : postproc::comparison_text(comparison));
     if (options.output) say(fmt::format("the page: {}", postproc::write_comparison(comparison, *options.output).string()));
     if (options.still_folder)

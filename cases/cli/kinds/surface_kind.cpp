@@ -105,10 +105,13 @@ fs::path write_comparison(const std::vector<fs::path>& runs, const fs::path& fol
 }
 
 void compare(const CompareOptions& options) {
-    if (!options.measured.empty())
-        throw UserError("--measured with free-surface runs", "Measured points are spillage and production of cutters", "Leave it out");
-    if (options.still_folder) throw UserError("--static with free-surface runs", "Their page has no script to leave out", "Use --output");
-    const auto settings = postproc::compare_surface_runs({options.runs.begin(), options.runs.end()});
+    Mistakes mistakes;
+    mistakes.require(options.measured.empty(), "--measured with free-surface runs",
+                     "Measured points are spillage and production of cutters", "Leave it out");
+    mistakes.require(!options.still_folder, "--static with free-surface runs", "Their page has no script to leave out", "Use --output");
+    std::vector<postproc::SettingResults> settings;
+    mistakes.gather([&] { settings = postproc::compare_surface_runs({options.runs.begin(), options.runs.end()}); });
+    mistakes.refuse();
     std::cout << (options.json ? postproc::surface_comparison_json(settings).dump(2) + "\n" : postproc::setting_comparison_text(settings));
     if (options.output) say(fmt::format("the page: {}", postproc::write_surface_comparison(settings, *options.output).string()));
 }
