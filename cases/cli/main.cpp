@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -101,6 +102,16 @@ void refuse_empty_words(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) refuse_empty_words(*command);
 }
 
+/// What the operating system did not do with a path.
+UserError refusal(const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().string();
+    if (error.code() == std::errc::filename_too_long)
+        return {fmt::format("the path \"{}...\", {} letters long, cannot be used", path.substr(0, 40), path.size()),
+                "The name of a file or folder has at most 255 bytes, a path 4,095", "Choose a shorter name"};
+    return {fmt::format("{}: {}", path, error.code().message()), "Every path must exist or be creatable",
+            "Check the path and its permissions"};
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Predicts flow-induced spillage in the rotating cutter head of a cutter suction dredger: cutter STL in, report out.",
                  "cutterflow");
@@ -150,7 +161,7 @@ int main(int argc, char** argv) {
         std::cerr << "cutterflow: " << interrupted.what() << std::endl;
         return static_cast<int>(ExitCode::interrupted);
     } catch (const std::filesystem::filesystem_error& error) {
-        const UserError told(error.what(), "Every path must exist or be creatable", "Check the path and its permissions");
+        const UserError told = refusal(error);
         std::cerr << "cutterflow: " << told.what() << std::endl;
         return static_cast<int>(told.code());
     } catch (const std::exception& error) {

@@ -36,22 +36,26 @@ json to_json(const StageRecord& record) {
             {"finished", record.finished}};
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+    throw UserError(fmt::format("{} cannot be read: {}", file.string(), why),
+                    fmt::format("It must be a manifest ({}) as cutterflow writes it", k_schema),
+                    "Use another run directory; the state of this one is unknown");
+}
+
 }  // namespace
 
 Manifest::Manifest(std::filesystem::path file) : file_(std::move(file)) {
     if (!std::filesystem::exists(file_)) return;
     try {
         const json document = json::parse(read_file(file_));
-        if (document.at("schema") != k_schema) throw std::runtime_error("its schema is " + document.at("schema").dump());
+        if (document.at("schema") != k_schema) refuse(file_, "its schema is " + document.at("schema").dump());
         for (const auto& [stage, record] : document.at("stages").items()) records_[stage] = record_from(record);
         kind_ = document.value("kind", "");
         versions_ = document.at("versions").get<std::map<std::string, std::string>>();
-    } catch (const Failure&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw UserError(fmt::format("{} cannot be read: {}", file_.string(), error.what()),
-                        fmt::format("It must be a manifest ({}) as cutterflow writes it", k_schema),
-                        "Use another run directory; the state of this one is unknown");
+    } catch (const json::parse_error&) {
+        refuse(file_, "it is cut off or damaged");
+    } catch (const json::exception&) {
+        refuse(file_, "a value is missing or of another kind");
     }
 }
 

@@ -674,6 +674,17 @@ TEST_F(Cli, checks_points_of_measurement_against_soil) {
     for (const char* part : {"point S2 (", "point S3 (", "inside steel"}) EXPECT_EQ(outcome.text.find(part), std::string::npos) << part;
 }
 
+TEST_F(Cli, refuses_names_that_are_too_long_for_the_system) {
+    const std::string name(300, 'n');
+    study();
+    for (const auto& arguments : std::vector<std::vector<std::string>>{
+             {"run", "study.toml", "-o", name}, {"check", name}, {"compare", name, "b"}, {"new", name + ".toml"}}) {
+        const Outcome outcome = call(arguments);
+        expect_refused(outcome, 2, "The name of a file or folder has at most 255 bytes");
+        EXPECT_EQ(outcome.text.find("filesystem error"), std::string::npos) << outcome.text;
+    }
+}
+
 TEST_F(Cli, names_all_mistakes_of_a_repair_and_of_a_report_at_once) {
     write_file(folder_ / "there.stl", "mine");
     write_file(folder_ / "there.json", "mine");

@@ -270,8 +270,13 @@ TEST_F(Stages, refuses_directories_that_are_no_runs_and_paths_that_openfoam_cann
     folder_ = good / "manifest.json" / "below";
     expect_contains(refusal(), "cannot be a run directory");
     folder_ = good;
-    write_file(folder_ / "manifest.json", "{}");
-    expect_contains(refusal(), "cannot be read");
+    for (const auto& [content, why] : {std::pair{"{}", "a value is missing or of another kind"},
+                                       {"{\"schema\": \"cutterflow.mani", "it is cut off or damaged"},
+                                       {"{\"schema\": 3}", "its schema is 3"}}) {
+        write_file(folder_ / "manifest.json", content);
+        expect_contains(refusal(), why);
+        EXPECT_EQ(refusal().find("json.exception"), std::string::npos) << refusal();
+    }
 }
 
 TEST_F(Stages, one_process_at_a_time_works_in_a_run_directory_and_its_children_count) {

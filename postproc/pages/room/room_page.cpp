@@ -41,7 +41,7 @@ nlohmann::json read_room(const fs::path& run) {
 }
 
 nlohmann::json read_if_there(const fs::path& file) {
-    return fs::exists(file) ? nlohmann::json::parse(read_file(file)) : nlohmann::json::object();
+    return fs::exists(file) ? read_json_document(file, {}, "Repeat the run in another directory") : nlohmann::json::object();
 }
 
 /// cost.json of the last start of the run; empty while the run goes on.
