@@ -51,8 +51,9 @@ void add_run(CLI::App& app) {
     command->add_flag("--json", options->json, "Print results.json");
     command->callback([options] {
         const StudyKind& kind = kind_of_study(options->study);
-        if (options->resume && !std::filesystem::exists(options->folder() / names::manifest))
-            say(fmt::format("there is no run in {} to resume: it begins", options->folder().string()));
+        const std::filesystem::path folder = options->folder();
+        if (options->resume && (!std::filesystem::exists(folder) || std::filesystem::is_empty(folder)))
+            say(fmt::format("there is no run in {} to resume: it begins", folder.string()));
         kind.run(*options);
     });
 }

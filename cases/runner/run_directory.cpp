@@ -69,13 +69,14 @@ int take_lock(const fs::path& path) {
     // Without O_CLOEXEC: children keep the lock.
     const int lock = ::open((path / k_lock).c_str(), O_RDWR | O_CREAT, 0666);
     if (lock < 0)
-        throw UserError(fmt::format("cannot write to {}: {}", path.string(), std::strerror(errno)), "The folder must be writable",
-                        "Check its permissions, or choose another with -o");
+        throw UserError(fmt::format("cannot write to {}: {}", path.string(), std::strerror(errno)),
+                        "A folder is locked while it is worked with, also while it is read: it must be writable",
+                        "Make it writable, or copy it to a place that is");
     if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
     ::close(lock);
     const std::string holders = holders_of(fs::canonical(path) / k_lock);
     throw UserError(fmt::format("{} is in use by another process{}", path.string(), holders.empty() ? "" : fmt::format(" ({})", holders)),
-                    "Only one process may work in a folder", "Wait for it, end it, or choose another folder with -o");
+                    "Only one process may work in a folder", "Wait for it, end it, or use another folder");
 }
 
 }  // namespace

@@ -685,6 +685,16 @@ TEST_F(Cli, refuses_names_that_are_too_long_for_the_system) {
     }
 }
 
+TEST_F(Cli, names_all_mistakes_of_a_comparison_at_once) {
+    fs::create_directories(folder_ / "a");
+    write_file(folder_ / "excel.csv", "speed_rpm;spillage\n60;0.3\n");
+    const Outcome outcome = call({"compare", "a", "./a", "--measured", "excel.csv", "none.csv", "-o", "page", "--static", "page"});
+    expect_refused(outcome, 2, "./a is the same run as a");
+    for (const char* part : {"excel.csv:1: the header \"speed_rpm;spillage\" has no comma. Columns are separated by commas",
+                             "there is no file none.csv", "--output and --static both name page"})
+        expect_contains(outcome.text, part);
+}
+
 TEST_F(Cli, names_all_mistakes_of_a_repair_and_of_a_report_at_once) {
     write_file(folder_ / "there.stl", "mine");
     write_file(folder_ / "there.json", "mine");
@@ -694,6 +704,27 @@ TEST_F(Cli, names_all_mistakes_of_a_repair_and_of_a_report_at_once) {
     const Outcome report = call({"report", "no_run", "--adv", "no.csv"});
     expect_refused(report, 2, "no.csv");
     expect_contains(report.text, "no_run");
+}
+
+TEST_F(Cli, says_that_a_resumed_run_begins_only_where_it_does) {
+    write_file(folder_ / "used/notes.txt", "mine");
+    const Outcome outcome = call({"run", study(), "-o", "used", "--resume"});
+    expect_refused(outcome, 2, "used contains files but no manifest.json");
+    EXPECT_EQ(outcome.text.find("it begins"), std::string::npos) << outcome.text;
+}
+
+TEST_F(Cli, names_the_size_of_a_crown_that_is_wrong) {
+    const auto outcome_with = [&](const std::string& key, const std::string& value) {
+        std::string crown_file = read_file(k_crown);
+        const std::size_t at = crown_file.find("\n" + key) + 1;
+        crown_file.replace(at, crown_file.find('\n', at) - at, key + " = " + value);
+        write_file(folder_ / "crown.toml", crown_file);
+        return call({"generate-cutter", "crown.toml", "-o", "made.stl"});
+    };
+    expect_refused(outcome_with("edge_length_m", "50"), 2, "surface.edge_length_m = 50. Edges longer than hub.radius_m");
+    const Outcome flat = outcome_with("depth_m", "0.001");
+    expect_refused(flat, 2, "hub.depth_m = 0.001. The hub's rim must lie below the ring");
+    EXPECT_EQ(flat.text.find("= -"), std::string::npos) << "a bound below 0: " << flat.text;
 }
 
 TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {

@@ -279,6 +279,13 @@ TEST_F(Stages, refuses_directories_that_are_no_runs_and_paths_that_openfoam_cann
     }
 }
 
+// Also of a run that is only read, as by a replay: no option names its folder.
+TEST_F(Stages, a_folder_that_cannot_be_locked_is_told) {
+    fs::create_directories(folder_ / ".lock");  // not even root opens it for writing
+    expect_contains(refusal(), "Make it writable, or copy it to a place that is");
+    EXPECT_EQ(refusal().find("-o"), std::string::npos) << refusal();
+}
+
 TEST_F(Stages, one_process_at_a_time_works_in_a_run_directory_and_its_children_count) {
     {
         const RunDirectory directory(folder_);

@@ -59,6 +59,13 @@ CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::str
     }
     const int header = number;
     columns_ = split(line);
+    if (columns_.size() == 1 && line.find_first_of(";\t") != std::string::npos) {
+        mistakes.push_back({fmt::format("{}:{}", name_, header), fmt::format("the header \"{}\" has no comma", trimmed(line)),
+                            "Columns are separated by commas, and numbers have a decimal point",
+                            "Write the file with commas; a spreadsheet offers it where it saves as CSV"});
+        columns_.clear();
+        return;
+    }
     for (const std::string& column : required)
         if (!has(column))
             mistakes.push_back({fmt::format("{}:{}", name_, header), fmt::format("column '{}' is missing", column),

@@ -297,7 +297,7 @@ ClumpFit fit_clump(const TriangleSurface& rock, int balls) {
     const std::vector<Mistake> mistakes = clump_mistakes(fit.clump);
     if (!mistakes.empty())
         throw UserError(fmt::format("{} spheres do not make one rock: {}", balls, mistakes.front().what), "The spheres of a clump overlap",
-                        "Give another number of spheres");
+                        "Give more spheres: few of them lie apart in a long or thin rock");
     fit.of_clump = clump_properties(fit.clump);
     return fit;
 }

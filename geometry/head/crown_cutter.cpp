@@ -222,8 +222,11 @@ void require_consistent(const CrownParameters& p) {
             fmt::format("It must be smaller than ring.inner_radius_m = {}", p.ring_inner_radius), "Make the hub smaller");
     require(p.hub_cap_height <= p.hub_radius, fmt::format("hub.cap_height_m = {}", p.hub_cap_height),
             fmt::format("A spherical cap is no higher than its radius, hub.radius_m = {}", p.hub_radius), "Make the cap flatter");
-    require(p.hub_depth - p.hub_height > p.ring_height, fmt::format("hub.height_m = {}", p.hub_height),
-            fmt::format("The hub must end below the ring: less than hub.depth_m - ring.height_m = {}", p.hub_depth - p.ring_height),
+    require(p.hub_depth > p.ring_height, fmt::format("hub.depth_m = {}", p.hub_depth),
+            fmt::format("The hub's rim must lie below the ring: more than ring.height_m = {}", p.ring_height),
+            "Make the head deeper or the ring lower");
+    require(p.hub_depth <= p.ring_height || p.hub_depth - p.hub_height > p.ring_height, fmt::format("hub.height_m = {}", p.hub_height),
+            fmt::format("The hub must end below the ring: less than hub.depth_m - ring.height_m = {:.6g}", p.hub_depth - p.ring_height),
             "Make the hub's cylinder lower or the head deeper");
     const double width = edge_radius_in_ring(p) - p.shaft_radius;
     require(p.blade_depth_at_ring < width, fmt::format("blades.depth_at_ring_m = {}", p.blade_depth_at_ring),
@@ -236,7 +239,8 @@ void require_consistent(const CrownParameters& p) {
     const double thickest = std::max(p.blade_thickness, p.blade_thickness_at_hub);
     require(p.blade_thickness < p.ring_height, fmt::format("blades.thickness_m = {}", p.blade_thickness),
             fmt::format("A blade must end within the ring, ring.height_m = {}", p.ring_height),
-            "Make the blade thinner or the ring higher");
+            p.blade_thickness < p.hub_depth - p.hub_height ? "Make the blade thinner or the ring higher"
+                                                           : "Make the blade thinner: a ring that held it would reach down to the hub");
     const double pitch = 2.0 * k_pi * p.hub_radius / p.blade_count;
     require(thickest < 0.7 * pitch,
             fmt::format("blades.thickness_m = {}, blades.thickness_at_hub_m = {}", p.blade_thickness, p.blade_thickness_at_hub),
@@ -254,6 +258,9 @@ void require_consistent(const CrownParameters& p) {
                             std::min(p.blade_depth_at_ring, p.blade_depth_at_hub)),
                 "Make the picks narrower or the blades deeper");
     }
+    require(p.edge_length <= p.hub_radius, fmt::format("surface.edge_length_m = {}", p.edge_length),
+            fmt::format("Edges longer than hub.radius_m = {} leave less than a hexagon of the hub", p.hub_radius),
+            "Make the edges shorter");
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
