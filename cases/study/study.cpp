@@ -16,6 +16,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/sphere.hpp"
+#include "geometry/base/statistics/shortest_fed_time.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
@@ -717,9 +718,30 @@ void warn_of_young_flow(const ParameterValues& resolved, Rules& rules) {
 
 }  // namespace
 
+namespace {
+
+/// Of rock from a cut face: that it sinks, and that enough of it comes for an interval.
+void warn_of_cut_rock(const ParameterValues& resolved, const ParameterValues& feed, Rules& rules) {
+    if (has_size_law(feed))
+        rules.require(
+            resolved.number("soil.grain_density_kg_m3") > resolved.number("fluid.density_kg_m3"), "soil.grain_density_kg_m3",
+            fmt::format("Rock by a size_law has this density, and floats in a fluid of {} kg/m3", resolved.number("fluid.density_kg_m3")),
+            "Correct the density");
+    const double needed = shortest_fed_time(period_of(resolved));
+    const double fed = end_time_of(resolved) - feed.number("feed.start_revolution") * period_of(resolved);
+    rules.require(
+        fed >= needed, "run.max_revolutions",
+        fmt::format("Rock comes for {:.4g} s; spillage has an interval after {:.4g} s at the earliest, with the start-up", fed, needed),
+        "Raise it, or take the interval from repeats or replays");
+}
+
+}  // namespace
+
 std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
     const auto& feeds = resolved.tables("feed");
+    for (const ParameterValues& feed : feeds)
+        if (is_cut_face(feed)) warn_of_cut_rock(resolved, feed, rules);
     for (const Mistake& warning : hindrance_warnings(resolved, std::any_of(feeds.begin(), feeds.end(), is_dense))) rules.add(warning);
     warn_of_wide_kernels(resolved, rules);
     warn_of_young_flow(resolved, rules);

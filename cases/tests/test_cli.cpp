@@ -727,6 +727,14 @@ TEST_F(Cli, names_the_size_of_a_crown_that_is_wrong) {
     EXPECT_EQ(flat.text.find("= -"), std::string::npos) << "a bound below 0: " << flat.text;
 }
 
+// A micrometre of soil in a day.
+TEST_F(Cli, warns_of_a_cut_that_gives_no_rock) {
+    const Outcome outcome = call({"check", study("[swing]\nspeed_m_min = 1e-9\n[bank]\nmodel = \"wall\"\n[[feed]]\nkind = \"cut_face\"\n"
+                                                 "[[feed.class]]\ndiameter_m = 0.03\n")});
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    expect_contains(outcome.text, "warning: not one rock comes from 1 to 4 s");
+}
+
 TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
     const Outcome outcome = call({"sweep", study(), "--rpm", "20,x,-3"});
     expect_refused(outcome, 2, "x is not a number above 0");

@@ -293,6 +293,22 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
     EXPECT_TRUE(any_contains(warnings("[rock]\nyoungs_modulus_pa = 1e7\n"), share)) << share;
 }
 
+TEST(Study, warns_of_floating_soil_and_of_runs_too_short_for_an_interval) {
+    const auto warnings = [](const std::string& keys) {
+        return study_warnings(
+            resolve_study(parse(minimal("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[[feed]]\nkind = \"cut_face\"\nsize_law = "
+                                        "\"log_normal\"\nsize_d50_m = 0.02\nsize_spread = 0.5\nsize_min_m = 0.01\nsize_max_m = 0.03\n" +
+                                        keys)),
+                          k_model),
+            k_model);
+    };
+    // A revolution takes a second: 3 s of start-up and 8 batches of one after the first revolution.
+    EXPECT_TRUE(any_contains(warnings("[run]\nmax_revolutions = 11.9\n"), "Rock comes for 10.9 s; spillage has an interval after 11 s"));
+    EXPECT_FALSE(any_contains(warnings("[run]\nmax_revolutions = 12\n"), "has an interval"));
+    EXPECT_TRUE(any_contains(warnings("[soil]\ngrain_density_kg_m3 = 900\n"), "soil.grain_density_kg_m3 = 900. Rock by a size_law"));
+    EXPECT_FALSE(any_contains(warnings("[soil]\ngrain_density_kg_m3 = 1100\n"), "floats"));
+}
+
 TEST(Study, of_a_larger_head_follows_froude) {
     const double scale = 4.0;
     // Length, time and stiffness of the default at the larger head over those at the model.

@@ -115,6 +115,10 @@ PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const 
                         "about the ring radius or a flatter ladder may make it smaller, soil far from the head (bank.pick_length_m, "
                         "bank.clearance_m) makes it larger",
                         100.0 * schedule.share_without_blade));
+    if (feed.rocks.empty())
+        feed.reasons.push_back(
+            fmt::format("not one rock comes from {:.4g} to {:.4g} s: the cut gives {:.2g} kg of it until then; swing faster or run longer",
+                        request.start, request.end, mass_rate * (request.end - request.start)));
     feed.requested = feed.rocks.size();
     return feed;
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "geometry/base/statistics/sample.hpp"
+#include "geometry/base/statistics/shortest_fed_time.hpp"
 
 namespace cutterflow {
 namespace {
@@ -145,6 +146,11 @@ double longest_time_above(const std::vector<double>& time, const std::vector<dou
         longest = std::max(longest, time[i] - *since);
     }
     return longest;
+}
+
+double shortest_fed_time(double revolution) {
+    return std::max(k_revolutions_of_start * revolution, k_shortest_start) +
+           static_cast<double>(k_fewest_batches) * std::max(revolution, k_shortest_batch);
 }
 
 std::optional<Production> production_of(const ProductionSeries& series, double revolution) {
