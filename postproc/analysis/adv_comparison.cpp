@@ -227,7 +227,7 @@ AdvComparison compare_with_measurement(const fs::path& directory, const fs::path
     std::vector<AdvPoint> points;
     std::optional<RunData> read;
     inputs.gather([&] { points = read_adv_points(points_file); });
-    inputs.gather([&] { read = read_run(directory); });
+    inputs.gather([&] { read.emplace(read_run(directory)); });
     inputs.refuse();
     const RunData& run = *read;
     const Sampled sampled = read_sampled(directory);
