@@ -149,7 +149,8 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     const double flow_revolutions = prediction.first_release / study.period();
     const double rock_revolutions = prediction.revolutions - flow_revolutions;
     const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
-    const double development = study.development_end() / study.period();
+    prediction.development_end = study.development_end();
+    const double development = prediction.development_end / study.period();
     const double full_flow_revolutions = flow_revolutions - development + development / k_development_step_ratio;  // by their steps
     prediction.steps = full_flow_revolutions * flow_steps + rock_revolutions * rock_steps;
     const double mouth = study.suction.mouth_radius;
@@ -232,6 +233,7 @@ nlohmann::json to_json(const Prediction& p) {
             {"core_hours_per_revolution", p.core_hours_per_revolution},
             {"core_hours_per_revolution_with_rock", p.core_hours_per_revolution_with_rock},
             {"first_release_s", p.first_release},
+            {"development_end_s", p.development_end},
             {"revolutions", p.revolutions},
             {"rocks", p.rocks},
             {"tip_speed_m_s", p.tip_speed},

@@ -32,6 +32,7 @@ struct Prediction {
     double mesh_disk = 0.0;                            ///< written by the stages before the run [bytes]
     double run_disk = 0.0;                             ///< written by the run: fields, checkpoints kept, tables [bytes]
     double first_release = 0.0;                        ///< of rock [s]; the run's end without rock
+    double development_end = 0.0;                      ///< of longer steps [s]
     double core_hours_per_revolution = 0.0;            ///< before rock is released
     double core_hours_per_revolution_with_rock = 0.0;  ///< from then on
     double revolutions = 0.0;

@@ -16,6 +16,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/sphere.hpp"
+#include "geometry/base/statistics/developed_flow.hpp"
 #include "geometry/base/statistics/shortest_fed_time.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/physics/catalogue.hpp"
@@ -715,10 +716,6 @@ void warn_of_young_flow(const ParameterValues& resolved, Rules& rules) {
                               k_developed_revolutions),
                   fmt::format("Set run.flow_revolutions = {:g} or more", k_developed_revolutions));
 }
-
-}  // namespace
-
-namespace {
 
 /// Of rock from a cut face: that it sinks, and that enough of it comes for an interval.
 void warn_of_cut_rock(const ParameterValues& resolved, const ParameterValues& feed, Rules& rules) {

@@ -16,9 +16,6 @@
 
 namespace cutterflow::cases {
 
-/// Revolutions in which a flow forgets the frozen rotor from which it starts (docs/design/013-replays.md).
-constexpr double k_developed_revolutions = 6.0;
-
 /// Stages of a run that keys of the study belong to (Parameter::stage). A stage depends on the ones before it as a whole.
 inline constexpr const char* k_geometry_stage = "geometry";
 inline constexpr const char* k_mesh_stage = "mesh";

@@ -10,6 +10,7 @@
 #include "cases/study/study.hpp"
 #include "cases/study/study_section.hpp"
 #include "geometry/base/parameters/parameter_row.hpp"
+#include "geometry/base/statistics/developed_flow.hpp"
 #include "meshing/cutter/mesh_plan.hpp"
 
 namespace cutterflow::cases {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/runner/machine.hpp"
+#include "cases/scenes/cutter/case_inputs.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
@@ -290,10 +291,12 @@ TEST_F(Cli, check_predicts_the_core_time_of_steps_on_one_and_two_ranks) {
         EXPECT_NEAR(per_step * p.at("core_hours_per_revolution_with_rock").get<double>() * p.at("time_step_with_rock_s").get<double>() /
                         core_s.second,
                     1.0, 0.15);
-        const double first = p.at("first_release_s").get<double>();
-        EXPECT_NEAR(first * p.at("core_hours_per_revolution").get<double>() +
-                        (p.at("revolutions").get<double>() - first) * p.at("core_hours_per_revolution_with_rock").get<double>(),
-                    p.at("core_hours").get<double>(), 1e-9);
+        const double first = p.at("first_release_s").get<double>(), development = p.at("development_end_s").get<double>();
+        EXPECT_GT(development, 0.0);
+        EXPECT_NEAR(
+            (first - development * (1.0 - 1.0 / cases::k_development_step_ratio)) * p.at("core_hours_per_revolution").get<double>() +
+                (p.at("revolutions").get<double>() - first) * p.at("core_hours_per_revolution_with_rock").get<double>(),
+            p.at("core_hours").get<double>(), 1e-9);
     }
 }
 

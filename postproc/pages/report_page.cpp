@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/statistics/developed_flow.hpp"
 #include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/text.hpp"
@@ -301,12 +302,20 @@ std::string cost_text(const Cost& cost) {
     return text;
 }
 
-std::string trust_list(const Results& results, bool fed_by_cutting) {
+/// \param revolutions  of the flow before the first rock
+std::string age_of_flow(double revolutions) {
+    const bool is_young = revolutions < k_developed_revolutions * (1.0 - 1e-6);  // but for rounding
+    return fmt::format("rock comes at revolution {}; a flow forgets the frozen rotor from which it starts in some {:g} of them{}.",
+                       number(revolutions, "", 3), k_developed_revolutions,
+                       is_young ? ": in this one rock may go another way than at work" : "");
+}
+
+std::string trust_list(const Results& results, const OperatingPoint& point) {
     std::string items;
     const auto item = [&](const char* label, const std::string& text) {
         items += fmt::format("<li><b>{}</b><span>{}</span></li>", label, text);
     };
-    if (fed_by_cutting)
+    if (point.fed_by_cutting)
         item("Statistical error",
              "the interval is of one run's time: it holds neither another placement of the rock nor the mesh. Three runs with other seeds "
              "(cutterflow sweep --repeats) give that of placement.");
@@ -315,6 +324,7 @@ std::string trust_list(const Results& results, bool fed_by_cutting) {
              "no replicate: one batch, one placement. An interval needs three or more repeats that vary placement and "
              "release angle; the bounds above are not an interval but the range of outcomes of the undecided rock.");
     }
+    if (results.spillage) item("Age of the flow", age_of_flow(results.spillage->feed_start / point.revolution_s()));
     item("Mesh error", "not in this report: compare with the same study on a finer mesh preset before using a number as an absolute one.");
     item("Balances", conservation_text(results.conservation));
     item("Cost", cost_text(results.cost));
@@ -333,8 +343,7 @@ std::string answers(const Results& results, const RunData& run) {
 
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
     return answers(results, run) + plots_at(figures, Place::answer) +
-           fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) +
-           trust_list(results, run.operating_point.fed_by_cutting);
+           fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) + trust_list(results, run.operating_point);
 }
 
 std::string head_figure(const Results& results, const RunData& run, const PageFigures& figures) {
