@@ -671,9 +671,9 @@ TEST_F(Cli, checks_points_of_measurement_against_water_and_steel) {
 TEST_F(Cli, checks_points_of_measurement_against_soil) {
     const std::string header = call({"report", "--adv-template"}).text,
                       keys = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[report]\nadv_points = \"points.csv\"\n";
-    write_file(folder_ / "points.csv", header + "S1,600,-90,-200,still,,,\nS2,600,-90,-200,rotating,,,\nS3,600,90,-200,still,,,\n");
+    write_file(folder_ / "points.csv", header + "S1,600,-90,-400,still,,,\nS2,600,-90,-400,rotating,,,\nS3,600,90,-400,still,,,\n");
     const Outcome outcome = call({"check", study(keys)});
-    expect_refused(outcome, 2, "point S1 (r = 0.6 m, theta = -90 deg, z = -0.2 m) lies inside soil");
+    expect_refused(outcome, 2, "point S1 (r = 0.6 m, theta = -90 deg, z = -0.4 m) lies inside soil");
     for (const char* part : {"point S2 (", "point S3 (", "inside steel"}) EXPECT_EQ(outcome.text.find(part), std::string::npos) << part;
 }
 
@@ -735,7 +735,7 @@ TEST_F(Cli, warns_of_a_cut_that_gives_no_rock) {
     const Outcome outcome = call({"check", study("[swing]\nspeed_m_min = 1e-9\n[bank]\nmodel = \"wall\"\n[[feed]]\nkind = \"cut_face\"\n"
                                                  "[[feed.class]]\ndiameter_m = 0.03\n")});
     EXPECT_EQ(outcome.code, 0) << outcome.text;
-    expect_contains(outcome.text, "warning: not one rock comes from 1 to 4 s");
+    expect_contains(outcome.text, "warning: not one rock comes from 6 to 9 s");
 }
 
 TEST_F(Cli, names_the_value_of_a_sweep_that_is_no_number) {
