@@ -121,7 +121,7 @@ TEST_F(StudyFile, keys_that_a_feed_does_not_use_are_refused) {
                     bank);
     EXPECT_EQ(of_cut_face.size(), 6u);
     EXPECT_TRUE(any_contains(of_cut_face,
-                             "study.toml:11: feed.azimuth_width_deg = 90. It places a batch; rock from a cut face comes in where the "
+                             "study.toml:12: feed.azimuth_width_deg = 90. It places a batch; rock from a cut face comes in where the "
                              "blades cut. Remove it, or set feed.kind = \"batch\""));
     EXPECT_TRUE(any_contains(of_cut_face, "feed.size_d63_m = 0.02. It belongs to a law of sizes, and feed.size_law = \"classes\""));
     const std::vector<Mistake> of_batch =
@@ -162,10 +162,10 @@ TEST_F(StudyFile, sizes_of_a_cut_face_lie_within_their_bounds) {
 TEST_F(StudyFile, a_wrong_value_does_not_hide_rules_between_others) {
     const std::vector<Mistake> mistakes =
         mistakes_of(with_feed("count = 0\nduration_s = 2\ndisintegration = 0.5\n", "diameter_m = 0.02\ndensity_kg_m3 = 900\n") +
-                    "[[feed]]\nstart_revolution = 4\n[[feed.class]]\ndiameter_m = -1\n[bank]\nmodel = \"wall\"\nstep_m = 0.1\n[swing]\n"
+                    "[[feed]]\nstart_revolution = 9\n[[feed.class]]\ndiameter_m = -1\n[bank]\nmodel = \"wall\"\nstep_m = 0.1\n[swing]\n"
                     "speed_m_min = -6\n");
     for (const char* part : {"feed.count = 0 is too low", "A batch is released at once", "It belongs to rock from a cut face",
-                             "denser than the fluid", "feed 2 has neither count nor mass_kg", "released before run.max_revolutions = 4",
+                             "denser than the fluid", "feed 2 has neither count nor mass_kg", "released before run.max_revolutions = 9",
                              "feed.class.diameter_m = -1", "swing.speed_m_min = -6"})
         EXPECT_TRUE(any_contains(mistakes, part)) << part;
     EXPECT_EQ(mistakes.size(), 8u);
@@ -303,8 +303,9 @@ TEST(Study, warns_of_floating_soil_and_of_runs_too_short_for_an_interval) {
             k_model);
     };
     // A revolution takes a second: 3 s of start-up and 8 batches of one after the first revolution.
-    EXPECT_TRUE(any_contains(warnings("[run]\nmax_revolutions = 11.9\n"), "Rock comes for 10.9 s; spillage has an interval after 11 s"));
-    EXPECT_FALSE(any_contains(warnings("[run]\nmax_revolutions = 12\n"), "has an interval"));
+    EXPECT_TRUE(any_contains(warnings("[run]\nflow_revolutions = 1\nmax_revolutions = 11.9\n"),
+                             "Rock comes for 10.9 s; spillage has an interval after 11 s"));
+    EXPECT_FALSE(any_contains(warnings("[run]\nflow_revolutions = 1\nmax_revolutions = 12\n"), "has an interval"));
     EXPECT_TRUE(any_contains(warnings("[soil]\ngrain_density_kg_m3 = 900\n"), "soil.grain_density_kg_m3 = 900. Rock by a size_law"));
     EXPECT_FALSE(any_contains(warnings("[soil]\ngrain_density_kg_m3 = 1100\n"), "floats"));
 }

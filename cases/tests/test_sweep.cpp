@@ -139,14 +139,17 @@ TEST_F(Sweep, refuses_a_point_whose_bank_the_head_cannot_cut) {
     }
 }
 
-TEST_F(Sweep, refuses_a_point_whose_feed_does_not_use_the_key) {
+TEST_F(Sweep, refuses_a_point_whose_feed_does_not_use_a_key) {
+    write_file(folder_ / "study.toml",
+               "name = \"head\"\n[cutter]\nfile = \"a.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"
+               "[[feed]]\nkind = \"batch\"\ncount = 20\nazimuth_width_deg = 30\n[[feed.class]]\ndiameter_m = 0.02\n");
     SweepAxes axes;
-    axes.keys = key_axes(study_table(), {"feed.velocity_share=0,1"}, "params");
+    axes.keys = key_axes(study_table(), {"feed.kind=batch,cut_face"}, "params");
     try {
         points(axes);
         FAIL() << "accepted";
     } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("feed.velocity_share = 1. It belongs to rock from a cut face"));
+        EXPECT_THAT(error.what(), HasSubstr("study_kind_cut_face: feed.azimuth_width_deg = 30. It places a batch"));
     }
 }
 
