@@ -94,8 +94,9 @@ std::string limits_text(const Results& results) {
     if (!results.dredging) return "";
     const std::optional<WaysOut>& ways = results.dredging->ways_out;
     std::string sentence = "What limits: ";
-    if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts. ";
-    if (!ways) return results.fed->is_full ? sentence : "What limits: nothing was spilled.";
+    if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts";
+    if (!ways) return results.fed->is_full ? sentence + "." : "What limits: nothing was spilled.";
+    if (results.fed->is_full) sentence += "; ";
     sentence += fmt::format(
         "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
         "flows inwards (it fell through or was thrown out)",

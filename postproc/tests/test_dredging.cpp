@@ -70,6 +70,9 @@ TEST(Dredging, has_the_rates_of_the_swing) {
     EXPECT_GE(work.ways_out->against_inflow, 3.0 / 11.0 - 1e-9);
     EXPECT_NEAR(*work.ways_out->by_cutting, 0.0, 1e-12);
     EXPECT_NE(limits_text(results).find("where the water flows outwards (outflow)"), std::string::npos);
+    Results full = results;
+    full.fed->is_full = true;
+    EXPECT_NE(limits_text(full).find("it cannot take what it cuts; of the rock that left"), std::string::npos) << limits_text(full);
 }
 
 TEST(Dredging, tells_no_layer_and_no_total_while_the_head_fills) {
