@@ -36,19 +36,14 @@ std::vector<Unused> unused_by(const ParameterValues& feed) {
                  "It belongs to rock from a cut face, and feed.kind = \"batch\"",
                  "Remove it, or set feed.kind = \"cut_face\""}};
     std::vector<Unused> unused = unused_by_law(feed.text("feed.size_law"));
-    unused.push_back(
-        {wedge_keys(), "It places a batch; rock from a cut face comes in where the blades cut", "Remove it, or set feed.kind = \"batch\""});
+    unused.push_back({{"feed.spacing_diameters", "feed.azimuth_centre_deg", "feed.azimuth_width_deg", "feed.radius_from_m",
+                       "feed.radius_to_m", "feed.depth_from_m", "feed.depth_to_m"},
+                      "It places a batch; rock from a cut face comes in where the blades cut",
+                      "Remove it, or set feed.kind = \"batch\""});
     return unused;
 }
 
 }  // namespace
-
-const std::vector<const char*>& wedge_keys() {
-    static const std::vector<const char*> keys = {"feed.spacing_diameters", "feed.azimuth_centre_deg", "feed.azimuth_width_deg",
-                                                  "feed.radius_from_m",     "feed.radius_to_m",        "feed.depth_from_m",
-                                                  "feed.depth_to_m"};
-    return keys;
-}
 
 std::vector<std::pair<std::string, Mistake>> keys_in_vain(const ParameterValues& feed, const ParameterTable& table) {
     std::vector<std::pair<std::string, Mistake>> keys;

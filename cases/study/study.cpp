@@ -17,7 +17,7 @@
 #include "geometry/base/parameters/parameter_reading.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/base/statistics/developed_flow.hpp"
-#include "geometry/base/statistics/shortest_fed_time.hpp"
+#include "geometry/base/statistics/production.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
@@ -45,13 +45,19 @@ void fill(ParameterValues& values, const char* key, double derived) {
     if (!values.gives(key)) values.set(key, derived);
 }
 
+/// Does what needs values some of which may have been refused, up to the first that is missing.
+template <class Act>
+void where_known(Act act) {
+    try {
+        act();
+    } catch (const NoValue&) {
+    }
+}
+
 /// As fill, of what follows from other keys: none where one of them was refused.
 template <class Derive>
 void fill_from(ParameterValues& values, const char* key, Derive derive) {
-    try {
-        fill(values, key, derive());
-    } catch (const NoValue&) {
-    }
+    where_known([&] { fill(values, key, derive()); });
 }
 
 /// Young's modulus [Pa] with which the densest rock at tip speed overlaps steel of the same modulus by the accepted share of its radius;
@@ -221,14 +227,6 @@ public:
     }
     void add(const std::string& what, const std::string& rule, const std::string& remedy) { mistakes_.add(what, rule, remedy); }
     void add(const Mistake& mistake) { mistakes_.add(mistake); }
-    /// Rules of values some of which may have been refused: from one that needs such a value on they say nothing.
-    template <class Check>
-    void where_known(Check check) {
-        try {
-            check();
-        } catch (const NoValue&) {
-        }
-    }
     std::vector<Mistake> take() { return mistakes_.take(); }
 
 private:
@@ -314,9 +312,9 @@ void check_duration(const ParameterValues& study, const ParameterValues& feed, R
 }
 
 void check_cut_face(const ParameterValues& study, const ParameterValues& feed, int index, Rules& rules) {
-    rules.where_known([&] { check_cut(study, feed, rules); });
-    rules.where_known([&] { check_sizes(feed, index, rules); });
-    rules.where_known([&] { check_duration(study, feed, rules); });
+    where_known([&] { check_cut(study, feed, rules); });
+    where_known([&] { check_sizes(feed, index, rules); });
+    where_known([&] { check_duration(study, feed, rules); });
     if (study.tables("feed").size() > 1)
         rules.add(fmt::format("feed {} is a cut face among {} feeds", index, study.tables("feed").size()),
                   "A study has batches or one cut face: rates and batches are not told apart in the results", "Remove the other feeds");
@@ -348,19 +346,19 @@ void check_feed_quantities(const ParameterValues& study, Rules& rules) {
     int index = 0;
     for (const ParameterValues& feed : study.tables("feed")) {
         ++index;
-        rules.where_known([&] { check_kind(study, feed, index, rules); });
-        rules.where_known([&] {
+        where_known([&] { check_kind(study, feed, index, rules); });
+        where_known([&] {
             for (const auto& [key, mistake] : keys_in_vain(feed, study_table())) rules.add(mistake);
         });
         for (const ParameterValues& rock : feed.tables("feed.class"))
-            rules.where_known([&] {
+            where_known([&] {
                 rules.require(rock.number("feed.class.density_kg_m3") > study.number("fluid.density_kg_m3"), rock,
                               "feed.class.density_kg_m3",
                               fmt::format("Rock must be denser than the fluid ({} kg/m3)", study.number("fluid.density_kg_m3")),
                               "Correct the density");
             });
         if (feed.has("feed.start_revolution"))
-            rules.where_known([&] {
+            where_known([&] {
                 rules.require(feed.number("feed.start_revolution") < study.number("run.max_revolutions"), feed, "feed.start_revolution",
                               fmt::format("Rock must be released before run.max_revolutions = {}", study.number("run.max_revolutions")),
                               "Release it earlier or run longer");
@@ -562,10 +560,10 @@ void vary_release(ParameterValues& values, std::int64_t seeds, double revolution
 
 std::vector<Mistake> check_file_rules(const ParameterValues& study, const std::filesystem::path& file) {
     Rules rules(study, file.string());
-    rules.where_known([&] { check_bank_keys(study, rules); });
+    where_known([&] { check_bank_keys(study, rules); });
     check_feed_quantities(study, rules);
     if (!study.tables("feed").empty())
-        rules.where_known([&] {
+        where_known([&] {
             rules.require(study.number("run.flow_revolutions") < study.number("run.max_revolutions"), "run.flow_revolutions",
                           fmt::format("It must be less than run.max_revolutions = {}, or no rock is ever released",
                                       study.number("run.max_revolutions")),
@@ -659,24 +657,24 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
 
 std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize& head) {
     Rules rules(resolved);
-    rules.where_known([&] { check_suction(resolved, head, rules); });
-    rules.where_known([&] { check_discharge(resolved, rules); });
-    rules.where_known([&] { check_tank(resolved, head, rules); });
+    where_known([&] { check_suction(resolved, head, rules); });
+    where_known([&] { check_discharge(resolved, rules); });
+    where_known([&] { check_tank(resolved, head, rules); });
     for (const ParameterValues& feed : resolved.tables("feed")) {
-        rules.where_known([&] { check_feed_region(feed, head, rules); });
-        rules.where_known([&] { check_rocks(feed, head, rules); });
+        where_known([&] { check_feed_region(feed, head, rules); });
+        where_known([&] { check_rocks(feed, head, rules); });
     }
-    rules.where_known([&] { check_report(resolved, head, rules); });
-    rules.where_known([&] { check_intervals(resolved, rules); });
-    rules.where_known([&] { check_recording(resolved, rules); });
-    rules.where_known([&] {
+    where_known([&] { check_report(resolved, head, rules); });
+    where_known([&] { check_intervals(resolved, rules); });
+    where_known([&] { check_recording(resolved, rules); });
+    where_known([&] {
         for (const Mistake& mistake : closure_mistakes(resolved)) rules.add(mistake);
     });
-    rules.where_known([&] {
+    where_known([&] {
         rules.require(resolved.text("kernel.map") != coupling::k_cluster_map, "kernel.map",
                       "Clusters of cells do not turn with the rotor, and reach through its blades", "Set kernel.map = \"gaussian\"");
     });
-    rules.where_known([&] {
+    where_known([&] {
         rules.require(resolved.number("kernel.cluster_size_m") == 0.0, "kernel.cluster_size_m",
                       "Only map cluster has cubes, and a cutter's mesh turns", "Remove it");
     });

@@ -39,6 +39,18 @@ protected:
 
     std::vector<SweepPoint> points(SweepAxes axes) const { return sweep_points(folder_ / "study.toml", axes, folder_ / "sweep"); }
 
+    /// A sweep over one key, `set` as on the command line, is refused with a message that holds `part`.
+    void expect_refused(const std::string& set, const std::string& part) const {
+        SweepAxes axes;
+        axes.keys = key_axes(study_table(), {set}, "params");
+        try {
+            points(axes);
+            FAIL() << "accepted";
+        } catch (const UserError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(part));
+        }
+    }
+
     /// A stand-in for cutterflow: `script` is given the command, the study, "-o" and the run directory as $1, $2, $3, $4.
     SweepSettings settings(const std::string& script, bool resume = false, int jobs = 2) const {
         write_file(folder_ / "program", "#!/bin/sh\n" + script + "\n");
@@ -129,28 +141,14 @@ TEST_F(Sweep, refuses_a_point_whose_bank_the_head_cannot_cut) {
     const std::string study = read_file(folder_ / "study.toml");
     write_file(folder_ / "study.toml", "name = \"head\"\n" + study.substr(study.find("[cutter]")) +
                                            "[swing]\ndirection = \"over_cut\"\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n");
-    SweepAxes axes;
-    axes.keys = key_axes(study_table(), {"bank.cut_height_m=45"}, "params");
-    try {
-        points(axes);
-        FAIL() << "accepted";
-    } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("study_cut_height_m_45: bank.cut_height_m = 45. The head with picks"));
-    }
+    expect_refused("bank.cut_height_m=45", "study_cut_height_m_45: bank.cut_height_m = 45. The head with picks");
 }
 
 TEST_F(Sweep, refuses_a_point_whose_feed_does_not_use_a_key) {
     write_file(folder_ / "study.toml",
                "name = \"head\"\n[cutter]\nfile = \"a.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"
                "[[feed]]\nkind = \"batch\"\ncount = 20\nazimuth_width_deg = 30\n[[feed.class]]\ndiameter_m = 0.02\n");
-    SweepAxes axes;
-    axes.keys = key_axes(study_table(), {"feed.kind=batch,cut_face"}, "params");
-    try {
-        points(axes);
-        FAIL() << "accepted";
-    } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("study_kind_cut_face: feed.azimuth_width_deg = 30. It places a batch"));
-    }
+    expect_refused("feed.kind=batch,cut_face", "study_kind_cut_face: feed.azimuth_width_deg = 30. It places a batch");
 }
 
 TEST_F(Sweep, ends_with_wrong_input_when_that_is_all_that_failed) {

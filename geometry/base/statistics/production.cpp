@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "geometry/base/statistics/sample.hpp"
-#include "geometry/base/statistics/shortest_fed_time.hpp"
 
 namespace cutterflow {
 namespace {

@@ -55,4 +55,8 @@ struct Production {
 /// \param revolution  [s] \return nothing when nothing was fed or no whole revolution is left
 std::optional<Production> production_of(const ProductionSeries& series, double revolution);
 
+/// Time [s] that a head must be fed before the share that it delivers has an interval: the shortest start-up and the fewest batches of
+/// production_of. \param revolution  [s]
+double shortest_fed_time(double revolution);
+
 }  // namespace cutterflow
