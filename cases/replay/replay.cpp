@@ -361,11 +361,14 @@ ParameterValues study_as_recorded(ParameterValues study) {
 }
 
 void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::path& folder) {
-    if (std::abs(estimate.corrections.mean) <= postproc::k_largest_correction) return;
+    const double largest = postproc::largest_correction(estimate);
+    if (std::abs(estimate.corrections.mean) <= largest) return;
     throw CheckFailure({folder.string(),
-                        fmt::format("coupled runs spill {:+.1f} points against replays", 100.0 * estimate.corrections.mean),
-                        fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.0f} points",
-                                    100.0 * postproc::k_largest_correction),
+                        fmt::format("coupled runs spill {:+.1f} points against replays, which spill {:.1f} %",
+                                    100.0 * estimate.corrections.mean, 100.0 * estimate.replays.mean),
+                        fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.2g} points: 5, and a quarter "
+                                    "of the share that is delivered or spilled, whichever is least",
+                                    100.0 * largest),
                         "Use coupled runs (cutterflow sweep --repeats), or put in less rock"});
 }
 

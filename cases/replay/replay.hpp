@@ -60,7 +60,7 @@ ParameterValues study_as_recorded(ParameterValues study);
 /// \throws Interrupted  when the user stops it; finished replays are kept
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);
 
-/// \throws CheckFailure  when rock changes the flow more than replays may leave out, by the coupled runs among them
+/// \throws CheckFailure  when the coupled runs differ from their replays by more than postproc::largest_correction
 void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::filesystem::path& folder);
 
 /// One setting of a sweep and its replays.

@@ -97,20 +97,26 @@ TEST(Replays, of_a_run_from_before_unused_keys_were_refused_leave_them_out) {
 
 // Pairs are of a coupled run and the replay of its placement.
 TEST(Replays, are_refused_where_rock_changes_the_flow) {
-    const auto with_correction = [](double correction) {
-        return postproc::estimate_spillage({0.5, 0.52}, {{0.5 + correction, 0.5}, {0.52 + correction, 0.52}});
+    const auto estimate = [](double spilled, double correction) {
+        return postproc::estimate_spillage({spilled - 0.001, spilled + 0.001}, {{spilled + correction, spilled}, {0.6 + correction, 0.6}});
     };
     EXPECT_NO_THROW(require_weak_coupling(postproc::estimate_spillage({0.5, 0.52}, {}), "replays"));
-    EXPECT_NO_THROW(require_weak_coupling(with_correction(0.049), "replays"));
-    for (const double correction : {0.07, -0.07}) {
+    EXPECT_NO_THROW(require_weak_coupling(estimate(0.5, 0.049), "replays"));
+    struct Case {
+        double spilled, correction;
+        const char *says, *rule;
+    };
+    for (const Case& strong :
+         {Case{0.5, 0.07, "+7.0 points", "at most 5 points"}, Case{0.5, -0.07, "-7.0 points", "at most 5 points"},
+          Case{0.98, -0.02, "-2.0 points", "at most 0.5 points"}, Case{0.02, 0.02, "+2.0 points", "at most 0.5 points"}}) {
         try {
-            require_weak_coupling(with_correction(correction), "replays");
-            FAIL() << correction;
+            require_weak_coupling(estimate(strong.spilled, strong.correction), "replays");
+            FAIL() << strong.spilled << " " << strong.correction;
         } catch (const CheckFailure& failure) {
-            EXPECT_THAT(failure.what(), AllOf(HasSubstr(fmt::format("{:+.1f} points", 100.0 * correction)), HasSubstr("at most 5 points"),
-                                              HasSubstr("coupled")));
+            EXPECT_THAT(failure.what(), AllOf(HasSubstr(strong.says), HasSubstr(strong.rule), HasSubstr("coupled")));
         }
     }
+    EXPECT_NO_THROW(require_weak_coupling(estimate(0.98, -0.004), "replays"));
 }
 
 }  // namespace

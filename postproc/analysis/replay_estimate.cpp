@@ -11,6 +11,9 @@
 namespace cutterflow::postproc {
 namespace {
 
+constexpr double k_largest_correction = 0.05;
+constexpr double k_correction_per_share = 0.25;
+
 std::optional<double> interval_of(const Sample& sample) {
     if (sample.count < 2) return std::nullopt;
     return half_interval(sample);
@@ -103,6 +106,11 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
     if (estimate.replay_interval && estimate.correction_interval)
         estimate.interval = half_interval_of_two(estimate.replays, estimate.corrections);
     return estimate;
+}
+
+double largest_correction(const ReplayEstimate& estimate) {
+    const double spilled = std::clamp(estimate.replays.mean, 0.0, 1.0);
+    return std::min(k_largest_correction, k_correction_per_share * std::min(spilled, 1.0 - spilled));
 }
 
 std::string replay_text(const ReplayEstimate& estimate, const std::optional<FedReplays>& fed) {

@@ -56,8 +56,9 @@ struct ReplayEstimate {
 /// \pre a replay; without pairs `spillage` is the replays' mean
 ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::vector<ReplayPair>& pairs);
 
-/// Largest mean correction with which replays may stand for coupled runs [-].
-inline constexpr double k_largest_correction = 0.05;
+/// Largest mean correction with which replays may stand for coupled runs [-]: 0.05, and where a head delivers or spills little a quarter of
+/// that.
+double largest_correction(const ReplayEstimate& estimate);
 
 /// Lines for the user. \param fed  of replays of a head that is fed all the time
 std::string replay_text(const ReplayEstimate& estimate, const std::optional<FedReplays>& fed);
