@@ -36,6 +36,7 @@ ReplayAnswer replay_answer(const std::vector<fs::path>& runs, const fs::path& st
         cases::ReplayResults results =
             cases::run_replays(settings, [](const std::string& text) { std::cerr << "  " << text << std::endl; });
         std::string text = postproc::replay_text(results.estimate, results.fed);
+        if (!results.exits.empty()) text += postproc::exits_text(postproc::mean_exits(results.exits));
         try {
             cases::require_weak_coupling(results.estimate, settings.folder);
         } catch (const CheckFailure&) {

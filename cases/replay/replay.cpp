@@ -23,9 +23,11 @@
 #include "geometry/base/process/side_by_side.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/head/axial_bins.hpp"
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "meshing/dictionary/foam_command.hpp"
+#include "postproc/run/run_reader.hpp"
 #include "solver/ports/recording_summary.hpp"
 
 namespace cutterflow::cases {
@@ -178,6 +180,13 @@ postproc::RockAnswer answer_of(const fs::path& folder, const RecordedRun& run) {
     return postproc::rock_answer(folder, study.is_fed_by_cutting(), study.period(), run.head.size.blades);
 }
 
+std::optional<postproc::Exits> exits_of(const fs::path& folder, const RecordedRun& run) {
+    const Study study = make_study(run.values, run.folder);
+    const auto bins = geometry::axial_bins(run.head.with_backplate(study.suction.gap), study.report.bin_width);
+    return postproc::exits_of(
+        postproc::evaluate_spillage(postproc::read_fates(folder), postproc::read_events(folder), bins, study.period(), true));
+}
+
 void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
     const postproc::RockAnswer answer = answer_of(folder, run);
     if (!answer.spillage)
@@ -187,6 +196,7 @@ void evaluate(const fs::path& folder, const RecordedRun& run, Replay& replay) {
     replay.spillage = *answer.spillage;
     replay.undecided = answer.undecided;
     replay.fed = answer.fed;
+    replay.exits = exits_of(folder, run);
     replay.core_s =
         read_json_document(cost_file(folder), {{"core_s", JsonKind::number, true}}, "Start again in another folder").at("core_s");
 }
@@ -318,6 +328,7 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
         csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
                            replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s, fed_columns(replay.fed));
     write_file(folder / "replays.csv", csv);
+    if (!results.exits.empty()) write_file(folder / "exits.csv", postproc::exits_csv(results.exits));
     const postproc::ReplayEstimate& estimate = results.estimate;
     const nlohmann::json json{{"schema", "cutterflow.replays/1"},
                               {"spillage", estimate.spillage},
@@ -415,6 +426,7 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
         if (replay.is_pair) continue;
         spillage.push_back(replay.spillage);
         if (replay.fed) fed.push_back(*replay.fed);
+        if (replay.exits) results.exits.push_back(*replay.exits);
     }
     for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) {
         const postproc::RockAnswer coupled = answer_of(runs[r].folder, runs[r]);

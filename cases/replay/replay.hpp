@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/base/parameters/parameter.hpp"
+#include "postproc/analysis/exits.hpp"
 #include "postproc/analysis/replay_estimate.hpp"
 
 namespace cutterflow::cases {
@@ -32,6 +33,7 @@ struct Replay {
     double undecided = 0.0;  ///< share of the placed mass
     double core_s = 0.0;
     std::optional<postproc::FedHead> fed;  ///< of a head that is fed all the time
+    std::optional<postproc::Exits> exits;  ///< where rock is spilled
 };
 
 struct ReplayResults {
@@ -39,6 +41,7 @@ struct ReplayResults {
     std::vector<postproc::ReplayPair> pairs;  ///< of the runs whose spillage is known
     postproc::ReplayEstimate estimate;
     std::optional<postproc::FedReplays> fed;  ///< of the replays of a head that is fed all the time, without pairs
+    std::vector<postproc::Exits> exits;       ///< of the replays in which rock is spilled, without pairs
 };
 
 /// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,
@@ -54,7 +57,7 @@ std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std:
 /// does not use were allowed.
 ParameterValues study_as_recorded(ParameterValues study);
 
-/// Runs every replay and writes replays.csv and replays.json into the folder.
+/// Runs every replay and writes replays.csv, replays.json and, where rock is spilled, exits.csv into the folder.
 /// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, and as RunDirectory
 /// \throws ToolError    when a replay fails
 /// \throws Interrupted  when the user stops it; finished replays are kept

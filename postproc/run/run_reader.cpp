@@ -304,7 +304,7 @@ std::optional<RockTables> read_rock(const fs::path& directory) {
     rock.fates = read_fates(directory);
     if (rock.fates.empty()) return std::nullopt;
     rock.ledger = read_ledger(directory);
-    rock.events = read_joined_table(directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
+    rock.events = read_events(directory);
     rock.final_state = read_newest_table(directory, "rock", "final.csv", final_rules());
     rock.rejected_in_run = read_joined_table(directory, "rock", "rejected.csv", {{"time_s", "id"}, {"reason"}, {}, k_rerun}, {"id"}).rows();
     return rock;
@@ -346,6 +346,10 @@ std::string cutter_of(const json& manifest) {
 
 Table read_fates(const fs::path& run_directory) {
     return read_joined_table(run_directory, "rock", "fates.csv", fate_rules());
+}
+
+Table read_events(const fs::path& run_directory) {
+    return read_joined_table(run_directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
 }
 
 Table read_ledger(const fs::path& run_directory) {

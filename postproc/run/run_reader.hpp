@@ -99,6 +99,9 @@ struct RunData {
 /// fates.csv of a run or a replay, joined over its restarts; empty when no rock was put in. \throws UserError  as read_table
 Table read_fates(const std::filesystem::path& run_directory);
 
+/// events.csv of a run or a replay, likewise.
+Table read_events(const std::filesystem::path& run_directory);
+
 /// ledger.csv of a run or a replay, likewise.
 Table read_ledger(const std::filesystem::path& run_directory);
 

@@ -1,0 +1,71 @@
+// Where spilled rock left the head.
+#include "postproc/analysis/exits.hpp"
+
+#include <map>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "postproc/run/run_reader.hpp"
+#include "postproc/tests/synthetic_run.hpp"
+
+namespace cutterflow::postproc {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::SmallRun;
+
+Spillage evaluate(const SmallRun& run) {
+    run.write();
+    const RunData data = read_run(run.directory);
+    return evaluate_spillage(data.rock->fates, data.rock->events, data.bins, data.operating_point.revolution_s(), data.finished);
+}
+
+/// Exits through two bins, all of it in one sector.
+Exits through(double upper, std::size_t sector) {
+    Exits exits{{"gap", "0-30mm"}, {upper, 1.0 - upper}, {}};
+    exits.by_sector[sector] = 1.0;
+    return exits;
+}
+
+// Two rocks of one mass by the gap, one by 0-30mm, one of eight times the mass by 60-90mm.
+TEST(Exits, are_shares_of_the_spilled_mass) {
+    const SmallRun run("exits");
+    const Exits exits = *exits_of(evaluate(run));
+    const std::map<std::string, double> spilled{{"gap", 2.0 / 11.0}, {"0-30mm", 1.0 / 11.0}, {"60-90mm", 8.0 / 11.0}};
+    ASSERT_EQ(exits.bins.size(), exits.by_bin.size());
+    for (std::size_t b = 0; b < exits.bins.size(); ++b) {
+        const auto expected = spilled.find(exits.bins[b]);
+        EXPECT_NEAR(exits.by_bin[b], expected == spilled.end() ? 0.0 : expected->second, 1e-6) << exits.bins[b];
+    }
+}
+
+TEST(Exits, count_rocks_by_the_azimuth_of_their_first_exit) {
+    SmallRun run("exit_azimuths");
+    int left = 0;
+    for (testing::Event& event : run.events)
+        if (event.surface == "head" && event.direction == "out") event.azimuth = ++left == 1 ? 6.2831 : 1.6;  // last and third sector
+    const Spillage spillage = evaluate(run);
+    const Exits exits = *exits_of(spillage);
+    const double share = 1.0 / static_cast<double>(spillage.first_exit_azimuths.size());
+    EXPECT_NEAR(exits.by_sector[7], share, 1e-12);
+    EXPECT_NEAR(exits.by_sector[2], 1.0 - share, 1e-12);
+}
+
+TEST(Exits, of_nothing_spilled_are_nothing) {
+    EXPECT_FALSE(exits_of({}));
+}
+
+TEST(Exits, are_told_as_means_with_the_smallest_and_the_largest) {
+    const std::vector<Exits> two{through(0.2, 7), through(0.4, 0)};
+    const std::string csv = exits_csv(two);
+    EXPECT_THAT(csv,
+                HasSubstr("where,place,share,smallest,largest\nbin,gap,0.3,0.2,0.4\nbin,0-30mm,0.7,0.6,0.8\nazimuth_deg,0-45,0.5,0,1\n"));
+    EXPECT_THAT(csv, HasSubstr("azimuth_deg,315-360,0.5,0,1\n"));
+    EXPECT_EQ(exits_text(mean_exits(two)),
+              "exits       70 % at 0-30mm, 30 % at gap of what is spilled; 100 % of the rocks from azimuth 225 to 45 deg (0 lowest)\n");
+}
+
+}  // namespace
+}  // namespace cutterflow::postproc
