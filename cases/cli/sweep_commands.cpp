@@ -91,10 +91,20 @@ std::map<std::string, std::vector<fs::path>> runs_by_setting(const std::vector<c
     return settings;
 }
 
-/// Replays every setting and writes replays.csv. \return what the settings lack whose replays tell nothing; they do not stop the others
+/// Folders of the replays that are no pairs.
+std::vector<fs::path> replay_folders(const fs::path& replays, const cases::ReplayResults& results) {
+    std::vector<fs::path> folders;
+    for (const cases::Replay& replay : results.replays)
+        if (!replay.is_pair) folders.push_back(replays / replay.name);
+    return folders;
+}
+
+/// Replays every setting, writes replays.csv and compares the replays. \return what the settings lack whose replays tell nothing; they do
+/// not stop the others
 std::vector<std::string> replay_settings(const SweepOptions& options, const std::vector<cases::SweepPoint>& points,
                                          const std::vector<fs::path>& done, const fs::path& folder) {
     std::vector<cases::ReplayedSetting> settings;
+    std::vector<fs::path> told;
     std::vector<std::string> failures;
     for (const auto& [name, runs] : runs_by_setting(points, done)) {
         const fs::path replays = folder / ("replays_" + name);
@@ -102,6 +112,7 @@ std::vector<std::string> replay_settings(const SweepOptions& options, const std:
         try {
             ReplayAnswer answer = replay_answer(runs, options.replay_study, options.replays, replays, fs::exists(replays));
             std::cout << name << '\n' << answer.lines;
+            for (fs::path& replay : replay_folders(replays, answer.results)) told.push_back(std::move(replay));
             settings.push_back({name, std::move(answer.results)});
         } catch (const CheckFailure& failure) {
             failures.push_back(failure.what());
@@ -109,6 +120,9 @@ std::vector<std::string> replay_settings(const SweepOptions& options, const std:
     }
     write_file(folder / "replays.csv", cases::replays_csv(settings));
     std::cout << fmt::format("the replays: {}\n", (folder / "replays.csv").string());
+    if (told.size() > 1)
+        std::cout << fmt::format("their comparison: {}\n",
+                                 kind_of_study(options.study).write_comparison(told, folder / "replays_comparison").string());
     return failures;
 }
 

@@ -154,10 +154,37 @@ ParameterValues values_of(const RecordedRun& run, int index) {
     return values;
 }
 
+geometry::Contour contour_of(const RecordedRun& run, const Study& study) {
+    return run.head.with_backplate(study.suction.gap);
+}
+
+std::vector<PlacedFeed> place_rock(const RecordedRun& run, const Study& study) {
+    return place_feeds(study, feed_scene(study, run.head.size, contour_of(run, study), run.cutter));
+}
+
+nlohmann::json optional_json(const std::optional<double>& value) {
+    return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+/// What makes a replay's folder one that reports and comparisons read: its study, its rock, and whose flow it goes through.
+void describe_replay(const RecordedRun& run, const ParameterValues& values, const std::vector<PlacedFeed>& feeds, const fs::path& folder) {
+    const Study study = make_study(values, run.folder);
+    const coupling::RecordingSummary recording = coupling::read_recording_summary(run.folder / names::recording);
+    write_file(folder / names::resolved_study,
+               "# Every key of the study as it was replayed. Written by cutterflow: change the study, not this file.\n\n" +
+                   commented_toml(study_table(), &values));
+    write_file(folder / names::feed_report, feed_json(feeds, study));
+    const nlohmann::json replay{{"schema", "cutterflow.replay/1"},
+                                {"run", run.folder.string()},
+                                {"flow_revolutions", recording.end / study.period()},
+                                {"flow_change", optional_json(recording.change)}};
+    write_file(folder / names::replay, replay.dump(2) + "\n");
+}
+
 /// The case of a replay: the run's steel and contour, its own rock. It has no mesh. \param folder  of the replay
 void write_replay(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
     const Study study = make_study(values, run.folder);
-    const geometry::Contour contour = run.head.with_backplate(study.suction.gap);
+    const geometry::Contour contour = contour_of(run, study);
     CaseInputs inputs = case_inputs_of(study, run.head.size, contour, 1);
     // As long after its release as the run.
     inputs.times.end += (values.tables("feed").front().number("feed.start_revolution") -
@@ -167,7 +194,15 @@ void write_replay(const RecordedRun& run, const ParameterValues& values, const f
     inputs.replay = run.folder / names::recording;
     for (coupling::WallSettings& wall : inputs.rock->walls) wall.file = run.folder / wall.file;
     write_replay_case(folder, inputs);
-    write_file(folder / names::rock_feed, rock_feed_csv(place_feeds(study, feed_scene(study, run.head.size, contour, run.cutter))));
+    const std::vector<PlacedFeed> feeds = place_rock(run, study);
+    write_file(folder / names::rock_feed, rock_feed_csv(feeds));
+    describe_replay(run, values, feeds, folder);
+}
+
+/// For replays of before their folders told what they are.
+void describe_finished(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
+    if (fs::exists(folder / names::replay)) return;
+    describe_replay(run, values, place_rock(run, make_study(values, run.folder)), folder);
 }
 
 /// Written when a replay came to its end.
@@ -182,7 +217,7 @@ postproc::RockAnswer answer_of(const fs::path& folder, const RecordedRun& run) {
 
 std::optional<postproc::Exits> exits_of(const fs::path& folder, const RecordedRun& run) {
     const Study study = make_study(run.values, run.folder);
-    const auto bins = geometry::axial_bins(run.head.with_backplate(study.suction.gap), study.report.bin_width);
+    const auto bins = geometry::axial_bins(contour_of(run, study), study.report.bin_width);
     return postproc::exits_of(
         postproc::evaluate_spillage(postproc::read_fates(folder), postproc::read_events(folder), bins, study.period(), true));
 }
@@ -244,14 +279,14 @@ private:
 
     void take(std::size_t n) {
         const fs::path folder = settings_.folder / replays_[n].name;
-        if (!fs::exists(cost_file(folder))) {
-            {
-                const std::lock_guard<std::mutex> lock(mutex_);  // the placement of rock is not made for threads
-                write_replay(runs_[tasks_[n].run], tasks_[n].values, folder);
-            }
-            run_own_solver(meshing::foam_command(folder, settings_.solver.string()));
+        const RecordedRun& run = runs_[tasks_[n].run];
+        const bool is_finished = fs::exists(cost_file(folder));
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);  // the placement of rock is not made for threads
+            (is_finished ? describe_finished : write_replay)(run, tasks_[n].values, folder);
         }
-        evaluate(folder, runs_[tasks_[n].run], replays_[n]);
+        if (!is_finished) run_own_solver(meshing::foam_command(folder, settings_.solver.string()));
+        evaluate(folder, run, replays_[n]);
     }
 
     const ReplaySettings& settings_;
@@ -284,10 +319,6 @@ void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>&
             {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", "Name a new folder with -o"}});
     fs::create_directories(settings.folder);
     write_file(file, plan.dump(2) + "\n");
-}
-
-nlohmann::json optional_json(const std::optional<double>& value) {
-    return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
 std::string loss_columns(const postproc::Losses& losses) {

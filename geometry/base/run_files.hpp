@@ -15,6 +15,7 @@ inline constexpr const char* sample_points = "constant/samples";  ///< folder of
 inline constexpr const char* checkpoints = "checkpoints";
 inline constexpr const char* dem_state = "dem.json";   ///< of a checkpoint: what the DEM adds to its restart file
 inline constexpr const char* recording = "recording";  ///< folder of the flow by rotor phase
+inline constexpr const char* replay = "replay.json";   ///< of a replay: the run whose flow its rock goes through
 inline constexpr const char* results_json = "report/results.json";
 inline constexpr const char* report_page = "report/index.html";
 inline constexpr const char* adv_json = "report/adv.json";  ///< measured and computed velocities

@@ -621,7 +621,7 @@ Scope scope_of(const Comparison& comparison) {
     for (const ComparedRun& compared : comparison.runs) {
         const Scope run = scope_of(compared.run);
         scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting, scope.feels_bank && run.feels_bank,
-                 scope.hauls && run.hauls, scope.fed_by_layer && run.fed_by_layer};
+                 scope.hauls && run.hauls,         scope.fed_by_layer && run.fed_by_layer,     scope.is_replay || run.is_replay};
     }
     return scope;
 }

@@ -4,7 +4,7 @@ namespace cutterflow::postproc {
 
 Scope scope_of(const RunData& run) {
     const OperatingPoint& point = run.operating_point;
-    return {run.rock.has_value(), point.fed_by_cutting, point.has_bank, point.hauls, point.spill_layer > 0.0};
+    return {run.rock.has_value(), point.fed_by_cutting, point.has_bank, point.hauls, point.spill_layer > 0.0, run.flow.has_value()};
 }
 
 std::vector<NotModelled> not_modelled(const Scope& scope) {
@@ -36,10 +36,16 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
         table.insert(table.begin() + 4, {"continuous feed",
                                          "one batch of rock; production and spillage do not reach a steady state as in continuous "
                                          "dredging"});
+    if (scope.is_replay)
+        table.insert(table.begin(), {"reaction of rock on the water",
+                                     "rock goes through a recorded flow and does not change it; coupled runs of the same rock tell what "
+                                     "that leaves out (cutterflow replay)"});
     return table;
 }
 
-const std::string& scope_sentence(const Scope& scope) {
+namespace {
+
+const std::string& sentence_of_scene(const Scope& scope) {
     static const std::string cutting =
         "Rock comes from the cut face as fast as the head swings, beside a bank that stands still. Hauling is not modelled, nor what a "
         "later swing picks up of the bed; one run names no best speed.";
@@ -68,6 +74,13 @@ const std::string& scope_sentence(const Scope& scope) {
     if (!scope.with_rock) return scope.hauls ? hauled_flow : flow_at_bank;
     if (scope.fed_by_cutting) return scope.hauls ? hauled : cutting;
     return scope.hauls ? hauled_rock : rock_at_bank;
+}
+
+}  // namespace
+
+std::string scope_sentence(const Scope& scope) {
+    return (scope.is_replay ? "This is a replay: rock goes through a recorded flow and does not change it. " : "") +
+           sentence_of_scene(scope);
 }
 
 }  // namespace cutterflow::postproc

@@ -19,6 +19,7 @@ struct Scope {
     bool feels_bank = false;      ///< soil stands beside the head
     bool hauls = false;           ///< the run's frame travels with the head
     bool fed_by_layer = false;    ///< loose rock that the swing before left comes in, too
+    bool is_replay = false;       ///< rock goes through a recorded flow
 };
 
 Scope scope_of(const RunData& run);
@@ -26,6 +27,6 @@ Scope scope_of(const RunData& run);
 std::vector<NotModelled> not_modelled(const Scope& scope);
 
 /// One sentence for the top of a page.
-const std::string& scope_sentence(const Scope& scope);
+std::string scope_sentence(const Scope& scope);
 
 }  // namespace cutterflow::postproc

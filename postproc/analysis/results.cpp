@@ -73,6 +73,15 @@ RotorLoads average_loads(const RunData& run, double start) {
     return rotor;
 }
 
+/// The recorded flow's own torque; what rock does to the rotor, and with it the power of the drive, is not known.
+RotorLoads loads_of_replay(const RunData& run, double end_time) {
+    RotorLoads rotor = average_loads(run, run.operating_point.outflow_start);
+    rotor.revolutions = end_time / run.operating_point.revolution_s();
+    rotor.torque_rock.reset();
+    rotor.power.reset();
+    return rotor;
+}
+
 Delivery compute_delivery(const OperatingPoint& point, const std::optional<Spillage>& spillage) {
     Delivery delivery;
     delivery.pipe_velocity = point.discharge / (k_pi * point.mouth_radius * point.mouth_radius);
@@ -375,7 +384,7 @@ std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, doubl
 Results compute_results(const RunData& run) {
     Results results;
     results.finished = run.finished;
-    results.end_time = run.balance.number("time_s").back();
+    results.end_time = run.flow ? run.rock->fates.number("time_s").back() : run.balance.number("time_s").back();
     if (run.rock) {
         results.spillage = evaluate_spillage(run.rock->fates, run.rock->events, run.bins, run.operating_point.revolution_s(), run.finished);
         // Rock from a cut face that finds no place waits for another.
@@ -387,11 +396,12 @@ Results compute_results(const RunData& run) {
     results.mixing = mixing_of(run, results.outflow);
     if (run.operating_point.fed_by_cutting && run.rock && !run.rock->ledger.empty())
         results.fed = fed_head_of(run.rock->ledger, run.operating_point.revolution_s(), blade_period(run));
-    results.rotor = average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
+    results.rotor = run.flow ? loads_of_replay(run, results.end_time)
+                             : average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.fed) results.dredging = dredging_of(results, run);
     results.scale = compute_scale(run);
-    results.conservation = worst_balance(run.balance, results.spillage.has_value());
+    results.conservation = worst_balance(run.balance, results.spillage && !run.flow);
     results.cost = sum_cost(run, results.end_time, results.rotor.revolutions);
     return results;
 }

@@ -32,14 +32,22 @@ std::vector<Sphere> rocks_by_fate(const Table& rocks) {
     return spheres;
 }
 
+/// [rad], at the end of what the rock went through.
+double rotor_angle_at_end(const RunData& run) {
+    const double turned = run.loads.number("rotor_angle_rad").back();
+    if (!run.flow || !run.rock) return turned;
+    const double later = run.rock->fates.number("time_s").back() - run.loads.number("time_s").back();
+    return turned + std::copysign(run.operating_point.angular_speed(), turned) * later;
+}
+
 HeadScene scene_of(const RunData& run) {
     HeadScene scene;
-    scene.steel = read_binary_stl(run.directory / names::cutter_surface);
-    scene.steel_angle = run.loads.number("rotor_angle_rad").back();
-    scene.ghosts = read_binary_stl(run.directory / names::backplate_surface);
-    const TriangleSurface pipe = read_binary_stl(run.directory / names::suction_pipe_surface);
+    scene.steel = read_binary_stl(run.geometry_directory() / names::cutter_surface);
+    scene.steel_angle = rotor_angle_at_end(run);
+    scene.ghosts = read_binary_stl(run.geometry_directory() / names::backplate_surface);
+    const TriangleSurface pipe = read_binary_stl(run.geometry_directory() / names::suction_pipe_surface);
     scene.ghosts.insert(scene.ghosts.end(), pipe.begin(), pipe.end());
-    if (run.operating_point.has_bank) scene.soil = read_binary_stl(run.directory / names::bank_surface);
+    if (run.operating_point.has_bank) scene.soil = read_binary_stl(run.geometry_directory() / names::bank_surface);
     if (run.rock) scene.rocks = rocks_by_fate(run.rock->final_state);
     return scene;
 }

@@ -50,9 +50,10 @@ ReportSummary write_files(const RunData& run, const fs::path& results_file, cons
 }  // namespace
 
 ReportSummary write_report(const fs::path& run_directory) {
-    const ReportSummary summary = write_files(read_run(run_directory), run_directory / names::results_json,
-                                              run_directory / names::report_page, PageForm::live, nlohmann::json::object());
-    write_head_series(run_directory);
+    const RunData run = read_run(run_directory);
+    const ReportSummary summary =
+        write_files(run, run_directory / names::results_json, run_directory / names::report_page, PageForm::live, nlohmann::json::object());
+    if (!run.flow) write_head_series(run_directory);
     return summary;
 }
 

@@ -513,8 +513,9 @@ std::vector<PlacedFigure> report_figures(const Results& results, const RunData& 
     if (rock && !rock->first_exit_azimuths.empty()) add(Place::figures, first_exit(rock->first_exit_azimuths, bank_sector(run)));
     if (rock) add(Place::figures, fates_over_time(run.rock->fates, *rock, revolution));
     if (rock && !run.operating_point.fed_by_cutting) add(Place::figures, ratio_over_time(run.rock->fates, *rock, revolution));
-    add(Place::figures, torque(run.loads, results.rotor, revolution, rock.has_value()));
-    add(Place::figures, balances(run.balance, revolution, rock.has_value()));
+    const bool is_coupled = rock && !run.flow;
+    add(Place::figures, torque(run.loads, results.rotor, revolution, is_coupled));
+    add(Place::figures, balances(run.balance, revolution, is_coupled));
     add(Place::cost, cost_shares(results.cost));
     return all;
 }

@@ -302,6 +302,13 @@ std::string cost_text(const Cost& cost) {
     return text;
 }
 
+std::string age_of_recording(const RecordedFlow& flow) {
+    std::string text = fmt::format("rock goes through the revolution up to number {} of {}", number(flow.revolutions, "", 3),
+                                   escape(flow.run.filename().string()));
+    if (flow.change) text += fmt::format("; in it the flow in the turning zone changed by {}", percent(*flow.change));
+    return text + ".";
+}
+
 /// \param revolutions  of the flow before the first rock
 std::string age_of_flow(double revolutions) {
     const bool is_young = revolutions < k_developed_revolutions * (1.0 - 1e-6);  // but for rounding
@@ -310,21 +317,29 @@ std::string age_of_flow(double revolutions) {
                        is_young ? ": in this one rock may go another way than at work" : "");
 }
 
-std::string trust_list(const Results& results, const OperatingPoint& point) {
+/// Of the rock.
+std::string statistical_error(const RunData& run) {
+    if (run.operating_point.fed_by_cutting)
+        return fmt::format(
+            "the interval is of one {0}'s time: it holds neither another placement of the rock nor the mesh. Three {0}s with "
+            "other seeds ({1}) give that of placement.",
+            run.flow ? "replay" : "run", run.flow ? "cutterflow replay -n 3" : "cutterflow sweep --repeats");
+    return fmt::format(
+        "no replicate: one batch, one placement. An interval needs three or more {} that vary placement and release angle; "
+        "the bounds above are not an interval but the range of outcomes of the undecided rock.",
+        run.flow ? "replays" : "repeats");
+}
+
+std::string trust_list(const Results& results, const RunData& run) {
     std::string items;
     const auto item = [&](const char* label, const std::string& text) {
         items += fmt::format("<li><b>{}</b><span>{}</span></li>", label, text);
     };
-    if (point.fed_by_cutting)
-        item("Statistical error",
-             "the interval is of one run's time: it holds neither another placement of the rock nor the mesh. Three runs with other seeds "
-             "(cutterflow sweep --repeats) give that of placement.");
-    else if (results.spillage) {
-        item("Statistical error",
-             "no replicate: one batch, one placement. An interval needs three or more repeats that vary placement and "
-             "release angle; the bounds above are not an interval but the range of outcomes of the undecided rock.");
-    }
-    if (results.spillage) item("Age of the flow", age_of_flow(results.spillage->feed_start / point.revolution_s()));
+    if (results.spillage) item("Statistical error", statistical_error(run));
+    if (run.flow)
+        item("Age of the flow", age_of_recording(*run.flow));
+    else if (results.spillage)
+        item("Age of the flow", age_of_flow(results.spillage->feed_start / run.operating_point.revolution_s()));
     item("Mesh error", "not in this report: compare with the same study on a finer mesh preset before using a number as an absolute one.");
     item("Balances", conservation_text(results.conservation));
     item("Cost", cost_text(results.cost));
@@ -343,7 +358,7 @@ std::string answers(const Results& results, const RunData& run) {
 
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
     return answers(results, run) + plots_at(figures, Place::answer) +
-           fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) + trust_list(results, run.operating_point);
+           fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) + trust_list(results, run);
 }
 
 std::string head_figure(const Results& results, const RunData& run, const PageFigures& figures) {

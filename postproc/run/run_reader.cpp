@@ -321,7 +321,8 @@ void require_computed(const RunData& run) {
 void require_whole(const RunData& run) {
     if (!run.finished) return;
     const fs::path folder = run.directory / "postProcessing";
-    std::vector<std::pair<const char*, const Table*>> tables{{"balance", &run.balance}, {"loads", &run.loads}, {"cost", &run.cost}};
+    std::vector<std::pair<const char*, const Table*>> tables{{"cost", &run.cost}};
+    if (!run.flow) tables.insert(tables.end(), {{"balance", &run.balance}, {"loads", &run.loads}});
     if (run.rock) tables.emplace_back("rock", &run.rock->fates);
     double end = 0.0;
     for (const auto& [name, table] : tables) end = std::max(end, table->number("time_s").back());
@@ -342,21 +343,22 @@ std::string cutter_of(const json& manifest) {
     return manifest.contains(place) && manifest.at(place).is_string() ? manifest.at(place).get<std::string>() : "";
 }
 
-}  // namespace
-
-Table read_fates(const fs::path& run_directory) {
-    return read_joined_table(run_directory, "rock", "fates.csv", fate_rules());
+void read_cost(RunData& run) {
+    run.cost = read_joined_table(run.directory, "cost", "cost.csv",
+                                 {{"time_s", "step_s", "fluid_s", "mesh_motion_s", "mapping_s", "dem_s", "output_s"}, {}, {}, k_rerun});
+    const auto folders = start_folders(run.directory, "cost");
+    run.cost_summary = folders.empty() ? json::object() : read_json(folders.back().second / "cost.json", k_cost_fields);
+    run.finished = !run.cost_summary.empty();
 }
 
-Table read_events(const fs::path& run_directory) {
-    return read_joined_table(run_directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
+void read_setting(RunData& run, const StudyReader& study) {
+    run.setting = study.setting(cutter_of(run.manifest));
+    run.release = study.release();
+    run.seed = study.seed();
 }
 
-Table read_ledger(const fs::path& run_directory) {
-    return read_joined_table(run_directory, "rock", "ledger.csv", ledger_rules());
-}
-
-RunData read_run(const fs::path& directory) {
+/// A run that computed its flow.
+RunData read_computed_run(const fs::path& directory) {
     StudyReader study(directory / names::resolved_study);
     const OperatingPoint point = read_operating_point(study);
     const double bin_width = study.positive("report.bin_width_m");
@@ -383,9 +385,7 @@ RunData read_run(const fs::path& directory) {
                 std::max(1, geometry.at("head").value("blades", 1)),
                 read_adv_probe(study)};
     run.prediction = read_json(directory / names::prediction, k_prediction_fields);
-    run.setting = study.setting(cutter_of(run.manifest));
-    run.release = study.release();
-    run.seed = study.seed();
+    read_setting(run, study);
     std::vector<std::string> bin_names;
     for (const geometry::AxialBin& bin : run.bins) bin_names.push_back(bin.name);
     bin_names.insert(bin_names.begin(), "time_s");
@@ -395,14 +395,58 @@ RunData read_run(const fs::path& directory) {
         directory, "loads", "loads.csv",
         {{"time_s", "rotor_angle_rad", "torque_pressure_n_m", "torque_viscous_n_m", "torque_rock_n_m", "power_w"}, {}, {}, k_rerun});
     run.balance = read_joined_table(directory, "balance", "balance.csv", balance_rules());
-    run.cost = read_joined_table(directory, "cost", "cost.csv",
-                                 {{"time_s", "step_s", "fluid_s", "mesh_motion_s", "mapping_s", "dem_s", "output_s"}, {}, {}, k_rerun});
+    read_cost(run);
     require_computed(run);
-    const auto cost_folders = start_folders(directory, "cost");
-    run.cost_summary = read_json(cost_folders.back().second / "cost.json", k_cost_fields);
-    run.finished = !run.cost_summary.empty();
     require_whole(run);
     return run;
+}
+
+/// The flow of one run and the rock of another study in it.
+RunData read_replay(const fs::path& directory) {
+    const std::string remedy = "Repeat the replay command with --resume";
+    const json replay = read_json_document(
+        directory / names::replay,
+        {{"run", JsonKind::text, true}, {"flow_revolutions", JsonKind::number, true}, {"flow_change", JsonKind::number_or_null, true}},
+        remedy);
+    StudyReader study(directory / names::resolved_study);
+    OperatingPoint point = read_operating_point(study);
+    study.require_all();
+    RunData run = read_computed_run(replay.at("run").get<std::string>());
+    run.flow = RecordedFlow{run.directory, replay.at("flow_revolutions"), {}};
+    if (!replay.at("flow_change").is_null()) run.flow->change = replay.at("flow_change");
+    run.directory = directory;
+    point.outflow_start = run.operating_point.outflow_start;
+    point.study_name = fmt::format("{}, replayed", run.operating_point.study_name);
+    run.operating_point = point;
+    run.feed = read_feed(directory / names::feed_report);
+    run.rock = read_rock(directory);
+    if (!run.rock)
+        throw UserError(fmt::format("{} contains no fates", (directory / "postProcessing" / "rock").string()),
+                        "A report of a replay needs the tables of its rock", remedy);
+    run.prediction = {};
+    read_setting(run, study);
+    run.setting["recorded flow, revolutions"] = fmt::format("{:.9g}", run.flow->revolutions);
+    read_cost(run);
+    require_whole(run);
+    return run;
+}
+
+}  // namespace
+
+Table read_fates(const fs::path& run_directory) {
+    return read_joined_table(run_directory, "rock", "fates.csv", fate_rules());
+}
+
+Table read_events(const fs::path& run_directory) {
+    return read_joined_table(run_directory, "rock", "events.csv", event_rules(), {"id", "surface", "direction"});
+}
+
+Table read_ledger(const fs::path& run_directory) {
+    return read_joined_table(run_directory, "rock", "ledger.csv", ledger_rules());
+}
+
+RunData read_run(const fs::path& directory) {
+    return fs::exists(directory / names::replay) ? read_replay(directory) : read_computed_run(directory);
 }
 
 }  // namespace cutterflow::postproc

@@ -73,6 +73,13 @@ struct RockTables {
     std::size_t rejected_in_run = 0;
 };
 
+/// The flow that the rock of a replay goes through and does not change.
+struct RecordedFlow {
+    std::filesystem::path run;       ///< that recorded it
+    double revolutions = 0.0;        ///< of the rotor until the recording ended
+    std::optional<double> change{};  ///< of the flow in the turning zone in the recorded revolution [-], where it is known
+};
+
 struct RunData {
     std::filesystem::path directory;
     OperatingPoint operating_point;
@@ -94,6 +101,10 @@ struct RunData {
     std::string release{};                         ///< seed and time of release of each feed, which distinguish repeats; empty without rock
     int seed = 0;                                  ///< of the first feed
     nlohmann::json prediction{};                   ///< of the run's cost, before it; empty when the file is absent
+    std::optional<RecordedFlow> flow{};            ///< of a replay: all but rock, feed and cost is then that run's
+
+    /// Of the cutter and of what stands around it.
+    const std::filesystem::path& geometry_directory() const { return flow ? flow->run : directory; }
 };
 
 /// fates.csv of a run or a replay, joined over its restarts; empty when no rock was put in. \throws UserError  as read_table
@@ -105,7 +116,7 @@ Table read_events(const std::filesystem::path& run_directory);
 /// ledger.csv of a run or a replay, likewise.
 Table read_ledger(const std::filesystem::path& run_directory);
 
-/// Reads a run directory, finished or not.
+/// Reads a run directory, finished or not, or the folder of a replay.
 /// \throws UserError  when it is not a run directory, nothing was computed yet, or a file breaks its contract
 RunData read_run(const std::filesystem::path& run_directory);
 
