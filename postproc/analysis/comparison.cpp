@@ -282,6 +282,15 @@ std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
     return rules;
 }
 
+/// Of replays: whether the flow that their rock goes through had developed.
+std::vector<QuantityRule> recorded_flow_rules() {
+    const auto of = [](auto member) -> Evaluate {
+        return [=](const ComparedRun& r) { return r.run.flow ? plain((*r.run.flow).*member) : Estimate{}; };
+    };
+    return {{"flow_revolutions", "revolutions until the recorded flow ended", "-", false, of(&RecordedFlow::revolutions)},
+            {"flow_change", "change of the recorded flow in a revolution", "-", false, of(&RecordedFlow::change)}};
+}
+
 std::vector<QuantityRule> cost_rules() {
     return {{"core_s_per_revolution", "core time per revolution", "s", false,
              [](const ComparedRun& r) { return plain(r.results.cost.core_s_per_revolution); }},
@@ -327,6 +336,7 @@ std::vector<QuantityRule> rules_of(const Comparison& comparison) {
     append(load_rules(with_rock));
     append(outflow_rules(comparison.runs));
     if (with_rock) append(spilled_rules(comparison.runs));
+    if (scope_of(comparison).is_replay) append(recorded_flow_rules());
     append(cost_rules());
     return rules;
 }

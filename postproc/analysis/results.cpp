@@ -351,6 +351,10 @@ json rotor_json(const Results& results, const RunData& run) {
     return object;
 }
 
+json recorded_flow_json(const RecordedFlow& flow) {
+    return {{"run", flow.run.string()}, {"revolutions", flow.revolutions}, {"change", or_null(flow.change)}};
+}
+
 json not_modelled_json(const RunData& run) {
     json list = json::array();
     for (const NotModelled& item : not_modelled(scope_of(run))) list.push_back(item.name);
@@ -427,6 +431,7 @@ json results_json(const Results& results, const RunData& run) {
                           {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)}};
     document["production"] = results.fed ? fed_json(*results.fed, run.operating_point.in_situ_density) : json(nullptr);
     document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
+    document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},
                              {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};

@@ -47,6 +47,7 @@ TEST(ReplayReport, has_its_own_rock_and_the_flow_of_its_run) {
     EXPECT_NEAR(results.rotor.torque_flow->mean, -11.0, 1e-6);
     EXPECT_TRUE(results.conservation.flow_balance);
     EXPECT_EQ(results.cost.steps, 200u);
+    EXPECT_EQ(results_json(results, read_run(folder)).at("recorded_flow").at("change"), 0.031);
 }
 
 // What only a coupled run has.
@@ -67,6 +68,9 @@ TEST(ReplayReport, is_no_repeat_of_a_coupled_run_or_of_a_replay_in_another_flow)
     const Comparison comparison = compare_runs({coupled.directory, replay("replay_sixth", water, 6.0), replay("replay_ninth", water, 9.0)});
     EXPECT_EQ(comparison.settings.size(), 3u);
     EXPECT_TRUE(scope_of(comparison).is_replay);
+    const Quantity& age = *find_quantity(comparison, "flow_revolutions");
+    EXPECT_FALSE(age.settings.at(0).value);
+    EXPECT_EQ(age.settings.at(2).value, 9.0);
 }
 
 TEST(ReplayReport, without_its_run_tells_which_is_missing) {
