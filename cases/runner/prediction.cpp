@@ -50,12 +50,6 @@ double writes_of_fields(const Study& study) {
     return std::floor(study.end_time() / often) + (same_times ? 0.0 : std::floor(study.end_time() / seldom)) + 1.0;
 }
 
-double first_release(const Study& study) {
-    double first = study.end_time();
-    for (const FeedRequest& feed : study.feeds) first = std::min(first, feed.start);
-    return first;
-}
-
 double smallest_rock(const Study& study) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const FeedRequest& feed : study.feeds)
@@ -145,7 +139,7 @@ Prediction predict(const Study& study, const HeadSize& head, const geometry::Tri
     prediction.rock_step = prediction.flow_step;
     if (!study.feeds.empty())
         prediction.rock_step = std::min(prediction.flow_step, step_of_rock(omega * head.tip_radius, plan.cell_size, study));
-    prediction.first_release = first_release(study);
+    prediction.first_release = study.feeds.empty() ? study.end_time() : std::min(study.first_release(), study.end_time());
     const double flow_revolutions = prediction.first_release / study.period();
     const double rock_revolutions = prediction.revolutions - flow_revolutions;
     const double flow_steps = study.period() / prediction.flow_step, rock_steps = study.period() / prediction.rock_step;  // in a revolution
