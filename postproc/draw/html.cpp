@@ -32,6 +32,7 @@ p { margin: 0 0 10px; max-width: 78ch; }
 .trust { font-size: 0.92rem; margin: 16px 0 0; padding: 0; list-style: none; }
 .trust li { padding: 7px 0; border-top: 1px solid var(--line); display: grid; grid-template-columns: 11em 1fr; gap: 14px; }
 .trust b { font-weight: 600; }
+.trust span { overflow-wrap: anywhere; }
 .figures { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 26px 30px; align-items: start; }
 figure { margin: 0; break-inside: avoid; min-width: 0; }
 figure.wide { grid-column: 1 / -1; }
