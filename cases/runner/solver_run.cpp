@@ -89,6 +89,7 @@ double run_own_solver(const ChildCommand& command, const std::function<void(cons
     const ChildResult result = run_child(command, each_line);
     const auto ended = static_cast<ExitCode>(result.exit_code);
     if (ended == ExitCode::check_failed) throw CheckFailure(failure_of(command, result));
+    if (ended == ExitCode::user_input) throw UserError({failure_of(command, result)});
     if (ended == ExitCode::interrupted)
         throw Interrupted(fmt::format("{} was asked to stop", fs::path(command.arguments.front()).filename().string()));
     if (ended != ExitCode::done) throw ToolError(failure_of(command, result));

@@ -53,7 +53,8 @@ std::vector<std::pair<double, std::filesystem::path>> start_folders(const std::f
 /// The table `file` of postProcessing/<what> joined over all `<t0>` folders that have it, by its column `time_s`: rows of an earlier folder
 /// later than the next start time are dropped; a row at the start time itself stays unless the later folder has the same one (equal in
 /// time and in all columns named in `identity`). Empty table when no folder has the file.
-/// \throws UserError  as read_table, and when the folders' files have different columns
+/// \throws UserError  as read_table, when the folders' files have different columns, and when the file of a start that came to its end
+///                    (its cost.json is there) is empty or ends within a line
 Table read_joined_table(const std::filesystem::path& run_directory, const std::string& what, const std::string& file,
                         const TableRules& rules, const std::vector<std::string>& identity = {});
 

@@ -122,5 +122,23 @@ TEST(ReadJoinedTable, a_restart_that_wrote_nothing_still_replaces_what_came_afte
     EXPECT_EQ(read_joined_table(run, "x", "t.csv", k_rules).number("value"), (std::vector<double>{1}));
 }
 
+// A copy that was broken off, a full disk.
+TEST(ReadJoinedTable, a_finished_start_has_whole_tables) {
+    const auto run = fresh_directory("joined");
+    const auto file = run / "postProcessing/x/0/t.csv";
+    for (const char* damaged : {"", "time_s,value\n0.1,1\n0.2,"}) {
+        std::filesystem::remove_all(run / "postProcessing/cost");
+        write_text(file, damaged);
+        EXPECT_NO_THROW(read_joined_table(run, "x", "t.csv", k_rules)) << "still running";
+        write_text(run / "postProcessing/cost/0/cost.json", "{}");
+        try {
+            read_joined_table(run, "x", "t.csv", k_rules);
+            ADD_FAILURE() << damaged;
+        } catch (const UserError& error) {
+            EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
+        }
+    }
+}
+
 }  // namespace
 }  // namespace cutterflow::postproc

@@ -54,6 +54,7 @@ constexpr double k_clump_margin = 0.5;        // the same with clumps, half of i
 constexpr double k_most_bins = 1e5;           // of little rock: LIGGGHTS clears all bins at each rebuild
 constexpr double k_bins_per_rock = 10.0;      // of much rock, however little of the domain it fills
 constexpr const char* k_restart_file = "dem.restart";
+constexpr const char* k_restart_hash = "restart_sha256";
 constexpr const char* k_rolling_history = "rolling_history";
 constexpr const char* k_walls = "walls";
 constexpr const char* k_remedy = "Remove this checkpoint folder; the run then resumes from the one before";
@@ -108,6 +109,16 @@ public:
 private:
     int saved_[2];
 };
+
+/// LIGGGHTS reads a damaged file without a check, or for ever. \param state  dem.json; of before it had the hash any file is taken that is
+/// not empty
+void require_whole_restart_file(const std::filesystem::path& file, const nlohmann::json& state) {
+    const char* const rule = "A checkpoint holds the state of the rock as it was written";
+    if (!std::filesystem::is_regular_file(file)) throw UserError({{file.string(), "there is no such file", rule, k_remedy}});
+    if (std::filesystem::file_size(file) == 0) throw UserError({{file.string(), "the file is empty", rule, k_remedy}});
+    if (state.contains(k_restart_hash) && state.at(k_restart_hash) != sha256_of_file(file))
+        throw UserError({{file.string(), fmt::format("the file is not the one that {} belongs to", names::dem_state), rule, k_remedy}});
+}
 
 }  // namespace
 
@@ -673,6 +684,7 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
                              {"torque_n_m", torque},
                              {k_rolling_history, rolling},
                              {k_contact_memory, k_this_contact_memory},
+                             {k_restart_hash, sha256_of_file(folder / k_restart_file)},
                              {k_walls, bodies}};
         if (context_.has_clumps) state[k_clumps] = clump_state(settings_.shapes, bodies_);
         write_file(folder / names::dem_state, state.dump(2) + "\n");
@@ -700,6 +712,7 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
                                                      {"torque_n_m", JsonKind::number, true},
                                                      {k_rolling_history, JsonKind::truth, false},
                                                      {k_contact_memory, JsonKind::whole, false},
+                                                     {k_restart_hash, JsonKind::text, false},
                                                      {"walls/*/name", JsonKind::text, false},
                                                      {"walls/*/force_n/*", JsonKind::number, false},
                                                      {"walls/*/pressed_m/*", JsonKind::number, false},
@@ -721,9 +734,7 @@ nlohmann::json LiggghtsEngine::Implementation::read_state_file(const std::filesy
         if (!body.contains("name") || !body.contains("force_n"))
             throw UserError({{(folder / names::dem_state).string(), fmt::format("a wall is {}", body.dump()), "It has a name and a force_n",
                               k_remedy}});
-    if (!std::filesystem::is_regular_file(folder / k_restart_file))
-        throw UserError(
-            {{(folder / k_restart_file).string(), "there is no such file", "A checkpoint holds the state of the rock", k_remedy}});
+    require_whole_restart_file(folder / k_restart_file, state);
     require_same_clumps(settings_.shapes, state.value(k_clumps, nlohmann::json::object()), (folder / names::dem_state).string());
     return state;
 }

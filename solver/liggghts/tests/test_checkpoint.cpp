@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <fstream>
 #include <memory>
+#include <string>
 
+#include "geometry/base/file_content.hpp"
 #include "solver/liggghts/tests/engine_fixture.hpp"
 
 namespace cutterflow::liggghts::tests {
@@ -158,6 +161,27 @@ TEST(Checkpoint, a_damaged_one_is_refused_as_the_users_input) {
         std::ofstream(folder / "dem.json") << text;
         MPI_Barrier(MPI_COMM_WORLD);
         EXPECT_THROW(engine.read_checkpoint(folder), UserError) << text;
+    }
+}
+
+// LIGGGHTS would read an empty file for ever, and take changed bytes as they are.
+TEST(Checkpoint, a_damaged_restart_file_is_refused) {
+    const auto folder = scratch_folder();
+    LiggghtsEngine engine(still_water(), no_zones(), MPI_COMM_WORLD);
+    engine.write_checkpoint(folder);
+    const std::string whole = read_file(folder / "dem.restart");
+    std::string changed = whole;
+    changed[whole.size() / 2] = static_cast<char>(changed[whole.size() / 2] + 1);
+    for (const std::string& content : {std::string(), whole.substr(0, whole.size() / 2), changed}) {
+        MPI_Barrier(MPI_COMM_WORLD);
+        std::ofstream(folder / "dem.restart", std::ios::binary) << content;
+        MPI_Barrier(MPI_COMM_WORLD);
+        try {
+            engine.read_checkpoint(folder);
+            ADD_FAILURE() << content.size() << " of " << whole.size() << " bytes";
+        } catch (const UserError& error) {
+            EXPECT_NE(std::string(error.what()).find("dem.restart"), std::string::npos) << error.what();
+        }
     }
 }
 
