@@ -12,6 +12,7 @@
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
+#include "geometry/base/sphere.hpp"
 #include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/analysis/measures/measure_source.hpp"
 #include "postproc/draw/html.hpp"
@@ -19,6 +20,7 @@
 #include "postproc/draw/palette.hpp"
 #include "postproc/pages/measures/measure_figures.hpp"
 #include "postproc/pages/room/room_pictures.hpp"
+#include "postproc/run/run_reader.hpp"
 #include "postproc/run/run_table.hpp"
 
 namespace cutterflow::postproc {
@@ -56,6 +58,16 @@ double core_seconds(const nlohmann::json& manifest, const char* stage) {
     return manifest.value("stages", nlohmann::json::object()).value(stage, nlohmann::json::object()).value("core_s", 0.0);
 }
 
+/// What feeds gave [kg]. The account's first row is of the end of the first step: what was fed at t = 0 is in it, as the bed is.
+double fed_mass(const fs::path& run) {
+    const Table events = read_events(run);
+    double fed = 0.0;
+    for (std::size_t row = 0; row < events.rows(); ++row)
+        if (events.text("surface")[row] == "feed")
+            fed += sphere_mass(events.number("diameter_m")[row], events.number("density_kg_m3")[row]);
+    return fed;
+}
+
 /// What became of the grains of the run, from its account; null when it has none.
 nlohmann::json account_of(const MeasureSource& source, const nlohmann::json& room) {
     try {
@@ -63,8 +75,7 @@ nlohmann::json account_of(const MeasureSource& source, const nlohmann::json& roo
         for (const char* where : {"placed", "in_run", "removed", "extracted", "left_domain"})
             account[where] = {{"count", source.column(k_account, std::string(where) + "_count").value.back()},
                               {"kg", source.column(k_account, std::string(where) + "_kg").value.back()}};
-        account["fed"] = {{"ordered_kg", room.value("fed_kg", 0.0)},
-                          {"kg", account["placed"]["kg"].get<double>() - source.column(k_account, "placed_kg").value.front()}};
+        account["fed"] = {{"ordered_kg", room.value("fed_kg", 0.0)}, {"kg", fed_mass(source.directory())}};
         return account;
     } catch (const UserError&) {
         return nullptr;

@@ -1,5 +1,6 @@
 /// Runs of rooms beside each other: what is told of runs without measures and of runs that were stopped.
 #include <filesystem>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/sphere.hpp"
 #include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/pages/measures/measure_figures.hpp"
 #include "postproc/pages/room/room_page.hpp"
@@ -68,6 +70,67 @@ TEST_F(RoomComparison, says_that_a_study_has_no_measure) {
         EXPECT_EQ(error.mistakes()[0].what, fmt::format("the study of {} has no [[measure]]", none.string()));
         EXPECT_THAT(error.mistakes()[0].remedy, HasSubstr("repeat cutterflow run STUDY -o " + none.string()));
     }
+}
+
+class RoomReport : public ::testing::Test {
+protected:
+    RoomReport() {
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+        run_ = testing::fresh_directory(fmt::format("room_report_{}", test->name()));
+        room_ = json::parse(R"({"name": "bin", "end_s": 1.0, "size_m": [0.1, 0.1, 0.1], "medium": "none", "seed": 1, "bed": null,
+                                "grains": [], "solids": []})");
+        write_file(run_ / "postProcessing/rock/vtk/rocks_1.vtp", picture());
+    }
+
+    /// One grain that lies on the floor.
+    static std::string picture() {
+        std::string text = "<VTKFile>\n";
+        for (const auto& [name, value] :
+             {std::pair{"Points", "0 0 0.005"}, {"diameter", "0.01"}, {"density", "1000"}, {"velocity", "0 0 0"}})
+            text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n", name, value);
+        return text + "</VTKFile>\n";
+    }
+
+    /// \param rows  time, number and mass of what came in, each step
+    void account(const std::string& rows) {
+        std::string text = "time_s,placed_count,placed_kg";
+        for (const char* where : {"in_run", "removed", "extracted", "left_domain", "decided"})
+            text += fmt::format(",{0}_count,{0}_kg", where);
+        text += "\n";
+        std::istringstream lines(rows);
+        for (std::string line; std::getline(lines, line);) text += line + ",1,0.1,0,0,0,0,0,0,0,0\n";
+        write_file(run_ / "postProcessing/rock/0/account.csv", text);
+    }
+
+    /// The first `bed` grains start, the others are fed, all of 10 mm and 1000 kg/m3.
+    void events(int bed, int fed) {
+        std::string text =
+            "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,density_kg_m3,"
+            "bin\n";
+        for (int id = 1; id <= bed + fed; ++id)
+            text += fmt::format("0,{},{},in,0,0,0,0,0,0,0,0,0,0.01,1000,\n", id, id <= bed ? "start" : "feed");
+        write_file(run_ / "postProcessing/rock/0/events.csv", text);
+    }
+
+    json results() {
+        write_file(run_ / k_room_file, room_.dump());
+        page_ = read_file(write_room_report(run_));
+        return json::parse(read_file(run_ / "report/results.json"));
+    }
+
+    fs::path run_;
+    json room_;
+    std::string page_;
+};
+
+/// The first row of the account is of the end of the first step.
+TEST_F(RoomReport, counts_what_was_fed_at_the_beginning) {
+    const double grain = 1000.0 * sphere_volume(0.01);
+    room_["fed_kg"] = 2.0 * grain;
+    account(fmt::format("0.1,3,{}\n1,4,{}\n", 3.0 * grain, 4.0 * grain));
+    events(2, 2);
+    EXPECT_NEAR(results().at("account").at("fed").at("kg").get<double>(), 2.0 * grain, 1e-9 * grain);
+    EXPECT_THAT(page_, AllOf(HasSubstr("Feeds gave 0.001047 of 0.001047 kg."), Not(HasSubstr("found no room"))));
 }
 
 TEST(MeasureFigures, an_angle_of_no_grains_has_no_figure) {
