@@ -233,6 +233,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[boundary]]\non = \"x_min\"\nrectangle = { lower_m = [-0.2, -0.3, 0], upper_m = [-0.2, 0.1, 0.1] }\nflow = \"pressure\"\n",
             "is about no part of the side x_min"},
         Bad{"[[boundary]]\non = \"sides\"\nabove_m = 0.5\nflow = \"pressure\"\n", "is about no part of the side x_min"},
+        Bad{"[[boundary]]\non = \"top\"\nbelow_m = 0.1\nflow = \"pressure\"\n",
+            "boundary.below_m = 0.1 on the side top. It bounds a part of vertical sides"},
+        Bad{"[[boundary]]\non = \"bottom\"\nabove_m = 0.1\ngrains = \"open\"\n", "boundary.above_m = 0.1 on the side bottom"},
         Bad{"[[boundary]]\non = \"top\"\nname = \"riser\"\nflow = \"pressure\"\n", "boundary.name = \"riser\" is the name of another"},
         Bad{"[[boundary]]\non = \"top\"\nname = \"bottom\"\nflow = \"pressure\"\n", "boundary.name = \"bottom\" is the name of another"},
         Bad{"[[solid]]\nname = \"gate\"\ngenerate = \"box\"\nlower_m = [0.1, 0, 0.1]\nupper_m = [0.15, 0.05, 0.15]\n"

@@ -146,6 +146,18 @@ std::optional<SidePart> part_inside(RoomReading& room, const ParameterValues& va
     return SideDisc{centre, solid->bore->radius};
 }
 
+/// The part of vertical sides between levels.
+std::optional<SidePart> read_band(RoomReading& room, const ParameterValues& values) {
+    const std::string& on = values.text("boundary.on");
+    const double lower = number_or(values, "boundary.above_m", 0.0), upper = number_or(values, "boundary.below_m", room.scene.size.z());
+    if (on != "bottom" && on != "top") return SideBand{lower, upper};
+    for (const char* key : {"boundary.above_m", "boundary.below_m"})
+        if (values.has(key))
+            room.refuse(values.where(key), fmt::format("{} = {:g} on the side {}", key, values.number(key), on),
+                        "It bounds a part of vertical sides, and this one is level", "Remove it, or give disc or rectangle");
+    return std::nullopt;
+}
+
 std::optional<SidePart> read_part(RoomReading& room, const ParameterValues& values, const RoomBoundary& boundary,
                                   const std::string& where) {
     std::vector<std::string> given;
@@ -159,7 +171,7 @@ std::optional<SidePart> read_part(RoomReading& room, const ParameterValues& valu
         return std::nullopt;
     }
     if (given.empty()) return WholeSide{};
-    if (band) return SideBand{number_or(values, "boundary.above_m", 0.0), number_or(values, "boundary.below_m", room.scene.size.z())};
+    if (band) return read_band(room, values);
     if (boundary.sides.size() > 1) {
         room.refuse(where, fmt::format("{} on several sides", given.front()), "A disc or rectangle lies on one side", "Name the side");
         return std::nullopt;
