@@ -242,6 +242,9 @@ INSTANTIATE_TEST_SUITE_P(
             "[[measure]]\nname = \"drop\"\nwhat = \"pressure_drop\"\nupstream_m = [0.1, 0, 0.05]\ndownstream_m = [0.12, 0.02, 0.12]\n"
             "density_kg_m3 = 1000\n",
             "measure.downstream_m of drop lies inside gate"},
+        Bad{"[[measure]]\nname = \"drop\"\nwhat = \"pressure_drop\"\nupstream_m = [0.1, 0, 0.05]\ndownstream_m = [0.1, 0, 0.15]\n"
+            "density_kg_m3 = 2\n",
+            "measure.density_kg_m3 = 2 of drop. The room's water has 1000 kg/m3"},
         Bad{"[closures]\ndrag = \"gidaspow\"\n", "hindrance would count it twice"},
         Bad{"[kernel]\ncluster_size_m = 0.05\n", "kernel.cluster_size_m = 0.05 with kernel.map"},
         Bad{"[kernel]\nmap = \"cluster\"\ncluster_size_m = 0.01\n", "kernel.cluster_size_m = 0.01"},

@@ -23,6 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double k_rounding = 1e-6;  // of a number that is written twice
+
 /// Names of what measure.wall can be.
 std::vector<std::string> walls_of(const RoomReading& room) {
     std::vector<std::string> names(room.solid_names.begin(), room.solid_names.end());
@@ -44,6 +46,16 @@ void require_medium_at(RoomReading& room, const ParameterValues& measure, const 
         if (solid.felt_by_fluid && geometry::SolidSearch(solid.surface).contains(place))
             room.refuse(measure.where(key), fmt::format("{} of {} lies inside {}", key, measure.text("measure.name"), solid.name),
                         "There is no medium, and so no pressure", "Move it");
+}
+
+/// The solver's pressure is per density of the medium, which makes it one in Pa.
+void require_density_of_medium(RoomReading& room, const ParameterValues& measure) {
+    const double given = measure.number("measure.density_kg_m3"), medium = room.scene.medium.density;
+    if (std::abs(given - medium) <= k_rounding * medium) return;
+    room.refuse(measure.where("measure.density_kg_m3"),
+                fmt::format("measure.density_kg_m3 = {:g} of {}", given, measure.text("measure.name")),
+                fmt::format("The room's {} has {:g} kg/m3, and a pressure drop is in proportion to it", room.scene.medium.name, medium),
+                fmt::format("Write {:g}, or set room.density_kg_m3", medium));
 }
 
 /// \param from,to  what the key places along an axis, 0 to 2
@@ -135,6 +147,7 @@ void check_measure(RoomReading& room, const ParameterValues& measure) {
     if (measure.text("measure.what") == "pressure_drop" && !room.scene.medium.present())
         room.refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
                     "Remove the measure, or choose a room.medium");
+    if (measure.text("measure.what") == "pressure_drop" && room.scene.medium.present()) require_density_of_medium(room, measure);
     if (measure.has("measure.against")) check_given_profile(room, measure);
     if (measure.has("measure.cell_m")) require_cell(room, measure);
     check_places(room, measure);
