@@ -479,6 +479,13 @@ gate = "door"
     EXPECT_THAT(mistakes, Not(HasSubstr("measure.upstream_m")));
 }
 
+TEST_F(RoomStudy, a_wrong_name_of_a_measure_is_told_with_its_number) {
+    const std::string measure = "[[measure]]\nname = \"{}\"\nwhat = \"wall_force\"\nwall = \"disc\"\n";
+    const std::string mistakes = mistakes_of(room_template("heap") + fmt::format(measure, "b") + fmt::format(measure, "c d"));
+    EXPECT_THAT(mistakes, HasSubstr("measure 3: name = \"c d\". A name has letters, digits, _ and -. Change it."));
+    EXPECT_THAT(mistakes, Not(HasSubstr("measure 1")));
+}
+
 TEST_F(RoomStudy, a_given_profile_is_read_before_the_run) {
     const auto with = [&](const std::string& csv) {
         write(csv, "p.csv");

@@ -99,8 +99,8 @@ nlohmann::json measure_json(const ParameterValues& table) {
     return measure;
 }
 
-std::vector<Mistake> measure_mistakes(const ParameterValues& table) {
-    return postproc::check_measures(nlohmann::json::array({measure_json(table)}), table.where("measure.name"));
+std::vector<Mistake> measure_mistakes(const ParameterValues& table, std::size_t number) {
+    return postproc::check_measures(nlohmann::json::array({measure_json(table)}), table.where("measure.name"), number);
 }
 
 std::vector<RoomGate> gates_of(const nlohmann::json& measures) {

@@ -16,8 +16,8 @@ ParameterTable measure_rows();
 /// A table as measures.json has it.
 nlohmann::json measure_json(const ParameterValues& table);
 
-/// Every mistake of a table by itself, with its place.
-std::vector<Mistake> measure_mistakes(const ParameterValues& table);
+/// Every mistake of a table by itself, with its place. \param number  of the table in its study, from 1
+std::vector<Mistake> measure_mistakes(const ParameterValues& table, std::size_t number);
 
 /// Gates that measures place themselves.
 std::vector<RoomGate> gates_of(const nlohmann::json& measures);

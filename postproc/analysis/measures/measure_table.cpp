@@ -625,7 +625,7 @@ const MeasureKind* find_measure_kind(const std::string& what) {
     return found == table.end() ? nullptr : &*found;
 }
 
-std::vector<Mistake> check_measures(const json& measures, const std::string& where) {
+std::vector<Mistake> check_measures(const json& measures, const std::string& where, std::size_t first) {
     if (!measures.is_array())
         return {{where, "the measures are no list", "A list of tables, each with name and what", "Write them as [[measure]] of a study"}};
     std::vector<Mistake> mistakes;
@@ -637,19 +637,19 @@ std::vector<Mistake> check_measures(const json& measures, const std::string& whe
             found.what = place + ": " + found.what;
             mistakes.push_back(std::move(found));
         };
-        std::string place = fmt::format("measure {}", i + 1);
+        std::string place = fmt::format("measure {}", first + i);
         if (!measure.is_object()) {
             add(place, mistake(measure.dump(), "A measure is a table with name and what", "Correct it"));
             continue;
         }
-        const bool named = measure.contains("name") && measure["name"].is_string() && is_name(measure["name"].get<std::string>());
-        if (named) {
+        const bool has_name = measure.contains("name");
+        if (has_name && measure["name"].is_string() && is_name(measure["name"].get<std::string>())) {
             place = "measure." + measure["name"].get<std::string>();
             if (!names.insert(place).second)
                 add(place, mistake("there are two of this name", "Names of measures are unique", "Rename one of them"));
         } else {
-            add(place, mistake(measure.contains("name") ? fmt::format("name = {}", measure["name"].dump()) : "name is missing",
-                               "A name has letters, digits, _ and -", "Give it a name"));
+            add(place, mistake(has_name ? fmt::format("name = {}", measure["name"].dump()) : "name is missing",
+                               "A name has letters, digits, _ and -", has_name ? "Change it" : "Give it a name"));
         }
         for (Mistake& found : measure_mistakes(measure)) add(place, std::move(found));
     }

@@ -50,8 +50,9 @@ const MeasureKind* find_measure_kind(const std::string& what);
 /// Every mistake of the measures of a run.
 /// \param measures  an array of objects, as measures.json has it and [[measure]] of a study
 /// \param where     in front of every mistake
+/// \param first     number of the first one: a measure without a right name is told by its number
 /// \return empty: run and postproc take all of them
-std::vector<Mistake> check_measures(const nlohmann::json& measures, const std::string& where = "");
+std::vector<Mistake> check_measures(const nlohmann::json& measures, const std::string& where = "", std::size_t first = 1);
 
 /// Values of a measure that was checked; a key that is absent has its default.
 class MeasureValues {

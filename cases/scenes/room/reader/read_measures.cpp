@@ -171,6 +171,7 @@ void check_measure(RoomReading& room, const ParameterValues& measure) {
 /// The rules of every table by itself, then those of the sound ones in their room.
 void read_measures(RoomReading& room) {
     std::set<std::string> names;
+    std::size_t number = 0;
     std::vector<const ParameterValues*> sound;
     room.scene.measures = nlohmann::json::array();
     for (const ParameterValues& measure : room.values.tables("measure")) {
@@ -178,7 +179,7 @@ void read_measures(RoomReading& room) {
         if (!names.insert(name).second)
             room.refuse(where, fmt::format("measure.name = \"{}\" is given twice", name), "Every measure has a name of its own",
                         "Change one");
-        const std::vector<Mistake> mistakes = measure_mistakes(measure);
+        const std::vector<Mistake> mistakes = measure_mistakes(measure, ++number);
         room.mistakes.add(mistakes);
         if (!mistakes.empty()) {
             room.wrong_measures.insert(name);
