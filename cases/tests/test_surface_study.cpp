@@ -258,7 +258,9 @@ TEST(RepeatMean, has_students_interval_and_none_for_what_never_came) {
     const postproc::RepeatMean mean = postproc::repeat_mean({1.0, 2.0, 3.0, 4.0, 5.0});
     EXPECT_DOUBLE_EQ(mean.mean, 3.0);
     EXPECT_NEAR(mean.half, 2.776445 * std::sqrt(2.5 / 5.0), 1e-5);
-    EXPECT_TRUE(std::isnan(postproc::repeat_mean({1.0}).half));
+    EXPECT_TRUE(std::isnan(postproc::repeat_mean({1.0, 2.0}).half)) << "two do not determine the scatter";
+    EXPECT_DOUBLE_EQ(postproc::repeat_mean({1.0, 2.0}).mean, 1.5);
+    EXPECT_NEAR(postproc::repeat_mean({1.0, 2.0, 3.0}).half, 4.302653 / std::sqrt(3.0), 1e-5);
     EXPECT_TRUE(std::isnan(postproc::repeat_mean({1.0, postproc::k_never}).mean));
 }
 

@@ -14,6 +14,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/statistics/sample.hpp"
+#include "postproc/analysis/comparison.hpp"
 #include "postproc/analysis/settings/distinct_runs.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
@@ -155,7 +156,7 @@ RepeatMean repeat_mean(const std::vector<double>& values) {
     if (values.empty() || !std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
         return {k_unknown, k_unknown};
     const Sample sample = sample_of(values);
-    return {sample.mean, sample.count < 2 ? k_unknown : half_interval(sample)};
+    return {sample.mean, sample.count < k_fewest_repeats ? k_unknown : half_interval(sample)};
 }
 
 std::string verdict_of(const RepeatMean& difference) {
@@ -220,7 +221,9 @@ std::string setting_comparison_text(const std::vector<SettingResults>& settings)
             text += fmt::format("  ({} run{})\n", setting.repeats.size(), setting.repeats.size() == 1 ? "" : "s");
         }
     }
-    text += "value +- half the 95 % interval (Student's t over repeats); differences from the first setting, in pairs of repeats\n";
+    text +=
+        "value +- half the 95 % interval (Student's t over three or more repeats); differences from the first setting, in pairs of "
+        "repeats\n";
     for (const std::string& warning : warnings_of(settings)) text += fmt::format("warning: {}\n", warning);
     return text;
 }
@@ -258,7 +261,8 @@ fs::path write_setting_comparison(const std::vector<SettingResults>& settings, c
                               html::table({"setting", "runs", "mean", "difference from the first", "verdict"}, rows, true));
     }
     body +=
-        "<p>Mean and half of the 95 % interval (Student's t over repeats); differences in pairs of repeats. Higher or lower: the interval "
+        "<p>Mean and half of the 95 % interval (Student's t over three or more repeats); differences in pairs of repeats. Higher or lower: "
+        "the interval "
         "of the difference "
         "leaves 0 out.</p>";
     const Page page(folder / "index.html", PageForm::live);

@@ -9,7 +9,8 @@
 
 namespace cutterflow::postproc {
 
-/// Mean of repeats and half of its 95 % interval (Student); NaN where it is not known: fewer than two repeats, or an event that never came.
+/// Mean of repeats and half of its 95 % interval (Student); NaN where it is not known: fewer than k_fewest_repeats, or an event that never
+/// came.
 struct RepeatMean {
     double mean = 0.0, half = 0.0;
 };
