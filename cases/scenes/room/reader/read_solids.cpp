@@ -58,6 +58,10 @@ void read_motion(RoomReading& room, const ParameterValues& values, RoomSolid& so
     if (begin >= end)
         room.refuse(values.where("solid.to_s"), fmt::format("solid.to_s = {:g} of {}", end, solid.name),
                     fmt::format("It must be after from_s = {:g}", begin), "Correct one of them");
+    room.require_in_run(begin, "solid.from_s", values);
+    if (solid.removed_at && *solid.removed_at <= begin)
+        room.refuse(values.where("solid.removed_at_s"), fmt::format("solid.removed_at_s = {:g} of {}", *solid.removed_at, solid.name),
+                    fmt::format("Its motion begins at {:g} s, when it is gone", begin), "Take it away later, or remove its motion");
     if (travels)
         solid.travel = coupling::WallTravel{vec3_of(values, "solid.velocity_m_s"), begin, end};
     else
