@@ -55,6 +55,15 @@ void write_texts(const fs::path& folder, const std::vector<CaseText>& files) {
     for (const CaseText& file : files) write_file(folder / file.path, file.text);
 }
 
+/// That extractions ask for until the run's end [kg].
+double ordered_extraction(const RoomScene& scene) {
+    double mass = 0.0;
+    for (const RoomEvent& event : scene.events)
+        if (const auto* extract = std::get_if<ExtractEvent>(&event))
+            mass += extract->rate * (std::min(extract->to, scene.run.end) - extract->from);
+    return mass;
+}
+
 /// Runs cutterFoam in a folder and shows how far it is. \return core seconds
 double run_cutter_foam(const fs::path& folder, const fs::path& solver, const std::string& what, double end, int ranks) {
     TimeProgress progress(what, end);
@@ -351,6 +360,7 @@ private:
             {"bed", pieces_.empty() ? nlohmann::json()
                                     : nlohmann::json{{"name", bed_}, {"poured", poured}, {"poured_kg", mass}, {"parts", pieces_.size()}}},
             {"fed_kg", scene_.fed_mass()},
+            {"extract_kg", ordered_extraction(scene_)},
             {"gates", gates},
             {"contacts", contacts},
             {"on", models_of(scene_)},

@@ -724,6 +724,24 @@ TEST_F(RoomStudy, warns_of_a_feed_that_the_run_s_end_cuts_short) {
                               "that are ordered come in"));
 }
 
+TEST_F(RoomStudy, warns_of_a_thaw_where_nothing_is_frozen) {
+    const auto warnings = [&](const std::string& steps) {
+        const RoomRequest request =
+            read_room_request(write(changed(k_end, steps + "[[event]]\ndo = \"thaw\"\nat_s = 2\nregion = { above_m = 0 }\n\n[run]\n")));
+        return room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    };
+    const auto freeze_at = [](const char* time) {
+        return fmt::format("[[event]]\ndo = \"freeze\"\nat_s = {}\nregion = {{ above_m = 0 }}\n\n", time);
+    };
+    for (const std::string& steps : {std::string(), freeze_at("3")}) {
+        const std::vector<Mistake> found = warnings(steps);
+        ASSERT_EQ(found.size(), 1u) << steps;
+        EXPECT_THAT(found[0].text(), ContainsRegex("room.toml:[0-9]+: do = \"thaw\" at 2 s. No step and no event freezes grains"));
+    }
+    EXPECT_TRUE(warnings(freeze_at("1")).empty());
+    EXPECT_TRUE(warnings("[[prepare]]\ndo = \"freeze\"\nabove_m = 0\n\n").empty());
+}
+
 TEST_F(RoomStudy, grains_without_a_way_into_the_room_are_refused) {
     std::string text = room_template("heap");
     const std::size_t from = text.find("[[prepare]]"), to = text.find("[run]");

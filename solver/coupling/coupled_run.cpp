@@ -50,6 +50,13 @@ private:
     Clock::time_point start_;
 };
 
+/// Whether an event that acts once has nothing to act on. Extractions tell how they stand.
+/// \param ids  of the rock in its region \param frozen  ids, sorted
+bool finds_nothing(OperationKind kind, const std::vector<int>& ids, const std::vector<int>& frozen) {
+    const auto can_act = [&](int id) { return kind != OperationKind::thaw || std::binary_search(frozen.begin(), frozen.end(), id); };
+    return kind != OperationKind::extract && std::none_of(ids.begin(), ids.end(), can_act);
+}
+
 /// The head's contour, bins and azimuths are about the z axis.
 std::vector<Mistake> check_axis(const ZoneMotion& zone) {
     const RotationAxis& axis = zone.axis;
@@ -184,6 +191,9 @@ void CoupledRun::act_on_bed() {
     const Timer timer(cost_.mapping);
     for (const std::size_t number : operations_.due(fluid_.time(), release_tolerance())) {
         const std::vector<int> ids = operations_.take(number, fluid_.time(), release_tolerance(), dem_->rocks(), dem_->frozen(), account_);
+        if (finds_nothing(operations_.kind_of(number), ids, dem_->frozen()))
+            recorder_.warning(fluid_.time(),
+                              fmt::format("events[{}] ({}) finds nothing in its region", number, name_of(operations_.kind_of(number))));
         switch (operations_.kind_of(number)) {
             case OperationKind::remove:
                 take_out(ids, EventSurface::remove, Whereabouts::removed);

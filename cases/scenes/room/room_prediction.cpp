@@ -199,6 +199,27 @@ std::vector<Mistake> feed_warnings(const ParameterValues& values, const RoomScen
     return warnings;
 }
 
+/// Whether grains may be frozen at a time: by the preparation, or by an event until then.
+bool may_be_frozen(const RoomScene& scene, double time) {
+    const auto freezes = [&](const RoomEvent& event) {
+        const auto* one = std::get_if<RegionEvent>(&event);
+        return one != nullptr && one->what == "freeze" && one->at <= time;
+    };
+    return std::any_of(scene.preparation.begin(), scene.preparation.end(),
+                       [](const PrepareStep& step) { return std::holds_alternative<FreezeStep>(step); }) ||
+           std::any_of(scene.events.begin(), scene.events.end(), freezes);
+}
+
+std::vector<Mistake> thaw_warnings(const ParameterValues& values, const RoomScene& scene) {
+    std::vector<Mistake> warnings;
+    for (const ParameterValues& event : values.tables("event")) {
+        if (event.text("event.do") != "thaw" || may_be_frozen(scene, event.number("event.at_s"))) continue;
+        warnings.push_back({event.where("event.do"), fmt::format("do = \"thaw\" at {:g} s", event.number("event.at_s")),
+                            "No step and no event freezes grains before it", "Freeze grains before it, or remove it"});
+    }
+    return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> models_of(const RoomScene& scene) {
@@ -276,6 +297,7 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
     for (Mistake& warning : impact_warnings(values, scene)) warnings.push_back(std::move(warning));
     for (Mistake& warning : softness_warnings(values, scene, pieces)) warnings.push_back(std::move(warning));
     for (Mistake& warning : feed_warnings(values, scene)) warnings.push_back(std::move(warning));
+    for (Mistake& warning : thaw_warnings(values, scene)) warnings.push_back(std::move(warning));
     if (!mesh) return warnings;
     for (Mistake& warning : meshing::room_mesh_warnings(*mesh)) warnings.push_back(std::move(warning));
     if (scene.grains.empty()) return warnings;

@@ -32,7 +32,8 @@ namespace fs = std::filesystem;
 constexpr const char* k_schema = "cutterflow.room_comparison/1";
 constexpr const char* k_account = "rock/account.csv";
 constexpr const char* k_contacts = "rock/contacts.csv";
-constexpr double k_fed_whole = 0.99;    // of what feeds are asked for
+constexpr double k_moved_whole = 0.99;  // of what feeds and extractions are asked for
+constexpr std::size_t k_most_warnings = 10;
 constexpr double k_deep_overlap = 0.1;  // of a radius
 constexpr const char* k_dry_bed =
     "Grains are spheres or rigid clumps; they neither break nor wear nor stick together. The preparation is computed without a medium.";
@@ -51,6 +52,31 @@ nlohmann::json cost_of(const fs::path& run) {
     nlohmann::json cost = nlohmann::json::object();
     for (const auto& [time, folder] : start_folders(run, "cost")) cost = read_if_there(folder / "cost.json");
     return cost;
+}
+
+/// What the solver warned of in all starts of a run or of a part of its preparation.
+std::vector<std::string> solver_warnings(const fs::path& run) {
+    std::vector<std::string> warnings;
+    for (const auto& [time, folder] : start_folders(run, "cost")) {
+        const nlohmann::json cost = read_if_there(folder / "cost.json");
+        for (const nlohmann::json& warning : cost.value("warnings", nlohmann::json::array()))
+            warnings.push_back(warning.get<std::string>());
+    }
+    return warnings;
+}
+
+/// Of preparation and run, those that came first; a run can have very many.
+std::vector<std::string> first_warnings(const fs::path& run, const nlohmann::json& bed) {
+    std::vector<std::string> warnings;
+    for (int part = 1; !bed.is_null() && part <= bed.at("parts").get<int>(); ++part)
+        for (const std::string& warning : solver_warnings(run / "bed" / std::to_string(part)))
+            warnings.push_back(fmt::format("bed/{}: {}", part, warning));
+    for (std::string& warning : solver_warnings(run)) warnings.push_back(std::move(warning));
+    if (warnings.size() <= k_most_warnings) return warnings;
+    const std::size_t more = warnings.size() - k_most_warnings;
+    warnings.resize(k_most_warnings);
+    warnings.push_back(fmt::format("{} more are in cost.json of postProcessing/cost", more));
+    return warnings;
 }
 
 /// Core seconds of a stage, from the manifest.
@@ -75,6 +101,7 @@ nlohmann::json account_of(const MeasureSource& source, const nlohmann::json& roo
         for (const char* where : {"placed", "in_run", "removed", "extracted", "left_domain"})
             account[where] = {{"count", source.column(k_account, std::string(where) + "_count").value.back()},
                               {"kg", source.column(k_account, std::string(where) + "_kg").value.back()}};
+        account["extracted"]["ordered_kg"] = room.value("extract_kg", 0.0);
         account["fed"] = {{"ordered_kg", room.value("fed_kg", 0.0)}, {"kg", fed_mass(source.directory())}};
         return account;
     } catch (const UserError&) {
@@ -106,6 +133,7 @@ nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const
             {"bed", room.value("bed", nlohmann::json())},
             {"account", account_of(source, room)},
             {"largest_overlap", largest_overlap(source)},
+            {"warnings", first_warnings(run, room.value("bed", nlohmann::json()))},
             {"core_s", {{"bed", core_seconds(manifest, "bed")}, {"run", core_seconds(manifest, "run")}}}};
 }
 
@@ -126,6 +154,13 @@ std::string gravity_text(const nlohmann::json& gravity) {
     const Vec3 g(gravity.at(0).get<double>(), gravity.at(1).get<double>(), gravity.at(2).get<double>());
     const double tilt = std::atan2(std::hypot(g.x(), g.y()), -g.z()) * 180.0 / k_pi;
     return fmt::format("{:.4g} m/s2{}", g.norm(), tilt > 1e-6 ? fmt::format(", {:.4g} degrees from the vertical", tilt) : "");
+}
+
+std::string notices(const nlohmann::json& results) {
+    std::string markup;
+    for (const nlohmann::json& warning : results.at("warnings"))
+        markup += fmt::format("<p class=\"notice\">{}.</p>\n", html::escape(warning.get<std::string>()));
+    return markup;
 }
 
 std::string what_was_run(const nlohmann::json& room, const nlohmann::json& results) {
@@ -188,7 +223,13 @@ std::string what_became(const nlohmann::json& results) {
     if (ordered > 0.0)
         text += fmt::format(
             "<p>Feeds gave {:.4g} of {:.4g} kg{}</p>", fed, ordered,
-            fed < k_fed_whole * ordered ? ": the rest found no room when it was due (rock/rejected.csv), or was not due." : ".");
+            fed < k_moved_whole * ordered ? ": the rest found no room when it was due (rock/rejected.csv), or was not due." : ".");
+    const double asked = account.at("extracted").at("ordered_kg").get<double>(), out = account.at("extracted").at("kg").get<double>();
+    if (asked > 0.0)
+        text += fmt::format("<p>Extractions took {:.4g} of {:.4g} kg{}</p>", out, asked,
+                            out < k_moved_whole * asked ? ": the rest is less than a grain, was not in the region when it was due "
+                                                          "(rock/extract.csv), or was not due."
+                                                        : ".");
     const nlohmann::json& overlap = results.at("largest_overlap");
     if (!overlap.is_null())
         text += fmt::format("<p>Largest overlap of a grain with another or a solid: {:.2g} of its radius{}</p>", overlap.get<double>(),
@@ -259,7 +300,7 @@ fs::path write_room_report(const fs::path& run) {
     const fs::path file = run / names::report_page;
     const Page page(file, PageForm::live);
     const std::string title = html::escape(room.at("name").get<std::string>());
-    const std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + answers(results, measures) +
+    const std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + answers(results, measures) + notices(results) +
                              html::section("What was run", what_was_run(room, results)) +
                              (results.at("account").is_null() ? "" : html::section("What became of the grains", what_became(results))) +
                              html::section("Grains and solids", room_pictures(page, room, source)) +

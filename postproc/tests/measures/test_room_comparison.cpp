@@ -133,6 +133,24 @@ TEST_F(RoomReport, counts_what_was_fed_at_the_beginning) {
     EXPECT_THAT(page_, AllOf(HasSubstr("Feeds gave 0.001047 of 0.001047 kg."), Not(HasSubstr("found no room"))));
 }
 
+TEST_F(RoomReport, tells_what_extractions_took_and_what_the_solver_warned_of) {
+    room_["extract_kg"] = 1.0;
+    room_["bed"] = {{"name", "b"}, {"poured", 1}, {"poured_kg", 0.1}, {"parts", 1}};
+    account("0.1,1,0.1\n");
+    events(1, 0);
+    write_file(run_ / "bed/1/postProcessing/cost/0/cost.json", R"({"warnings": ["time 0 s: events[0] (freeze) finds no rock"]})");
+    write_file(run_ / "postProcessing/cost/0/cost.json", R"({"warnings": ["time 0.5 s: events[0] (extract) is starved"]})");
+    EXPECT_EQ(results().at("warnings"),
+              json::array({"bed/1: time 0 s: events[0] (freeze) finds no rock", "time 0.5 s: events[0] (extract) is starved"}));
+    EXPECT_THAT(page_, AllOf(HasSubstr("Extractions took 0 of 1 kg: the rest"), HasSubstr("<p class=\"notice\">bed/1: time 0 s")));
+    json many{{"warnings", json::array()}};
+    for (int n = 0; n < 12; ++n) many["warnings"].push_back(fmt::format("w{}", n));
+    write_file(run_ / "postProcessing/cost/0/cost.json", many.dump());
+    const json told = results().at("warnings");
+    ASSERT_EQ(told.size(), 11U);
+    EXPECT_EQ(told.back(), "3 more are in cost.json of postProcessing/cost");
+}
+
 TEST(MeasureFigures, an_angle_of_no_grains_has_no_figure) {
     const json results{{"slope",
                         {{"what", "angle"},

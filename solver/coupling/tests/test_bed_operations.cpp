@@ -122,6 +122,21 @@ TEST(BedOperations, act_at_their_times_on_their_regions_alone) {
               3);
 }
 
+TEST(BedOperations, tell_of_events_that_find_nothing) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = row_of_rock(folder, 3);
+    const SphereRegion first{Vec3::Zero(), 0.5}, nowhere{Vec3(50, 0, 0), 0.5};
+    settings.operations = {at(0.01, OperationKind::freeze, nowhere), at(0.01, OperationKind::remove, nowhere),
+                           at(0.02, OperationKind::thaw, first), at(0.03, OperationKind::freeze, first),
+                           at(0.04, OperationKind::thaw, first)};
+    Rows rows;
+    Bed bed(settings, folder, rows);
+    bed.go_to(0.05);
+    EXPECT_THAT(rows.warnings,
+                ElementsAre("events[0] (freeze) finds nothing in its region", "events[1] (remove) finds nothing in its region",
+                            "events[2] (thaw) finds nothing in its region"));
+}
+
 TEST(BedOperations, extract_whole_rocks_at_a_rate_the_first_that_came_first) {
     const TemporaryFolder folder;
     CouplingSettings settings = row_of_rock(folder, 40);
