@@ -564,13 +564,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end,
             "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 1e8\n"
             "region = { box = { lower_m = [-0.01, -0.01, 0.1], upper_m = [0.01, 0.01, 0.15] } }\n\n[run]\n",
-            "A feed has at most 1e+06"},
+            "A feed has at most 1000000"},
         Bad{"depth_m = 0.06", "depth_m = 0.06\ncount = 10", "a pour with 2 of depth_m, mass_kg and count"},
         Bad{"radius_m = 0.02 } }", "radius_m = 0.0018 } }", "grains of up to 0.0042 m in a region of 0.0036 m"},
         Bad{"depth_m = 0.06\nregion = { cylinder = { from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 } }",
             "depth_m = 0.004\nregion = { box = { lower_m = [-0.01, -0.01, 0.021], upper_m = [0.01, 0.01, 0.029] } }",
             "find no place in the region of their pour"},
-        Bad{"uniform_by_number = [0.0038, 0.0042]", "uniform_by_number = [0.00002, 0.000021]", "A pour has at most 1e+06"},
+        Bad{"uniform_by_number = [0.0038, 0.0042]", "uniform_by_number = [0.00002, 0.000021]", "A pour has at most 1000000"},
         Bad{"radius_m = 0.02 } }", "radius_m = 0.06 } }", "a cylinder of radius 0.06 m about (0, 0, 0.03) reaches out of the room"},
         Bad{"from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02", "from_m = [9, 0, 0.03], to_m = [9, 0, 0.15], radius_m = 0.02",
             "prepare.region is about a region outside the room"},
@@ -722,6 +722,12 @@ TEST_F(RoomStudy, warns_of_a_feed_that_the_run_s_end_cuts_short) {
     EXPECT_THAT(cut[0].text(),
                 ContainsRegex("room.toml:[0-9]+: event.to_s = 7 of a feed of beads. The run ends at 4 s: 0.03 of the 0.06 kg "
                               "that are ordered come in"));
+}
+
+TEST_F(RoomStudy, a_pour_of_as_many_grains_as_are_allowed_is_not_too_many) {
+    const std::string mistakes = mistakes_of(changed("depth_m = 0.06", "count = 1000000"));
+    EXPECT_THAT(mistakes, HasSubstr("poured grains fill"));
+    EXPECT_THAT(mistakes, Not(HasSubstr("A pour has at most")));
 }
 
 TEST_F(RoomStudy, warns_of_a_thaw_where_nothing_is_frozen) {

@@ -1,5 +1,6 @@
 /// \file Tables [[prepare]] and [[event]]: what is done to the grains, before the run and in it.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -37,9 +38,9 @@ double narrowest(const Region& region) {
 
 /// Whether one pour or feed is small enough.
 bool require_few_enough(RoomReading& room, const RoomGrains& grains, double mass, const char* what, const std::string& where) {
-    const double count = mass / (grains.density * grains.mean_volume());
+    const double count = std::round(mass / (grains.density * grains.mean_volume()));
     if (count <= k_most_grains) return true;
-    room.refuse(where, fmt::format("a {} of {:.3g} grains", what, count), fmt::format("A {} has at most {:g}", what, k_most_grains),
+    room.refuse(where, fmt::format("a {} of {:.0f} grains", what, count), fmt::format("A {} has at most {:.0f}", what, k_most_grains),
                 fmt::format("{} less, or larger grains", std::string(what) == "pour" ? "Pour" : "Feed"));
     return false;
 }
