@@ -347,9 +347,11 @@ private:
                                 {"rolling", pair.settings.rolling_friction},
                                 {"restitution", pair.settings.restitution}});
         nlohmann::json grains = nlohmann::json::array();
-        for (const RoomGrains& kind : scene_.grains)
+        for (const RoomGrains& kind : scene_.grains) {
             grains.push_back(
                 {{"name", kind.name}, {"density_kg_m3", kind.density}, {"smallest_m", kind.smallest()}, {"largest_m", kind.largest()}});
+            if (!kind.clump.empty()) grains.back()["clump"] = kind.clump.filename().string();
+        }
         return {
             {"name", scene_.name},
             {"size_m", {scene_.size.x(), scene_.size.y(), scene_.size.z()}},

@@ -163,6 +163,14 @@ std::string notices(const nlohmann::json& results) {
     return markup;
 }
 
+/// "2500 kg/m3, 3.8 to 4.2 mm"; a clump is as large as the sphere of its volume.
+std::string grains_text(const nlohmann::json& kind) {
+    const std::string text = fmt::format("{:g} kg/m3, {:.4g} to {:.4g} mm", kind.at("density_kg_m3").get<double>(),
+                                         1e3 * kind.at("smallest_m").get<double>(), 1e3 * kind.at("largest_m").get<double>());
+    if (!kind.contains("clump")) return text;
+    return fmt::format("{} (diameters of spheres of their volume); clumps of {}", text, html::escape(kind.at("clump").get<std::string>()));
+}
+
 std::string what_was_run(const nlohmann::json& room, const nlohmann::json& results) {
     const auto numbers = [](const nlohmann::json& list) {
         return fmt::format("{:g} x {:g} x {:g}", list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
@@ -175,9 +183,7 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
         {"seed", room.at("seed").dump()}};
     if (room.contains("gravity_m_s2")) rows.push_back({"gravity", gravity_text(room.at("gravity_m_s2"))});
     for (const nlohmann::json& kind : room.at("grains"))
-        rows.push_back({html::escape(kind.at("name").get<std::string>()),
-                        fmt::format("{:g} kg/m3, {:.4g} to {:.4g} mm", kind.at("density_kg_m3").get<double>(),
-                                    1e3 * kind.at("smallest_m").get<double>(), 1e3 * kind.at("largest_m").get<double>())});
+        rows.push_back({html::escape(kind.at("name").get<std::string>()), grains_text(kind)});
     const nlohmann::json& bed = room.at("bed");
     if (!bed.is_null())
         rows.push_back(

@@ -151,6 +151,16 @@ TEST_F(RoomReport, tells_what_extractions_took_and_what_the_solver_warned_of) {
     EXPECT_EQ(told.back(), "3 more are in cost.json of postProcessing/cost");
 }
 
+TEST_F(RoomReport, says_which_grains_are_clumps) {
+    json kind{{"name", "rods"}, {"density_kg_m3", 2500}, {"smallest_m", 0.004}, {"largest_m", 0.005}};
+    room_["grains"].push_back(kind);
+    results();
+    EXPECT_THAT(page_, AllOf(HasSubstr("2500 kg/m3, 4 to 5 mm"), Not(HasSubstr("clumps of"))));
+    room_["grains"][0]["clump"] = "rod.clump";
+    results();
+    EXPECT_THAT(page_, HasSubstr("4 to 5 mm (diameters of spheres of their volume); clumps of rod.clump"));
+}
+
 TEST(MeasureFigures, an_angle_of_no_grains_has_no_figure) {
     const json results{{"slope",
                         {{"what", "angle"},
