@@ -245,11 +245,17 @@ std::string what_became(const nlohmann::json& results) {
     return text;
 }
 
+/// What selects a model. The solver names the file of the case, a study has a key.
+std::string reason_of(const nlohmann::json& model) {
+    const bool of_turbulence = model.at("name").get<std::string>().rfind("turbulence: ", 0) == 0;
+    return of_turbulence ? "room.turbulence selects it" : model.at("why").get<std::string>();
+}
+
 std::string models_and_cost(const fs::path& run, const nlohmann::json& results) {
     const nlohmann::json cost = cost_of(run);
     std::vector<std::vector<std::string>> rows;
     for (const nlohmann::json& model : cost.value("models", nlohmann::json::array()))
-        rows.push_back({html::escape(model.at("name").get<std::string>()), html::escape(model.at("why").get<std::string>())});
+        rows.push_back({html::escape(model.at("name").get<std::string>()), html::escape(reason_of(model))});
     std::string markup = rows.empty() ? "" : html::table({"model", "why"}, rows, false);
     rows = {{"bed", duration_text(results.at("core_s").at("bed").get<double>())},
             {"run", duration_text(results.at("core_s").at("run").get<double>())}};

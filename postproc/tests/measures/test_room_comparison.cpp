@@ -161,6 +161,13 @@ TEST_F(RoomReport, says_which_grains_are_clumps) {
     EXPECT_THAT(page_, HasSubstr("4 to 5 mm (diameters of spheres of their volume); clumps of rod.clump"));
 }
 
+TEST_F(RoomReport, names_the_key_that_selects_the_turbulence_model) {
+    write_file(run_ / "postProcessing/cost/0/cost.json",
+               R"({"models": [{"name": "turbulence: laminar", "why": "constant/turbulenceProperties selects it"}]})");
+    results();
+    EXPECT_THAT(page_, AllOf(HasSubstr("room.turbulence selects it"), Not(HasSubstr("turbulenceProperties"))));
+}
+
 TEST(MeasureFigures, an_angle_of_no_grains_has_no_figure) {
     const json results{{"slope",
                         {{"what", "angle"},
