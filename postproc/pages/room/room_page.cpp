@@ -267,7 +267,7 @@ std::string models_and_cost(const fs::path& run, const nlohmann::json& results) 
 void require_measured_room(const fs::path& run) {
     if (!is_room_run(run))
         throw UserError(fmt::format("{} {}", run.string(), fs::exists(run) ? "is no run of a room" : "does not exist"),
-                        fmt::format("It has a {}", k_room_file), "Compare runs of one kind");
+                        fmt::format("A run of a room has a {}", k_room_file), "Compare runs of one kind");
     if (fs::exists(run / k_measures) && !has_measures(run))
         throw UserError(
             fmt::format("the study of {} has no [[measure]]", run.string()), "Runs of rooms are compared by their measures",

@@ -58,6 +58,15 @@ TEST_F(RoomComparison, names_the_runs_that_have_not_come_to_their_end) {
     EXPECT_EQ(unfinished_room(stopped), "") << "nothing tells";
 }
 
+TEST_F(RoomComparison, says_what_a_run_of_a_room_has) {
+    try {
+        compare_room_runs({run("one", 0.8, true), folder_});
+        FAIL() << "a folder of runs is none";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("is no run of a room. A run of a room has a room.json"));
+    }
+}
+
 TEST_F(RoomComparison, says_that_a_study_has_no_measure) {
     const fs::path one = run("one", 0.8, true), none = run("none", 0.8, true);
     write_file(none / k_measures, "[]");
