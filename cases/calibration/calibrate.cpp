@@ -196,7 +196,8 @@ std::string run_grid(const CalibrationFile& file, Places& places) {
 }
 
 std::string run_surface(const CalibrationFile& file, Places& places) {
-    run_grid(file, places);
+    const std::string ended = run_grid(file, places);
+    if (file.rounds == 0) return ended;
     for (int round = 0; round < file.rounds; ++round) {
         const auto found = calibration::estimate_of(places.calibration(""));
         if (!found) return "too few places have values of all targets for a quadratic";

@@ -294,6 +294,7 @@ TEST_F(Calibrate, takes_a_profile_from_a_file) {
     write(calibration_text("study = [\"heap.toml\"]\nmethod = \"surface\"\nrounds = 0\nrepeats = 1",
                            "[[target]]\nmeasure = \"angle\"\nprofile = \"heap.csv\"\ntolerance = 0.01\n"));
     const auto outcome = run();
+    EXPECT_EQ(outcome.calibration.ended, "the grid is done") << "no round was asked for";
     EXPECT_EQ(outcome.agreements[0].target.size(), 100u);
     EXPECT_NEAR(outcome.parameters[0], 0.44, 0.005);
     EXPECT_LT(*outcome.agreements[0].relative_error, 0.01);
