@@ -318,8 +318,8 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
 
 std::string to_text(const RoomPrediction& found) {
     const std::string fed = found.fed > 0.0 ? fmt::format(" and {:.0f} fed, {:.4g} kg", found.fed, found.fed_mass) : "";
-    std::string text = fmt::format("{}: {} solid{}, {} grains, {:.4g} kg{}, medium {}\n", found.name, found.solids,
-                                   found.solids == 1 ? "" : "s", found.grains, found.mass, fed, found.medium);
+    std::string text = fmt::format("{}: {} solid{}, {} grain{}, {:.4g} kg{}, medium {}\n", found.name, found.solids,
+                                   found.solids == 1 ? "" : "s", found.grains, found.grains == 1 ? "" : "s", found.mass, fed, found.medium);
     if (found.contact_step > 0.0)
         text += fmt::format(
             "contact step {:.3g} s, {:.2g} steps; grains about {} on one core for a preparation of {:.2g} s and a run of {:g} s\n",

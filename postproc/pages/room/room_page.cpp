@@ -171,6 +171,13 @@ std::string grains_text(const nlohmann::json& kind) {
     return fmt::format("{} (diameters of spheres of their volume); clumps of {}", text, html::escape(kind.at("clump").get<std::string>()));
 }
 
+std::string bed_text(const nlohmann::json& bed) {
+    const auto poured = bed.at("poured").get<std::size_t>();
+    const int parts = bed.at("parts").get<int>();
+    return fmt::format("{} grain{} poured, {:.4g} kg, in {} part{}; checkpoint {}", poured, poured == 1 ? "" : "s",
+                       bed.at("poured_kg").get<double>(), parts, parts == 1 ? "" : "s", bed.at("name").get<std::string>());
+}
+
 std::string what_was_run(const nlohmann::json& room, const nlohmann::json& results) {
     const auto numbers = [](const nlohmann::json& list) {
         return fmt::format("{:g} x {:g} x {:g}", list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
@@ -185,10 +192,7 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
     for (const nlohmann::json& kind : room.at("grains"))
         rows.push_back({html::escape(kind.at("name").get<std::string>()), grains_text(kind)});
     const nlohmann::json& bed = room.at("bed");
-    if (!bed.is_null())
-        rows.push_back(
-            {"bed", fmt::format("{} grains poured, {:.4g} kg, in {} part(s); checkpoint {}", bed.at("poured").get<std::size_t>(),
-                                bed.at("poured_kg").get<double>(), bed.at("parts").get<int>(), bed.at("name").get<std::string>())});
+    if (!bed.is_null()) rows.push_back({"bed", bed_text(bed)});
     for (const nlohmann::json& solid : room.at("solids")) {
         std::string text = html::escape(solid.at("material").get<std::string>());
         if (solid.contains("travel"))

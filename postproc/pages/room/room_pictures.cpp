@@ -149,8 +149,8 @@ std::string room_pictures(const Page& page, const nlohmann::json& room, const Me
         scene.ghosts = solids_at(room, source.directory(), times[index]);
         add_edges(room, scene.ghosts);
         scene.rocks = spheres_of(grains, speed);
-        const std::string caption =
-            fmt::format("{:.4g} s; {} grains; blue: {:.2g} m/s and more, yellow: at rest", times[index], grains.size(), speed);
+        const std::string caption = fmt::format("{:.4g} s; {} grain{}; blue: {:.2g} m/s and more, yellow: at rest", times[index],
+                                                grains.size(), grains.size() == 1 ? "" : "s", speed);
         const auto image = [&](const HeadScene& drawn, const View& view, const char* name) {
             return fmt::format("<img src=\"{}\" width=\"{}\" alt=\"{}\">",
                                page.address(render(drawn, view), fmt::format("{}_{}", name, index)), view.width, name);

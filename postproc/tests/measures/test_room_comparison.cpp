@@ -160,6 +160,12 @@ TEST_F(RoomReport, tells_what_extractions_took_and_what_the_solver_warned_of) {
     EXPECT_EQ(told.back(), "3 more are in cost.json of postProcessing/cost");
 }
 
+TEST_F(RoomReport, counts_one_grain_as_one) {
+    room_["bed"] = {{"name", "b"}, {"poured", 1}, {"poured_kg", 0.1}, {"parts", 1}};
+    results();
+    EXPECT_THAT(page_, AllOf(HasSubstr("1 grain poured, 0.1 kg, in 1 part;"), HasSubstr("1 s; 1 grain; blue"), Not(HasSubstr("1 grains"))));
+}
+
 TEST_F(RoomReport, says_which_grains_are_clumps) {
     json kind{{"name", "rods"}, {"density_kg_m3", 2500}, {"smallest_m", 0.004}, {"largest_m", 0.005}};
     room_["grains"].push_back(kind);
