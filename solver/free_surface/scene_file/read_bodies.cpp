@@ -105,7 +105,31 @@ double depth_in(const StillSolid& solid, const Vec3& place, double radius, bool 
     return deepest;
 }
 
-void add_body(SceneFileReading& reading, const ListedBody& body, double diameter, double density) {
+/// A body that reaches out of the domain.
+struct Leaving {
+    std::string where;
+    int id = 0;
+    Vec3 place = Vec3::Zero();
+    double beyond = 0.0;  // [m]
+};
+
+/// Each body of a list at its line, those of a stack at once. \param all  bodies of the table
+void refuse_leaving(SceneFileReading& reading, const std::vector<Leaving>& leaving, std::size_t all, bool is_stack) {
+    const Vec3 end(reading.width(), reading.scene.settings.tank.depth, reading.height());
+    const std::string rule = fmt::format("The domain reaches to {}", reading.text_of(end));
+    const auto named = [&](const Leaving& body) { return fmt::format("{} at {}", body.id, reading.text_of(body.place)); };
+    if (is_stack && leaving.size() > 1)
+        return reading.refuse(leaving.front().where,
+                              fmt::format("{} of {} bodies leave the domain; the first, body {}, by {:.3g} m", leaving.size(), all,
+                                          named(leaving.front()), leaving.front().beyond),
+                              rule, "Move the stack, or make it smaller");
+    for (const Leaving& body : leaving)
+        reading.refuse(body.where, fmt::format("Body {} leaves the domain by {:.3g} m", named(body), body.beyond), rule,
+                       "Move it, or the stack");
+}
+
+/// \param leaving  receives it when it reaches out of the domain
+void add_body(SceneFileReading& reading, const ListedBody& body, double diameter, double density, std::vector<Leaving>& leaving) {
     coupling::Rocks& rocks = reading.scene.bodies;
     const bool sphere = reading.scene.settings.spheres;
     const double depth = reading.scene.settings.tank.depth;
@@ -119,10 +143,7 @@ void add_body(SceneFileReading& reading, const ListedBody& body, double diameter
     double beyond =
         std::max({radius - place.x(), place.x() + radius - reading.width(), radius - place.z(), place.z() + radius - reading.height()});
     if (sphere) beyond = std::max({beyond, radius - place.y(), place.y() + radius - depth});
-    if (beyond > 0.0)
-        reading.refuse(where, fmt::format("Body {} at {} leaves the domain by {:.3g} m", id, reading.text_of(place), beyond),
-                       fmt::format("The domain reaches to {}", reading.text_of(Vec3(reading.width(), depth, reading.height()))),
-                       "Move it, or the stack");
+    if (beyond > 0.0) leaving.push_back({where, id, place, beyond});
     for (std::size_t n = 0; n < rocks.size(); ++n) {
         const double between = (rocks.position[n] - place).norm() - 0.5 * rocks.diameter[n] - radius;
         if (between < 0.0)
@@ -156,12 +177,16 @@ void read_bodies(SceneFileReading& reading, const ParameterValues& bodies) {
     const double jitter = bodies.number("bodies.jitter_m");
     std::mt19937 random(static_cast<unsigned>(bodies.integer("bodies.seed")));
     std::uniform_real_distribution<double> shift(-jitter, jitter);
-    for (ListedBody& body : bodies.has("bodies.file") ? listed(reading, bodies) : stacked(reading, bodies)) {
+    const bool is_stack = !bodies.has("bodies.file");
+    std::vector<ListedBody> all = is_stack ? stacked(reading, bodies) : listed(reading, bodies);
+    std::vector<Leaving> leaving;
+    for (ListedBody& body : all) {
         body.z += shift(random);
         body.x += shift(random);
         if (reading.scene.settings.spheres) body.y = body.y.value_or(0.5 * reading.scene.settings.tank.depth) + shift(random);
-        add_body(reading, body, diameter, density);
+        add_body(reading, body, diameter, density, leaving);
     }
+    refuse_leaving(reading, leaving, all.size(), is_stack);
 }
 
 /// The DEM keeps bodies by their ids.

@@ -171,6 +171,16 @@ TEST(SceneFile, refuses_stacks_of_too_many_bodies) {
                 ::testing::HasSubstr("a stack of 6e+09 bodies"));
 }
 
+TEST(SceneFile, tells_bodies_of_a_stack_that_leave_the_domain_at_once) {
+    const std::string mistakes = mistakes_of(k_tank + k_fill +
+                                             "[[bodies]]\ndiameter_m = 0.01\nlayers = 6\nwidest = 6\ncentre_x_m = 0.02\nlowest_m = 0.11\n"
+                                             "clearance_m = 0.001\n");
+    EXPECT_THAT(mistakes, ::testing::ContainsRegex("[0-9]+ of 33 bodies leave the domain; the first, body 1 at \\(-0.0075, 0.115\\) m, by "
+                                                   "0.0125 m. The domain reaches to"));
+    EXPECT_EQ(mistakes.find("leave the domain"), mistakes.rfind("leave the domain"));
+    EXPECT_THAT(mistakes, ::testing::Not(::testing::HasSubstr("leaves the domain")));
+}
+
 TEST(SceneFile, stacks_bodies_and_derives_the_gap) {
     const Scene scene = parse_scene(
         k_tank + k_fill + "[[bodies]]\ndiameter_m = 0.01\nlayers = 6\nwidest = 6\ncentre_x_m = 0.1\nlowest_m = 0.11\nclearance_m = 0.001\n",

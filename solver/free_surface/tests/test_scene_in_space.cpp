@@ -119,7 +119,7 @@ TEST(SceneInSpace, names_what_does_not_fit_its_kind_all_at_once) {
     EXPECT_THAT(mistakes_of(wide(cylinders)), HasSubstr("bodies.rows"));
     std::string outside = k_spheres;
     outside.replace(outside.find("rows = 2"), 8, "rows = 3");
-    EXPECT_THAT(mistakes_of(wide(outside)), HasSubstr("leaves the domain"));
+    EXPECT_THAT(mistakes_of(wide(outside)), HasSubstr("6 of 9 bodies leave the domain"));
 }
 
 class SurfaceFile : public ::testing::Test {
