@@ -174,9 +174,10 @@ void describe_replay(const RecordedRun& run, const ParameterValues& values, cons
                "# Every key of the study as it was replayed. Written by cutterflow: change the study, not this file.\n\n" +
                    commented_toml(study_table(), &values));
     write_file(folder / names::feed_report, feed_json(feeds, study));
-    const nlohmann::json replay{{"schema", "cutterflow.replay/1"},
+    const nlohmann::json replay{{"schema", postproc::k_replay_schema},
                                 {"run", run.folder.string()},
-                                {"flow_revolutions", recording.end / study.period()},
+                                {"flow_start_s", recording.start},
+                                {"flow_end_s", recording.end},
                                 {"flow_change", optional_json(recording.change)}};
     write_file(folder / names::replay, replay.dump(2) + "\n");
 }

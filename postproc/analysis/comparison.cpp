@@ -285,10 +285,12 @@ std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
 /// Of replays: whether the flow that their rock goes through had developed.
 std::vector<QuantityRule> recorded_flow_rules() {
     const auto of = [](auto member) -> Evaluate {
-        return [=](const ComparedRun& r) { return r.run.flow ? plain((*r.run.flow).*member) : Estimate{}; };
+        return [=](const ComparedRun& r) { return r.run.flow ? plain(member(r.run)) : Estimate{}; };
     };
-    return {{"flow_revolutions", "revolutions until the recorded flow ended", "-", false, of(&RecordedFlow::revolutions)},
-            {"flow_change", "change of the recorded flow in a revolution", "-", false, of(&RecordedFlow::change)}};
+    return {{"flow_revolutions", "revolutions until the recorded flow ended", "-", false,
+             of([](const RunData& run) { return std::optional<double>(run.flow->end / run.operating_point.revolution_s()); })},
+            {"flow_change", "change of the recorded flow in a revolution", "-", false,
+             of([](const RunData& run) { return run.flow->change; })}};
 }
 
 std::vector<QuantityRule> cost_rules() {
@@ -336,7 +338,7 @@ std::vector<QuantityRule> rules_of(const Comparison& comparison) {
     append(load_rules(with_rock));
     append(outflow_rules(comparison.runs));
     if (with_rock) append(spilled_rules(comparison.runs));
-    if (scope_of(comparison).is_replay) append(recorded_flow_rules());
+    if (scope_of(comparison).replays != Replays::none) append(recorded_flow_rules());
     append(cost_rules());
     return rules;
 }
@@ -627,11 +629,14 @@ std::map<std::string, std::vector<std::string>> differing_keys(const Comparison&
 }
 
 Scope scope_of(const Comparison& comparison) {
-    Scope scope{false, true, true, true, true};
+    const auto replays = static_cast<std::size_t>(
+        std::count_if(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.run.flow.has_value(); }));
+    Scope scope{false, true, true,
+                true,  true, replays == 0 ? Replays::none : replays == comparison.runs.size() ? Replays::all : Replays::some};
     for (const ComparedRun& compared : comparison.runs) {
         const Scope run = scope_of(compared.run);
         scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting, scope.feels_bank && run.feels_bank,
-                 scope.hauls && run.hauls,         scope.fed_by_layer && run.fed_by_layer,     scope.is_replay || run.is_replay};
+                 scope.hauls && run.hauls,         scope.fed_by_layer && run.fed_by_layer,     scope.replays};
     }
     return scope;
 }

@@ -1,10 +1,13 @@
 #include "postproc/analysis/not_modelled.hpp"
 
+#include <map>
+
 namespace cutterflow::postproc {
 
 Scope scope_of(const RunData& run) {
     const OperatingPoint& point = run.operating_point;
-    return {run.rock.has_value(), point.fed_by_cutting, point.has_bank, point.hauls, point.spill_layer > 0.0, run.flow.has_value()};
+    return {run.rock.has_value(), point.fed_by_cutting,    point.has_bank,
+            point.hauls,          point.spill_layer > 0.0, run.flow ? Replays::all : Replays::none};
 }
 
 std::vector<NotModelled> not_modelled(const Scope& scope) {
@@ -36,10 +39,10 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
         table.insert(table.begin() + 4, {"continuous feed",
                                          "one batch of rock; production and spillage do not reach a steady state as in continuous "
                                          "dredging"});
-    if (scope.is_replay)
+    if (scope.replays != Replays::none)
         table.insert(table.begin(), {"reaction of rock on the water",
-                                     "rock goes through a recorded flow and does not change it; coupled runs of the same rock tell what "
-                                     "that leaves out (cutterflow replay)"});
+                                     "of a replay rock goes through a recorded flow and does not change it; torque and power with rock "
+                                     "are not known. Coupled runs of the same rock tell what that leaves out (cutterflow replay)"});
     return table;
 }
 
@@ -79,8 +82,11 @@ const std::string& sentence_of_scene(const Scope& scope) {
 }  // namespace
 
 std::string scope_sentence(const Scope& scope) {
-    return (scope.is_replay ? "This is a replay: rock goes through a recorded flow and does not change it. " : "") +
-           sentence_of_scene(scope);
+    static const std::map<Replays, std::string> of_replays{
+        {Replays::none, ""},
+        {Replays::some, "In settings named replayed rock goes through a recorded flow and does not change it. "},
+        {Replays::all, "This is a replay: rock goes through a recorded flow and does not change it. "}};
+    return of_replays.at(scope.replays) + sentence_of_scene(scope);
 }
 
 }  // namespace cutterflow::postproc

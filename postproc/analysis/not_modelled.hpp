@@ -12,6 +12,9 @@ struct NotModelled {
     std::string consequence;  ///< what a reader of the result must keep in mind
 };
 
+/// Of which runs rock goes through a recorded flow.
+enum class Replays { none, some, all };
+
 /// What a run was asked for.
 struct Scope {
     bool with_rock = false;
@@ -19,7 +22,7 @@ struct Scope {
     bool feels_bank = false;      ///< soil stands beside the head
     bool hauls = false;           ///< the run's frame travels with the head
     bool fed_by_layer = false;    ///< loose rock that the swing before left comes in, too
-    bool is_replay = false;       ///< rock goes through a recorded flow
+    Replays replays = Replays::none;
 };
 
 Scope scope_of(const RunData& run);

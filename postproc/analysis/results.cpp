@@ -12,6 +12,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Time steps do not fall on the mark: a twentieth of a passing more or less still counts as whole.
+constexpr double k_whole_passing = 1.05;
+
 /// Time between the passing of two blades [s].
 double blade_period(const RunData& run) {
     return run.operating_point.revolution_s() / run.blades;
@@ -21,10 +24,13 @@ std::vector<BinOutflow> average_outflow(const RunData& run) {
     std::vector<BinOutflow> outflow;
     if (run.outflow.empty()) return outflow;
     const std::vector<double>& times = run.outflow.number("time_s");
-    for (const geometry::AxialBin& bin : run.bins) {
-        outflow.push_back(
-            {bin, time_average(times, run.outflow.number(bin.name), run.operating_point.outflow_start, times.back(), blade_period(run))});
+    double start = run.operating_point.outflow_start, end = times.back();
+    if (run.flow) {  // as the recording ends, before a coupled run's own rock moves the water
+        start = run.flow->end;
+        end = start + k_whole_passing * blade_period(run);
     }
+    for (const geometry::AxialBin& bin : run.bins)
+        outflow.push_back({bin, time_average(times, run.outflow.number(bin.name), start, end, blade_period(run))});
     return outflow;
 }
 
@@ -54,12 +60,12 @@ std::vector<double> sum_of(const Table& table, const std::vector<const char*>& c
     return sum;
 }
 
-RotorLoads average_loads(const RunData& run, double start) {
+/// Over whole revolutions, or passings of a blade, from `start` to `last` [s] at most.
+RotorLoads average_loads(const RunData& run, double start, double last) {
     RotorLoads rotor;
     const std::vector<double>& times = run.loads.number("time_s");
     rotor.revolutions = std::abs(run.loads.number("rotor_angle_rad").back()) / (2.0 * k_pi);
-    // Time steps do not fall on the mark: a twentieth of a passing short still counts as whole.
-    double passings = std::max(0.0, std::floor((times.back() - start) / blade_period(run) + 0.05));
+    double passings = std::max(0.0, std::floor((last - start) / blade_period(run) + k_whole_passing - 1.0));
     if (passings > run.blades) passings = run.blades * std::floor(passings / run.blades);
     rotor.averaged_revolutions = passings / run.blades;
     if (passings == 0.0) return rotor;
@@ -75,7 +81,7 @@ RotorLoads average_loads(const RunData& run, double start) {
 
 /// The recorded flow's own torque; what rock does to the rotor, and with it the power of the drive, is not known.
 RotorLoads loads_of_replay(const RunData& run, double end_time) {
-    RotorLoads rotor = average_loads(run, run.operating_point.outflow_start);
+    RotorLoads rotor = average_loads(run, run.flow->start, run.flow->end);
     rotor.revolutions = end_time / run.operating_point.revolution_s();
     rotor.torque_rock.reset();
     rotor.power.reset();
@@ -173,6 +179,7 @@ Cost sum_cost(const RunData& run, double end_time, double revolutions) {
     cost.cells = whole_number(run.mesh, "cells");
     if (!cost.cells) cost.cells = whole_number(run.cost_summary, "cells");
     if (cost.ranks) cost.core_s = cost.wall_s * *cost.ranks;
+    if (run.flow && run.cost_summary.contains("core_s")) cost.core_s = run.cost_summary.at("core_s");
     cost.predicted = predicted_cost(run.prediction, end_time, revolutions);
     if (cost.core_s && revolutions > 0.0) cost.core_s_per_revolution = *cost.core_s / revolutions;
     for (const char* part : {"fluid", "mesh_motion", "mapping", "dem", "output"}) {
@@ -352,7 +359,7 @@ json rotor_json(const Results& results, const RunData& run) {
 }
 
 json recorded_flow_json(const RecordedFlow& flow) {
-    return {{"run", flow.run.string()}, {"revolutions", flow.revolutions}, {"change", or_null(flow.change)}};
+    return {{"run", flow.run.string()}, {"start_s", flow.start}, {"end_s", flow.end}, {"change", or_null(flow.change)}};
 }
 
 json not_modelled_json(const RunData& run) {
@@ -401,12 +408,14 @@ Results compute_results(const RunData& run) {
     if (run.operating_point.fed_by_cutting && run.rock && !run.rock->ledger.empty())
         results.fed = fed_head_of(run.rock->ledger, run.operating_point.revolution_s(), blade_period(run));
     results.rotor = run.flow ? loads_of_replay(run, results.end_time)
-                             : average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start);
+                             : average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start,
+                                             results.end_time);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.fed) results.dredging = dredging_of(results, run);
     results.scale = compute_scale(run);
     results.conservation = worst_balance(run.balance, results.spillage && !run.flow);
-    results.cost = sum_cost(run, results.end_time, results.rotor.revolutions);
+    const double before_rock = run.flow && results.spillage ? results.spillage->feed_start / run.operating_point.revolution_s() : 0.0;
+    results.cost = sum_cost(run, results.end_time, results.rotor.revolutions - before_rock);
     return results;
 }
 

@@ -100,8 +100,13 @@ std::string header(const Results& results, const RunData& run) {
         point.mesh_preset.empty() ? "" : fmt::format(", mesh “{}”", escape(point.mesh_preset)));
 }
 
-std::string unfinished_notice(const Results& results) {
+std::string unfinished_notice(const Results& results, bool is_replay) {
     if (results.finished) return "";
+    if (is_replay)
+        return fmt::format(
+            "<p class=\"notice\"><b>The replay is not finished.</b> These are the numbers up to t = {:.4g} s. Repeat the command "
+            "<code>cutterflow replay</code> that made it with <code>--resume</code>.</p>\n",
+            results.end_time);
     return fmt::format(
         "<p class=\"notice\"><b>The run is not finished.</b> These are the numbers up to t = {:.4g} s ({:.2f} revolutions). "
         "Continue it with <code>cutterflow run --resume</code>.</p>\n",
@@ -302,8 +307,8 @@ std::string cost_text(const Cost& cost) {
     return text;
 }
 
-std::string age_of_recording(const RecordedFlow& flow) {
-    std::string text = fmt::format("rock goes through the revolution up to number {} of {}", number(flow.revolutions, "", 3),
+std::string age_of_recording(const RecordedFlow& flow, double revolution) {
+    std::string text = fmt::format("rock goes through the revolution up to number {} of {}", number(flow.end / revolution, "", 3),
                                    escape(flow.run.filename().string()));
     if (flow.change) text += fmt::format("; in it the flow in the turning zone changed by {}", percent(*flow.change));
     return text + ".";
@@ -337,7 +342,7 @@ std::string trust_list(const Results& results, const RunData& run) {
     };
     if (results.spillage) item("Statistical error", statistical_error(run));
     if (run.flow)
-        item("Age of the flow", age_of_recording(*run.flow));
+        item("Age of the flow", age_of_recording(*run.flow, run.operating_point.revolution_s()));
     else if (results.spillage)
         item("Age of the flow", age_of_flow(results.spillage->feed_start / run.operating_point.revolution_s()));
     item("Mesh error", "not in this report: compare with the same study on a finer mesh preset before using a number as an absolute one.");
@@ -573,7 +578,7 @@ std::string version_section(const json& versions) {
 void write_report_page(const Page& page, const Results& results, const RunData& run, const PageFigures& figures) {
     const std::string title = run.operating_point.study_name.empty() ? std::string("Cutter head") : escape(run.operating_point.study_name);
     std::string body = header(results, run) + page.how_to_make_live("cutterflow report RUN");
-    body += unfinished_notice(results);
+    body += unfinished_notice(results, run.flow.has_value());
     body += answer_section(results, run, figures);
     if (!figures.note.empty()) body += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
     body += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);

@@ -8,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/json_document.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/base/toml.hpp"
@@ -43,11 +44,9 @@ const std::vector<JsonField> k_prediction_fields{{"first_release_s", JsonKind::n
                                                  {"cells", JsonKind::number, true},
                                                  {"time_step_s", JsonKind::number, true},
                                                  {"time_step_with_rock_s", JsonKind::number, true}};
-const std::vector<JsonField> k_cost_fields{{"cells", JsonKind::whole},
-                                           {"ranks", JsonKind::whole},
-                                           {"models/*/name", JsonKind::text},
-                                           {"models/*/why", JsonKind::text},
-                                           {"versions", JsonKind::object}};
+const std::vector<JsonField> k_cost_fields{{"cells", JsonKind::whole},       {"ranks", JsonKind::whole},
+                                           {"core_s", JsonKind::number},     {"models/*/name", JsonKind::text},
+                                           {"models/*/why", JsonKind::text}, {"versions", JsonKind::object}};
 
 /// Object of a JSON file; empty object when the file is absent.
 json read_json(const fs::path& file, const std::vector<JsonField>& fields) {
@@ -57,7 +56,8 @@ json read_json(const fs::path& file, const std::vector<JsonField>& fields) {
 /// Collects all mistakes in the values of a file.
 class StudyReader {
 public:
-    explicit StudyReader(fs::path file) : file_(std::move(file)) {
+    /// \param remedy  of mistakes in its values
+    explicit StudyReader(fs::path file, std::string remedy = k_rerun) : file_(std::move(file)), remedy_(std::move(remedy)) {
         if (!fs::exists(file_))
             throw UserError(fmt::format("{} is not a run directory", file_.parent_path().string()),
                             fmt::format("A run directory contains {}, written by `cutterflow run`", file_.filename().string()),
@@ -148,9 +148,10 @@ private:
             values[path] = node.value_or(std::string());
     }
     void miss(const std::string& key, const std::string& what) {
-        mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report needs it", k_rerun});
+        mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report needs it", remedy_});
     }
     fs::path file_;
+    std::string remedy_;
     toml::table root_;
     std::vector<Mistake> mistakes_;
 };
@@ -401,34 +402,82 @@ RunData read_computed_run(const fs::path& directory) {
     return run;
 }
 
+constexpr const char* k_replay_again = "Repeat the replay command with --resume";
+
+const std::vector<JsonField> k_replay_fields{{"schema", JsonKind::text, true},
+                                             {"run", JsonKind::text, true},
+                                             {"flow_start_s", JsonKind::number, true},
+                                             {"flow_end_s", JsonKind::number, true},
+                                             {"flow_change", JsonKind::number_or_null, true}};
+
+/// The run that recorded the flow of a replay.
+/// \throws UserError  when it is gone, or has recorded another flow since
+RecordedFlow read_recorded_flow(const fs::path& directory) {
+    const fs::path file = directory / names::replay;
+    const json replay = read_json_document(file, k_replay_fields, k_replay_again);
+    if (replay.at("schema") != k_replay_schema)
+        throw UserError({{file.string(), fmt::format("its schema is {}", replay.at("schema").get<std::string>()),
+                          fmt::format("This version of the program reads {}", k_replay_schema), k_replay_again}});
+    RecordedFlow flow{replay.at("run").get<std::string>(), replay.at("flow_start_s"), replay.at("flow_end_s"), {}};
+    if (!replay.at("flow_change").is_null()) flow.change = replay.at("flow_change");
+    if (!fs::exists(flow.run / names::geometry_report))
+        throw UserError({{file.string(), fmt::format("run = {}: there is no such run", flow.run.string()),
+                          "A report of a replay needs the run that recorded its flow", "Move it back, or correct run in this file"}});
+    const json recording = read_json(flow.run / names::recording / "recording.json", {{"end_s", JsonKind::number, true}});
+    if (!recording.empty() &&
+        (recording.at("end_s") != replay.at("flow_end_s") || recording.value("change", json()) != replay.at("flow_change")))
+        throw UserError({{file.string(), fmt::format("the flow that {} holds is not the one that was replayed", flow.run.string()),
+                          "A replay belongs to one recorded flow", "Replay the rock again in a new folder"}});
+    return flow;
+}
+
+void require_same_operation(const OperatingPoint& replay, const OperatingPoint& flow, const fs::path& directory) {
+    const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6 * std::abs(b); };
+    Mistakes mistakes((directory / names::resolved_study).string());
+    const auto compare = [&](const char* key, double own, double of_flow) {
+        mistakes.require(!differ(own, of_flow), fmt::format("{} = {:g}, the recorded flow has {:g}", key, own, of_flow),
+                         "Rock is replayed at the speed and the discharge of its flow", k_replay_again);
+    };
+    compare("rotor.speed_rpm", replay.speed_rpm, flow.speed_rpm);
+    compare("suction.discharge_m3_s", replay.discharge, flow.discharge);
+    mistakes.refuse();
+}
+
 /// The flow of one run and the rock of another study in it.
 RunData read_replay(const fs::path& directory) {
-    const std::string remedy = "Repeat the replay command with --resume";
-    const json replay = read_json_document(
-        directory / names::replay,
-        {{"run", JsonKind::text, true}, {"flow_revolutions", JsonKind::number, true}, {"flow_change", JsonKind::number_or_null, true}},
-        remedy);
-    StudyReader study(directory / names::resolved_study);
+    const RecordedFlow flow = read_recorded_flow(directory);
+    StudyReader study(directory / names::resolved_study, k_replay_again);
     OperatingPoint point = read_operating_point(study);
     study.require_all();
-    RunData run = read_computed_run(replay.at("run").get<std::string>());
-    run.flow = RecordedFlow{run.directory, replay.at("flow_revolutions"), {}};
-    if (!replay.at("flow_change").is_null()) run.flow->change = replay.at("flow_change");
+    RunData run = read_computed_run(flow.run);
+    require_same_operation(point, run.operating_point, directory);
+    if (run.rock) run.plane_axial = run.plane_under_ring = {};  // means of water that has felt that run's rock
+    run.flow = flow;
     run.directory = directory;
     point.outflow_start = run.operating_point.outflow_start;
     point.study_name = fmt::format("{}, replayed", run.operating_point.study_name);
     run.operating_point = point;
     run.feed = read_feed(directory / names::feed_report);
     run.rock = read_rock(directory);
-    if (!run.rock)
-        throw UserError(fmt::format("{} contains no fates", (directory / "postProcessing" / "rock").string()),
-                        "A report of a replay needs the tables of its rock", remedy);
     run.prediction = {};
     read_setting(run, study);
-    run.setting["recorded flow, revolutions"] = fmt::format("{:.9g}", run.flow->revolutions);
+    run.setting["recorded flow, revolutions"] = fmt::format("{:.9g}", flow.end / point.revolution_s());
     read_cost(run);
+    if (!run.rock || run.cost.empty())
+        throw UserError({{(directory / "postProcessing").string(), run.rock ? "contains no cost" : "contains no fates",
+                          "A report of a replay needs the tables of its rock", k_replay_again}});
     require_whole(run);
     return run;
+}
+
+/// \throws UserError  for a folder of replays, and for a replay of before its folder told what it is
+void require_no_older_replay(const fs::path& directory) {
+    if (fs::exists(directory / names::resolved_study)) return;
+    if (fs::exists(directory / "replays.json"))
+        throw UserError({{directory.string(), "it holds replays", "A report is of one of them", "Name its folders replay_..."}});
+    if (fs::exists(directory / names::coupling_properties) && !fs::exists(directory / names::manifest))
+        throw UserError({{directory.string(), fmt::format("there is no {}", names::replay),
+                          "A replay's folder tells whose flow its rock goes through", k_replay_again}});
 }
 
 }  // namespace
@@ -446,6 +495,7 @@ Table read_ledger(const fs::path& run_directory) {
 }
 
 RunData read_run(const fs::path& directory) {
+    require_no_older_replay(directory);
     return fs::exists(directory / names::replay) ? read_replay(directory) : read_computed_run(directory);
 }
 

@@ -73,10 +73,12 @@ struct RockTables {
     std::size_t rejected_in_run = 0;
 };
 
+inline constexpr const char* k_replay_schema = "cutterflow.replay/1";
+
 /// The flow that the rock of a replay goes through and does not change.
 struct RecordedFlow {
     std::filesystem::path run;       ///< that recorded it
-    double revolutions = 0.0;        ///< of the rotor until the recording ended
+    double start = 0.0, end = 0.0;   ///< of the recording, in that run's time [s]
     std::optional<double> change{};  ///< of the flow in the turning zone in the recorded revolution [-], where it is known
 };
 

@@ -20,10 +20,11 @@ RecordingSummary read_recording_summary(const std::filesystem::path& folder) {
     if (schema != k_recording_schema)
         throw UserError({{file.string(), fmt::format("its schema is {}", schema),
                           fmt::format("This version of the program reads {}", k_recording_schema), k_recording_remedy}});
-    const nlohmann::json summary =
-        read_json_document(file, {{"change", JsonKind::number_or_null, true}, {"end_s", JsonKind::number, true}}, k_recording_remedy);
+    const nlohmann::json summary = read_json_document(
+        file, {{"change", JsonKind::number_or_null, true}, {"start_s", JsonKind::number, true}, {"end_s", JsonKind::number, true}},
+        k_recording_remedy);
     const nlohmann::json& change = summary.at("change");
-    return {change.is_null() ? std::nullopt : std::optional<double>(change.get<double>()), summary.at("end_s")};
+    return {change.is_null() ? std::nullopt : std::optional<double>(change.get<double>()), summary.at("start_s"), summary.at("end_s")};
 }
 
 std::optional<std::string> warning_of_change(const std::optional<double>& change) {

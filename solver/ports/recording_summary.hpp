@@ -14,7 +14,7 @@ struct RecordingSummary {
     /// Of the flow in the turning zone over a revolution [-]: root mean square of the difference over that of the velocity. None when it is
     /// not known.
     std::optional<double> change{};
-    double end = 0.0;  ///< of the recording [s]
+    double start = 0.0, end = 0.0;  ///< of the recording [s]
 };
 
 /// \throws UserError  when recording.json is missing, cannot be read or was written by another version of the program
