@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geometry/base/parameters/parameter.hpp"
-#include "postproc/analysis/exits.hpp"
-#include "postproc/analysis/replay_estimate.hpp"
+#include "postproc/analysis/replays/exits.hpp"
+#include "postproc/analysis/replays/replay_estimate.hpp"
 
 namespace cutterflow::cases {
 

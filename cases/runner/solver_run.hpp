@@ -32,8 +32,8 @@ RankChange move_checkpoint_to_ranks(const std::filesystem::path& run_directory, 
 
 /// Runs one of the project's solvers to its end.
 /// \param each_line  gets each line of its log \return core seconds
-/// \throws CheckFailure  when one of its checks failed \throws UserError  when it refused a file \throws ToolError  when it failed otherwise
-/// \throws Interrupted  when it, or this program, was asked to stop
+/// \throws CheckFailure  when one of its checks failed \throws UserError  when it refused a file \throws ToolError  when it failed
+/// otherwise \throws Interrupted  when it, or this program, was asked to stop
 double run_own_solver(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
 
 /// Runs cutterFoam to its end; older logs are kept as `<log>.<n>`. When the user stops the command it writes a checkpoint and ends.

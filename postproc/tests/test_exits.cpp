@@ -1,5 +1,5 @@
 // Where spilled rock left the head.
-#include "postproc/analysis/exits.hpp"
+#include "postproc/analysis/replays/exits.hpp"
 
 #include <map>
 #include <string>

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "postproc/analysis/replay_estimate.hpp"
+#include "postproc/analysis/replays/replay_estimate.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {

@@ -1,4 +1,4 @@
-#include "postproc/analysis/exits.hpp"
+#include "postproc/analysis/replays/exits.hpp"
 
 #include <algorithm>
 #include <numeric>

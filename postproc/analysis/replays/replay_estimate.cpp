@@ -1,4 +1,4 @@
-#include "postproc/analysis/replay_estimate.hpp"
+#include "postproc/analysis/replays/replay_estimate.hpp"
 
 #include <algorithm>
 
