@@ -167,8 +167,8 @@ nlohmann::json optional_json(const std::optional<double>& value) {
 }
 
 /// What makes a replay's folder one that reports and comparisons read: its study, its rock, and whose flow it goes through.
-void describe_replay(const RecordedRun& run, const ParameterValues& values, const std::vector<PlacedFeed>& feeds, const fs::path& folder) {
-    const Study study = make_study(values, run.folder);
+void describe_replay(const RecordedRun& run, const ParameterValues& values, const Study& study, const std::vector<PlacedFeed>& feeds,
+                     const fs::path& folder) {
     const coupling::RecordingSummary recording = coupling::read_recording_summary(run.folder / names::recording);
     write_file(folder / names::resolved_study,
                "# Every key of the study as it was replayed. Written by cutterflow: change the study, not this file.\n\n" +
@@ -197,13 +197,14 @@ void write_replay(const RecordedRun& run, const ParameterValues& values, const f
     write_replay_case(folder, inputs);
     const std::vector<PlacedFeed> feeds = place_rock(run, study);
     write_file(folder / names::rock_feed, rock_feed_csv(feeds));
-    describe_replay(run, values, feeds, folder);
+    describe_replay(run, values, study, feeds, folder);
 }
 
 /// For replays of before their folders told what they are.
 void describe_finished(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
     if (fs::exists(folder / names::replay)) return;
-    describe_replay(run, values, place_rock(run, make_study(values, run.folder)), folder);
+    const Study study = make_study(values, run.folder);
+    describe_replay(run, values, study, place_rock(run, study), folder);
 }
 
 /// Written when a replay came to its end.

@@ -629,15 +629,15 @@ std::map<std::string, std::vector<std::string>> differing_keys(const Comparison&
 }
 
 Scope scope_of(const Comparison& comparison) {
-    const auto replays = static_cast<std::size_t>(
-        std::count_if(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.run.flow.has_value(); }));
-    Scope scope{false, true, true,
-                true,  true, replays == 0 ? Replays::none : replays == comparison.runs.size() ? Replays::all : Replays::some};
+    Scope scope{false, true, true, true, true};
+    std::size_t replays = 0;
     for (const ComparedRun& compared : comparison.runs) {
         const Scope run = scope_of(compared.run);
         scope = {scope.with_rock || run.with_rock, scope.fed_by_cutting && run.fed_by_cutting, scope.feels_bank && run.feels_bank,
-                 scope.hauls && run.hauls,         scope.fed_by_layer && run.fed_by_layer,     scope.replays};
+                 scope.hauls && run.hauls, scope.fed_by_layer && run.fed_by_layer};
+        replays += run.replays == Replays::all ? 1 : 0;
     }
+    if (replays > 0) scope.replays = replays == comparison.runs.size() ? Replays::all : Replays::some;
     return scope;
 }
 

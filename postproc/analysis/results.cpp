@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 /// Time steps do not fall on the mark: a twentieth of a passing more or less still counts as whole.
-constexpr double k_whole_passing = 1.05;
+constexpr double k_passing_slack = 0.05;
 
 /// Time between the passing of two blades [s].
 double blade_period(const RunData& run) {
@@ -27,7 +27,7 @@ std::vector<BinOutflow> average_outflow(const RunData& run) {
     double start = run.operating_point.outflow_start, end = times.back();
     if (run.flow) {  // as the recording ends, before a coupled run's own rock moves the water
         start = run.flow->end;
-        end = start + k_whole_passing * blade_period(run);
+        end = start + (1.0 + k_passing_slack) * blade_period(run);
     }
     for (const geometry::AxialBin& bin : run.bins)
         outflow.push_back({bin, time_average(times, run.outflow.number(bin.name), start, end, blade_period(run))});
@@ -65,7 +65,7 @@ RotorLoads average_loads(const RunData& run, double start, double last) {
     RotorLoads rotor;
     const std::vector<double>& times = run.loads.number("time_s");
     rotor.revolutions = std::abs(run.loads.number("rotor_angle_rad").back()) / (2.0 * k_pi);
-    double passings = std::max(0.0, std::floor((last - start) / blade_period(run) + k_whole_passing - 1.0));
+    double passings = std::max(0.0, std::floor((last - start) / blade_period(run) + k_passing_slack));
     if (passings > run.blades) passings = run.blades * std::floor(passings / run.blades);
     rotor.averaged_revolutions = passings / run.blades;
     if (passings == 0.0) return rotor;
@@ -414,7 +414,7 @@ Results compute_results(const RunData& run) {
     if (results.fed) results.dredging = dredging_of(results, run);
     results.scale = compute_scale(run);
     results.conservation = worst_balance(run.balance, results.spillage && !run.flow);
-    const double before_rock = run.flow && results.spillage ? results.spillage->feed_start / run.operating_point.revolution_s() : 0.0;
+    const double before_rock = run.flow ? results.spillage->feed_start / run.operating_point.revolution_s() : 0.0;
     results.cost = sum_cost(run, results.end_time, results.rotor.revolutions - before_rock);
     return results;
 }

@@ -35,7 +35,7 @@ std::vector<Sphere> rocks_by_fate(const Table& rocks) {
 /// [rad], at the end of what the rock went through.
 double rotor_angle_at_end(const RunData& run) {
     const double turned = run.loads.number("rotor_angle_rad").back();
-    if (!run.flow || !run.rock) return turned;
+    if (!run.flow) return turned;
     const double later = run.rock->fates.number("time_s").back() - run.loads.number("time_s").back();
     return turned + std::copysign(run.operating_point.angular_speed(), turned) * later;
 }

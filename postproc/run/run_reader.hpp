@@ -103,7 +103,7 @@ struct RunData {
     std::string release{};                         ///< seed and time of release of each feed, which distinguish repeats; empty without rock
     int seed = 0;                                  ///< of the first feed
     nlohmann::json prediction{};                   ///< of the run's cost, before it; empty when the file is absent
-    std::optional<RecordedFlow> flow{};            ///< of a replay: all but rock, feed and cost is then that run's
+    std::optional<RecordedFlow> flow{};            ///< of a replay, which has rock: all but rock, feed and cost is then that run's
 
     /// Of the cutter and of what stands around it.
     const std::filesystem::path& geometry_directory() const { return flow ? flow->run : directory; }

@@ -97,6 +97,18 @@ void drop_replaced_rows(Table& earlier, double start, const Table& later, const 
     earlier.keep_rows(keep);
 }
 
+/// \throws UserError  when the text of a finished table is empty or ends within a line
+void require_whole(const std::string& text, const std::filesystem::path& file) {
+    if (!text.empty() && text.back() == '\n') return;
+    throw UserError({{file.string(), text.empty() ? "the table is empty" : "the table ends within a line",
+                      "A run that came to its end has written all of its tables", "Copy the run directory again as a whole"}});
+}
+
+/// A start of a run writes its cost when all its tables are on the disk.
+bool wrote_all_tables(const std::filesystem::path& run_directory, const std::filesystem::path& start_folder) {
+    return std::filesystem::exists(run_directory / "postProcessing" / "cost" / start_folder.filename() / "cost.json");
+}
+
 }  // namespace
 
 std::string Table::field(const std::string& column, std::size_t row) const {
@@ -123,8 +135,9 @@ void Table::append(const Table& other) {
     rows_ += other.rows_;
 }
 
-Table read_table(const std::filesystem::path& file, const TableRules& rules) {
+Table read_table(const std::filesystem::path& file, const TableRules& rules, bool is_finished) {
     const std::string text = read_file(file);
+    if (is_finished) require_whole(text, file);
     const std::vector<std::string_view> lines = complete_lines(text);
     Table table;
     if (lines.empty()) return table;
@@ -174,29 +187,12 @@ std::vector<std::pair<double, std::filesystem::path>> start_folders(const std::f
     return folders;
 }
 
-namespace {
-
-/// A start of a run writes its cost when all its tables are on the disk.
-bool wrote_all_tables(const std::filesystem::path& run_directory, const std::filesystem::path& start_folder) {
-    return std::filesystem::exists(run_directory / "postProcessing" / "cost" / start_folder.filename() / "cost.json");
-}
-
-/// \throws UserError  when a table of a start that came to its end is empty or ends within a line
-void require_whole_table(const std::filesystem::path& file) {
-    const std::string text = read_file(file);
-    if (!text.empty() && text.back() == '\n') return;
-    throw UserError({{file.string(), text.empty() ? "the table is empty" : "the table ends within a line",
-                      "A run that came to its end has written all of its tables", "Copy the run directory again as a whole"}});
-}
-
-}  // namespace
-
 Table read_joined_table(const std::filesystem::path& run_directory, const std::string& what, const std::string& file,
                         const TableRules& rules, const std::vector<std::string>& identity) {
     Table joined;
     for (const auto& [start, folder] : start_folders(run_directory, what)) {
-        if (std::filesystem::exists(folder / file) && wrote_all_tables(run_directory, folder)) require_whole_table(folder / file);
-        const Table table = std::filesystem::exists(folder / file) ? read_table(folder / file, rules) : Table{};
+        const Table table =
+            std::filesystem::exists(folder / file) ? read_table(folder / file, rules, wrote_all_tables(run_directory, folder)) : Table{};
         if (joined.columns().empty()) {
             joined = table;
             continue;

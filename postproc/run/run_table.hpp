@@ -34,7 +34,7 @@ public:
     void append(const Table& other);
 
 private:
-    friend Table read_table(const std::filesystem::path& file, const TableRules& rules);
+    friend Table read_table(const std::filesystem::path& file, const TableRules& rules, bool is_finished);
     std::size_t rows_ = 0;
     std::vector<std::string> columns_;
     std::map<std::string, std::vector<double>> numbers_;
@@ -45,7 +45,8 @@ private:
 /// \throws UserError  when the file cannot be read, a required column is missing, a line has another number of fields than the header, or
 ///                    a field is not a finite number or not a whole one where it must be; names file, line and column, every missing column
 ///                    at once
-Table read_table(const std::filesystem::path& file, const TableRules& rules);
+/// \param is_finished  nothing more is written: an empty file and a last line without a newline are mistakes
+Table read_table(const std::filesystem::path& file, const TableRules& rules, bool is_finished = false);
 
 /// The folders `<t0>` of postProcessing/<what> of a run, by increasing start time. Other entries are ignored.
 std::vector<std::pair<double, std::filesystem::path>> start_folders(const std::filesystem::path& run_directory, const std::string& what);

@@ -17,8 +17,8 @@ inline constexpr std::size_t k_exit_sectors = 8;
 struct Exits {
     std::vector<std::string> bins;  ///< names, from the backplate down
     std::vector<double> by_bin;     ///< shares of the spilled mass, by the axial bin of the last exit [-]
-    std::array<double, k_exit_sectors>
-        by_sector{};  ///< shares of the rocks that left and were not sucked up, by azimuth of the first exit [-]
+    /// Shares of the rocks that left and were not sucked up, by azimuth of the first exit [-].
+    std::array<double, k_exit_sectors> by_sector{};
 };
 
 /// Nothing where no rock is spilled.

@@ -48,8 +48,11 @@ void require_medium_at(RoomReading& room, const ParameterValues& measure, const 
                         "There is no medium, and so no pressure", "Move it");
 }
 
-/// The solver's pressure is per density of the medium, which makes it one in Pa.
-void require_density_of_medium(RoomReading& room, const ParameterValues& measure) {
+/// A pressure drop needs a medium, and its density: the solver's pressure is per density, which makes it one in Pa.
+void require_medium(RoomReading& room, const ParameterValues& measure, const std::string& where) {
+    if (!room.scene.medium.present())
+        return room.refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
+                           "Remove the measure, or choose a room.medium");
     const double given = measure.number("measure.density_kg_m3"), medium = room.scene.medium.density;
     if (std::abs(given - medium) <= k_rounding * medium) return;
     room.refuse(measure.where("measure.density_kg_m3"),
@@ -144,10 +147,7 @@ void require_cell(RoomReading& room, const ParameterValues& measure) {
 
 void check_measure(RoomReading& room, const ParameterValues& measure) {
     const std::string &name = measure.text("measure.name"), where = measure.where("measure.name");
-    if (measure.text("measure.what") == "pressure_drop" && !room.scene.medium.present())
-        room.refuse(where, "measure.what = \"pressure_drop\" in a room without a medium", "Without a medium there is no pressure",
-                    "Remove the measure, or choose a room.medium");
-    if (measure.text("measure.what") == "pressure_drop" && room.scene.medium.present()) require_density_of_medium(room, measure);
+    if (measure.text("measure.what") == "pressure_drop") require_medium(room, measure, where);
     if (measure.has("measure.against")) check_given_profile(room, measure);
     if (measure.has("measure.cell_m")) require_cell(room, measure);
     check_places(room, measure);
