@@ -4,7 +4,8 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "postproc/analysis/choices.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -59,17 +60,9 @@ std::string sentence(const Comparison& comparison, const SpeedSeries& series) {
 }  // namespace
 
 std::vector<SpeedSeries> speed_series(const Comparison& comparison) {
-    const std::map<std::string, std::vector<std::string>> differing = differing_keys(comparison);
+    const std::vector<std::string> rest = told_apart(comparison, k_rotor_speed_key);
     std::map<std::string, SpeedSeries> by_rest;
-    for (std::size_t setting = 0; setting < comparison.settings.size(); ++setting) {
-        std::vector<std::string> rest;
-        for (const auto& [key, values] : differing)
-            // What follows from the speed by itself differs, too.
-            if (key != "rotor.speed_rpm" && key.rfind("run.", 0) != 0 && key.rfind("report.", 0) != 0 && key != "rock.youngs_modulus_pa")
-                rest.push_back(fmt::format("{} = {}", key, values[setting]));
-        SpeedSeries& series = by_rest[fmt::format("{}", fmt::join(rest, ", "))];
-        series.settings.push_back(setting);
-    }
+    for (std::size_t setting = 0; setting < rest.size(); ++setting) by_rest[rest[setting]].settings.push_back(setting);
     std::vector<SpeedSeries> all;
     for (auto& [what, series] : by_rest) {
         if (series.settings.size() < 2) continue;

@@ -10,7 +10,7 @@ namespace cutterflow::postproc {
 /// Settings that differ in nothing but the rotor's speed, by increasing speed.
 struct SpeedSeries {
     std::vector<std::size_t> settings;
-    std::string what;  ///< where there are several series: what this one has in common, as "swing.speed_m_min = 6"
+    std::string what;  ///< where there are several series: what this one has in common, as "swing 6 m/min"
 };
 
 /// Series of two speeds and more.

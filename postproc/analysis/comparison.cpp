@@ -13,6 +13,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/statistics/sample.hpp"
 #include "postproc/analysis/best_speed.hpp"
+#include "postproc/analysis/choices.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/settings/distinct_runs.hpp"
 #include "postproc/analysis/text.hpp"
@@ -372,11 +373,9 @@ std::vector<ComparedSetting> group(const std::vector<ComparedRun>& runs) {
             same->runs.push_back(i);
     }
     make_labels_differ(settings, runs);
-    for (ComparedSetting& setting : settings) {
+    for (ComparedSetting& setting : settings)
         std::sort(setting.runs.begin(), setting.runs.end(),
                   [&](std::size_t a, std::size_t b) { return runs[a].run.seed < runs[b].run.seed; });
-        if (setting.runs.size() > 1) setting.label += fmt::format(" ({} repeats)", setting.runs.size());
-    }
     return settings;
 }
 
@@ -515,6 +514,9 @@ Comparison compare_runs(const std::vector<std::filesystem::path>& directories) {
     require_different(comparison.runs);
     require_one_kind_of_feed(comparison.runs);
     comparison.settings = group(comparison.runs);
+    call_by_choice(comparison);
+    for (ComparedSetting& setting : comparison.settings)
+        if (setting.runs.size() > 1) setting.label += fmt::format(" ({} repeats)", setting.runs.size());
     find_equal_points(comparison);
     for (const QuantityRule& rule : rules_of(comparison)) {
         Quantity quantity{rule.key, rule.name, rule.unit, rule.of_rock, {}, {}};

@@ -1,6 +1,8 @@
 #include "postproc/pages/comparison_figures.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -8,6 +10,7 @@
 #include <boost/math/tools/minima.hpp>
 
 #include "postproc/analysis/best_speed.hpp"
+#include "postproc/analysis/choices.hpp"
 #include "postproc/analysis/text.hpp"
 #include "postproc/pages/onset_band.hpp"
 
@@ -16,10 +19,6 @@ namespace {
 
 /// Colours of settings, in order; told apart with any colour vision.
 constexpr const char* k_colours[] = {"#0072b2", "#d55e00", "#00795c", "#a34b86", "#8a6d00", "#26303a", "#56b4e9", "#9aa3ab"};
-
-const RunData& first_run(const Comparison& comparison, std::size_t setting) {
-    return comparison.runs[comparison.settings[setting].runs.front()].run;
-}
 
 /// Bounds when there are some, else the interval, else the value itself.
 std::pair<double, double> range_of(const Estimate& estimate) {
@@ -55,7 +54,12 @@ Plot share_plot(const std::string& name, const std::string& x_title, const std::
 constexpr std::size_t k_most_in_legend = 8;
 
 Figure with_legend_that_fits(Plot plot, const std::string& caption) {
-    if (plot.series.size() > k_most_in_legend) plot.legend = Legend::none;
+    constexpr std::size_t in_two_lines = 4;
+    constexpr int px_a_curve = 16;
+    if (plot.series.size() > k_most_in_legend)
+        plot.legend = Legend::none;
+    else if (plot.series.size() > in_two_lines)
+        plot.height += px_a_curve * static_cast<int>(plot.series.size());
     return {plot, caption, ""};
 }
 
@@ -99,28 +103,15 @@ bool varies(const Quantity& quantity) {
     return values.size() > 1;
 }
 
-/// What tells the curves of a trend against `operating` apart: cutter, mesh, speed of swing and rotor, discharge, each only where settings
-/// differ in it and it is not what the trend is against. At one speed the flow number varies with the discharge, along a curve.
-std::vector<std::string> groups_of(const Comparison& comparison, const Quantity& operating) {
-    using Describe = std::string (*)(const RunData&);
-    std::vector<Describe> parts{
-        [](const RunData& run) { return std::filesystem::path(run.geometry.value("file", std::string())).filename().string(); },
-        [](const RunData& run) { return run.operating_point.mesh_preset.empty() ? "" : run.operating_point.mesh_preset + " mesh"; }};
-    const bool against_swing = operating.key == k_swing_speed;
-    if (!against_swing)
-        parts.push_back([](const RunData& run) { return fmt::format("swing {:g} m/min", 60.0 * run.operating_point.swing_speed); });
-    if (against_swing) parts.push_back([](const RunData& run) { return fmt::format("{:g} rpm", run.operating_point.speed_rpm); });
-    if (against_swing || varies(*find_quantity(comparison, "speed_rpm")))
-        parts.push_back([](const RunData& run) { return fmt::format("{:g} m³/s", run.operating_point.discharge); });
-    std::vector<std::string> groups(comparison.settings.size());
-    for (const Describe part : parts) {
-        std::set<std::string> values;
-        for (std::size_t i = 0; i < groups.size(); ++i) values.insert(part(first_run(comparison, i)));
-        if (values.size() < 2) continue;
-        for (std::size_t i = 0; i < groups.size(); ++i) groups[i] += ", " + part(first_run(comparison, i));
-    }
-    return groups;
-}
+/// What a trend is drawn against: a quantity, and the study's key that varies along its curves.
+struct Against {
+    Quantity quantity;
+    std::string key;
+    std::string name;  ///< of the plot
+    std::string x_title;
+    TipFormat tip;
+    std::string what;  ///< in a caption
+};
 
 /// Settings of a group by increasing value of a quantity.
 std::vector<std::size_t> members(const std::vector<std::string>& groups, const std::string& group, const Quantity& operating) {
@@ -132,6 +123,16 @@ std::vector<std::size_t> members(const std::vector<std::string>& groups, const s
     return settings;
 }
 
+/// Whether a curve along a key would join two settings of different values.
+bool joins_settings(const Comparison& comparison, const Quantity& of_key) {
+    const std::vector<std::string> groups = told_apart(comparison, of_key.key);
+    for (const std::string& group : std::set<std::string>(groups.begin(), groups.end())) {
+        const std::vector<std::size_t> joined = members(groups, group, of_key);
+        if (joined.size() > 1 && of_key.settings[joined.front()].value < of_key.settings[joined.back()].value) return true;
+    }
+    return false;
+}
+
 /// A quantity as it is drawn in a trend.
 struct Drawn {
     const char* key;
@@ -140,21 +141,22 @@ struct Drawn {
     double factor;  ///< from the quantity's unit to the plot's
 };
 
-/// Quantities against an operating one, a curve for every group of settings; marks tell groups apart, and colours too where one quantity
-/// is drawn.
-void add_trends(Plot& plot, const Comparison& comparison, const Quantity& operating, const std::vector<Drawn>& quantities) {
+/// Quantities against an operating one, a curve for all settings that differ in its key alone; marks tell curves apart, and colours too
+/// where one quantity is drawn.
+void add_trends(Plot& plot, const Comparison& comparison, const Against& against, const std::vector<Drawn>& quantities) {
     constexpr Mark marks[] = {Mark::disc, Mark::diamond, Mark::square, Mark::triangle};
-    const std::vector<std::string> groups = groups_of(comparison, operating);
+    const std::vector<std::string> groups = told_apart(comparison, against.key);
     std::size_t count = 0;
     for (const std::string& group : std::set<std::string>(groups.begin(), groups.end())) {
         for (const Drawn& drawn : quantities) {
-            Series series{drawn.name + group, quantities.size() > 1 ? drawn.colour : setting_colour(count), {}, {}};
+            Series series{
+                drawn.name + (group.empty() ? "" : ", " + group), quantities.size() > 1 ? drawn.colour : setting_colour(count), {}, {}};
             series.mark = marks[count % std::size(marks)];
             series.line_width = 1.2;
             const Quantity& quantity = *find_quantity(comparison, drawn.key);
-            for (const std::size_t i : members(groups, group, operating))
+            for (const std::size_t i : members(groups, group, against.quantity))
                 if (quantity.settings[i].value)
-                    add_point(series, comparison, i, *operating.settings[i].value, quantity.settings[i], drawn.factor);
+                    add_point(series, comparison, i, *against.quantity.settings[i].value, quantity.settings[i], drawn.factor);
             if (!series.x.empty()) plot.series.push_back(series);
         }
         ++count;
@@ -162,28 +164,26 @@ void add_trends(Plot& plot, const Comparison& comparison, const Quantity& operat
 }
 
 /// Spillage and production.
-Plot trend_plot(const Comparison& comparison, const Quantity& operating, const std::string& name, const std::string& x_title,
-                const TipFormat& x_tip) {
-    Plot plot = share_plot(name, x_title, k_share_title);
-    plot.x.tip = x_tip;
+Plot trend_plot(const Comparison& comparison, const Against& against) {
+    Plot plot = share_plot(against.name, against.x_title, k_share_title);
+    plot.x.tip = against.tip;
     std::vector<Drawn> quantities;
     for (const Share& share : k_shares) quantities.push_back({share.key, share.name, share.colour, k_percent});
-    add_trends(plot, comparison, operating, quantities);
+    add_trends(plot, comparison, against, quantities);
     return plot;
 }
 
 /// What heads that are fed all the time deliver, as soil in the bank.
-Plot delivered_plot(const Comparison& comparison, const Quantity& operating, const std::string& name, const std::string& x_title,
-                    const TipFormat& x_tip) {
+Plot delivered_plot(const Comparison& comparison, const Against& against) {
     Plot plot;
-    plot.name = name;
+    plot.name = "delivered_" + against.name;
     plot.tips = Tips::at_point;
-    plot.x.title = x_title;
-    plot.x.tip = x_tip;
+    plot.x.title = against.x_title;
+    plot.x.tip = against.tip;
     plot.y.title = "delivered, soil in situ, m³/h";
     plot.y.tip = {".3g", " m³/h"};
     plot.y.from = 0.0;
-    add_trends(plot, comparison, operating, {{k_delivered, "delivered", palette::sucked_up, 1.0}});
+    add_trends(plot, comparison, against, {{k_delivered, "delivered", palette::sucked_up, 1.0}});
     return plot;
 }
 
@@ -364,6 +364,29 @@ Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Q
     return plot;
 }
 
+/// None of a text that is no number.
+std::optional<double> number_of(const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional<double>(value) : std::nullopt;
+}
+
+/// The chosen keys with numbers, besides those that have a trend of their own, in which two settings differ alone.
+std::vector<Against> other_trends(const Comparison& comparison) {
+    std::vector<Against> trends;
+    for (const auto& [key, values] : chosen_keys(comparison)) {
+        if (key == k_rotor_speed_key || key == k_discharge_key || key == k_swing_speed_key) continue;
+        Quantity quantity{key, key, "", false, {}, {}};
+        for (const std::string& value : values) quantity.settings.push_back({number_of(value), {}, {}, {}});
+        if (!varies(quantity) || !joins_settings(comparison, quantity)) continue;
+        std::string name = key;
+        std::replace_if(
+            name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+        trends.push_back({quantity, key, name, key, {".4g", ""}, key});
+    }
+    return trends;
+}
+
 std::vector<Figure> rock_figures(const Comparison& comparison) {
     const bool fed = scope_of(comparison).fed_by_cutting;
     const std::string shares = fed ? "Spillage, 1 − delivered / fed, and production, delivered / fed, by mass"
@@ -376,15 +399,15 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
     const Quantity* delivered = find_quantity(comparison, k_delivered);
     const bool drawn_delivery = delivered && std::any_of(delivered->settings.begin(), delivered->settings.end(),
                                                          [](const Estimate& estimate) { return estimate.value.has_value(); });
-    const auto add_trend = [&](const Quantity& operating, const std::string& name, const std::string& x_title, const TipFormat& tip,
-                               const std::string& what, bool with_measured) {
-        Plot plot = trend_plot(comparison, operating, name, x_title, tip);
+    const auto add_trend = [&](const Against& against, bool with_measured) {
+        Plot plot = trend_plot(comparison, against);
         if (with_measured) add_measured_points(plot, comparison);
         const bool with_lines = with_measured && fed;
         if (with_lines) add_outflow_lines(plot, comparison);
         figures.push_back(with_legend_that_fits(
             plot,
-            shares + ", against " + what + bars + (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "") +
+            shares + ", against " + against.what + bars +
+                (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "") +
                 (with_lines
                      ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow. Dashed, a hypothesis and no "
                        "result: 1 − (1 − S<sub>out</sub>) exp(−(n<sub>0</sub>/n)²), rock that falls through between two blades "
@@ -392,17 +415,22 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
                      : "")));
         if (drawn_delivery)
             figures.push_back(
-                with_legend_that_fits(delivered_plot(comparison, operating, "delivered_" + name, x_title, tip),
-                                      "Soil delivered per hour, in its volume in the bank and in the model’s scale, against " + what +
-                                          "; bars are 95 % intervals."));
+                with_legend_that_fits(delivered_plot(comparison, against),
+                                      "Soil delivered per hour, in its volume in the bank and in the model’s scale, against " +
+                                          against.what + "; bars are 95 % intervals."));
     };
     if (varies(speed) || !comparison.measured.empty())
-        add_trend(speed, "speed", "rotor speed, rpm", {".3g", " rpm"}, "the rotor’s speed", true);
+        add_trend({speed, k_rotor_speed_key, "speed", "rotor speed, rpm", {".3g", " rpm"}, "the rotor’s speed"}, true);
     if (const Quantity& swing = *find_quantity(comparison, k_swing_speed); varies(swing))
-        add_trend(swing, "swing_speed", "swing speed, m/min", {".3g", " m/min"}, "the swing speed", false);
-    if (varies(flow_number))
-        figures.push_back(with_legend_that_fits(trend_plot(comparison, flow_number, "flow_number", "flow number Q / (ω R³)", {".4f", ""}),
+        add_trend({swing, k_swing_speed_key, "swing_speed", "swing speed, m/min", {".3g", " m/min"}, "the swing speed"}, false);
+    if (varies(flow_number)) {
+        // At one speed the flow number varies with the discharge, along a curve.
+        const char* key = varies(speed) ? k_rotor_speed_key : k_discharge_key;
+        const Against against{flow_number, key, "flow_number", "flow number Q / (ω R³)", {".4f", ""}, ""};
+        figures.push_back(with_legend_that_fits(trend_plot(comparison, against),
                                                 shares + ", against the flow number (discharge Q, rotor speed ω, ring radius R)" + bars));
+    }
+    for (const Against& against : other_trends(comparison)) add_trend(against, false);
     const std::string top = top_bin(comparison);
     const Quantity *spilled = find_quantity(comparison, bin_key("spilled", top, "share")),
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));

@@ -134,6 +134,49 @@ TEST(Comparison, of_fed_heads_is_drawn_against_the_swing_speed) {
     EXPECT_EQ(drawn, 2);
 }
 
+/// A fed head of a sweep, its mouth elsewhere.
+fs::path of_sweep(const std::string& name, double rpm, double mouth_azimuth_deg) {
+    SmallRun run(name);
+    run.study_name = fmt::format("heads: {:g}rpm_mouth_azimuth_deg_{:g}", rpm, mouth_azimuth_deg);
+    run.speed_rpm = rpm;
+    run.write();
+    testing::make_fed(run, 5.0, 0.0);
+    std::string study = testing::read_text(run.directory / names::resolved_study);
+    const std::string key = "mouth_azimuth_deg = 0";
+    study.replace(study.find(key), key.size(), fmt::format("mouth_azimuth_deg = {:g}", mouth_azimuth_deg));
+    testing::write_text(run.directory / names::resolved_study, study);
+    return run.directory;
+}
+
+TEST(Comparison, joins_settings_of_a_sweep_that_differ_in_one_key_alone) {
+    const Comparison comparison = compare_runs(
+        {of_sweep("mouth_a", 45.0, 0.0), of_sweep("mouth_b", 45.0, 90.0), of_sweep("mouth_c", 60.0, 0.0), of_sweep("mouth_d", 45.0, 45.0)});
+    std::vector<std::string> labels;
+    for (const ComparedSetting& setting : comparison.settings) labels.push_back(setting.label);
+    EXPECT_THAT(labels, ::testing::ElementsAre("45 rpm, suction.mouth_azimuth_deg = 0", "45 rpm, suction.mouth_azimuth_deg = 90",
+                                               "60 rpm, suction.mouth_azimuth_deg = 0", "45 rpm, suction.mouth_azimuth_deg = 45"));
+    std::map<std::string, std::vector<double>> speed, mouth;
+    for (const Figure& figure : comparison_figures(comparison))
+        for (const Series& series : figure.plot.series) {
+            if (figure.plot.name == "speed") speed[series.name] = series.x;
+            if (figure.plot.name == "suction_mouth_azimuth_deg") mouth[series.name] = series.x;
+        }
+    EXPECT_THAT(speed["production, suction.mouth_azimuth_deg = 0"], ::testing::ElementsAre(45.0, 60.0));
+    EXPECT_THAT(speed["production, suction.mouth_azimuth_deg = 90"], ::testing::ElementsAre(45.0));
+    EXPECT_THAT(mouth["production, 45 rpm"], ::testing::ElementsAre(0.0, 45.0, 90.0));
+    EXPECT_THAT(mouth["production, 60 rpm"], ::testing::ElementsAre(0.0));
+}
+
+TEST(Comparison, names_a_key_only_where_it_tells_settings_apart) {
+    const Comparison comparison = compare_runs({of_sweep("both_a", 45.0, 0.0), of_sweep("both_b", 60.0, 90.0)});
+    EXPECT_EQ(comparison.settings[1].label, "60 rpm");
+    for (const Figure& figure : comparison_figures(comparison)) {
+        EXPECT_NE(figure.plot.name, "suction_mouth_azimuth_deg") << "no two settings differ in it alone";
+        if (figure.plot.name != "speed") continue;
+        EXPECT_EQ(figure.plot.series.size(), 4u) << "no curve joins settings with other mouths";
+    }
+}
+
 TEST(Comparison, of_a_batch_and_a_fed_head_is_refused) {
     EXPECT_THROW(compare_runs({variant("batch", {}), fed("not_a_batch", 0.0, 2.0)}), UserError);
 }
