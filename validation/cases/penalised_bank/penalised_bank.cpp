@@ -254,7 +254,9 @@ Outcome check_orders(Verification& verification, const std::string& kind, const 
     std::array<Outcome, 3> errors{};
     Outcome middle{};
     for (std::size_t n = 0; n < k_sizes.size(); ++n) {
-        const auto folder = [&](const char* what) { return verification.folder(fmt::format("{}{}_{:g}", kind, what, k_sizes[n])); };
+        const auto folder = [&](const char* what) {
+            return verification.folder(fmt::format("{}{}_{:g}", liquid.turbulent ? "" : "laminar_", what, k_sizes[n]));
+        };
         const Outcome walls = run_channel(folder("walls"), k_sizes[n], Bank::walls, true, liquid);
         const Outcome soil = run_channel(folder("soil"), k_sizes[n], Bank::soil, true, liquid);
         errors[n] = {error(soil.flow, walls.flow), error(soil.drag, walls.drag)};
