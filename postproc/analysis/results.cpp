@@ -29,13 +29,35 @@ std::vector<BinOutflow> average_outflow(const RunData& run) {
         start = run.flow->end;
         end = start + (1.0 + k_passing_slack) * blade_period(run);
     }
-    for (const geometry::AxialBin& bin : run.bins)
-        outflow.push_back({bin, time_average(times, run.outflow.number(bin.name), start, end, blade_period(run))});
+    for (const geometry::AxialBin& bin : run.bins) {
+        outflow.push_back({bin, time_average(times, run.outflow.number(bin.name), start, end, blade_period(run)), {}});
+        if (!run.outflow_flux.empty())
+            outflow.back().flux =
+                time_average(run.outflow_flux.number("time_s"), run.outflow_flux.number(bin.name), start, end, blade_period(run));
+    }
     return outflow;
 }
 
+Mixing mixing_of(double outflow, double discharge) {
+    const double q = outflow / discharge;
+    return {q, q / (1.0 + q), {}};
+}
+
+/// Of all bins together. \return none when a bin has no mean flux
+std::optional<Mixing> mixing_of_fluxes(double discharge, const std::vector<BinOutflow>& outflow) {
+    double out = 0.0, sum = 0.0;
+    for (const BinOutflow& item : outflow) {
+        if (!item.flux) return std::nullopt;
+        out += std::max(0.0, item.flux->mean);
+        sum += item.flux->mean;
+    }
+    Mixing mixing = mixing_of(out, discharge);
+    mixing.balance_error = std::abs(sum + discharge) / discharge;
+    return mixing;
+}
+
 /// Of the bins beside the head, from the gap to the hub: below it the flow across the contour is not radial.
-std::optional<Mixing> mixing_of(const RunData& run, const std::vector<BinOutflow>& outflow) {
+std::optional<Mixing> mixing_of_radial_velocities(const RunData& run, const std::vector<BinOutflow>& outflow) {
     constexpr int slices = 20;  // of a bin, over which the contour's radius is summed
     double out = 0.0;
     for (const BinOutflow& item : outflow) {
@@ -46,9 +68,12 @@ std::optional<Mixing> mixing_of(const RunData& run, const std::vector<BinOutflow
         for (int i = 0; i < slices; ++i) area += 2.0 * k_pi * run.contour.radius_at(item.bin.z_min + (i + 0.5) * slice) * slice;
         out += std::max(0.0, item.radial_velocity->mean) * area;
     }
+    return mixing_of(out, run.operating_point.discharge);
+}
+
+std::optional<Mixing> mixing_of(const RunData& run, const std::vector<BinOutflow>& outflow) {
     if (outflow.empty()) return std::nullopt;
-    const double q = out / run.operating_point.discharge;
-    return Mixing{q, q / (1.0 + q)};
+    return run.outflow_flux.empty() ? mixing_of_radial_velocities(run, outflow) : mixing_of_fluxes(run.operating_point.discharge, outflow);
 }
 
 std::vector<double> sum_of(const Table& table, const std::vector<const char*>& columns) {
@@ -314,6 +339,7 @@ json outflow_json(const std::vector<BinOutflow>& outflow) {
         json bin = bin_json(item.bin);
         bin["radial_velocity_mean_m_s"] = mean_or_null(item.radial_velocity);
         bin["radial_velocity_standard_error_m_s"] = error_or_null(item.radial_velocity);
+        bin["flux_mean_m3_s"] = mean_or_null(item.flux);
         object["bins"].push_back(bin);
         if (item.radial_velocity) {
             object["window_start_s"] = item.radial_velocity->start;
@@ -437,7 +463,8 @@ json results_json(const Results& results, const RunData& run) {
     document["rotor"] = rotor_json(results, run);
     const auto of_mixing = [&](double Mixing::*member) { return results.mixing ? json((*results.mixing).*member) : json(nullptr); };
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},
-                          {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)}};
+                          {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)},
+                          {"balance_error", results.mixing ? or_null(results.mixing->balance_error) : json(nullptr)}};
     document["production"] = results.fed ? fed_json(*results.fed, run.operating_point.in_situ_density) : json(nullptr);
     document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
     document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);

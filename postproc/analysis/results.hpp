@@ -21,6 +21,7 @@ inline constexpr double k_gravity = 9.81;  ///< [m/s2]
 struct BinOutflow {
     geometry::AxialBin bin;
     std::optional<TimeAverage> radial_velocity;
+    std::optional<TimeAverage> flux;  ///< outwards through the head's boundary [m3/s]; none in runs of earlier programs
 };
 
 /// Means over whole revolutions after the start of the window; before there is one, over whole passings of a blade, with which all
@@ -34,12 +35,17 @@ struct RotorLoads {
     std::optional<TimeAverage> power;        ///< [W]
 };
 
-/// What flows out of the head through its contour, from the run's own mean radial velocities, and the spillage of rock that would follow
-/// the flow: neutral rock that is mixed well into the head leaves in proportion to the flows, S_mix = q / (1 + q).
+/// What flows out of the head through its contour, from the run's own mean fluxes, and the spillage of rock that would follow the flow:
+/// neutral rock that is mixed well into the head leaves in proportion to the flows, S_mix = q / (1 + q). Runs of earlier programs have mean
+/// radial velocities alone.
 struct Mixing {
     double outflow_over_discharge = 0.0;  ///< q = Q_out / Q, Q_out the sum over the bins of what flows outwards
     double well_mixed_spillage = 0.0;     ///< S_mix
+    std::optional<double> balance_error;  ///< |sum of all fluxes + Q| / Q: what goes in through the boundary has to leave by the mouth
 };
+
+/// A larger balance error leaves the outflow in doubt.
+inline constexpr double k_most_boundary_error = 0.1;
 
 /// What was lost in the window of a production, over what was fed in it, by mass.
 struct Losses {

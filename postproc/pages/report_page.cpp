@@ -483,10 +483,15 @@ std::string operation_section(const Results& results, const RunData& run) {
     const auto of_mixing = [&](double Mixing::*member) {
         return results.mixing ? std::optional<double>((*results.mixing).*member) : std::nullopt;
     };
+    const std::optional<double> boundary_error = results.mixing ? results.mixing->balance_error : std::nullopt;
+    std::string balance = number(boundary_error, "", 2);
+    if (boundary_error.value_or(0.0) > k_most_boundary_error)
+        balance = fmt::format("<span class=\"failed\">{}: do not trust q</span>", balance);
     const std::vector<std::vector<std::string>> numbers{
         {"flow number Q / (ω R³)", number(results.scale.flow_number)},
         {"outflow over discharge q = Q<sub>out</sub> / Q", number(of_mixing(&Mixing::outflow_over_discharge), "")},
         {"spillage of neutral, well-mixed rock, q / (1 + q)", number(of_mixing(&Mixing::well_mixed_spillage), "")},
+        {"balance of the head’s boundary, |Σ fluxes + Q| / Q", balance},
         {"Froude number ω² R / g", number(results.scale.froude)},
         {"settling ratio u<sub>t</sub> / (ω R)", number(results.scale.settling_ratio)},
         {"size ratio d / R", number(results.scale.size_ratio)}};

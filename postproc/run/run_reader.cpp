@@ -377,6 +377,7 @@ RunData read_computed_run(const fs::path& directory) {
                 {},
                 {},
                 {},
+                {},
                 read_plane(directory, "plane_axial.csv"),
                 read_plane(directory, "plane_under_ring.csv"),
                 geometry,
@@ -390,8 +391,9 @@ RunData read_computed_run(const fs::path& directory) {
     std::vector<std::string> bin_names;
     for (const geometry::AxialBin& bin : run.bins) bin_names.push_back(bin.name);
     bin_names.insert(bin_names.begin(), "time_s");
-    run.outflow = read_joined_table(directory, "outflow", "contour_velocity.csv",
-                                    {bin_names, {}, {}, "Use the bin width of the run (report.bin_width_m)"});
+    const TableRules of_bins{bin_names, {}, {}, "Use the bin width of the run (report.bin_width_m)"};
+    run.outflow = read_joined_table(directory, "outflow", "contour_velocity.csv", of_bins);
+    run.outflow_flux = read_joined_table(directory, "outflow", "contour_flux.csv", of_bins);
     run.loads = read_joined_table(
         directory, "loads", "loads.csv",
         {{"time_s", "rotor_angle_rad", "torque_pressure_n_m", "torque_viscous_n_m", "torque_rock_n_m", "power_w"}, {}, {}, k_rerun});

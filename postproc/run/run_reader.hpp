@@ -89,7 +89,8 @@ struct RunData {
     std::vector<geometry::AxialBin> bins;
     std::optional<FeedSummary> feed;  ///< none: a pure flow run
     std::optional<RockTables> rock;
-    Table outflow;  ///< may be empty
+    Table outflow;       ///< radial velocities; may be empty
+    Table outflow_flux;  ///< of the same bins, outwards [m3/s]; empty in runs of earlier programs
     Table loads;
     Table balance;
     Table cost;

@@ -1,12 +1,17 @@
 #include "postproc/analysis/results.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
+#include "postproc/pages/report.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
@@ -15,6 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::small_rock_mass;
 using testing::SmallRun;
+namespace fs = std::filesystem;
 
 json document_of(const SmallRun& run) {
     const RunData data = read_run(run.directory);
@@ -133,6 +139,48 @@ TEST(ResultsJson, operation_and_scale_follow_their_formulas) {
     EXPECT_NEAR(results.at("scale").at("froude").get<double>(), omega * omega * 0.4 / 9.81, 1e-12);
     EXPECT_NEAR(results.at("scale").at("settling_ratio").get<double>(), 1.036 / (omega * 0.4), 1e-12);
     EXPECT_NEAR(results.at("scale").at("size_ratio").get<double>(), 0.05, 1e-12);
+}
+
+/// A small run whose head takes in 0.24 m3/s and lets 0.12 m3/s out by its gap, times `lie`; the discharge is 0.12 m3/s.
+fs::path with_fluxes(const std::string& name, double lie) {
+    const SmallRun run(name);
+    run.write();
+    const fs::path folder = run.directory / "postProcessing/outflow/0";
+    std::istringstream velocities(testing::read_text(folder / "contour_velocity.csv"));
+    std::string line, fluxes;
+    std::getline(velocities, line);
+    fluxes = line + "\n";
+    const auto bins = static_cast<double>(std::count(line.begin(), line.end(), ','));
+    while (std::getline(velocities, line)) {
+        fluxes += fmt::format("{},{}", line.substr(0, line.find(',')), lie * 0.12);
+        for (int bin = 1; bin < bins; ++bin) fluxes += fmt::format(",{:.12g}", -0.24 / (bins - 1.0));
+        fluxes += "\n";
+    }
+    testing::write_text(folder / "contour_flux.csv", fluxes);
+    return run.directory;
+}
+
+TEST(ResultsJson, fluxes_give_the_outflow_and_have_to_close) {
+    const auto document = [](const fs::path& directory) {
+        const RunData run = read_run(directory);
+        return results_json(compute_results(run), run);
+    };
+    const json honest = document(with_fluxes("fluxes_honest", 1.0)), lying = document(with_fluxes("fluxes_lying", 1.5));
+    EXPECT_NEAR(honest.at("mixing").at("outflow_over_discharge").get<double>(), 1.0, 1e-9);
+    EXPECT_NEAR(honest.at("mixing").at("well_mixed_spillage").get<double>(), 0.5, 1e-9);
+    EXPECT_NEAR(honest.at("mixing").at("balance_error").get<double>(), 0.0, 1e-9);
+    EXPECT_NEAR(lying.at("mixing").at("balance_error").get<double>(), 0.5, 1e-9);
+    EXPECT_NEAR(honest.at("outflow").at("bins")[0].at("flux_mean_m3_s").get<double>(), 0.12, 1e-9);
+    EXPECT_TRUE(document_of_small_run("fluxes_none").at("mixing").at("balance_error").is_null());
+}
+
+TEST(Report, says_when_the_flux_through_the_heads_boundary_does_not_close) {
+    for (const double lie : {1.0, 1.05, 1.5}) {
+        const fs::path directory = with_fluxes(fmt::format("closes_{:g}", lie), lie);
+        write_report(directory);
+        const std::string page = testing::read_text(directory / "report/index.html");
+        EXPECT_EQ(page.find("do not trust q") != std::string::npos, lie > 1.1) << lie;
+    }
 }
 
 // Mean radial velocity of bin k is 0.1 k - 0.3 m/s: outwards from the fourth on, inwards above. The last bin, below the hub, is not beside

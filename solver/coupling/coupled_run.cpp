@@ -110,7 +110,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         mistakes.gather([&] {
             const geometry::Contour contour = read_contour(*settings.fates);
             const FateTracker tracker(*settings.fates, contour);
-            if (settings.outflow) fluid.watch(outflow_places(contour, tracker.bins(), settings.outflow->offset));
+            if (settings.outflow) fluid.watch(velocity_and_flux_places(contour, tracker.bins(), settings.outflow->offset));
             if (settings.has_rock) fates_ = tracker;
         });
     if (settings.has_rock && settings.stop && settings.stop->target_half_width > 0.0) {
@@ -361,8 +361,11 @@ void CoupledRun::report() {
         recorder_.walls(fluid_.time(), moved_.wall_force);
     }
     // The row before the start bounds the first interval that is averaged.
-    if (settings_.outflow && fluid_.time() + fluid_.time_step() >= settings_.outflow->start_time)
-        recorder_.outflow(fluid_.time(), fluid_.watched_means());
+    if (settings_.outflow && fluid_.time() + fluid_.time_step() >= settings_.outflow->start_time) {
+        const std::vector<double> means = fluid_.watched_means();
+        const gsl::span<const double> all(means);
+        recorder_.outflow(fluid_.time(), all.first(means.size() / 2), all.last(means.size() / 2));
+    }
     if (velocity_) velocity_->sample_if_due(fluid_);
     if (fates_) {
         recorder_.fates(fluid_.time(), fates_->totals());

@@ -46,6 +46,7 @@ void CsvRecorder::begin() {
         for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings_.fates), settings_.fates->bin_width))
             header += "," + bin.name;
         outflow_ = open("outflow", "contour_velocity.csv", header);
+        flux_ = open("outflow", "contour_flux.csv", header);
     }
     if (!settings_.has_rock) return;
     events_ = open(k_rock, "events.csv",
@@ -167,10 +168,14 @@ void CsvRecorder::ledger(double time, const RockLedger& ledger) {
                ledger.error());
 }
 
-void CsvRecorder::outflow(double time, gsl::span<const double> radial_velocity) {
-    fmt::print(outflow_, "{:.9g}", time);
-    for (const double velocity : radial_velocity) fmt::print(outflow_, ",{:.6g}", velocity);
-    outflow_ << '\n';
+void CsvRecorder::outflow(double time, gsl::span<const double> radial_velocity, gsl::span<const double> flux) {
+    const auto print_row = [time](std::ofstream& table, gsl::span<const double> values) {
+        fmt::print(table, "{:.9g}", time);
+        for (const double value : values) fmt::print(table, ",{:.6g}", value);
+        table << '\n';
+    };
+    print_row(outflow_, radial_velocity);
+    print_row(flux_, flux);
 }
 
 void CsvRecorder::loads(const LoadsRow& row) {
@@ -293,7 +298,7 @@ void CsvRecorder::warning(double time, const std::string& text) {
 
 void CsvRecorder::flush() {
     for (std::ofstream* stream : {&events_, &rejected_, &account_, &gates_, &extractions_, &contacts_, &walls_, &fates_, &ledger_,
-                                  &outflow_, &loads_, &balance_, &cost_}) {
+                                  &outflow_, &flux_, &loads_, &balance_, &cost_}) {
         stream->flush();
         require_written(*stream, root_);
     }

@@ -31,7 +31,7 @@ public:
     void walls(double time, gsl::span<const WallForce> forces) override;
     void fates(double time, const FateTotals& totals) override;
     void ledger(double time, const RockLedger& ledger) override;
-    void outflow(double time, gsl::span<const double> radial_velocity) override;
+    void outflow(double time, gsl::span<const double> radial_velocity, gsl::span<const double> flux) override;
     void loads(const LoadsRow& row) override;
     void balance(const BalanceRow& row) override;
     void cost(const CostRow& row) override;
@@ -53,7 +53,8 @@ private:
     CouplingSettings settings_;
     double start_time_;
     std::string start_;
-    std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, loads_, balance_, cost_;
+    std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, flux_, loads_, balance_,
+        cost_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;
     std::vector<std::string> warnings_;

@@ -201,8 +201,8 @@ public:
     virtual void walls(double time, gsl::span<const WallForce> forces) = 0;
     virtual void fates(double time, const FateTotals& totals) = 0;
     virtual void ledger(double time, const RockLedger& ledger) = 0;
-    /// \param radial_velocity  averaged over azimuth, one per axial bin [m/s]
-    virtual void outflow(double time, gsl::span<const double> radial_velocity) = 0;
+    /// \param radial_velocity  averaged over azimuth, one per axial bin [m/s] \param flux  outwards, as many [m3/s]
+    virtual void outflow(double time, gsl::span<const double> radial_velocity, gsl::span<const double> flux) = 0;
     virtual void loads(const LoadsRow& row) = 0;
     virtual void balance(const BalanceRow& row) = 0;
     virtual void cost(const CostRow& row) = 0;
@@ -232,7 +232,7 @@ public:
     void walls(double, gsl::span<const WallForce>) override {}
     void fates(double, const FateTotals&) override {}
     void ledger(double, const RockLedger&) override {}
-    void outflow(double, gsl::span<const double>) override {}
+    void outflow(double, gsl::span<const double>, gsl::span<const double>) override {}
     void loads(const LoadsRow&) override {}
     void balance(const BalanceRow&) override {}
     void cost(const CostRow&) override {}

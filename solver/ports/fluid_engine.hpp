@@ -94,7 +94,7 @@ struct FluidLoads {
 /// Places and unit vectors there, in groups of equal size that follow each other.
 struct WatchedPlaces {
     std::vector<Vec3> points;      ///< [m]
-    std::vector<Vec3> directions;  ///< as many
+    std::vector<Vec3> directions;  ///< as many, of any length
     std::size_t groups = 0;
 };
 

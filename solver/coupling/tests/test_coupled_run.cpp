@@ -37,7 +37,7 @@ public:
     void rejected(const RejectedRock& r) override { rejections.push_back(r); }
     void fates(double time, const FateTotals& totals) override { fate_rows.emplace_back(time, totals); }
     void ledger(double, const RockLedger& ledger) override { ledgers.push_back(ledger); }
-    void outflow(double, gsl::span<const double> v) override { outflow_rows.emplace_back(v.begin(), v.end()); }
+    void outflow(double, gsl::span<const double> v, gsl::span<const double>) override { outflow_rows.emplace_back(v.begin(), v.end()); }
     void loads(const LoadsRow& row) override { load_rows.push_back(row); }
     void balance(const BalanceRow& row) override { balance_rows.push_back(row); }
     void cost(const CostRow& row) override { cost_rows.push_back(row); }
@@ -1014,6 +1014,7 @@ TEST(CsvRecorder, writes_the_files_of_the_contract) {
     EXPECT_EQ(lines("rock/0/rejected.csv"), 2);
     EXPECT_EQ(lines("rock/0/final.csv"), 2);
     EXPECT_EQ(lines("outflow/0/contour_velocity.csv"), 6);
+    EXPECT_EQ(lines("outflow/0/contour_flux.csv"), 6);
     EXPECT_EQ(lines("velocity/0/adv.csv"), 2);
     EXPECT_EQ(lines("velocity/0/adv_phases.csv"), 3);
     EXPECT_EQ(lines("loads/0/loads.csv"), 6);
