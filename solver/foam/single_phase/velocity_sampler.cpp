@@ -153,19 +153,19 @@ std::vector<double> VelocitySampler::watched_means(const Foam::volVectorField& v
                                                    coupling::Communicator& communicator) const {
     const KeptGradients gradients(mesh_);
     const Foam::tmp<Foam::volTensorField> gradient = Foam::fvc::grad(velocity);
+    std::vector<Eigen::Matrix3d> turns;  // of the zones since time 0
+    for (const coupling::ZoneMotion& motion : moving_)
+        turns.push_back(Eigen::AngleAxisd(motion.angle(time), motion.axis.direction).toRotationMatrix());
     std::vector<double> means(groups_, 0.0);
     for (const Place& place : places_) {
-        const Vec3 at_centre = to_vec3(velocity[place.cell]);
         Vec3 offset = place.offset, direction = place.direction;
         const coupling::Zone zone = cells_.zone[static_cast<std::size_t>(place.cell)];
         if (zone != coupling::k_still_zone) {
-            const coupling::ZoneMotion& motion = moving_[zone - 1];
-            const RotationAxis turn{Vec3::Zero(), motion.axis.direction};
-            offset = rotate_about(turn, motion.angle(time), offset);
-            direction = rotate_about(turn, motion.angle(time), direction);
+            offset = turns[zone - 1] * offset;
+            direction = turns[zone - 1] * direction;
         }
         const Vec3 carried = to_vec3(to_foam(offset) & gradient()[place.cell]);
-        means[place.group] += (at_centre + carried).dot(direction) / static_cast<double>(per_group_);
+        means[place.group] += (to_vec3(velocity[place.cell]) + carried).dot(direction) / static_cast<double>(per_group_);
     }
     communicator.sum(means);
     return means;
