@@ -82,6 +82,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
     start_old_times();
     evaluate_flux_conditions();
     turbulence_.validate();
+    if (soil_) still_eddies(soil_->share());
     restore_state();
     if (rock_ == RockPresence::present && !DuDt_.headerOk()) update_material_acceleration();
 }
@@ -194,6 +195,7 @@ void CutterFluid::correct_turbulence() {
     transport_.correct();
     const bool moving = mesh_.moving(mesh_.moving() && !rotation_.is_rigid());
     turbulence_.correct();
+    if (soil_) still_eddies(soil_->share());
     mesh_.moving(moving);
     clipped_cells_ += returnReduce(clipping_->take_count(), sumOp<label>());
 }

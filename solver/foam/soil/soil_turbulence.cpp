@@ -7,6 +7,14 @@ namespace cutterflow::foam {
 
 using namespace Foam;
 
+void still_eddies(const volScalarField& share) {
+    const fvMesh& mesh = share.mesh();
+    if (!mesh.foundObject<volScalarField>("nut")) return;
+    auto& eddy_viscosity = mesh.lookupObjectRef<volScalarField>("nut");
+    forAll(share, cell) if (share[cell] >= 1.0) eddy_viscosity[cell] = 0.0;
+    eddy_viscosity.correctBoundaryConditions();
+}
+
 SoilTurbulence::SoilTurbulence(const fvMesh& mesh, const volScalarField& sink)
     : fv::option("soil", "soilTurbulence", dictionary(), mesh), sink_(sink) {
     DynamicList<word> fields;

@@ -5,7 +5,11 @@
 
 namespace cutterflow::foam {
 
-/// The momentum's sink in k and epsilon: in soil both fall to nothing, and with k the eddy viscosity. omega has none: it is large at walls.
+/// Sets the eddy viscosity, if there is one, to 0 in cells that soil fills: k and epsilon fall to nothing there, and k^2/epsilon to
+/// anything (a thousand m2/s, where epsilon comes to its bound before k). \param share  of soil
+void still_eddies(const Foam::volScalarField& share);
+
+/// The momentum's sink in k and epsilon: in soil both fall to nothing. omega has none: it is large at walls.
 class SoilTurbulence final : public Foam::fv::option {
 public:
     /// \param sink  [1/s]; must outlive this

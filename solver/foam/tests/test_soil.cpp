@@ -370,6 +370,31 @@ TEST(Soil, AcrossAnInterfaceKeepsTheBalanceOfMomentum) {
     EXPECT_LE(with, 1e-5);  // what the pressure leaves of continuity, which is not the rock's; the plain pressure's error is of order 0.1
 }
 
+/// k and epsilon as soil may leave them, epsilon nearer to nothing than k: an eddy viscosity of 9,000 m2/s, which would tie all the soil's
+/// cells together.
+TEST(Soil, HasNoEddyViscosity) {
+    testing::Box box;
+    for (int& cells : box.cells) cells = 8;
+    testing::TinyCase tiny = box_case("soil_eddies", box, 1e-3, 1.0);
+    testing::make_turbulent(tiny, 0.01, 1e-9);
+    const fs::path folder = testing::build_case(tiny);
+    FluidRun run(folder, false, {}, soil_of(folder, {Vec3(0.5, 0.25, 0.5), Vec3(1.0, 0.25, 1.0)}));
+    const auto& eddy_viscosity = run.session().mesh().lookupObject<Foam::volScalarField>("nut");
+    const auto& share = run.session().mesh().lookupObject<Foam::volScalarField>("soil");
+    const auto largest_where = [&](bool in_soil) {
+        double largest = 0.0;
+        forAll(share, cell) if ((share[cell] >= 1.0) == in_soil) largest = std::max(largest, eddy_viscosity[cell]);
+        return run.largest(largest);
+    };
+    EXPECT_EQ(largest_where(true), 0.0) << "at the start";
+    EXPECT_GT(largest_where(false), 100.0);
+    for (int i = 0; i < 2; ++i) {
+        run.begin();
+        run.end({}, {});
+        EXPECT_EQ(largest_where(true), 0.0);
+    }
+}
+
 /// Water stirred round past a block that stands across the sliding interface.
 TEST(Soil, IsTheSameAfterARestart) {
     testing::TurningAnnulus shape;
