@@ -5,7 +5,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace cutterflow::postproc {
 namespace {
@@ -44,10 +43,6 @@ std::string sweep_of(const RunData& run) {
     return colon == std::string::npos ? "" : name.substr(0, colon);
 }
 
-bool is_replay(const RunData& run) {
-    return scope_of(run).replays == Replays::all;
-}
-
 }  // namespace
 
 std::map<std::string, std::vector<std::string>> chosen_keys(const Comparison& comparison) {
@@ -83,7 +78,7 @@ void call_by_choice(Comparison& comparison) {
     for (std::size_t i = 0; i < comparison.settings.size(); ++i)
         if (sweep.empty() || sweep_of(first_run(comparison, i)) != sweep) return;
     for (std::size_t i = 0; i < comparison.settings.size(); ++i)
-        comparison.settings[i].label = choices[i] + (!all_replays && is_replay(first_run(comparison, i)) ? k_replayed : "");
+        comparison.settings[i].label = choices[i] + (!all_replays && first_run(comparison, i).flow ? k_replayed : "");
 }
 
 }  // namespace cutterflow::postproc

@@ -91,7 +91,7 @@ struct FluidLoads {
         Vec3::Zero();  ///< [N s] by which pressure, stress and convection in turning cells act half a turn of the step ahead
 };
 
-/// Places and unit vectors there, in groups of equal size that follow each other.
+/// Places and vectors there, in groups of equal size that follow each other.
 struct WatchedPlaces {
     std::vector<Vec3> points;      ///< [m]
     std::vector<Vec3> directions;  ///< as many, of any length
