@@ -629,6 +629,7 @@ void CoupledRun::resume(const fs::path& checkpoint) {
         refuse(fmt::format("the checkpoint is of time {:.9g} s, the run starts at {:.9g} s", state.time, fluid_.time()),
                "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start from the beginning");
     last_checkpoint_ = fluid_.time();
+    last_picture_ = fluid_.time();  // forces of the step before the checkpoint are not kept
     // Every rank holds the same sums and reads the same file.
     if (velocity_) read_velocity(checkpoint, *velocity_);
     if (production_) read_production(checkpoint, *production_);

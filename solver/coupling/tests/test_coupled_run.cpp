@@ -669,6 +669,23 @@ TEST(WithoutAMedium, resumes_to_the_bit) {
     EXPECT_TRUE(after.events.empty());
 }
 
+/// As when a run was killed after its last checkpoint.
+TEST(WithoutAMedium, resumes_at_its_end_without_a_step) {
+    const TemporaryFolder folder;
+    MemoryRecorder through, after;
+    DryRig whole(folder, through, 0.0);
+    whole.go_to_the_end();
+    whole.run->finish();
+    const std::filesystem::path checkpoint = newest_checkpoint(folder.path());
+    ASSERT_EQ(read_state(checkpoint).time, whole.fluid.time());
+    DryRig resumed(folder, after, whole.fluid.time());
+    resumed.run->resume(checkpoint);
+    resumed.go_to_the_end();
+    resumed.run->finish();
+    EXPECT_TRUE(after.pictures.empty()) << "the last picture has forces that the checkpoint has not";
+    EXPECT_EQ(resumed.dem.rocks().id, whole.dem.rocks().id);
+}
+
 TEST(WithoutAMedium, an_engine_that_loses_a_rock_ends_the_run) {
     const TemporaryFolder folder;
     MemoryRecorder recorder;
