@@ -1,5 +1,7 @@
 #include "solver/foam/mesh_motion/moving_zones.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
@@ -7,8 +9,10 @@
 
 #include "Function1.H"
 #include "IOdictionary.H"
+#include "bitSet.H"
 #include "cellSet.H"
-#include "dynamicFvMesh.H"
+#include "dynamicMotionSolverFvMesh.H"
+#include "points0MotionSolver.H"
 
 namespace cutterflow::foam {
 namespace {
@@ -38,6 +42,33 @@ coupling::ZoneMotion read_rotating_motion(const Foam::dictionary& dict) {
     motion.axis.direction = to_vec3(axis).normalized();
     motion.speed = omega->value(0.0);
     return motion;
+}
+
+/// Points may lie this share of the zone's radius off: files hold six digits and more.
+constexpr double k_place_tolerance = 1e-4;
+
+/// Rock, walls and recordings turn with the zone by its angle at the present time; a mesh that stands at another one would be off for the
+/// whole run. Collective.
+void require_at_its_angle(const Foam::dynamicFvMesh& mesh, const coupling::ZoneMotion& motion, const Foam::labelList& cells) {
+    const auto& solver = Foam::refCast<const Foam::dynamicMotionSolverFvMesh>(mesh).motion();
+    const Foam::pointField& start = Foam::refCast<const Foam::points0MotionSolver>(solver).points0();
+    const double time = mesh.time().value(), angle = motion.angle(time);
+    Foam::bitSet turning(mesh.nPoints());
+    for (const Foam::label cell : cells)
+        for (const Foam::label face : mesh.cells()[cell]) turning.set(mesh.faces()[face]);
+    double offset = 0.0, radius = 0.0;  // largest [m]
+    for (const Foam::label point : turning.sortedToc()) {
+        const Vec3 there = to_vec3(start[point]);
+        offset = std::max(offset, (rotate_about(motion.axis, angle, there) - to_vec3(mesh.points()[point])).norm());
+        radius = std::max(radius, motion.axis.direction.cross(there - motion.axis.origin).norm());
+    }
+    Foam::reduce(offset, Foam::maxOp<Foam::scalar>());
+    Foam::reduce(radius, Foam::maxOp<Foam::scalar>());
+    if (offset <= k_place_tolerance * radius) return;
+    throw UserError(fmt::format("at time {:.9g} s the mesh of zone {} stands {:.3g} m beside where omega = {:.6g} rad/s turns it", time,
+                                motion.name, offset, motion.speed),
+                    "A zone has turned by omega times the time, from where it stands in constant/polyMesh",
+                    "Start at time 0, or from a time folder that was reached with this omega and holds polyMesh/points");
 }
 
 /// Cells that turn, and what they are called. OpenFOAM takes "none" for no zone or set.
@@ -76,7 +107,9 @@ MovingZones read_moving_zones(const Foam::dynamicFvMesh& mesh) {
     const Foam::dictionary& body = dict.optionalSubDict("solidBodyCoeffs");
     require_word(body, "solidBodyMotionFunction", "rotatingMotion");
     coupling::ZoneMotion motion = read_rotating_motion(body.optionalSubDict("rotatingMotionCoeffs"));
-    for (const Foam::label cell : moving_cells(mesh, body, motion.name)) zones.of_cells[static_cast<std::size_t>(cell)] = 1;
+    const Foam::labelList cells = moving_cells(mesh, body, motion.name);
+    require_at_its_angle(mesh, motion, cells);
+    for (const Foam::label cell : cells) zones.of_cells[static_cast<std::size_t>(cell)] = 1;
     zones.motion.push_back(std::move(motion));
     return zones;
 }

@@ -18,7 +18,8 @@ struct MovingZones {
 
 /// Reads which cells turn and how: solidBody with rotatingMotion of constant omega, for a cellZone, a cellSet or, with neither, the whole
 /// mesh, in any of the key layouts OpenFOAM v1912 accepts. One zone at most. Collective.
-/// \throws UserError  when the mesh moves in another way, or the zone or set is not there
+/// \throws UserError  when the mesh moves in another way, the zone or set is not there, or the zone does not stand at its angle at the
+/// present time
 MovingZones read_moving_zones(const Foam::dynamicFvMesh& mesh);
 
 }  // namespace cutterflow::foam

@@ -1,4 +1,5 @@
 // A run that is stopped and continued is the run that was not stopped.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/error.hpp"
 #include "solver/foam/tests/fluid_run.hpp"
 
 #include "Pstream.H"
@@ -109,7 +111,9 @@ TEST(Restart, ContinuesTheSameRun) {
 /// OpenFOAM itself looks for these folders as 3.1098684441377582 and 3.10710961834521981.
 TEST(Restart, FindsAFolderOfAnyDigits) {
     for (const std::string name : {"3.109868444137758", "3.1", "0.00012345678901", "2.5e-05"}) {
-        const std::filesystem::path folder = testing::build_case(stirred_annulus("digits_of_time"));
+        testing::TinyCase tiny = stirred_annulus("digits_of_time");
+        tiny.files["constant/dynamicMeshDict"] = testing::turning(0.0);
+        const std::filesystem::path folder = testing::build_case(tiny);
         const std::filesystem::path of_rank =
             Foam::UPstream::parRun() ? folder / ("processor" + std::to_string(Foam::UPstream::myProcNo())) : folder;
         std::filesystem::rename(of_rank / "0", of_rank / name);
@@ -117,6 +121,20 @@ TEST(Restart, FindsAFolderOfAnyDigits) {
         EXPECT_EQ(run.engine().time_name(), name);
         step_with_rock(run);
         EXPECT_GT(run.engine().time(), std::stod(name));
+    }
+}
+
+/// At 20 rad/s a mesh that stands as in constant/polyMesh at 0.1 s is 2 rad from where rock and walls take it to be.
+TEST(Restart, RefusesAMeshThatStandsAtAnotherAngle) {
+    const std::filesystem::path folder = testing::build_case(stirred_annulus("another_angle"));
+    const std::filesystem::path of_rank =
+        Foam::UPstream::parRun() ? folder / ("processor" + std::to_string(Foam::UPstream::myProcNo())) : folder;
+    std::filesystem::rename(of_rank / "0", of_rank / "0.1");
+    try {
+        FluidRun run(folder, false);
+        FAIL() << "started";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("beside where omega = 20 rad/s turns it"));
     }
 }
 
