@@ -597,9 +597,9 @@ void CoupledRun::start_from(const fs::path& checkpoint) {
     account_.place(rocks, all_of(rocks));
     begin_recording();
     for (std::size_t p = 0; p < rocks.size(); ++p) {
-        RockEvent event = rock_event(EventSurface::start, EventDirection::in, rocks, p, now());
-        if (fates_) event = fates_->place(rocks.id[p], rocks.diameter[p], rocks.density[p], rocks.position[p], rocks.velocity[p], now());
-        recorder_.event(event);
+        if (fates_) fates_->place(rocks.id[p], rocks.diameter[p], rocks.density[p], rocks.position[p], rocks.velocity[p], now());
+        feed_.count_as_fed(sphere_mass(rocks.diameter[p], rocks.density[p]));
+        recorder_.event(rock_event(EventSurface::start, EventDirection::in, rocks, p, now()));
     }
 }
 

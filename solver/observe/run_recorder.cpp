@@ -28,8 +28,8 @@ RockEvent rock_event(EventSurface surface, EventDirection direction, const Rocks
 }
 
 double RockLedger::error() const {
-    if (fed == 0.0) return 0.0;
-    return std::abs(fed - (owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind)) / fed;
+    const double known = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind;
+    return known == fed ? 0.0 : std::abs(fed - known) / fed;
 }
 
 double FateTotals::undecided() const {

@@ -95,7 +95,7 @@ struct FateTotals {
 /// Where the rock of the feed is, by mass [kg]. Each rock is in one place:
 ///   fed = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind.
 struct RockLedger {
-    double fed = 0.0;   ///< was due so far
+    double fed = 0.0;   ///< was due so far, or there at the start
     double owed = 0.0;  ///< was due and is not in: it found no place
     double in_head = 0.0;
     double delivered = 0.0;        ///< sucked up
@@ -106,7 +106,7 @@ struct RockLedger {
 
     double spilled() const { return spilled_mixing + spilled_cutting + left_behind; }
     double held() const { return owed + in_head + on_bed; }  ///< neither delivered nor spilled
-    /// |fed - sum of the others| / fed; 0 while nothing was fed.
+    /// |fed - sum of the others| / fed; infinite where there is rock and none was fed.
     double error() const;
 };
 
@@ -123,7 +123,7 @@ struct RockOutcome {
 
 struct LoadsRow {
     double time = 0.0, rotor_angle = 0.0;
-    double torque_pressure = 0.0, torque_viscous = 0.0, torque_rock = 0.0;  ///< on the cutter about +z [N m]
+    double torque_pressure = 0.0, torque_viscous = 0.0, torque_rock = 0.0;  ///< on the cutter about its axis, by the right hand [N m]
     double power = 0.0;                                                     ///< of the drive [W]
     std::optional<Vec3> soil_force{};                                       ///< of the water on the soil [N]
 };

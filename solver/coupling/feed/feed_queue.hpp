@@ -51,9 +51,12 @@ public:
     /// Counts the rock that is due at `time` as fed.
     void collect_due(double time, double tolerance);
 
+    /// Rock that was there when the run began [kg].
+    void count_as_fed(double mass) { fed_ += mass; }
+
     std::vector<int> ids_to_come() const;     ///< of rock that is not in
     bool all_in() const;                      ///< nothing is to come any more
-    double fed_mass() const { return fed_; }  ///< of rock that was due so far [kg]
+    double fed_mass() const { return fed_; }  ///< of rock that was due so far or there at the start [kg]
     double owed_mass() const;                 ///< of rock that was due and is not in [kg]
 
     FeedState state() const;
