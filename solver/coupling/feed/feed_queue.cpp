@@ -52,10 +52,16 @@ std::vector<FeedRock> FeedQueue::next_packet(double time, double tolerance, cons
     for (Waiting& waiting : due) {
         if (!waiting.tried) newly_waiting_.push_back(waiting.rock);
         waiting.tried = true;
-        waiting.due = queue_ ? std::optional<double>(*waiting.due + queue_->retry_interval) : std::nullopt;
+        waiting.due = queue_ ? std::optional<double>(next_try(*waiting.due, time)) : std::nullopt;
         waiting_.push_back(waiting);
     }
     return chosen;
+}
+
+/// When rock that was due and found no place is due again [s]: whole retry intervals later, so that the rotor brings its first place back.
+double FeedQueue::next_try(double due, double time) const {
+    while (due <= time) due += queue_->retry_interval;
+    return due;
 }
 
 /// \param due  what is left of it has no room

@@ -68,6 +68,7 @@ private:
         std::optional<double> due;
         bool tried = false;
     };
+    double next_try(double due, double time) const;
     std::optional<FeedRock> turned(const Waiting& waiting, std::size_t place, int diameters, double time) const;
     bool try_places(std::vector<Waiting>& due, std::size_t place, int diameters, double time, const RoomFor& room_for,
                     std::vector<FeedRock>& chosen) const;

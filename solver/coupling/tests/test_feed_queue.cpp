@@ -137,6 +137,15 @@ TEST(Queue, does_not_go_farther_ahead_than_its_reach_and_comes_back_at_the_next_
     EXPECT_EQ(feed.owed_mass(), 0.0);
 }
 
+TEST(Queue, of_long_packets_comes_back_at_the_next_blade_too) {
+    FeedQueue feed({rock(1, 0.0, 0.5)}, QueueSettings{0.5, k_blade_passing, 0.2}, rotor());
+    for (const double time : {0.0, 0.5, 1.0, 1.5}) EXPECT_TRUE(feed.next_packet(time, k_tolerance, nowhere).empty());
+    const auto in = feed.next_packet(2.1, k_tolerance, everywhere);
+    ASSERT_EQ(in.size(), 1u);
+    // Due at 1.6 s, the first multiple of the blade passing after the last try.
+    EXPECT_NEAR(std::remainder(azimuth_of(in[0]) - (0.5 + k_speed * (2.1 - 1.6)), 2.0 * k_pi), 0.0, 1e-9);
+}
+
 TEST(Queue, owes_what_waits_and_goes_on_where_it_was) {
     std::vector<FeedRock> rocks;
     for (int i = 0; i < 50; ++i) rocks.push_back(rock(i + 1, 0.004 * i, 0.1 * i));
