@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 /// Angles [rad] of mesh and walls may differ by rounding only.
 constexpr double k_angle_tolerance = 1e-9;
 
+/// Angle [rad, or of the whole angle] that a resumed rotor may be off: its time is the name of a folder.
+constexpr double k_resumed_angle_tolerance = 1e-6;
+
 /// Deviation [m, or of a unit vector] of a rotor's axis from the z axis that is rounding.
 constexpr double k_axis_tolerance = 1e-9;
 
@@ -128,7 +131,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
         rock_ = method.make(settings, properties, fluid, *dem, communicator);
         if (fluid.feels_rock()) momentum_ = std::make_unique<MomentumBalance>(properties, fluid, *dem, communicator);
     }
-    if (settings.record && !fs::exists(case_folder_ / names::recording)) phases_ = std::make_unique<PhaseRecorder>(*settings.record, fluid);
+    if (settings.record) phases_ = std::make_unique<PhaseRecorder>(*settings.record, fluid);
 
     double cells = static_cast<double>(fluid.cells().centres.size());
     communicator.sum(gsl::span<double>(&cells, 1));
@@ -514,7 +517,7 @@ void CoupledRun::wait_for_all() {
 void CoupledRun::record_flow() {
     if (!phases_) return;
     phases_->sample(fluid_);
-    if (!phases_->is_over(fluid_.time())) return;
+    if (!phases_->is_over(fluid_.time() + release_tolerance())) return;
     if (phases_->is_complete()) {
         if (const auto warning = warning_of_change(phases_->tell_change(communicator_))) recorder_.warning(fluid_.time(), *warning);
         write_whole(case_folder_ / names::recording, [&](const fs::path& folder) { phases_->write(folder, communicator_); });
@@ -620,6 +623,21 @@ void CoupledRun::on_all_ranks(const std::function<void()>& read, const std::stri
                         "Put back that mesh, or remove the folder to start from the beginning");
 }
 
+/// Goes on with the recording of the flow, or leaves one that is whole as it is. \throws UserError  when its start has passed
+void CoupledRun::resume_recording(const fs::path& checkpoint, double time) {
+    if (!phases_) return;
+    if (fs::exists(checkpoint / names::recording))
+        return on_all_ranks([&] { phases_->restore(checkpoint / names::recording); },
+                            "the recording of another rank does not fit its cells");
+    if (time <= settings_.record->start_time) return;
+    phases_.reset();
+    if (!fs::exists(case_folder_ / names::recording))
+        throw UserError(
+            {{names::coupling_properties,
+              fmt::format("record.startTime = {:g} s in a run that goes on at {:g} s", settings_.record->start_time, time),
+              "A recording begins in the run that it is of", "Begin it later, remove the section, or start from the beginning"}});
+}
+
 void CoupledRun::resume(const fs::path& checkpoint) {
     const RunState state = read_state(checkpoint);
     const auto refuse = [&](const std::string& what, const std::string& rule, const std::string& remedy) {
@@ -628,15 +646,15 @@ void CoupledRun::resume(const fs::path& checkpoint) {
     if (std::abs(state.time - fluid_.time()) > 1e-9 * std::max(1.0, std::abs(state.time)))
         refuse(fmt::format("the checkpoint is of time {:.9g} s, the run starts at {:.9g} s", state.time, fluid_.time()),
                "A resumed run starts at its checkpoint's time", "Set startTime to it, or remove the folder to start from the beginning");
+    if (std::abs(state.rotor_angle - now().rotor_angle) > k_resumed_angle_tolerance * std::max(1.0, std::abs(state.rotor_angle)))
+        refuse(fmt::format("the rotor stood at {:.9g} rad, now it would at {:.9g} rad", state.rotor_angle, now().rotor_angle),
+               "A resumed run turns as it did", "Put back the rotor's speed, or remove the folder to start from the beginning");
     last_checkpoint_ = fluid_.time();
     last_picture_ = fluid_.time();  // forces of the step before the checkpoint are not kept
     // Every rank holds the same sums and reads the same file.
     if (velocity_) read_velocity(checkpoint, *velocity_);
     if (production_) read_production(checkpoint, *production_);
-    if (phases_ && fs::exists(checkpoint / names::recording))
-        on_all_ranks([&] { phases_->restore(checkpoint / names::recording); }, "the recording of another rank does not fit its cells");
-    else
-        phases_.reset();
+    resume_recording(checkpoint, state.time);
     if (!has_rock()) return;
     feed_.restore(state.feed);
 

@@ -101,6 +101,7 @@ private:
     void report_velocity();
     void wait_for_all();
     void record_flow();
+    void resume_recording(const std::filesystem::path& checkpoint, double time);
     void on_all_ranks(const std::function<void()>& read, const std::string& of_another);
     void write_whole(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write);
 

@@ -251,6 +251,38 @@ double mass_of(const Rocks& rocks) {
     return mass;
 }
 
+TEST(CoupledRun, follows_the_rock_of_its_start_and_accounts_for_it) {
+    const TemporaryFolder before, folder;
+    CouplingSettings first = case_settings(before, "1,0,0.1,0,-0.05,0.02,2650\n2,0,0.3,0,-0.05,0.02,2650\n");
+    first.fates.reset();
+    first.checkpoint = CheckpointSettings{1.0, 1};
+    MemoryRecorder unused, recorder;
+    Rig bed(first, before.path(), unused, Vec3::Zero(), k_still);
+    bed.run->step();
+    bed.run->finish();
+    const double at_start = mass_of(bed.dem.rocks());
+
+    for (const char* feed : {"", "3,0.01,-0.1,0.02,-0.05,0.02,2650\n"}) {
+        CouplingSettings settings = case_settings(folder, feed);
+        settings.rock_start = newest_checkpoint(before.path());
+        if (*feed == '\0') settings.rock_feed.clear();
+        Rig rig(settings, folder.path(), recorder, Vec3(0, 0, 1.0));
+        rig.run->start_from(settings.rock_start);
+        EXPECT_EQ(recorder.events.back().surface, EventSurface::start);
+        while (rig.fluid.time() < 0.3) rig.run->step();
+        EXPECT_NEAR(recorder.ledgers.back().fed, at_start + (*feed == '\0' ? 0.0 : sphere_mass(0.02, 2650.0)), 1e-12);
+        EXPECT_GT(recorder.ledgers.back().in_head, 0.0);
+        EXPECT_LE(recorder.ledgers.back().error(), 1e-12);
+    }
+}
+
+TEST(Ledger, with_rock_that_nobody_fed_does_not_hold) {
+    RockLedger ledger;
+    EXPECT_EQ(ledger.error(), 0.0);
+    ledger.in_head = 1e-3;
+    EXPECT_GT(ledger.error(), 1.0);
+}
+
 TEST(CoupledRun, takes_rock_out_once_it_is_sucked_up) {
     const TemporaryFolder folder;
     MemoryRecorder recorder;
@@ -667,6 +699,89 @@ TEST(WithoutAMedium, resumes_to_the_bit) {
         EXPECT_EQ(resumed.dem.rocks().velocity[p], whole.dem.rocks().velocity[p]);
     }
     EXPECT_TRUE(after.events.empty());
+}
+
+/// A flow before its rock comes, whose rotor turns once in the recording.
+struct RecordedRig {
+    RecordedRig(const TemporaryFolder& folder, const std::optional<RecordSettings>& record, double start = 0.0)
+        : rig(settings(folder, record), folder.path(), recorder, Vec3(0.0, 0.0, 1.0)) {
+        if (start > 0.0) rig.fluid.restart_at(start);
+    }
+    static CouplingSettings settings(const TemporaryFolder& folder, const std::optional<RecordSettings>& record) {
+        CouplingSettings settings = case_settings(folder, "1,100,0.1,0,-0.05,0.02,2650\n");
+        settings.record = record;
+        settings.checkpoint = CheckpointSettings{0.5, 1};
+        return settings;
+    }
+    void go_to(double time) {
+        while (rig.fluid.time() < time) rig.run->step();
+    }
+    MemoryRecorder recorder;
+    Rig rig;
+};
+
+const double k_one_turn = 2.0 * k_pi / std::abs(turning().speed);
+
+TEST(Recording, of_a_run_from_the_beginning_takes_the_place_of_an_earlier_one) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "recording");
+    folder.write("recording/of_another_flow", "");
+    RecordedRig run(folder, RecordSettings{0.1, 0.2 + k_one_turn, 6, 1});
+    run.go_to(0.1);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "recording/of_another_flow")) << "until there is a new one";
+    run.go_to(0.25 + k_one_turn);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "recording/of_another_flow")) << run.rig.fluid.time();
+    EXPECT_TRUE(run.recorder.warnings.empty()) << run.recorder.warnings.front();
+    EXPECT_EQ(read_recording(folder.path() / "recording").phases, 6);
+}
+
+/// Steps of one length add up to a little less than their number of times.
+TEST(Recording, ends_with_the_run_whose_last_step_ends_a_rounding_early) {
+    const TemporaryFolder folder;
+    const double step = 4e-3;
+    int steps = static_cast<int>(k_one_turn / step) + 2;
+    const auto reached = [&](int count) {
+        double time = 0.0;
+        for (int n = 0; n < count; ++n) time += step;
+        return time;
+    };
+    while (reached(steps) >= step * steps) ++steps;
+    RecordedRig run(folder, RecordSettings{0.0, step * steps, 6, 1});
+    for (int n = 0; n < steps; ++n) run.rig.run->step();
+    ASSERT_LT(run.rig.fluid.time(), step * steps);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "recording"));
+}
+
+TEST(Recording, that_is_asked_for_later_begins_later) {
+    const TemporaryFolder folder;
+    RecordedRig first(folder, {});
+    first.go_to(0.6);
+    const std::filesystem::path checkpoint = newest_checkpoint(folder.path());
+    const double saved = read_state(checkpoint).time;
+    RecordedRig late(folder, RecordSettings{0.2, 0.3 + k_one_turn, 6, 1}, saved);
+    EXPECT_THROW(late.rig.run->resume(checkpoint), UserError);
+    RecordedRig in_time(folder, RecordSettings{0.7, 0.8 + k_one_turn, 6, 1}, saved);
+    in_time.rig.run->resume(checkpoint);
+    in_time.go_to(0.85 + k_one_turn);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "recording"));
+}
+
+TEST(Checkpoint, of_another_angle_is_refused) {
+    const TemporaryFolder folder;
+    RecordedRig first(folder, {});
+    first.go_to(0.6);
+    const std::filesystem::path checkpoint = newest_checkpoint(folder.path());
+    ZoneMotion faster = turning();
+    faster.speed *= 1.5;
+    MemoryRecorder recorder;
+    Rig other(RecordedRig::settings(folder, {}), folder.path(), recorder, Vec3::Zero(), faster);
+    other.fluid.restart_at(read_state(checkpoint).time);
+    try {
+        other.run->resume(checkpoint);
+        FAIL();
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("the rotor stood at"), std::string::npos) << error.what();
+    }
 }
 
 /// As when a run was killed after its last checkpoint.
