@@ -365,6 +365,16 @@ void check_time_control(const Foam::Time& time, Findings& findings) {
     require_above_zero(control, "writeInterval", k_optional);
 }
 
+/// OpenFOAM would delete the fields that checkpoints go on from.
+void check_kept_times(const Foam::Time& time, Findings& findings) {
+    int purged = 0;
+    DictionarySection control(time.controlDict(), "", "system/controlDict", findings);
+    control.read("purgeWrite", purged, k_optional);
+    if (purged > 0)
+        control.report("purgeWrite", fmt::format("= {} with section checkpoint of {}", purged, names::coupling_properties),
+                       "A checkpoint goes on from the fields of its time", "Set purgeWrite 0, or remove the section");
+}
+
 /// The file, or null when there is none. \throws UserError  when OpenFOAM would not take it for a dictionary
 std::unique_ptr<Foam::IOdictionary> open_coupling_properties(const FoamSession& session, const Foam::Time& time) {
     Foam::IOobject header = in_constant("couplingProperties", time);
@@ -430,6 +440,7 @@ void read_case(FoamSession& session, CouplingDictionary& result, Findings& findi
     DictionarySection file(*dict, "", names::coupling_properties, findings);
     read_file(file, session.case_folder(), result);
     file.finish();
+    if (result.coupling.checkpoint) check_kept_times(time, findings);
     if (result.dem) {
         result.dem->added_mass = result.coupling.closures.added_mass;
         read_surroundings(time, result.coupling.has_medium, *result.dem, findings);

@@ -566,6 +566,15 @@ TEST(CouplingDictionary, RefusesTimeStepsThatAreNotAboveZeroInAPureFlow) {
                 ElementsAre(HasSubstr("deltaT = 0"), HasSubstr("maxCo = abc"), HasSubstr("maxDeltaT = -2")));
 }
 
+TEST(CouplingDictionary, LetsNothingDeleteTheFieldsOfACheckpoint) {
+    testing::TinyCase tiny = case_with("purged", "checkpoint { interval 0.25; }");
+    tiny.files["system/controlDict"] += "purgeWrite 1;";
+    EXPECT_THAT(mistakes_of([&] { read(tiny); }), ElementsAre(HasSubstr("purgeWrite = 1 with section checkpoint")));
+    testing::TinyCase without = case_with("purged_without", "");
+    without.files["system/controlDict"] += "purgeWrite 1;";
+    EXPECT_NO_THROW(read(without));
+}
+
 /// What OpenFOAM itself refuses may strike the reading rank alone: only on one rank can a test go on from there.
 TEST(CaseErrors, OfOpenFoamAreTheUsersAndKeepItsText) {
     if (Foam::UPstream::parRun()) GTEST_SKIP() << "serial";
