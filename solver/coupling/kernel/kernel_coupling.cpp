@@ -357,7 +357,7 @@ void KernelCoupling::map() {
     const std::vector<double> volumes = volumes_of(rocks);
     Stencils* const both[] = {&old_, &present_};
     const auto fractions = redistribute(both, volumes, cell_volume, redistribution_limit(settings_.kernel), communicator_);
-    void_fraction_old_ = void_fraction_before(volumes);
+    void_fraction_old_ = void_fraction_before(volumes, fractions[0], fractions[1]);
     void_fraction_new_ = void_fraction_of(fractions[1]);
 
     source_.resize(carry_.size());
@@ -414,24 +414,31 @@ void KernelCoupling::even_out_within_kernels(const std::vector<double>& drag) {
 /// displace is alpha_c v.S_c, and the rock of the swept space, (1 - alpha_c) v.S_c dt, was there before and is no more. With s_c = dt v.S_c
 /// / V_c a cell held before the step what the old kernels laid there and what was swept of the present ones:
 ///   solid_old_c = sum_p V_p (w_old_pc + w_pc s_c).
-/// What exceeds the largest share of a cell is laid over the rock's old kernel. Without the swept part a blade that passes rock would be a
-/// source of fluid; laid over the kernel as a whole, it would be one around the blade.
-std::vector<double> KernelCoupling::void_fraction_before(std::vector<double> volume) const {
+/// What exceeds the largest share of a cell, or fills it, is laid over the rock's old kernel. Without the swept part a blade that passes
+/// rock would be a source of fluid; laid over the kernel as a whole, it would be one around the blade.
+/// \param old_solid, present_solid  sum_p V_p w_old_pc, sum_p V_p w_pc
+std::vector<double> KernelCoupling::void_fraction_before(const std::vector<double>& volume, const std::vector<double>& old_solid,
+                                                         const std::vector<double>& present_solid) const {
     const gsl::span<const double> retreat = fluid_.wall_retreat();
     const gsl::span<const double> cell_volume = mapping_.cells().volumes;
-    std::vector<double> solid_fraction(carry_.size(), 0.0), beyond(volume.size(), 0.0);
-    const bool walls_move = std::any_of(retreat.begin(), retreat.end(), [](double speed) { return speed != 0.0; });
-    for (std::size_t p = 0; walls_move && p < present_.size(); ++p)
+    std::vector<double> solid_fraction = old_solid, excess(carry_.size(), 0.0), beyond(volume.size(), 0.0);
+    for (std::size_t c = 0; c < carry_.size(); ++c) {
+        if (retreat[c] == 0.0 || present_solid[c] == 0.0) continue;
+        const double swept = fluid_.time_step() * retreat[c] / cell_volume[c];
+        const double room = std::max(0.0, k_solvable_solid_fraction - old_solid[c]) / present_solid[c];
+        const double here = std::clamp(swept, -k_swept_share, std::min(k_swept_share, room));
+        solid_fraction[c] += present_solid[c] * here;
+        excess[c] = swept - here;
+    }
+    const auto is_some = [](double value) { return value != 0.0; };
+    const bool has_excess = std::any_of(excess.begin(), excess.end(), is_some);
+    for (std::size_t p = 0; has_excess && p < present_.size(); ++p)
         for (std::size_t i = present_.first[p]; i < present_.first[p + 1]; ++i) {
             const auto c = static_cast<std::size_t>(present_.cell[i]);
-            const double swept = fluid_.time_step() * retreat[c] / cell_volume[c];
-            const double here = std::clamp(swept, -k_swept_share, k_swept_share);
-            solid_fraction[c] += volume[p] * present_.deposit[i] * here;
-            beyond[p] += present_.deposit[i] * (swept - here) * cell_volume[c];
+            if (is_some(excess[c])) beyond[p] += volume[p] * present_.deposit[i] * excess[c] * cell_volume[c];
         }
     communicator_.sum(beyond);
-    for (std::size_t p = 0; p < volume.size(); ++p) volume[p] *= 1.0 + beyond[p];
-    deposit(old_, volume, solid_fraction);
+    if (std::any_of(beyond.begin(), beyond.end(), is_some)) deposit(old_, beyond, solid_fraction);
     return void_fraction_of(solid_fraction);
 }
 

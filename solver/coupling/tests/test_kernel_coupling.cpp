@@ -380,6 +380,23 @@ TEST(Rotor, takes_the_swept_rock_from_the_cells_that_the_blades_sweep) {
     EXPECT_GT(beside, 1e-2 * 3e-5);
 }
 
+TEST(Rotor, leaves_fluid_in_a_full_cell_that_its_blades_sweep) {
+    Rig rig(box(0.02, 0.01), {}, 1e-4);
+    std::vector<FeedRock> due;
+    for (int i = 0; i < 13; ++i)
+        due.push_back(rock(i + 1, Vec3(i % 2 - 0.5, i / 2 % 2 - 0.5, 0.5 * (i / 4) - 0.5) * 0.02, 0.02, Vec3::Zero()));
+    rig.coupling.insert(due);
+    rig.fluid.retreat[0] = 1e-2;  // all of the cell in a step
+    rig.step();
+    EXPECT_LT(rig.fluid.void_fraction[0], 0.2);
+    const double least = *std::min_element(rig.fluid.void_fraction_old.begin(), rig.fluid.void_fraction_old.end());
+    EXPECT_GT(least, 0.02);
+    double taken = 0.0;
+    for (std::size_t c = 0; c < rig.fluid.mesh.size(); ++c)
+        taken += rig.fluid.mesh.volumes[c] * (rig.fluid.void_fraction[c] - rig.fluid.void_fraction_old[c]);
+    EXPECT_NEAR(taken, (1.0 - rig.fluid.void_fraction[0]) * 1e-2 * rig.fluid.time_step(), 1e-15) << "all swept rock was there before";
+}
+
 TEST(Exchange, counts_cells_that_hold_more_rock_than_is_allowed) {
     Rig rig(box(0.02, 0.01), {}, 1e-4);
     std::vector<FeedRock> due;
