@@ -11,8 +11,8 @@ constexpr double k_least_node_weight = 0.1;
 /// Stored hidden cells (4 bytes each) above which unused nodes are dropped, and as how many a triangle in a shadow map counts.
 constexpr std::size_t k_most_kept_cells = 32u << 20;
 constexpr std::size_t k_cells_per_shade = 2;
-/// Nodes used in so many of the last mesh positions stay.
-constexpr std::uint64_t k_newest = 2;
+/// Nodes used for so many of the last sets of rock stay: a step asks for a few, old and new places among them.
+constexpr std::uint64_t k_newest = 8;
 /// After so many tries boxes of cells are asked whether all of them are in view only while this share of them was.
 constexpr int k_tries = 8;
 constexpr double k_least_left_out = 0.25;
@@ -95,6 +95,10 @@ Visibility::Visibility(const Steel& steel, const CellTrees& trees, const ZoneFra
 void Visibility::set_frames(const ZoneFrames& frames) {
     frames_ = frames;
     ++stamp_;
+}
+
+void Visibility::begin_set() {
+    ++set_;
     if (kept_cells_ > k_most_kept_cells) drop_old_nodes();
 }
 
@@ -223,7 +227,7 @@ Visibility::SamplePoint& Visibility::node(Zone steel, int level, const std::arra
         point.position =
             spacing_of(level) *
             (Vec3(static_cast<double>(index[0]), static_cast<double>(index[1]), static_cast<double>(index[2])) + k_lattice_offset);
-    point.last_used = stamp_;
+    point.last_used = set_;
     return point;
 }
 
@@ -345,16 +349,16 @@ void Visibility::release(SamplePoint& point) {
     drop_shadows(point);
 }
 
-/// Halves what is kept, or as near as it comes with all nodes of the last mesh positions: those unused for longest go first.
+/// Halves what is kept, or as near as it comes with all nodes of the last sets of rock: those unused for longest go first.
 void Visibility::drop_old_nodes() {
-    for (std::uint64_t age = stamp_ / 2; kept_cells_ > k_most_kept_cells / 2 && age > k_newest; age /= 2) drop_nodes_unused_for(age);
+    for (std::uint64_t age = set_ / 2; kept_cells_ > k_most_kept_cells / 2 && age > k_newest; age /= 2) drop_nodes_unused_for(age);
 }
 
-/// \param age  in mesh positions
+/// \param age  in sets of rock
 void Visibility::drop_nodes_unused_for(std::uint64_t age) {
     for (Lattice& lattice : nodes_)
         for (auto i = lattice.begin(); i != lattice.end();) {
-            if (i->second.last_used + age >= stamp_) {
+            if (i->second.last_used + age >= set_) {
                 ++i;
                 continue;
             }

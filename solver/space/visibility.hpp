@@ -57,6 +57,9 @@ public:
     /// Sets the position of the mesh.
     void set_frames(const ZoneFrames& frames);
 
+    /// A set of rock follows. Nodes that none of the last sets used go when too much is kept.
+    void begin_set();
+
     /// Computes the visibility of all cells within `reach` [m] of a rock at `position` [m, absolute]. \param spacing  of the lattice [m];
     /// it is rounded to quarter octaves, so that rocks of one size share their nodes. Replaces the previous result.
     void look_from(const Vec3& position, double reach, double spacing);
@@ -134,7 +137,8 @@ private:
     std::vector<SteelTree> steel_;
     ZoneFrames frames_;
     NodeView view_;
-    std::uint64_t stamp_ = 1;
+    std::uint64_t stamp_ = 1;     // of the position of the mesh
+    std::uint64_t set_ = 1;       // of rock
     std::vector<Lattice> nodes_;  // by the steel's zone
     std::size_t kept_cells_ = 0;
     std::size_t tests_ = 0;

@@ -119,6 +119,7 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     stencils.clear();
     stencils.shared = SharedRocks(communicator_.rank());
     ++builds_;
+    visibility_.begin_set();
     std::vector<double> sums(k_sums * rocks.size(), 0.0);
     if (groups_)
         lay_in_groups(rocks, stencils, sums);
