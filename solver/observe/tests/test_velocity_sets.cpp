@@ -188,6 +188,17 @@ TEST_F(VelocitySetsTest, go_on_after_a_checkpoint_as_if_there_was_none) {
     EXPECT_EQ(a.str(), b.str());
     VelocitySets other(settings("0,0,0,0\n", 8), fluid);
     EXPECT_FALSE(other.restore(a));
+    // As many points, one of them elsewhere, or turning.
+    for (const char* points : {"0.1,0.2,-0.1,0\n0.1,0.21,-0.1,1\n", "0.1,0.2,-0.1,0\n0.1,0.2,-0.1,0\n"}) {
+        std::istringstream of_others(b.str());
+        VelocitySets moved(settings(points, 8), fluid);
+        EXPECT_FALSE(moved.restore(of_others)) << points;
+    }
+}
+
+/// Sums begin with the times and the points that they are of.
+std::size_t identity_bytes(std::size_t points) {
+    return (2 + 5 * points) * sizeof(double);
 }
 
 TEST_F(VelocitySetsTest, sums_that_announce_more_revolutions_than_they_hold_are_refused) {
@@ -199,8 +210,8 @@ TEST_F(VelocitySetsTest, sums_that_announce_more_revolutions_than_they_hold_are_
     sets.write(saved);
     for (const std::uint64_t revolutions : {std::uint64_t{1000}, std::uint64_t{1} << 59, ~std::uint64_t{0}}) {
         std::string bytes = saved.str();
-        bytes.replace(sizeof(double) + 2 * sizeof revolutions, sizeof revolutions, reinterpret_cast<const char*>(&revolutions),
-                      sizeof revolutions);
+        bytes.replace(identity_bytes(1) + sizeof(double) + 2 * sizeof revolutions, sizeof revolutions,
+                      reinterpret_cast<const char*>(&revolutions), sizeof revolutions);
         std::istringstream stream(bytes);
         VelocitySets resumed(how, fluid);
         EXPECT_FALSE(resumed.restore(stream)) << revolutions;
@@ -216,10 +227,11 @@ TEST_F(VelocitySetsTest, sums_of_an_angle_that_they_cannot_have_reached_are_refu
         turn_to(2.3 * k_turn, sets, fluid);
         std::ostringstream saved;
         sets.write(saved);
-        const std::size_t angle_at = sizeof(double) + 4 * sizeof(std::uint64_t);
+        const std::size_t next_at = identity_bytes(*points == '\0' ? 0 : 1),
+                          angle_at = next_at + sizeof(double) + 4 * sizeof(std::uint64_t);
         for (const double angle : {1e3, -1.0, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-            for (const std::size_t at : {std::size_t{0}, angle_at}) {
-                if (at == 0 && std::isfinite(angle)) continue;  // the next sample's angle may be any
+            for (const std::size_t at : {next_at, angle_at}) {
+                if (at == next_at && std::isfinite(angle)) continue;  // the next sample's angle may be any
                 std::string bytes = saved.str();
                 bytes.replace(at, sizeof angle, reinterpret_cast<const char*>(&angle), sizeof angle);
                 std::istringstream stream(bytes);

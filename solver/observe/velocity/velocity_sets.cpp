@@ -119,12 +119,29 @@ std::vector<std::uint8_t> VelocitySets::wet_points(double rotor_angle) const {
     return wet;
 }
 
+/// What sums of this object are of: times, and each point with its phases.
+std::vector<double> VelocitySets::identity() const {
+    std::vector<double> numbers{start_time_, interval_};
+    for (const VelocitySet& set : sets_)
+        for (std::size_t i = 0; i < set.points.size(); ++i) {
+            const Vec3& place = set.points[i].place;
+            numbers.insert(numbers.end(), {place[0], place[1], place[2], set.points[i].rotating ? 1.0 : 0.0, set.statistics.period(i)});
+        }
+    return numbers;
+}
+
 void VelocitySets::write(std::ostream& stream) const {
+    const std::vector<double> numbers = identity();
+    stream.write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(numbers.size() * sizeof(double)));
     stream.write(reinterpret_cast<const char*>(&next_), sizeof next_);
     for (const VelocitySet& set : sets_) set.statistics.write(stream);
 }
 
 bool VelocitySets::restore(std::istream& stream) {
+    const std::vector<double> own = identity();
+    std::vector<double> found(own.size());
+    stream.read(reinterpret_cast<char*>(found.data()), static_cast<std::streamsize>(found.size() * sizeof(double)));
+    if (!stream || found != own) return false;
     stream.read(reinterpret_cast<char*>(&next_), sizeof next_);
     return stream && std::isfinite(next_) &&
            std::all_of(sets_.begin(), sets_.end(), [&](VelocitySet& set) { return set.statistics.restore(stream); });

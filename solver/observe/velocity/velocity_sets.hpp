@@ -42,11 +42,12 @@ public:
     double angular_speed() const { return motion_.speed; }  ///< [rad/s]
 
     void write(std::ostream& stream) const;
-    /// \return false when the stream holds sets of other points
+    /// \return false when the stream holds sets of other points, phases or times
     bool restore(std::istream& stream);
 
 private:
     double turned(double time) const;
+    std::vector<double> identity() const;
     void find_places(double time);
     bool is_dry_at_rest(const Vec3& place) const;
     std::vector<std::uint8_t> wet_points(double rotor_angle) const;
