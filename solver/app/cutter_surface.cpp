@@ -30,6 +30,8 @@ using namespace cutterflow::free_surface;
 namespace fs = std::filesystem;
 
 constexpr const char* k_scene = "scene.toml";
+constexpr const char* k_walls = "walls_of_bodies";       // what bodies bump into: a folder of the program's own
+constexpr const char* k_ends = "ends_at_s";              // when the run ends that met its stop rule
 constexpr const char* k_started = "scene.started.toml";  // the scene as it was when the run began
 
 struct Arguments {
@@ -78,17 +80,18 @@ void require_one_rank() {
 
 std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::path& folder, bool fresh) {
     if (scene.bodies.size() == 0) return nullptr;
-    if (const std::string walls = wall_surface_stl(scene.settings.solids, scene.settings.tank.depth); !walls.empty()) {
-        write_file(folder / "walls.stl", walls);
-        scene.dem.walls.push_back({"walls", folder / "walls.stl", false});
-    }
-    for (std::size_t n = 0; n < scene.surfaces.size(); ++n)
-        scene.dem.walls.push_back({fmt::format("surface_{}", n + 1), fs::absolute(scene.surfaces[n]), false});
+    const fs::path walls = folder / k_walls;
+    fs::create_directories(walls);
+    const auto add_wall = [&](const std::string& name, const std::string& stl) -> coupling::WallSettings& {
+        write_file(walls / (name + ".stl"), stl);
+        return scene.dem.walls.emplace_back(coupling::WallSettings{name, walls / (name + ".stl")});
+    };
+    const double depth = scene.settings.tank.depth;
+    if (const std::string solids = wall_surface_stl(scene.settings.solids, depth); !solids.empty()) add_wall("solids", solids);
     for (std::size_t n = 0; n < scene.settings.gates.size(); ++n) {
         const Gate& gate = scene.settings.gates[n];
-        const std::string name = fmt::format("gate_{}", n + 1);
-        write_file(folder / (name + ".stl"), wall_surface_stl({gate.closed}, scene.settings.tank.depth));
-        scene.dem.walls.push_back({name, folder / (name + ".stl"), false, {Vec3(0, 0, gate.speed), gate.start, gate.end}});
+        add_wall(fmt::format("gate_{}", n + 1), wall_surface_stl({gate.closed}, depth)).travel = {Vec3(0, 0, gate.speed), gate.start,
+                                                                                                  gate.end};
     }
     scene.dem.log = folder / "log.liggghts";
     auto engine = std::make_unique<liggghts::LiggghtsEngine>(scene.dem, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);
@@ -140,7 +143,7 @@ void run_scene(const Arguments& arguments) {
     if (run.time() == 0.0) recorder.output(run, engine.get());
     Progress progress("run");
     int most_enclosed = 0;
-    double end = scene.end;
+    double end = fs::exists(arguments.folder / k_ends) ? std::stod(read_file(arguments.folder / k_ends)) : scene.end;
     double checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval),
            output_due = next_multiple(run.time(), scene.write_interval);
     while (run.time() < end * (1.0 - 1e-12)) {
@@ -151,7 +154,10 @@ void run_scene(const Arguments& arguments) {
             most_enclosed = run.last().enclosed_waters;
             std::cout << "note: " << enclosed_note(most_enclosed, run.time()) << std::endl;
         }
-        if (end > run.time() + scene.settle && stops(scene, reading)) end = run.time() + scene.settle;
+        if (end > run.time() + scene.settle && stops(scene, reading)) {
+            end = run.time() + scene.settle;
+            write_file(arguments.folder / k_ends, fmt::format("{}\n", end));
+        }
         if (run.time() >= output_due * (1.0 - 1e-12)) {
             recorder.output(run, engine.get());
             output_due = next_multiple(run.time(), scene.write_interval);

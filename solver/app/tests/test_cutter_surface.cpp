@@ -76,4 +76,40 @@ TEST_F(CutterSurface, refuses_to_resume_where_nothing_ran) {
     EXPECT_EQ(checkpoints(), 0);
 }
 
+/// A body beside a solid whose surface is an OBJ, in a folder that holds a file as a user might call it.
+TEST_F(CutterSurface, lets_bodies_bump_into_a_surface_of_any_format_and_overwrites_no_file) {
+    const std::string block =
+        "v 0.06 0.002 0.001\nv 0.09 0.002 0.001\nv 0.09 0.008 0.001\nv 0.06 0.008 0.001\n"
+        "v 0.06 0.002 0.03\nv 0.09 0.002 0.03\nv 0.09 0.008 0.03\nv 0.06 0.008 0.03\n"
+        "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+    write_file(folder_ / "solids.obj", block);
+    write_file(folder_ / "walls.stl", "the user's own");
+    std::string space = scene(
+        "[[solid]]\nkind = \"surface\"\nfile = \"solids.obj\"\n"
+        "[[bodies]]\nshape = \"sphere\"\ndiameter_m = 0.01\ncentre_x_m = 0.03\ncentre_y_m = 0.0075\nlowest_m = 0.03\n");
+    space.replace(space.find("cell_m"), 6, "dimensions = \"space\"\nlength_m = 0.015\ncell_m");
+    space.replace(space.find("end_s = 0.01"), 12, "end_s = 0.002");
+    EXPECT_EQ(start(space), 0) << output_;
+    EXPECT_TRUE(fs::exists(folder_ / "walls_of_bodies" / "solids.stl"));
+    EXPECT_EQ(read_file(folder_ / "walls.stl"), "the user's own");
+}
+
+/// A body that starts at the right wall's side ends the run after a while of settling, whether it is stopped in it or not.
+TEST_F(CutterSurface, ends_when_it_would_have_after_a_resume) {
+    write_file(folder_ / "near.csv", "x_m,z_m,vx_m_s\n0.088,0.05,1.0\n");
+    const std::string text = scene("settle_s = 0.004\nstop_when = \"arrival\"\n[[bodies]]\ndiameter_m = 0.02\nfile = \"near.csv\"\n");
+    std::string longer = text;
+    longer.replace(longer.find("end_s = 0.01"), 12, "end_s = 0.05");
+    ASSERT_EQ(start(longer), 0) << output_;
+    const fs::path ends = folder_ / "ends_at_s";
+    ASSERT_TRUE(fs::exists(ends)) << output_;
+    const double end = std::stod(read_file(ends));
+    EXPECT_LT(end, 0.02);
+    ASSERT_EQ(start(longer, {"--resume"}), 0) << output_;
+    double last = 0.0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "checkpoints"))
+        last = std::max(last, std::stod(entry.path().filename().string()));
+    EXPECT_NEAR(last, end, 1e-9) << "a finished run is not made longer";
+}
+
 }  // namespace

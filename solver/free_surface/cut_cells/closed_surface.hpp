@@ -20,6 +20,7 @@ public:
     /// \throws std::runtime_error  when the line meets the surface an odd number of times: it is not closed
     std::vector<Interval> parts(int direction, const Vec3& through) const;
     bool contains(const Vec3& place) const;
+    const geometry::TriangleSurface& surface() const { return surface_; }
     /// Nearest point of the surface [m].
     Vec3 nearest(const Vec3& place) const { return search_.nearest(place).point; }
 

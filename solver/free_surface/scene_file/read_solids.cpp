@@ -77,7 +77,6 @@ void read_surface(SceneFileReading& reading, const ParameterValues& solid) {
                                               reading.scene.settings.tank.depth, reading.height()),
                                   "Its coordinates are those of the scene, in metres", "Move or scale it");
         reading.scene.settings.solids.emplace_back(SolidSurface{std::make_shared<const ClosedSurface>(std::move(surface))});
-        reading.scene.surfaces.push_back(file);
     } catch (const UserError& error) {
         reading.mistakes.insert(reading.mistakes.end(), error.mistakes().begin(), error.mistakes().end());
     }

@@ -17,16 +17,15 @@ enum class StopRule { none, pipe_empty, arrival };
 struct Scene {
     std::string name;
     SceneSettings settings;
-    coupling::DemSettings dem;  ///< without the walls that are given as files: wall_surface_stl writes them
+    coupling::DemSettings dem;  ///< without the walls that are files: wall_surface_stl writes them
     coupling::Rocks bodies;     ///< at the start
     double end = 0.0;           ///< [s]
     StopRule stop = StopRule::none;
-    double settle = 0.0;                          ///< the run goes on for so long after its stop rule holds [s]
-    double write_interval = 0.0;                  ///< [s]
-    int write_particles = 0;                      ///< of how many water particles one is written at an output; 0: none
-    double checkpoint_interval = 0.0;             ///< [s]
-    std::optional<PipeGauge> pipe;                ///< the first one
-    std::vector<std::filesystem::path> surfaces;  ///< files of the solids of kind surface
+    double settle = 0.0;               ///< the run goes on for so long after its stop rule holds [s]
+    double write_interval = 0.0;       ///< [s]
+    int write_particles = 0;           ///< of how many water particles one is written at an output; 0: none
+    double checkpoint_interval = 0.0;  ///< [s]
+    std::optional<PipeGauge> pipe;     ///< the first one
     std::vector<Gauge> gauges;
     std::vector<std::string> close;  ///< what is closer than two cells, a line each
     std::vector<std::string> notes;  ///< what the user should know: rounded sizes, coarse bodies
@@ -45,8 +44,7 @@ std::vector<std::string> water_notes(const Scene& scene);
 /// That so many waters are enclosed from a time on [s].
 std::string enclosed_note(int waters, double time);
 
-/// Boxes and plates as one closed surface each, across a tank of that depth, as text of an STL file [m]; empty without any. Solids of kind
-/// surface have files of their own.
+/// Solids as one closed surface each, boxes and plates across a tank of that depth, as text of an STL file [m]; empty without any.
 std::string wall_surface_stl(const std::vector<StillSolid>& solids, double depth);
 
 /// Whether a reading meets the stop rule of a scene: no body higher than the pipe's mouth, or a body at the right wall.
