@@ -1,13 +1,7 @@
 #pragma once
 /// \file A preconditioner for the pressure: multigrid of clusters of cells, kept for the whole run.
-#include <string>
-#include <vector>
-
-#include "dictionary.H"
-
-namespace cutterflow::foam {
-
-/// Name of the preconditioner in fvSolution, for symmetric matrices:
+///
+/// In fvSolution, for symmetric matrices:
 ///
 ///     preconditioner  aggregationMultigrid;
 ///
@@ -19,6 +13,13 @@ namespace cutterflow::foam {
 ///
 /// Clusters come from the mesh (area over distance of the faces) and are the same for a resumed run; their matrices are those of each
 /// solution (Galerkin). Source of the method: Braess1995.
+#include <string>
+#include <vector>
+
+#include "dictionary.H"
+
+namespace cutterflow::foam {
+
 /// A linear solver's section of fvSolution as cutterFoam takes it: with the value of cutterFoamPreconditioner, if there is one, in place of
 /// `preconditioner`, which is for programs that know OpenFOAM's alone.
 Foam::dictionary own_linear_solver(const Foam::dictionary& section);
