@@ -65,7 +65,7 @@ std::string surface_study_template(const std::string& name) {
         "kind = \"free_surface\"\n"
         "name = {}\n\n"
         "[domain]\nwidth_m = 0.286\nheight_m = 0.26\nlength_m = 0.099    # across, and of the cylinders\n"
-        "cell_m = 0.001      # a body needs at least 5 cells across, better 10\n\n"
+        "cell_m = 0.001      # a body needs at least 5 cells across, better 8\n\n"
         "[[fill]]            # water at rest; what solids and bodies take is left out\n"
         "from_x_m = 0.0\nfrom_z_m = 0.0\nto_x_m = 0.066\nto_z_m = 0.12\n\n"
         "[[bodies]]\ndiameter_m = 0.01\ndensity_kg_m3 = 2700.0\nlayers = 6\nwidest = 6\ncentre_x_m = 0.0335\nlowest_m = 0.001\n"

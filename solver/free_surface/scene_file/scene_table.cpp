@@ -101,7 +101,7 @@ const ParameterTable& scene_table() {
         keys.push_back(positive("domain.height_m", "m", {}, "Height of the tank, along z."));
         keys.push_back(choice("domain.dimensions", "plane", {"plane", "space"}, "A plane scene, or one in space with cells across."));
         keys.push_back(positive("domain.length_m", "m", 0.1, "Length of the tank across, along y, and of its cylinders."));
-        keys.push_back(positive("domain.cell_m", "m", {}, "Edge of a cell; a body needs at least 5, better 10 across."));
+        keys.push_back(positive("domain.cell_m", "m", {}, "Edge of a cell; a body needs at least 5, better 8 across."));
         keys.push_back(bounded(positive("water.density_kg_m3", "kg/m3", 1000.0, "Density of the water."), k_densest_water));
         keys.push_back(
             bounded(number("water.kinematic_viscosity_m2_s", "m2/s", 1e-6, 0.0, "Kinematic viscosity of the water."), k_most_viscous));
