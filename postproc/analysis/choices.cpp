@@ -10,7 +10,6 @@ namespace cutterflow::postproc {
 namespace {
 
 constexpr const char* k_cutter_key = "cutter, SHA-256";
-constexpr const char* k_replayed = ", replayed";
 
 const RunData& first_run(const Comparison& comparison, std::size_t setting) {
     return comparison.runs[comparison.settings[setting].runs.front()].run;

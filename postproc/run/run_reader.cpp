@@ -456,7 +456,7 @@ RunData read_replay(const fs::path& directory) {
     if (run.rock) run.plane_axial = run.plane_under_ring = {};  // means of water that has felt that run's rock
     run.flow = flow;
     run.directory = directory;
-    point.study_name = fmt::format("{}, replayed", run.operating_point.study_name);
+    point.study_name = run.operating_point.study_name + k_replayed;
     run.operating_point = point;
     run.feed = read_feed(directory / names::feed_report);
     run.rock = read_rock(directory);

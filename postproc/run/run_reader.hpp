@@ -75,6 +75,9 @@ struct RockTables {
 
 inline constexpr const char* k_replay_schema = "cutterflow.replay/1";
 
+/// Follows the name of a setting whose rock goes through a recorded flow.
+inline constexpr const char* k_replayed = ", replayed";
+
 /// The flow that the rock of a replay goes through and does not change.
 struct RecordedFlow {
     std::filesystem::path run;       ///< that recorded it
