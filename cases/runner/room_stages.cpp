@@ -352,10 +352,11 @@ private:
                 {{"name", kind.name}, {"density_kg_m3", kind.density}, {"smallest_m", kind.smallest()}, {"largest_m", kind.largest()}});
             if (!kind.clump.empty()) grains.back()["clump"] = kind.clump.filename().string();
         }
+        const Vec3 gravity = scene_.gravity();
         return {
             {"name", scene_.name},
             {"size_m", {scene_.size.x(), scene_.size.y(), scene_.size.z()}},
-            {"gravity_m_s2", {scene_.gravity.x(), scene_.gravity.y(), scene_.gravity.z()}},
+            {"gravity_m_s2", {gravity.x(), gravity.y(), gravity.z()}},
             {"medium", scene_.medium.name},
             {"end_s", scene_.run.end},
             {"seed", scene_.run.seed},

@@ -341,6 +341,27 @@ TEST_F(RoomStudy, bed_is_named_by_what_makes_it) {
     EXPECT_NE(name_of(changed("[run]\n", "[run]\nseed = 2\n")), name);
 }
 
+/// Stages know a bed by its inputs, a run finds it by its name. Tilts leave |g| other last digits, a fall through the room ends at 1.77
+/// m/s.
+TEST_F(RoomStudy, beds_of_equal_inputs_have_one_name) {
+    const std::string way = "velocity_m_s = [0, 0, 0.03]", depth = "depth_m = 0.06", size = "size_m = [0.10, 0.10, 0.16]";
+    const std::string pressed = "[[prepare]]\ndo = \"compress\"\nsolid = \"tube\"\npressure_pa = 1000\n\n[run]\n";
+    const auto bed_of = [&](const std::string& text) {
+        const RoomRequest request = read_room_request(write(text));
+        return std::pair{bed_inputs(request.values), bed_name(request.scene, request.pieces)};
+    };
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = changed(k_end, pressed);
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const auto bed = bed_of(with(way, way));
+    for (const char* other : {"velocity_m_s = [0, 0, 3]", "turn_rpm = 1000\nturn_axis = [0, 0, 1]\nturn_origin_m = [0, 0, 0]"})
+        EXPECT_EQ(bed_of(with(way, other)), bed) << other;
+    for (int tilt = 1; tilt <= 90; ++tilt) EXPECT_EQ(bed_of(with(size, size + fmt::format("\ntilt_deg = {}", tilt))), bed) << tilt;
+    EXPECT_NE(bed_of(with(size, size + "\ngravity_m_s2 = 1.62")), bed);
+    EXPECT_NE(bed_of(with(depth, "depth_m = 0.05")), bed);
+}
+
 TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     const fs::path study = write(room_template("heap"));
     const auto axes = [](const std::vector<std::string>& words) { return key_axes(room_table(), words, "params"); };

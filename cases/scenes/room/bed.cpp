@@ -70,10 +70,10 @@ double BedPiece::end() const {
     return (grains.empty() ? 0.0 : grains.back().time) + longest;
 }
 
-double contact_step(const RoomScene& scene) {
+double contact_step(const RoomScene& scene, const coupling::ContactSettings& contact) {
     if (scene.grains.empty()) return 0.0;
     double step = std::numeric_limits<double>::infinity();
-    for (const RoomGrains& kind : scene.grains) step = std::min(step, contact_step(scene.contact, kind.smallest(), kind.density));
+    for (const RoomGrains& kind : scene.grains) step = std::min(step, contact_step(contact, kind.smallest(), kind.density));
     return step;
 }
 
@@ -84,7 +84,7 @@ double press_speed(const RoomScene& scene, const CompressStep& compress) {
         const double modulus = 0.5 * scene.contact.youngs_modulus / (1.0 - scene.contact.poisson_rock * scene.contact.poisson_rock);
         thinnest = std::min(thinnest, std::pow(compress.pressure * d * d / (4.0 / 3.0 * modulus * std::sqrt(0.25 * d)), 2.0 / 3.0));
     }
-    return std::min(k_press_speed, k_press_way * thinnest / contact_step(scene));
+    return std::min(k_press_speed, k_press_way * thinnest / contact_step(scene, scene.bed_contact()));
 }
 
 std::vector<BedPiece> bed_pieces(const RoomScene& scene) {

@@ -24,7 +24,8 @@ struct BedPiece {
 std::vector<BedPiece> bed_pieces(const RoomScene& scene);
 
 /// Time step of the contacts [s]: a share of the smaller of Rayleigh and Hertz time of the smallest grains. 0 without grains.
-double contact_step(const RoomScene& scene);
+/// \param contact  of the run or of the preparation
+double contact_step(const RoomScene& scene, const coupling::ContactSettings& contact);
 
 /// Largest speed of a solid that compresses [m/s]: 0.05, and in a step of the contacts at most 0.3 of the overlap that the smallest grains
 /// have under its pressure, (p d^2/(4/3 E* sqrt(d/4)))^(2/3). At 1.3 of an overlap its damper would swing.

@@ -155,7 +155,7 @@ public:
             if (next == before) refuse(step, diameters.size() - next, diameters.size());
             deposits_.emplace_back(step.region, placed / k_loose_share);
             lying += placed / k_loose_share;
-            time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity.norm());
+            time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity_strength);
         }
         if (next < diameters.size()) refuse(step, diameters.size() - next, diameters.size());
     }

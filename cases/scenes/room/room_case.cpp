@@ -78,9 +78,7 @@ FoamDictionary contact_section(const RoomScene& scene, bool moves) {
         if (pair.other == scene.grain_material) pairs.add("rock_rock", section_of(pair.settings));
         if (materials.count(pair.other) > 0) pairs.add(coupling::k_pair_with_rock + pair.other, section_of(pair.settings));
     }
-    coupling::ContactSettings contact = scene.contact;
-    contact.wet_restitution = contact.wet_restitution && moves;  // the preparation is dry
-    return section_of(contact).add("pairs", pairs);
+    return section_of(moves ? scene.contact : scene.bed_contact()).add("pairs", pairs);
 }
 
 FoamDictionary press_section(const RoomScene& scene, const CompressStep& compress) {
@@ -148,7 +146,7 @@ void add_clump_files(const RoomScene& scene, std::vector<CaseText>& files) {
 
 /// Of a preparation. A grain that moves as fast as k_rest_speed allows while it is slowed down lacks 1 % of its weight to balance.
 FoamDictionary calming_section(const RoomScene& scene) {
-    const double smallest = scene.smallest_grain(), gravity = scene.gravity.norm();
+    const double smallest = scene.smallest_grain(), gravity = scene.gravity_strength;
     return FoamDictionary().add("speed", std::sqrt(2.0 * k_calming_energy * gravity * smallest)).add("time", std::sqrt(smallest / gravity));
 }
 
@@ -163,7 +161,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
                               .add("interval", std::min(moves ? scene.run.longest_step : scene.bed_step, 1.0))
                               .add("retryInterval", k_retry)
                               .add("reach", 0.0));
-    if (!moves && scene.gravity.norm() > 0.0) rock.add("calming", calming_section(scene));
+    if (!moves && scene.gravity_strength > 0.0) rock.add("calming", calming_section(scene));
     if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, piece))
@@ -285,7 +283,7 @@ std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& sta
 }
 
 std::vector<CaseText> dry_files(const RoomScene& scene) {
-    return {text_of(gravity_file(scene.gravity)), dry_control(scene.run.end, scene.run.longest_step, scene.run.write_interval)};
+    return {text_of(gravity_file(scene.gravity())), dry_control(scene.run.end, scene.run.longest_step, scene.run.write_interval)};
 }
 
 std::vector<CaseText> flow_files(const RoomScene& scene, const meshing::RoomMeshPlan& plan) {

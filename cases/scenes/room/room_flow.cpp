@@ -173,7 +173,7 @@ std::vector<FoamFile> room_flow_files(const RoomScene& scene, const meshing::Roo
     files.push_back(transport_file(scene.medium.density, scene.medium.kinematic_viscosity));
     files.push_back(turbulence_file(scene.medium.turbulence));
     files.push_back(property_file("dynamicMeshDict", FoamDictionary().add("dynamicFvMesh", "staticFvMesh")));
-    files.push_back(gravity_file(scene.gravity));
+    files.push_back(gravity_file(scene.gravity()));
     files.push_back(control_file(scene));
     for (const FoamFile& file : run_numerics_files(FlowNumerics())) files.push_back(file);
     return files;

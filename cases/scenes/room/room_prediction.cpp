@@ -38,11 +38,11 @@ double mass_of(const PlacedGrain& grain) {
 double fall_speed(const RoomScene& scene) {
     double fastest = 0.0;
     for (const RoomGrains& kind : scene.grains) {
-        if (kind.density <= scene.medium.density || scene.gravity.norm() == 0.0) continue;
+        if (kind.density <= scene.medium.density || scene.gravity_strength == 0.0) continue;
         physics::SettlingRock falling;
         falling.rock = {kind.largest(), scene.medium.density, scene.medium.kinematic_viscosity, 1.0, scene.closures.sphericity};
         falling.density = kind.density;
-        falling.gravity = scene.gravity.norm();
+        falling.gravity = scene.gravity_strength;
         falling.drag = physics::find_drag_law(scene.closures.drag);
         falling.hindrance = physics::find_hindrance_law(scene.closures.hindrance);
         fastest = std::max(fastest, physics::terminal_slip_speed(falling));
@@ -137,7 +137,7 @@ double pressure_of_bed(const RoomScene& scene, const std::vector<BedPiece>& piec
     double mass = 0.0;
     for (const BedPiece& piece : pieces)
         for (const PlacedGrain& grain : piece.grains) mass += mass_of(grain);
-    return mass * scene.gravity.norm() / (scene.size.x() * scene.size.y());
+    return mass * scene.gravity_strength / (scene.size.x() * scene.size.y());
 }
 
 /// Overlap over diameter of grains that bear a pressure p [-]: Hertz contacts of diameter d that bear forces p d2,
@@ -260,7 +260,7 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
     found.name = scene.name;
     found.medium = scene.medium.name;
     found.solids = scene.solids.size();
-    found.contact_step = contact_step(scene);
+    found.contact_step = contact_step(scene, scene.contact);
     for (const BedPiece& piece : pieces) {
         found.grains += piece.grains.size();
         for (const PlacedGrain& grain : piece.grains) found.mass += mass_of(grain);

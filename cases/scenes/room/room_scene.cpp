@@ -45,6 +45,14 @@ double RoomGrains::mean_volume() const {
     return 1.0 / grains_per_volume;
 }
 
+/// It is dry, and what the run does to solids is nothing to it.
+coupling::ContactSettings RoomScene::bed_contact() const {
+    coupling::ContactSettings of_bed = contact;
+    of_bed.wet_restitution = false;
+    of_bed.max_speed = bed_max_speed;
+    return of_bed;
+}
+
 double RoomScene::smallest_grain() const {
     double smallest = std::numeric_limits<double>::infinity();
     for (const RoomGrains& kind : grains) smallest = std::min(smallest, kind.smallest());

@@ -2,6 +2,7 @@
 /// \file A room as its study describes it: a box with solids, grains and perhaps a medium. SI units; x and y are centred on 0, z runs from
 /// 0 up. Everything that builds a room's case works from this alone.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -211,7 +212,8 @@ struct RoomRun {
 struct RoomScene {
     std::string name;
     Vec3 size = Vec3::Zero();
-    Vec3 gravity = Vec3(0.0, 0.0, -9.81);  ///< of the run; the preparation is upright, with as much
+    double gravity_strength = 9.81;  ///< [m/s2]
+    double tilt = 0.0;               ///< of gravity from the vertical, towards +x, in the run; the preparation is upright [rad]
     RoomMedium medium;
     double cell = 0.0;  ///< of the mesh [m]; 0 without a medium
     std::vector<RoomRefinement> refinements;
@@ -232,13 +234,16 @@ struct RoomScene {
     std::vector<RoomGate> gates;                        ///< of measures that count what passes, by the measure's name
     RoomRun run;
 
-    double bed_step = 0.0;  ///< between looks at grains that come in and at rest, of the preparation [s]
+    double bed_step = 0.0;       ///< between looks at grains that come in and at rest, of the preparation [s]
+    double bed_max_speed = 0.0;  ///< fastest impact of the preparation, in which solids stand [m/s]
 
     // Settings of the coupling; they count with a medium.
     coupling::KernelSettings kernel;
     coupling::ClosureSettings closures;
 
-    Vec3 upright_gravity() const { return {0.0, 0.0, -gravity.norm()}; }
+    Vec3 gravity() const { return gravity_strength * Vec3(std::sin(tilt), 0.0, -std::cos(tilt)); }  ///< of the run [m/s2]
+    Vec3 upright_gravity() const { return {0.0, 0.0, -gravity_strength}; }                          ///< of the preparation [m/s2]
+    coupling::ContactSettings bed_contact() const;                                                  ///< of the preparation
     Vec3 lower() const { return {-0.5 * size.x(), -0.5 * size.y(), 0.0}; }
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
     double smallest_grain() const;                               ///< diameter [m]; infinity without grains

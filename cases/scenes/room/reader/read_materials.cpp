@@ -43,9 +43,10 @@ void read_materials(RoomReading& room) {
     room.scene.contact.rolling_law = room.values.text("dem.rolling_law");
     room.scene.contact.time_step_fraction = room.values.number("dem.time_step_fraction");
     room.scene.contact.wet_restitution = room.scene.medium.name == "water";
-    room.scene.contact.max_speed = room.values.has("dem.max_speed_m_s")
-                                       ? room.values.number("dem.max_speed_m_s")
-                                       : std::max(0.1, std::sqrt(2.0 * room.scene.gravity.norm() * room.scene.size.z()));
+    room.scene.bed_max_speed = room.values.has("dem.max_speed_m_s")
+                                   ? room.values.number("dem.max_speed_m_s")
+                                   : std::max(0.1, std::sqrt(2.0 * room.scene.gravity_strength * room.scene.size.z()));
+    room.scene.contact.max_speed = room.scene.bed_max_speed;
 }
 
 void read_elasticity(RoomReading& room, const std::string& where) {

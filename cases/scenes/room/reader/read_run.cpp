@@ -63,9 +63,9 @@ void read_run(RoomReading& room) {
         if (room.values.has(key) && room.values.number(key) < run.end / k_most_outputs)
             room.refuse(room.values.where(key), fmt::format("{} = {:g} in a run of {:g} s", key, room.values.number(key), run.end),
                         fmt::format("A run has at most {:g} of them", k_most_outputs), "Write less often");
-    const double fall = room.scene.grains.empty() || room.scene.gravity.norm() == 0.0
+    const double fall = room.scene.grains.empty() || room.scene.gravity_strength == 0.0
                             ? 1.0
-                            : std::sqrt(room.scene.smallest_grain() / room.scene.gravity.norm());
+                            : std::sqrt(room.scene.smallest_grain() / room.scene.gravity_strength);
     room.scene.bed_step = number_or(room.values, "dem.longest_step_s", k_look_per_fall * fall);
     run.longest_step = std::min(room.scene.bed_step, run.write_interval);
     run.seed = static_cast<std::uint64_t>(room.values.integer("run.seed"));

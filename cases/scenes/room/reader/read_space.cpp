@@ -1,6 +1,4 @@
 /// \file Table [room] and what the medium needs: space, gravity, mesh, coupling.
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "cases/scenes/room/reader/room_readers.hpp"
@@ -42,8 +40,8 @@ void refuse_coupling_keys(RoomReading& room) {
 
 void read_space(RoomReading& room) {
     room.scene.size = vec3_of(room.values, "room.size_m");
-    const double tilt = room.values.number("room.tilt_deg") * k_pi / 180.0;
-    room.scene.gravity = room.values.number("room.gravity_m_s2") * Vec3(std::sin(tilt), 0.0, -std::cos(tilt));
+    room.scene.gravity_strength = room.values.number("room.gravity_m_s2");
+    room.scene.tilt = room.values.number("room.tilt_deg") * k_pi / 180.0;
     room.scene.medium.name = room.values.text("room.medium");
     room.scene.side_material = room.values.text("room.material");
     room.require_material(room.scene.side_material, "room.material", place_of(room.values, "room.material", "room.size_m"));
