@@ -228,6 +228,12 @@ json grid_json(const PlaneGrid& grid) {
     return {{"columns_m", numbers(x)}, {"rows_m", numbers(z)}};
 }
 
+/// Why nothing is known of a time before the first picture.
+std::string why_no_start(const PassedMass& passed) {
+    return fmt::format("the first picture is of {:g} s, and there is no events.csv that tells which grains were in the region before",
+                       passed.start);
+}
+
 /// Why there is no middle half of what has passed.
 std::string why_no_rate(const PassedMass& passed) {
     if (passed.time.empty()) return "nothing has passed";
@@ -259,6 +265,8 @@ MeasureOutcome measure_passed_mass(const MeasureSource& source, const MeasureVal
 
 MeasureOutcome measure_rate(const MeasureSource& source, const MeasureValues& values) {
     const PassedMass passed = passed_mass(source, values);
+    if (!passed.whole && values.optional_number("from_s").value_or(0.0) < passed.start)
+        return without_value("kg/s", why_no_start(passed) + fmt::format(": let the window begin at {:g} s or later", passed.start));
     const auto half = middle_half(passed);
     const bool has_window = values.has("from_s") || values.has("to_s");
     if (!has_window && !half) return without_value("kg/s", why_no_rate(passed));
@@ -285,6 +293,7 @@ MeasureOutcome measure_rate(const MeasureSource& source, const MeasureValues& va
 
 MeasureOutcome measure_time_of(const MeasureSource& source, const MeasureValues& values) {
     const PassedMass passed = passed_mass(source, values);
+    if (!passed.whole) return without_value("s", why_no_start(passed));
     const double whole = values.optional_number("of_kg").value_or(passed.total());
     if (whole <= 0.0) return without_value("s", why_no_rate(passed));
     const auto time = time_when(passed, values.number("share") * whole);

@@ -11,6 +11,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
+#include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::postproc {
 
@@ -138,11 +139,36 @@ PassedMass MeasureSource::through_gate(const std::string& gate) const {
     return passed;
 }
 
+/// Grains of the bed, and those that were fed at that moment; they stand still here.
+std::optional<Grains> MeasureSource::grains_at_start(double start) const {
+    const auto folders = start_folders(directory_, "rock");
+    if (folders.empty() || !fs::exists(folders.front().second / "events.csv")) return std::nullopt;
+    const Table events = read_events(directory_);
+    const auto &x = events.number("x_m"), &y = events.number("y_m"), &z = events.number("z_m");
+    Grains grains;
+    for (std::size_t n = 0; n < events.rows(); ++n) {
+        const std::string& surface = events.text("surface")[n];
+        if (events.number("time_s")[n] > start || (surface != "start" && surface != "feed")) continue;
+        grains.add({x[n], y[n], z[n]}, Vec3::Zero(), events.number("diameter_m")[n], events.number("density_kg_m3")[n]);
+    }
+    return grains;
+}
+
 PassedMass MeasureSource::out_of_region(const Region& region) const {
     PassedMass passed;
     passed.steps = false;
     passed.time = picture_times();
     for (std::size_t n = 0; n < passed.time.size(); ++n) passed.mass.push_back(mass_of(grains_in(grains(n), region)));
+    const auto folders = start_folders(directory_, "rock");
+    const double start = folders.empty() ? 0.0 : folders.front().first;
+    if (start < passed.time.front()) {
+        const std::optional<Grains> first = grains_at_start(start);
+        passed.whole = first.has_value();
+        if (first) {
+            passed.time.insert(passed.time.begin(), start);
+            passed.mass.insert(passed.mass.begin(), mass_of(grains_in(*first, region)));
+        }
+    }
     const double first = passed.mass.front();
     for (double& mass : passed.mass) mass = first - mass;
     passed.start = passed.time.front();

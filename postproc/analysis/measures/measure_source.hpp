@@ -34,7 +34,8 @@ public:
     /// Mass through a gate along its normal less that against it. \throws UserError  when the run recorded no gates, or has none of this
     /// name
     PassedMass through_gate(const std::string& gate) const;
-    /// Mass that has left a region since the first picture.
+    /// Mass that has left a region since the start of the run. Where the run does not tell which grains there were (no events.csv) it is
+    /// that since the first picture, and not whole.
     PassedMass out_of_region(const Region& region) const;
 
     /// Force of rock on a wall; component x, y, z or magnitude.
@@ -47,6 +48,7 @@ public:
 
 private:
     double end() const;
+    std::optional<Grains> grains_at_start(double start) const;
     void require_gate(const std::string& gate) const;
     double removed_at(const std::string& wall) const;
 

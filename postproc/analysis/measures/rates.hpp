@@ -11,6 +11,7 @@ struct PassedMass {
     std::vector<double> mass;  ///< passed by then [kg]
     bool steps = true;
     double start = 0.0, end = 0.0;  ///< of the run [s]
+    bool whole = true;              ///< false: what passed before `start` is not known
 
     double at(double when) const;
     double total() const { return mass.empty() ? 0.0 : mass.back(); }

@@ -65,6 +65,16 @@ protected:
         write("postProcessing/cost/2/cost.csv", "time_s\n5\n");
     }
 
+    /// Twelve grains in a region that they leave at 2 a second, from the start on; the first picture is that of 1 s.
+    void emptying_region() {
+        for (int second = 1; second <= 5; ++second) picture(second, column_of(12 - 2 * second));
+    }
+    static Grains column_of(int count) {
+        Grains grains;
+        for (int n = 0; n < count; ++n) grains.add({0.0, 0.0, (n + 0.5) * k_d}, Vec3::Zero(), k_d, k_density);
+        return grains;
+    }
+
     fs::path run_;
 };
 
@@ -90,6 +100,38 @@ TEST_F(MeasuredRun, counts_what_passes_a_gate_once_through_a_restart) {
     EXPECT_FALSE(results["flow"]["standard_error"].is_null());
     EXPECT_EQ(read_measures(run_), results);
     EXPECT_EQ(measure_figures(results).size(), 6U);
+}
+
+const char* const k_emptying = R"([
+    {"name": "first", "what": "rate", "region": {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}, "from_s": 0, "to_s": 3},
+    {"name": "later", "what": "rate", "region": {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}, "from_s": 1, "to_s": 3},
+    {"name": "middle", "what": "rate", "region": {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}},
+    {"name": "half", "what": "time_of", "region": {"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}}, "share": 0.5}])";
+
+TEST_F(MeasuredRun, counts_what_leaves_a_region_from_the_start_of_the_run_on) {
+    emptying_region();
+    std::string events =
+        "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,density_kg_m3,bin\n";
+    for (int n = 0; n < 12; ++n)  // two of them are fed at once, another one leaves the room later
+        events += fmt::format("0,{},{},in,0,0,{},0,0,0,0,0,0,{},{},\n", n + 1, n < 10 ? "start" : "feed", (n + 0.5) * k_d, k_d, k_density);
+    write("postProcessing/rock/0/events.csv", events + fmt::format("0.5,12,domain,out,0,0,1,0,0,0,0,0,0,{},{},\n", k_d, k_density));
+    write(k_measures, k_emptying);
+    const json results = measure_run(run_);
+    const double rate = 2.0 * sphere_mass(k_d, k_density);
+    for (const char* name : {"first", "later", "middle"}) EXPECT_NEAR(results[name]["value"].get<double>(), rate, 1e-6 * rate) << name;
+    EXPECT_NEAR(results["half"]["value"].get<double>(), 2.5, 1e-6);
+}
+
+TEST_F(MeasuredRun, has_no_rate_before_the_first_picture_where_nothing_tells_of_it) {
+    emptying_region();
+    write(k_measures, k_emptying);
+    const json results = measure_run(run_);
+    const double rate = 2.0 * sphere_mass(k_d, k_density);
+    EXPECT_NEAR(results["later"]["value"].get<double>(), rate, 1e-6 * rate);
+    for (const char* name : {"first", "middle", "half"}) {
+        EXPECT_TRUE(results[name]["value"].is_null()) << name;
+        EXPECT_THAT(results[name]["detail"]["reason"].get<std::string>(), HasSubstr("the first picture is of 1 s")) << name;
+    }
 }
 
 TEST_F(MeasuredRun, refuses_a_gate_that_a_room_does_not_have) {
