@@ -656,6 +656,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n\n[[boundary]]\non = \"top\"\ninside = \"disc\"\nflow = \"pressure\"\n",
             "boundary.inside = \"disc\""},
         Bad{k_dry, "medium = \"none\"\n\n[[boundary]]\non = \"top\"\nflow = \"pressure\"\n", "boundary.flow in a room without a medium"},
+        Bad{k_dry,
+            "medium = \"none\"\n\n[[boundary]]\non = \"bottom\"\ngrains = \"open\"\ndisc = { centre_m = [0, 0, 0], radius_m = 0.01 }\n",
+            "boundary.disc is given. The table has no flow"},
+        Bad{k_dry, "medium = \"none\"\n\n[[boundary]]\non = \"sides\"\ngrains = \"open\"\nabove_m = 0.1\n",
+            "boundary.above_m is given. The table has no flow"},
         Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n", "The mesh stands still"}));
 
 TEST_F(RoomStudy, a_misspelt_key_is_told_once_and_hides_no_other_mistake) {

@@ -92,6 +92,13 @@ std::optional<SideFlow> with_table(RoomReading& room, const ParameterValues& val
     return flow;
 }
 
+/// Keys that only some kinds of flow have. \param kind  its key in boundary.flow
+void refuse_keys_of_other_flows(RoomReading& room, const ParameterValues& values, const std::string& kind) {
+    const bool table = kind == "speeds_m_s";
+    if (table || kind == "rough_m") room.refuse_keys(values, {"boundary.flow.ramp_s"}, "Only one speed or discharge grows from 0");
+    if (!table) room.refuse_keys(values, {"boundary.flow.times_s"}, "They are those of speeds_m_s");
+}
+
 std::optional<SideFlow> read_flow(RoomReading& room, const ParameterValues& values, const std::string& where) {
     if (values.has("boundary.flow")) {
         const std::string& word = values.text("boundary.flow");
@@ -99,7 +106,6 @@ std::optional<SideFlow> read_flow(RoomReading& room, const ParameterValues& valu
         if (word == "pressure") return FixedPressure{};
         return NoSlip{};
     }
-    if (values.where("boundary.flow").empty()) return std::nullopt;
     std::vector<std::string> given;
     for (const char* key : {"rough_m", "inflow_m_s", "outflow_m_s", "inflow_m3_s", "outflow_m3_s", "speeds_m_s"})
         if (values.has(std::string("boundary.flow.") + key)) given.emplace_back(key);
@@ -109,6 +115,7 @@ std::optional<SideFlow> read_flow(RoomReading& room, const ParameterValues& valu
                     given.empty() ? "Add one" : "Remove all but one");
         return std::nullopt;
     }
+    refuse_keys_of_other_flows(room, values, given.front());
     if (given.front() == "rough_m") return RoughWall{values.number("boundary.flow.rough_m")};
     ThroughFlow flow;
     flow.into_room = given.front().rfind("outflow", 0) != 0;
@@ -194,6 +201,10 @@ void read_boundary(RoomReading& room, BoundariesRead& read, const ParameterValue
     boundary.name = values.has("boundary.name") ? values.text("boundary.name") : fmt::format("{}_{}", on, room.scene.boundaries.size() + 1);
     if (values.has("boundary.grains"))
         set_sides(room, read, boundary.sides, values.text("boundary.grains"), values.where("boundary.grains"));
+    if (values.where("boundary.flow").empty())
+        return room.refuse_keys(
+            values, {"boundary.inside", "boundary.disc", "boundary.rectangle", "boundary.above_m", "boundary.below_m"},
+            "The table has no flow, and boundary.grains is about the whole of a side: an opening for grains is one between solids");
     const std::optional<SideFlow> flow = read_flow(room, values, where);
     const std::optional<SidePart> part = read_part(room, values, boundary, where);
     if (!flow || !part) return;
