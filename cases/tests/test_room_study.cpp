@@ -60,6 +60,13 @@ protected:
         }
         return {};
     }
+    std::string warnings_of(const std::string& text) const {
+        const RoomRequest request = read_room_request(write(text));
+        std::string warnings;
+        for (const Mistake& warning : room_warnings(request.values, request.scene, request.pieces, request.mesh))
+            warnings += warning.text() + "\n";
+        return warnings;
+    }
 
     fs::path folder_;
 };
@@ -721,17 +728,46 @@ TEST_F(RoomStudy, contacts_allow_for_the_speed_of_solids) {
 }
 
 TEST_F(RoomStudy, warns_of_a_solid_that_goes_through_a_closed_side) {
-    const auto warnings = [&](const std::string& text) {
-        const RoomRequest request = read_room_request(write(text));
-        return room_warnings(request.values, request.scene, request.pieces, request.mesh);
+    EXPECT_EQ(warnings_of(room_template("heap")), "");  // up, where the room is open
+    const std::string way = "velocity_m_s = [0, 0, 0.03]", through = "through a side of the room";
+    EXPECT_THAT(warnings_of(changed(way, "velocity_m_s = [0, 0, -0.03]")), HasSubstr("tube moves 0.0899 m " + through));
+    EXPECT_THAT(warnings_of(changed(way, "removed_at_s = 0.5\nvelocity_m_s = [0, 0, -0.03]")), Not(HasSubstr(through)));  // gone before
+    EXPECT_THAT(warnings_of(changed(way, "turn_rpm = 5\nturn_axis = [1, 0, 0]\nturn_origin_m = [0, 0, 0.03]")), HasSubstr(through));
+}
+
+/// A bar is within the room again after each of its 20 turns; its way ends with to_s, not with the run.
+TEST_F(RoomStudy, looks_at_a_solid_within_its_turns) {
+    const auto with_bar = [&](const std::string& motion) {
+        return warnings_of(
+            changed("size_m = [0.10, 0.10, 0.16]", "size_m = [0.14, 0.10, 0.40]") +
+            "\n[[solid]]\nname = \"bar\"\ngenerate = \"box\"\nlower_m = [-0.06, -0.005, 0.38]\nupper_m = [0.06, 0.005, 0.39]\n"
+            "turn_axis = [0, 0, 1]\nturn_origin_m = [0, 0, 0]\nfrom_s = 0\n" +
+            motion);
     };
-    EXPECT_TRUE(warnings(room_template("heap")).empty());  // up, where the room is open
-    const std::string way = "velocity_m_s = [0, 0, 0.03]";
-    const auto through_floor = warnings(changed(way, "velocity_m_s = [0, 0, -0.03]"));
-    ASSERT_EQ(through_floor.size(), 1u);
-    EXPECT_THAT(through_floor[0].text(), HasSubstr("tube moves 0.0899 m through a side of the room"));
-    EXPECT_TRUE(warnings(changed(way, "removed_at_s = 0.5\nvelocity_m_s = [0, 0, -0.03]")).empty());  // gone before it gets there
-    EXPECT_EQ(warnings(changed(way, "turn_rpm = 5\nturn_axis = [1, 0, 0]\nturn_origin_m = [0, 0, 0.03]")).size(), 1u);
+    EXPECT_THAT(with_bar("turn_rpm = 300\nto_s = 4\n"), HasSubstr("bar moves 0.0102 m through a side"));  // hypot(0.06, 0.005) less 0.05
+    EXPECT_EQ(with_bar("turn_rpm = 5\nto_s = 1\n"), "") << "30 degrees";
+}
+
+TEST_F(RoomStudy, warns_of_solids_that_overlap_or_run_into_one_another) {
+    const auto with_block = [&](const std::string& from, const std::string& to, const std::string& more = "") {
+        return warnings_of(room_template("heap") + "\n[[solid]]\nname = \"block\"\ngenerate = \"box\"\nlower_m = " + from +
+                           "\nupper_m = " + to + "\n" + more);
+    };
+    const std::string beneath = with_block("[-0.02, -0.02, 0.005]", "[0.02, 0.02, 0.025]");
+    EXPECT_THAT(beneath, ContainsRegex("room.toml:[0-9]+: block and disc overlap by 0.005 m at the start"));
+    EXPECT_EQ(with_block("[-0.02, -0.02, 0.005]", "[0.02, 0.02, 0.02]"), "") << "the disc stands on it";
+    EXPECT_THAT(with_block("[-0.05, -0.002, 0.08]", "[0.05, 0.002, 0.084]"), HasSubstr("block and tube overlap"))
+        << "no corner lies in the tube";
+    const std::string comes = "velocity_m_s = [0.05, 0, 0]\nfrom_s = 1\nto_s = 2\n";
+    EXPECT_THAT(with_block("[-0.05, -0.005, 0.14]", "[-0.03, 0.005, 0.15]", comes),
+                HasSubstr("block and tube run into one another at 1.1"));
+    EXPECT_EQ(with_block("[-0.05, -0.005, 0.14]", "[-0.03, 0.005, 0.15]", comes + "removed_at_s = 1.1\n"), "") << "gone before";
+    // The tube, of 64 corners around, moves up in a sleeve of its own radius that turns.
+    EXPECT_EQ(warnings_of(room_template("heap") +
+                          "\n[[solid]]\nname = \"sleeve\"\ngenerate = \"tube\"\nfrom_m = [0, 0, 0.05]\nto_m = [0, 0, 0.1]\n"
+                          "inner_radius_m = 0.022\nwall_m = 0.002\nturn_rpm = 7\nturn_axis = [0, 0, 1]\nturn_origin_m = [0, 0, 0]\n"
+                          "from_s = 0\nto_s = 4\n"),
+              "");
 }
 
 TEST_F(RoomStudy, warns_of_a_feed_that_the_run_s_end_cuts_short) {

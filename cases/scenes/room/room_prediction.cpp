@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 
 #include "cases/scenes/room/room_flow.hpp"
+#include "cases/scenes/room/solid_motion.hpp"
 #include "cases/study/closure_rules.hpp"
 #include "cases/study/contact_rules.hpp"
 #include "geometry/base/axis_frame.hpp"
@@ -27,7 +27,6 @@ constexpr double k_rest = 0.5;                            // of a small bed [s]
 constexpr double k_seconds_per_cell_and_step = 5.9e-6 * 1.41, k_seconds_per_mapped_grain = 30e-6;
 constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
 constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
-constexpr int k_looks = 20;                      // at a solid on its way
 constexpr double k_soft_overlap = 0.05;          // of a diameter, from which a bed packs and rolls otherwise than stiff grains
 
 double mass_of(const PlacedGrain& grain) {
@@ -83,53 +82,6 @@ std::vector<Opening> floor_openings(const ParameterValues& values, const RoomSce
             openings.push_back({table.where("solid.name"), "opening of " + solid->name, solid->opening});
     }
     return openings;
-}
-
-/// By how much points lie beyond the sides that are closed to grains [m].
-double reach_out_of(const RoomScene& scene, const geometry::TriangleSurface& surface, const std::function<Vec3(const Vec3&)>& moved) {
-    double reach = 0.0;
-    for (const Vec3& point : surface.points) {
-        const Vec3 place = moved(point), below = scene.lower() - place, above = place - scene.upper();
-        for (std::size_t side = 0; side < scene.sides.size(); ++side)
-            if (scene.sides[side] != SideForGrains::open)
-                reach = std::max(reach, (side % 2 == 0 ? below : above)[static_cast<Eigen::Index>(side / 2)]);
-    }
-    return reach;
-}
-
-/// The farthest that a solid gets through closed sides on its way, looked at in k_looks places.
-double reach_on_the_way(const RoomScene& scene, const RoomSolid& solid) {
-    const double last = std::min(scene.run.end, solid.removed_at.value_or(scene.run.end));
-    double farthest = 0.0;
-    for (int i = 1; i <= k_looks; ++i) {
-        const double share = static_cast<double>(i) / k_looks;
-        if (solid.travel) {
-            const Vec3 way = share * std::max(0.0, std::min(solid.travel->end, last) - solid.travel->begin) * solid.travel->velocity;
-            farthest = std::max(farthest, reach_out_of(scene, solid.surface, [&](const Vec3& p) -> Vec3 { return p + way; }));
-        }
-        if (solid.turn) {
-            const Eigen::AngleAxisd turn(solid.turn->angle(solid.turn->begin + share * (last - solid.turn->begin)),
-                                         solid.turn->axis.direction);
-            const Vec3& origin = solid.turn->axis.origin;
-            farthest =
-                std::max(farthest, reach_out_of(scene, solid.surface, [&](const Vec3& p) -> Vec3 { return origin + turn * (p - origin); }));
-        }
-    }
-    return farthest;
-}
-
-/// Solids that go through sides of the room that grains cannot pass.
-std::vector<Mistake> motion_warnings(const ParameterValues& values, const RoomScene& scene) {
-    std::vector<Mistake> warnings;
-    for (const ParameterValues& table : values.tables("solid")) {
-        const RoomSolid* solid = scene.find_solid(table.text("solid.name"));
-        if (solid == nullptr) continue;
-        const double reach = reach_on_the_way(scene, *solid);
-        if (reach > scene.tolerance())
-            warnings.push_back({table.where("solid.name"), fmt::format("{} moves {:.3g} m through a side of the room", solid->name, reach),
-                                "It pushes grains through the side", "Correct its motion, or make the room larger"});
-    }
-    return warnings;
 }
 
 /// Weight of the poured grains over the floor [Pa].
