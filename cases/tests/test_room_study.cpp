@@ -178,6 +178,33 @@ TEST_F(RoomStudy, poured_grains_have_room) {
     }
 }
 
+/// A block over 7 tenths of a region, 38 mm high: a depth is that of the grains beside it, and so is what the region holds.
+TEST_F(RoomStudy, pours_beside_a_solid_are_for_the_room_that_it_leaves) {
+    const auto with_block = [&](const std::string& pour) {
+        std::string text =
+            changed("depth_m = 0.06\nregion = { cylinder = { from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 } }",
+                    pour + "\nregion = { box = { lower_m = [-0.05, -0.05, 0.0], upper_m = [0.05, 0.05, 0.08] } }");
+        text.erase(text.find("[[solid]]"), text.find("[[material]]") - text.find("[[solid]]"));
+        return text + "\n[[solid]]\nname = \"block\"\ngenerate = \"box\"\nlower_m = [-0.05, -0.05, 0]\nupper_m = [0.02, 0.05, 0.038]\n";
+    };
+    const auto mass_with = [&](const std::string& pour) { return mass_of(read_room_request(write(with_block(pour))).pieces.at(0).grains); };
+    EXPECT_NEAR(mass_with("depth_m = 0.02"), 2500.0 * 0.6 * 0.1 * 0.03 * 0.02, 0.02 * 0.09);
+    EXPECT_NEAR(mass_with("depth_m = 0.05"), 2500.0 * 0.6 * 0.01 * (0.3 * 0.038 + 0.012), 0.02 * 0.351);
+    // 0.8 litres less 0.266 hold 0.8 kg at 1500 kg/m3.
+    EXPECT_EQ(mistakes_of(with_block("mass_kg = 0.45")), "");
+    EXPECT_THAT(mistakes_of(with_block("mass_kg = 0.9")), ContainsRegex("Their region holds 0.00053[0-9]* m3 beside the solids"));
+    // The second batch begins above a bed of half solids that fills the gap and then the whole width.
+    const RoomRequest request = read_room_request(write(with_block("mass_kg = 0.45")));
+    double first = 0.0, lowest = 1.0;
+    for (const PlacedGrain& grain : request.pieces.at(0).grains)
+        if (grain.time == 0.0)
+            first += k_pi / 6.0 * std::pow(grain.diameter, 3);
+        else
+            lowest = std::min(lowest, grain.position.z());
+    EXPECT_GE(lowest, 0.038 + (first / 0.5 - 0.3 * 0.038 * 0.01) / 0.01);
+    EXPECT_LT(lowest, 0.08);
+}
+
 /// A bed knows what grains meet at the sides, not where its study says so.
 TEST_F(RoomStudy, beds_are_the_same_whatever_else_the_boundaries_say) {
     const auto inputs_with = [&](const std::string& boundaries) {
@@ -597,6 +624,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"radius_m = 0.02 } }", "radius_m = 0.0018 } }", "grains of up to 0.0042 m in a region of 0.0036 m"},
         Bad{"depth_m = 0.06\nregion = { cylinder = { from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 } }",
             "depth_m = 0.004\nregion = { box = { lower_m = [-0.01, -0.01, 0.021], upper_m = [0.01, 0.01, 0.029] } }",
+            "prepare.depth_m = 0.004. It counts from the lower end of the region, and solids take all of that"},
+        Bad{"depth_m = 0.06\nregion = { cylinder = { from_m = [0, 0, 0.03], to_m = [0, 0, 0.15], radius_m = 0.02 } }",
+            "count = 1\nregion = { box = { lower_m = [-0.005, -0.005, 0.0255], upper_m = [0.005, 0.005, 0.0335] } }",
             "find no place in the region of their pour"},
         Bad{"uniform_by_number = [0.0038, 0.0042]", "uniform_by_number = [0.00002, 0.000021]", "A pour has at most 1000000"},
         Bad{"radius_m = 0.02 } }", "radius_m = 0.06 } }", "a cylinder of radius 0.06 m about (0, 0, 0.03) reaches out of the room"},

@@ -11,6 +11,7 @@
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "geometry/packing/free_space.hpp"
 
 namespace cutterflow::cases {
 
@@ -76,12 +77,18 @@ private:
     std::unordered_map<std::int64_t, std::vector<std::pair<Vec3, double>>> grains_;
 };
 
+std::vector<geometry::SolidSearch> searches_of(const RoomScene& scene) {
+    std::vector<geometry::SolidSearch> searches;
+    for (const RoomSolid& solid : scene.solids) searches.emplace_back(solid.surface);
+    return searches;
+}
+
 /// Random places of a region, within it as a whole, clear of the solids.
 class Places {
 public:
-    Places(const RoomScene& scene, std::mt19937_64& random) : random_(random) {
-        for (const RoomSolid& solid : scene.solids) solids_.emplace_back(solid.surface);
-    }
+    Places(const RoomScene& scene, std::mt19937_64& random) : random_(random), solids_(searches_of(scene)) {}
+
+    const std::vector<geometry::SolidSearch>& solids() const { return solids_; }
 
     /// \param from, to  levels between which the whole grain lies; none when there is no place between
     std::optional<Vec3> draw(const Region& region, double from, double to, double diameter) {
@@ -145,13 +152,14 @@ public:
         const RoomGrains& grains = *scene_.find_grains(step.grains);
         const std::vector<double> diameters =
             step.count ? draw_diameters(grains, *step.count, random_) : draw_diameters(grains, step.mass, random_);
-        const double bottom = bottom_of(step.region), top = bottom + height_of(step.region), area = area_of(step.region);
+        const double bottom = bottom_of(step.region), top = bottom + height_of(step.region);
+        const geometry::FreeSpace room(step.region, places_.solids());
         double lying = lying_in(step.region);
         std::size_t next = 0;
         for (int batch = 0; next < diameters.size() && batch < k_most_batches; ++batch) {
             const std::size_t before = next;
-            const double level = lying > 0.0 ? bottom + lying / area + k_bumps * grains.girth * grains.largest() : bottom;
-            const double placed = place_batch(step, grains, diameters, next, std::min(level, top), top, area);
+            const double level = lying > 0.0 ? room.level_of(lying) + k_bumps * grains.girth * grains.largest() : bottom;
+            const double placed = place_batch(step, grains, diameters, next, std::min(level, top), top, room);
             if (next == before) refuse(step, diameters.size() - next, diameters.size());
             deposits_.emplace_back(step.region, placed / k_loose_share);
             lying += placed / k_loose_share;
@@ -168,9 +176,9 @@ public:
 private:
     /// \return volume of the placed grains [m3]
     double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<double>& diameters, std::size_t& next,
-                       double level, double top, double area) {
+                       double level, double top, const geometry::FreeSpace& room) {
         Neighbours neighbours(grains.girth * grains.largest());
-        const double allowed = k_falling_share * area * (top - level);
+        const double allowed = k_falling_share * (room.volume() - room.volume_below(level));
         double placed = 0.0;
         for (; next < diameters.size(); ++next) {
             const double diameter = diameters[next];
@@ -243,6 +251,10 @@ double height_of(const Region& region) {
     if (const auto* box = std::get_if<BoxRegion>(&region)) return box->upper.z() - box->lower.z();
     const auto& cylinder = std::get<CylinderRegion>(region);
     return cylinder.to.z() - cylinder.from.z();
+}
+
+double free_volume(const RoomScene& scene, const Region& region) {
+    return geometry::FreeSpace(region, searches_of(scene)).volume();
 }
 
 std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::mt19937_64& random) {

@@ -61,5 +61,7 @@ inline constexpr double k_packed_share = 0.60;
 /// Of a region in which grains begin: a box or an upright cylinder.
 double area_of(const Region& region);
 double height_of(const Region& region);
+/// What the solids leave of it, where they stand at first [m3].
+double free_volume(const RoomScene& scene, const Region& region);
 
 }  // namespace cutterflow::cases

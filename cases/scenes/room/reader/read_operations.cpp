@@ -132,6 +132,13 @@ void read_compress(RoomReading& room, const ParameterValues& values, const std::
                                                      number_or(values, "prepare.longest_s", k_longest_settling)});
 }
 
+/// The lowest part of a box or an upright cylinder.
+Region lowest_of(Region region, double height) {
+    if (auto* box = std::get_if<BoxRegion>(&region)) box->upper.z() = box->lower.z() + height;
+    if (auto* cylinder = std::get_if<CylinderRegion>(&region)) cylinder->to.z() = cylinder->from.z() + height;
+    return region;
+}
+
 void read_pour(RoomReading& room, const ParameterValues& values, const std::optional<Region>& given, const std::string& where) {
     const RoomGrains* grains = grains_of(room, values, "prepare.grains", where);
     const bool wrong = !given && names_region(values);
@@ -142,7 +149,11 @@ void read_pour(RoomReading& room, const ParameterValues& values, const std::opti
                            "Correct it");
     if (grains == nullptr || !region) return;
     PourStep pour{grains->name, *region, 0.0, where};
-    if (depth) pour.mass = grains->density * k_packed_share * area_of(*region) * values.number("prepare.depth_m");
+    if (depth) pour.mass = grains->density * k_packed_share * free_volume(room.scene, lowest_of(*region, values.number("prepare.depth_m")));
+    if (pour.mass == 0.0 && depth)
+        return room.refuse(values.where("prepare.depth_m"), fmt::format("prepare.depth_m = {:g}", values.number("prepare.depth_m")),
+                           "It counts from the lower end of the region, and solids take all of that",
+                           "Raise the lower end to where grains come to lie");
     if (mass) pour.mass = values.number("prepare.mass_kg");
     if (count) {
         pour.count = static_cast<std::size_t>(values.integer("prepare.count"));
@@ -152,10 +163,10 @@ void read_pour(RoomReading& room, const ParameterValues& values, const std::opti
     if (const double widest = grains->girth * grains->largest(); widest > narrowest(*region))
         return room.refuse(where, fmt::format("grains of up to {:.3g} m in a region of {:.3g} m", widest, narrowest(*region)),
                            "A grain begins in its region as a whole", "Pour smaller grains, or give a larger region");
-    const double bulk = pour.mass / (grains->density * k_packed_share), place = area_of(*region) * height_of(*region);
+    const double bulk = pour.mass / (grains->density * k_packed_share), place = free_volume(room.scene, *region);
     if (bulk > place)
-        return room.refuse(where, fmt::format("poured grains fill {:.3g} m3", bulk), fmt::format("Their region holds {:.3g} m3", place),
-                           "Pour less, or give a larger region");
+        return room.refuse(where, fmt::format("poured grains fill {:.3g} m3", bulk),
+                           fmt::format("Their region holds {:.3g} m3 beside the solids", place), "Pour less, or give a larger region");
     room.scene.preparation.emplace_back(pour);
 }
 
