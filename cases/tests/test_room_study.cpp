@@ -351,6 +351,28 @@ TEST_F(RoomStudy, fed_grains_come_at_their_rate) {
     EXPECT_NEAR(half, 0.025, 2e-4);
 }
 
+/// A block fills the region of a feed that begins at 1 s, until it is taken away or moves.
+TEST_F(RoomStudy, feeds_are_clear_of_the_solids_that_are_there) {
+    const auto with_block = [&](const std::string& fate) {
+        return room_template("heap") +
+               "\n[[solid]]\nname = \"block\"\ngenerate = \"box\"\nlower_m = [0.025, -0.01, 0.1]\nupper_m = [0.045, 0.01, 0.12]\n" + fate +
+               "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 0.01\n"
+               "region = { box = { lower_m = [0.026, -0.01, 0.1], upper_m = [0.044, 0.01, 0.12] } }\n";
+    };
+    const std::string moves = "velocity_m_s = [0, 0, 0.1]\nto_s = 3\n";
+    for (const std::string& fate : {std::string("removed_at_s = 0\n"), std::string("removed_at_s = 1\n"), moves + "from_s = 0\n"})
+        EXPECT_EQ(mistakes_of(with_block(fate)), "") << fate;
+    for (const std::string& fate : {std::string(), std::string("removed_at_s = 1.5\n"), moves + "from_s = 2\n"})
+        EXPECT_THAT(mistakes_of(with_block(fate)),
+                    ContainsRegex("room.toml:[0-9]+: grains of beads find no place in the region of their feed at 1 s"))
+            << fate;
+    // Every feed without a place is told.
+    std::string two = with_block("");
+    two += two.substr(two.find("[[event]]"));
+    const std::string mistakes = mistakes_of(two);
+    EXPECT_NE(mistakes.find("find no place"), mistakes.rfind("find no place"));
+}
+
 TEST_F(RoomStudy, solids_turn_about_an_axis_of_their_own) {
     const std::string turn = "turn_rpm = -30\nturn_axis = [0, 3, 4]\nturn_origin_m = [0, 0.01, 0.08]";
     const RoomScene scene = read_room(write(changed("velocity_m_s = [0, 0, 0.03]", turn)));

@@ -109,9 +109,15 @@ public:
     }
 
     bool clear_of_solids(const Vec3& place, double diameter) const {
-        return std::none_of(solids_.begin(), solids_.end(), [&](const geometry::SolidSearch& solid) {
-            return solid.nearest(place).distance < 0.5 * diameter * (1.0 + k_gap) || solid.contains(place);
-        });
+        return clear_of_solids(place, diameter, [](std::size_t) { return true; });
+    }
+    /// \param counts  whether a solid does, by its index in the scene
+    template <class Counts>
+    bool clear_of_solids(const Vec3& place, double diameter, const Counts& counts) const {
+        for (std::size_t n = 0; n < solids_.size(); ++n)
+            if (counts(n) && (solids_[n].nearest(place).distance < 0.5 * diameter * (1.0 + k_gap) || solids_[n].contains(place)))
+                return false;
+        return true;
     }
 
 private:
@@ -138,6 +144,34 @@ double draw_diameter(const RoomGrains& grains, std::mt19937_64& random) {
     std::vector<double> numbers;  // grains per mass
     for (const GrainClass& one : classes) numbers.push_back(one.mass_share / sphere_volume(one.diameter));
     return classes[std::discrete_distribution<std::size_t>(numbers.begin(), numbers.end())(random)].diameter;
+}
+
+/// A place for a fed grain; solids that have moved by its time are left to the run, in which a grain without room waits.
+std::optional<Vec3> place_in_feed(const RoomScene& scene, const FeedEvent& feed, Places& places, double time, double diameter) {
+    const double bottom = bottom_of(feed.region);
+    const auto stands = [&](std::size_t solid) { return scene.is_as_at_first(scene.solids[solid], time); };
+    for (int i = 0; i < k_tries; ++i) {
+        const std::optional<Vec3> place = places.draw(feed.region, bottom, bottom + height_of(feed.region), diameter);
+        if (!place || places.clear_of_solids(*place, diameter, stands)) return place;
+    }
+    return std::nullopt;
+}
+
+/// \throws UserError  when a grain finds no place
+void place_feed(const RoomScene& scene, const FeedEvent& feed, Places& places, int first_id, std::mt19937_64& random,
+                std::vector<PlacedGrain>& grains) {
+    const RoomGrains& kind = *scene.find_grains(feed.grains);
+    double due = 0.0;
+    for (const double diameter : draw_diameters(kind, feed.rate * (feed.to - feed.from), random)) {
+        const double time = feed.from + due / feed.rate;
+        const std::optional<Vec3> place = place_in_feed(scene, feed, places, time, kind.girth * diameter);
+        if (!place)
+            throw UserError(
+                {{feed.where, fmt::format("grains of {} find no place in the region of their feed at {:.3g} s", feed.grains, time),
+                  "They begin in the region as a whole, clear of the solids that stand there", "Give a larger region"}});
+        grains.push_back({first_id + static_cast<int>(grains.size()), time, *place, diameter, kind.density, Vec3::Zero(), shape_of(kind)});
+        due += kind.density * sphere_volume(diameter);
+    }
 }
 
 }  // namespace
@@ -276,27 +310,11 @@ std::vector<double> draw_diameters(const RoomGrains& grains, std::size_t count, 
 std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::mt19937_64& random) {
     Places places(scene, random);
     std::vector<PlacedGrain> grains;
-    for (const RoomEvent& event : scene.events) {
-        const auto* feed = std::get_if<FeedEvent>(&event);
-        if (feed == nullptr) continue;
-        const RoomGrains& kind = *scene.find_grains(feed->grains);
-        const double bottom = bottom_of(feed->region), top = bottom + height_of(feed->region);
-        double due = 0.0;
-        for (const double diameter : draw_diameters(kind, feed->rate * (feed->to - feed->from), random)) {
-            std::optional<Vec3> place;
-            for (int i = 0; i < k_tries; ++i) {
-                place = places.draw(feed->region, bottom, top, kind.girth * diameter);
-                if (!place || places.clear_of_solids(*place, kind.girth * diameter)) break;
-                place.reset();
-            }
-            if (!place)
-                throw UserError(fmt::format("grains of {} find no place in the region of their feed", feed->grains),
-                                "They begin in the region as a whole, clear of the solids", "Give a larger region");
-            grains.push_back({first_id + static_cast<int>(grains.size()), feed->from + due / feed->rate, *place, diameter, kind.density,
-                              Vec3::Zero(), shape_of(kind)});
-            due += kind.density * sphere_volume(diameter);
-        }
-    }
+    Mistakes mistakes;
+    for (const RoomEvent& event : scene.events)
+        if (const auto* feed = std::get_if<FeedEvent>(&event))
+            mistakes.gather([&] { place_feed(scene, *feed, places, first_id, random, grains); });
+    mistakes.refuse();
     std::stable_sort(grains.begin(), grains.end(), [](const PlacedGrain& a, const PlacedGrain& b) { return a.time < b.time; });
     return grains;
 }

@@ -47,7 +47,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Grains of every FeedEvent at random places of their regions, at the times at which their mass is due; ids from `first_id` on.
+/// Grains of every FeedEvent at random places of their regions, at the times at which their mass is due; ids from `first_id` on. Solids
+/// that are gone or have moved by then do not count.
+/// \throws UserError  with every feed whose grains find no place
 std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::mt19937_64& random);
 
 /// constant/rockFeed.csv.

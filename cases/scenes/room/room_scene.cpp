@@ -78,6 +78,16 @@ double RoomScene::fed_mass() const {
     return mass;
 }
 
+bool RoomScene::is_as_at_first(const RoomSolid& solid, double time) const {
+    const bool gone = solid.removed_at && *solid.removed_at <= time;
+    const bool moved = (solid.travel && solid.travel->begin < time) || (solid.turn && solid.turn->begin < time);
+    const bool pressed = std::any_of(preparation.begin(), preparation.end(), [&](const PrepareStep& step) {
+        const auto* compress = std::get_if<CompressStep>(&step);
+        return compress != nullptr && compress->solid == solid.name;
+    });
+    return !gone && !moved && !pressed;
+}
+
 const RoomGrains* RoomScene::find_grains(const std::string& wanted) const {
     const auto found = std::find_if(grains.begin(), grains.end(), [&](const RoomGrains& one) { return one.name == wanted; });
     return found == grains.end() ? nullptr : &*found;

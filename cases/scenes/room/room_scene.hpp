@@ -170,6 +170,8 @@ struct FeedEvent {
     double rate = 0.0;            ///< [kg/s]
     Region region;                ///< a box or an upright cylinder in which grains begin
 
+    std::string where{};  ///< in the study, for messages
+
     double mass(double end) const { return rate * std::max(0.0, std::min(to, end) - from); }  ///< until `end` of the run [kg]
 };
 struct ExtractEvent {
@@ -251,6 +253,8 @@ struct RoomScene {
     double densest_grain() const;                                ///< density [kg/m3]; 0 without grains
     double fed_mass() const;                                     ///< that feeds give until the run's end [kg]
     double tolerance() const { return 1e-6 * size.maxCoeff(); }  ///< lengths below it are rounding [m]
+    /// Whether a solid is there at a time of the run, and neither moved nor was pressed until then.
+    bool is_as_at_first(const RoomSolid& solid, double time) const;
     const RoomGrains* find_grains(const std::string& name) const;
     const RoomSolid* find_solid(const std::string& name) const;
     const RoomGate* find_gate(const std::string& name) const;

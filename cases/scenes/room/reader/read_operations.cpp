@@ -247,7 +247,7 @@ void read_event(RoomReading& room, const ParameterValues& values) {
     const std::optional<Region> place = region_for_grains(room, region, "event.region", where);
     if (grains == nullptr || !place) return;
     if (!require_few_enough(room, *grains, *rate * (*to - *from), "feed", values.where("event.rate_kg_s"))) return;
-    room.scene.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place});
+    room.scene.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place, where});
 }
 
 }  // namespace
