@@ -704,6 +704,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"profile\"\nalong = \"y\"\nfrom_m = 9\n\n[run]\n",
             "measure.from_m of x lies outside the room along y"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angle\"\nat_s = 9\n\n[run]\n", "measure.at_s = 9. The run ends at 4 s"},
+        Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"wall_force\"\nwall = \"disc\"\nto_s = 4.5\n\n[run]\n",
+            "measure.to_s = 4.5. The run ends at 4 s"},
         Bad{"name = \"tube\"", "name = \"tube\"\nremoved_at_s = 4.5", "solid.removed_at_s = 4.5. The run ends at 4 s"},
         Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }",
             "It names a measure with a gate, and the study has none"},

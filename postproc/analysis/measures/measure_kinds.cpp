@@ -26,6 +26,7 @@ using nlohmann::json;
 constexpr std::size_t k_most_points = 500;  ///< of a series over time
 constexpr double k_most_cells = 250000.0;   ///< of a map
 constexpr int k_error_batches = 10;         ///< of a window, for the error of a mean
+constexpr double k_rounding = 1e-6;         ///< of the time at which a run ends
 
 double rounded(double value) {
     return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
@@ -250,14 +251,19 @@ std::optional<Mistake> map_size_mistake(double width, double height, double cell
                    fmt::format("It has at most {:.0f}", k_most_cells), "Take larger cells or a smaller region"};
 }
 
+/// A run may end before its study's end: stopped, or not finished.
 MeasureOutcome measure_passed_mass(const MeasureSource& source, const MeasureValues& values) {
     const PassedMass passed = passed_mass(source, values);
     const double from = values.optional_number("from_s").value_or(passed.start), to = values.optional_number("to_s").value_or(passed.end);
+    if (from > passed.start && from >= passed.end)
+        return without_value("kg", fmt::format("the run ends at {:g} s, before the window, which begins at {:g} s", passed.end, from));
+    const bool beyond = to > passed.end * (1.0 + k_rounding);
     MeasureOutcome outcome;
     outcome.value = passed.at(to) - passed.at(from);
     outcome.unit = "kg";
     const auto inside = std::count_if(passed.time.begin(), passed.time.end(), [&](double time) { return time > from && time <= to; });
-    outcome.detail = {{"from_s", from}, {"to_s", to}, {"crossings", inside}};
+    outcome.detail = {{"from_s", from}, {"to_s", std::min(to, passed.end)}, {"crossings", inside}};
+    if (beyond) outcome.detail["reason"] = fmt::format("the run ends at {:g} s, in the window of {:g} to {:g} s", passed.end, from, to);
     outcome.detail["last_crossing_s"] = passed.time.empty() ? json(nullptr) : json(passed.time.back());
     outcome.series = mass_series(passed);
     return outcome;
@@ -275,7 +281,7 @@ MeasureOutcome measure_rate(const MeasureSource& source, const MeasureValues& va
     if (has_window) {
         const double from = values.optional_number("from_s").value_or(passed.start),
                      to = values.optional_number("to_s").value_or(passed.end);
-        if (from >= to || to > passed.end * (1.0 + 1e-6))
+        if (from >= to || to > passed.end * (1.0 + k_rounding))
             throw UserError(fmt::format("the window of the rate is {:g} to {:g} s", from, to),
                             fmt::format("The run has {:g} to {:g} s", passed.start, passed.end), "Move the window into the run");
         rate = rate_in(passed, from, to);

@@ -143,6 +143,23 @@ TEST_F(MeasuredRun, refuses_a_gate_that_a_room_does_not_have) {
     EXPECT_THROW(write_measures(run_), UserError);
 }
 
+TEST_F(MeasuredRun, tells_when_the_run_ends_before_a_window) {
+    crossings();
+    write(k_measures, R"([{"name": "within", "what": "passed_mass", "gate": "outlet", "from_s": 3, "to_s": 5},
+                          {"name": "partly", "what": "passed_mass", "gate": "outlet", "from_s": 3, "to_s": 6},
+                          {"name": "after", "what": "passed_mass", "gate": "outlet", "from_s": 5, "to_s": 6},
+                          {"name": "later", "what": "passed_mass", "gate": "outlet", "from_s": 6}])");
+    const json results = measure_run(run_);
+    EXPECT_FALSE(results["within"]["detail"].contains("reason"));
+    EXPECT_EQ(results["partly"]["value"], results["within"]["value"]);
+    EXPECT_EQ(results["partly"]["detail"]["to_s"], 5.0);
+    EXPECT_EQ(results["partly"]["detail"]["reason"], "the run ends at 5 s, in the window of 3 to 6 s");
+    for (const char* name : {"after", "later"}) {
+        EXPECT_TRUE(results[name]["value"].is_null()) << name;
+        EXPECT_THAT(results[name]["detail"]["reason"].get<std::string>(), HasSubstr("the run ends at 5 s, before the window")) << name;
+    }
+}
+
 TEST_F(MeasuredRun, makes_one_measure_anew_and_keeps_the_others) {
     crossings();
     write(k_measures, R"([{"name": "a", "what": "passed_mass", "gate": "outlet"}, {"name": "b", "what": "passed_mass", "gate": "other"}])");

@@ -151,7 +151,7 @@ void check_measure(RoomReading& room, const ParameterValues& measure) {
     if (measure.has("measure.against")) check_given_profile(room, measure);
     if (measure.has("measure.cell_m")) require_cell(room, measure);
     check_places(room, measure);
-    for (const char* key : {"measure.at_s", "measure.from_s"})
+    for (const char* key : {"measure.at_s", "measure.from_s", "measure.to_s"})
         if (measure.has(key)) room.require_in_run(measure.number(key), key, measure);
     if (room.scene.find_gate(name) != nullptr) room.require_name(name, "measure.name", where);
     if (measure.has("measure.gate") && room.scene.find_gate(measure.text("measure.gate")) == nullptr &&
