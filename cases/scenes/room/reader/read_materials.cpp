@@ -31,6 +31,18 @@ std::vector<std::string> touched_materials(const RoomReading& room) {
     return names;
 }
 
+/// One that nothing is of would set Poisson's ratio of the others.
+void refuse_unused(RoomReading& room, const std::vector<std::string>& touched) {
+    for (const ParameterValues& material : room.values.tables("material")) {
+        const std::string& name = material.text("material.name");
+        if (std::find(touched.begin(), touched.end(), name) != touched.end()) continue;
+        const std::string nearest = nearest_word(name, touched);
+        room.refuse(material.where("material.name"), fmt::format("material.name = \"{}\"", name),
+                    fmt::format("Grains are of {}, and touch {}", room.scene.grain_material, fmt::join(touched, ", ")),
+                    nearest.empty() ? "Remove the table" : fmt::format("Did you mean {}?", nearest));
+    }
+}
+
 }  // namespace
 
 void read_materials(RoomReading& room) {
@@ -82,6 +94,7 @@ void read_elasticity(RoomReading& room, const std::string& where) {
 void read_pairs(RoomReading& room) {
     if (room.scene.grains.empty()) return;
     const std::vector<std::string> touched = touched_materials(room);
+    refuse_unused(room, touched);
     std::set<std::string> done;
     for (const ParameterValues& contact : room.values.tables("contact")) {
         const std::vector<std::string>& pair = contact.texts("contact.pair");
