@@ -86,6 +86,10 @@ TriangleSurface generate_funnel(const FunnelParameters& p) {
                    {"spout length", p.spout_length, true},
                    {"wall", p.wall},
                    {"edge length", p.edge_length}});
+    if (p.inlet_radius < p.outlet_radius)
+        throw UserError(fmt::format("inlet radius = {} m", p.inlet_radius),
+                        fmt::format("It must not be below the outlet radius {} m: a funnel narrows downwards", p.outlet_radius),
+                        "Exchange them");
     const double top = p.spout_length + p.cone_height;
     std::vector<MeridianPoint> section = {{p.outlet_radius, 0.0}, {p.outlet_radius + p.wall, 0.0}};
     if (p.spout_length > 0.0) section.push_back({p.outlet_radius + p.wall, p.spout_length});

@@ -14,8 +14,8 @@ struct PipeParameters {
     double volume() const;  ///< exact [m3]: pi wall (2 inner_radius + wall) length
 };
 
-/// A cone about the z axis that narrows or widens from the inlet, its upper end, to a cylindrical spout below it, which ends at z = 0 and
-/// may have zero length [m].
+/// A cone about the z axis that narrows from the inlet, its upper end, to a cylindrical spout below it, which ends at z = 0 and may have
+/// zero length [m]. Equal radii make a tube.
 struct FunnelParameters {
     double inlet_radius = 0.0;   ///< inside, at the upper end
     double outlet_radius = 0.0;  ///< inside, of the spout
@@ -29,7 +29,8 @@ struct FunnelParameters {
 };
 
 /// The surfaces are closed and outward oriented. Circles get 64 edges or more and are inscribed, so that volumes are up to 0.16 % smaller
-/// than the exact ones. \throws UserError  with every size that is not positive (inner radius and spout may be 0)
+/// than the exact ones. \throws UserError  with every size that is not positive (inner radius and spout may be 0), and for a funnel
+/// that widens downwards
 TriangleSurface generate_pipe(const PipeParameters& parameters);
 TriangleSurface generate_funnel(const FunnelParameters& parameters);
 

@@ -46,6 +46,8 @@ TEST(SimpleSolids, funnels_have_the_volume_between_their_cones) {
     FunnelParameters without_spout = funnel;
     without_spout.spout_length = 0.0;
     expect_solid(generate_funnel(without_spout), frustum(0.32, 0.07, 0.4) - frustum(0.3, 0.05, 0.4), "funnel without spout");
+    EXPECT_NO_THROW(generate_funnel({0.05, 0.05, 0.4, 0.1, 0.02, 0.02}));
+    EXPECT_THROW(generate_funnel({0.04, 0.05, 0.4, 0.1, 0.02, 0.02}), UserError);
 }
 
 TEST(SimpleSolids, boxes_are_exact_and_divided) {
