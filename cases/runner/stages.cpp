@@ -18,13 +18,9 @@ bool covers(const std::vector<std::string>& places, const std::string& file) {
                        [&](const std::string& place) { return place.back() == '/' ? file.rfind(place, 0) == 0 : file == place; });
 }
 
-/// Whether an input is a file, recorded by its SHA-256.
-bool is_hash(const std::string& value) {
-    return value.size() == 64 && value.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
+/// An input that is a file has its SHA-256 as its value.
 std::string change_text(const std::string& name, const std::string& before, const std::string& now) {
-    return is_hash(before) && is_hash(now) ? name + " (the file has other content)" : fmt::format("{} ({} -> {})", name, before, now);
+    return is_sha256(before) && is_sha256(now) ? name + " (the file has other content)" : fmt::format("{} ({} -> {})", name, before, now);
 }
 
 /// Names of inputs whose values differ, or that only one of both has.

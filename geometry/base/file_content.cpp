@@ -103,4 +103,8 @@ std::string sha256_of_file(const std::filesystem::path& file) {
     return hexadecimal(context);
 }
 
+bool is_sha256(const std::string& text) {
+    return text.size() == 2 * SHA256_DIGEST_LENGTH && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 }  // namespace cutterflow

@@ -31,4 +31,7 @@ void write_file(const std::filesystem::path& file, const std::string& content);
 std::string sha256(const std::string& text);
 std::string sha256_of_file(const std::filesystem::path& file);
 
+/// Whether a text is written as a SHA-256.
+bool is_sha256(const std::string& text);
+
 }  // namespace cutterflow

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/base/toml.hpp"
 #include "geometry/head/head_names.hpp"
+#include "postproc/run/input_files.hpp"
+#include "postproc/run/study_setting.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -85,31 +87,6 @@ public:
         if (!value && required) miss(key, "is missing or not a text");
         return value.value_or("");
     }
-    /// The study but for its name, what repeats of a run vary, and what changes no result; equal for equal values, however they are
-    /// written. \param cutter  what tells the cutter's content; empty: the study's own name of the file
-    std::map<std::string, std::string> setting(const std::string& cutter) const {
-        toml::table study = root_;
-        study.erase("name");
-        erase_keys(study["report"].as_table(), {"adv_points", "adv_probe_diameter_m", "adv_probe_length_m", "adv_position_error_m"});
-        erase_keys(study["run"].as_table(), {"checkpoint_interval_s", "write_interval_s"});
-        for_each_feed(study, [](toml::table& feed) { erase_keys(&feed, k_release_keys); });
-        std::map<std::string, std::string> values;
-        add_values(study, "", values);
-        if (!cutter.empty()) {
-            values.erase("cutter.file");
-            values["cutter, SHA-256"] = cutter.substr(0, 12);
-        }
-        return values;
-    }
-    /// Distinguishes repeats: seed and angle of release of each feed; empty without rock.
-    std::string release() const {
-        std::ostringstream text;
-        toml::table study = root_;
-        for_each_feed(study, [&](toml::table& feed) {
-            for (const char* key : k_release_keys) text << key << feed[key].value_or(0.0) << ";";
-        });
-        return text.str();
-    }
     bool is_true(const std::string& key) const { return root_.at_path(key).value_or(false); }
     /// Share of what is cut that becomes rock of the feed's sizes.
     double rock_share() const { return root_["feed"][0]["disintegration"].value_or(1.0); }
@@ -121,32 +98,6 @@ public:
     }
 
 private:
-    static constexpr std::initializer_list<const char*> k_release_keys{"seed", "start_revolution"};
-
-    static void erase_keys(toml::table* table, std::initializer_list<const char*> keys) {
-        if (table)
-            for (const char* key : keys) table->erase(key);
-    }
-    template <typename Each>
-    static void for_each_feed(toml::table& study, const Each& each) {
-        if (toml::array* feeds = study["feed"].as_array())
-            for (toml::node& feed : *feeds)
-                if (toml::table* table = feed.as_table()) each(*table);
-    }
-    /// Every value by its path, as "feed[1].class[1].count"; 60 and 60.0 are the same number.
-    static void add_values(const toml::node& node, const std::string& path, std::map<std::string, std::string>& values) {
-        if (const toml::table* table = node.as_table())
-            for (auto&& [key, value] : *table)
-                add_values(value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), values);
-        else if (const toml::array* array = node.as_array())
-            for (std::size_t i = 0; i < array->size(); ++i) add_values(*array->get(i), fmt::format("{}[{}]", path, i + 1), values);
-        else if (node.is_number())
-            values[path] = fmt::format("{:.9g}", node.value_or(0.0));
-        else if (node.is_boolean())
-            values[path] = node.value_or(false) ? "true" : "false";
-        else
-            values[path] = node.value_or(std::string());
-    }
     void miss(const std::string& key, const std::string& what) {
         mistakes_.push_back({file_.string(), fmt::format("{} {}", key, what), "The report needs it", remedy_});
     }
@@ -338,12 +289,6 @@ void require_whole(const RunData& run) {
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
-/// SHA-256 of the cutter's file used by the run; empty when the manifest lacks it.
-std::string cutter_of(const json& manifest) {
-    const json::json_pointer place("/stages/geometry/inputs/cutter.file");
-    return manifest.contains(place) && manifest.at(place).is_string() ? manifest.at(place).get<std::string>() : "";
-}
-
 void read_cost(RunData& run) {
     run.cost = read_joined_table(run.directory, "cost", "cost.csv",
                                  {{"time_s", "step_s", "fluid_s", "mesh_motion_s", "mapping_s", "dem_s", "output_s"}, {}, {}, k_rerun});
@@ -353,8 +298,9 @@ void read_cost(RunData& run) {
 }
 
 void read_setting(RunData& run, const StudyReader& study) {
-    run.setting = study.setting(cutter_of(run.manifest));
-    run.release = study.release();
+    StudySetting setting = study_setting(read_file(run.directory / names::resolved_study), input_files(run.manifest));
+    run.setting = std::move(setting.values);
+    run.release = std::move(setting.release);
     run.seed = study.seed();
 }
 

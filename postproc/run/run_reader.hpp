@@ -102,12 +102,11 @@ struct RunData {
     int blades = 1;                                         ///< of the cutter; 1 when unknown
     AdvProbe adv_probe;                                     ///< with which the run sampled its places of measurement, if it has any
     bool finished = false;                                  ///< the run came to its end
-    std::map<std::string, std::string> setting{};  ///< values by key: the study without its name and what repeats vary (seed and time of
-                                                   ///< release), the cutter by its content; equal for repeats
-    std::string release{};                         ///< seed and time of release of each feed, which distinguish repeats; empty without rock
-    int seed = 0;                                  ///< of the first feed
-    nlohmann::json prediction{};                   ///< of the run's cost, before it; empty when the file is absent
-    std::optional<RecordedFlow> flow{};            ///< of a replay, which has rock: all but rock, feed and cost is then that run's
+    std::map<std::string, std::string> setting{};           ///< as StudySetting::values
+    std::string release{};                                  ///< as StudySetting::release
+    int seed = 0;                                           ///< of the first feed
+    nlohmann::json prediction{};                            ///< of the run's cost, before it; empty when the file is absent
+    std::optional<RecordedFlow> flow{};                     ///< of a replay, which has rock: all but rock, feed and cost is then that run's
 
     /// Of the cutter and of what stands around it.
     const std::filesystem::path& geometry_directory() const { return flow ? flow->run : directory; }

@@ -256,16 +256,17 @@ TEST(Comparison, takes_no_run_for_a_repeat_of_itself) {
     EXPECT_EQ(compare_runs({first, repeat}).settings.size(), 1u);
 }
 
-TEST(Comparison, knows_settings_by_values_and_cutters_by_content) {
+TEST(Comparison, knows_settings_by_values_and_files_by_content) {
     const auto edited = [](const fs::path& directory, const std::string& from, const std::string& to) {
         std::string study = testing::read_text(directory / names::resolved_study);
         study.replace(study.find(from), from.size(), to);
         testing::write_text(directory / names::resolved_study, study);
         return directory;
     };
-    const auto with_cutter = [](const fs::path& directory, const std::string& sum) {
+    const auto with_file = [](const char* stage, const char* key, char digit) {
+        const fs::path directory = variant(fmt::format("{}_{}", stage, digit), {});
         auto manifest = nlohmann::json::parse(testing::read_text(directory / names::manifest));
-        manifest["stages"]["geometry"]["inputs"]["cutter.file"] = sum;
+        manifest["stages"][stage]["inputs"][key] = std::string(64, digit);
         testing::write_text(directory / names::manifest, manifest.dump());
         return directory;
     };
@@ -275,7 +276,13 @@ TEST(Comparison, knows_settings_by_values_and_cutters_by_content) {
     const Comparison other = compare_runs({plain, edited(variant("value_other", {}), "gap_m = 0.03", "gap_m = 0.04")});
     const std::map<std::string, std::vector<std::string>> differing{{"suction.gap_m", {"0.03", "0.04"}}};
     EXPECT_EQ(differing_keys(other), differing);
-    EXPECT_EQ(compare_runs({with_cutter(plain, "aa"), with_cutter(same, "bb")}).settings.size(), 2u);
+    const auto settings_of = [&](const char* stage, const char* key) {
+        return compare_runs({with_file(stage, key, 'a'), with_file(stage, key, 'b')}).settings.size();
+    };
+    EXPECT_EQ(settings_of("geometry", "cutter.file"), 2u);
+    EXPECT_EQ(settings_of("case", "bank.file"), 2u);
+    EXPECT_EQ(settings_of("case", "overrides/system/fvSchemes"), 2u);
+    EXPECT_EQ(settings_of("case", "report.adv_points"), 1u) << "places of measurement change no result";
 }
 
 TEST(Comparison, refuses_a_finished_run_that_lost_a_part_of_its_tables) {

@@ -31,6 +31,12 @@ TEST_F(FileContent, sha256_agrees_with_the_standards_test_vectors) {  // FIPS 18
     EXPECT_EQ(sha256_of_file(folder_ / "million"), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST_F(FileContent, a_sha256_is_told_by_its_form) {
+    EXPECT_TRUE(is_sha256(sha256("abc")));
+    EXPECT_FALSE(is_sha256(sha256("abc").substr(1)));
+    EXPECT_FALSE(is_sha256(std::string(64, 'g')));
+}
+
 TEST_F(FileContent, writes_whole_files_and_leaves_nothing_beside_them) {
     const fs::path file = folder_ / "deep" / "file.txt";
     write_file(file, "old");
