@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cases/replay/repeats.hpp"
 #include "cases/runner/pipeline.hpp"
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/solver_run.hpp"
@@ -63,6 +64,20 @@ RecordedRun open_run(const fs::path& run) {
     values = resolve_study(values, head.size);
     return {fs::absolute(run).lexically_normal(), std::move(values), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
+}
+
+/// The study of a run, with every key.
+std::string study_of(const RecordedRun& run) {
+    return plain_toml(study_table(), run.values);
+}
+
+/// \throws UserError  with every run that is no repeat of the first, or comes twice
+void require_repeats(const std::vector<RecordedRun>& runs) {
+    std::vector<RepeatedRun> repeats;
+    for (const RecordedRun& run : runs) repeats.push_back({run.folder, study_of(run)});
+    Mistakes mistakes;
+    mistakes.add(check_repeats(repeats));
+    mistakes.refuse();
 }
 
 /// \throws UserError  with every run without a recording that this program reads
@@ -442,12 +457,10 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     require_recordings(settings.runs, say);
     std::vector<RecordedRun> runs;
     for (const fs::path& run : settings.runs) runs.push_back(open_run(run));
-    if (!settings.study.empty()) {
-        if (runs.size() > 1)
-            throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow",
-                            "Name one run");
-        take_study(runs.front(), settings.study);
-    }
+    if (!settings.study.empty() && runs.size() > 1)
+        throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow", "Name one run");
+    require_repeats(runs);
+    if (!settings.study.empty()) take_study(runs.front(), settings.study);
     open_folder(settings, runs);
     const FolderLock lock(settings.folder);
 

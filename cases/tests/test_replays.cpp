@@ -1,17 +1,26 @@
 // Whose rock may be replayed in a recorded flow.
+#include <cstdlib>
+#include <filesystem>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cases/replay/replay.hpp"
+#include "cases/runner/pipeline.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
+#include "geometry/base/run_files.hpp"
+#include "geometry/head/crown_cutter.hpp"
+#include "geometry/io/write_stl.hpp"
 
 namespace cutterflow::cases {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+namespace fs = std::filesystem;
 
 ParameterValues study(const std::string& more) {
     return parse_parameters(study_table(),
@@ -93,6 +102,90 @@ TEST(Replays, of_a_run_from_before_unused_keys_were_refused_leave_them_out) {
                                 "[[feed.class]]\ndiameter_m = 0.02\n"));
     EXPECT_FALSE(recorded.tables("feed").at(0).has("feed.depth_to_m"));
     EXPECT_THAT(check_file_rules(recorded, "study.toml"), ::testing::IsEmpty());
+}
+
+/// Runs of a crown with a recording that nothing plays.
+class RecordedRuns : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        std::string name = (fs::temp_directory_path() / "cutterflow_replays_XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        suite_ = name;
+        geometry::write_stl(geometry::generate_crown_cutter(geometry::read_crown_parameters(fs::path(CUTTERFLOW_SOURCE_DIR) /
+                                                                                            "cases/examples/model_cutter/crown.toml")),
+                            suite_ / "crown.stl");
+        write_file(suite_ / "study.toml", study_text());
+        const RunDirectory directory(suite_ / "geometry_alone");
+        Manifest manifest(directory.file(names::manifest));
+        Pipeline pipeline(directory, {suite_ / "study.toml", 1, "/bin/false", {}}, [](const std::string&) {});
+        run_stages(directory, manifest, pipeline.stages(), "geometry", false, [](const Stage&, StageEvent, double) {});
+    }
+    static void TearDownTestSuite() { fs::remove_all(suite_); }
+    void SetUp() override {
+        folder_ = suite_ / ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        fs::create_directories(folder_);
+    }
+
+    static std::string study_text(double rpm = 60.0, int seed = 7, double start = 1.0, const std::string& name = "head") {
+        return fmt::format(
+            "name = \"{}\"\n[cutter]\nfile = \"crown.stl\"\n[rotor]\nspeed_rpm = {}\n[suction]\ndischarge_m3_s = 0.12\n"
+            "[run]\nflow_revolutions = 1\n[[feed]]\ncount = 20\nseed = {}\nstart_revolution = {}\n[[feed.class]]\ndiameter_m = 0.02\n",
+            name, rpm, seed, start);
+    }
+
+    fs::path run(const std::string& name, const std::string& study) const {
+        const fs::path folder = folder_ / name;
+        fs::copy(suite_ / "geometry_alone", folder, fs::copy_options::recursive);
+        const ParameterValues values = parse_parameters(study_table(), study, name);
+        write_file(folder / names::resolved_study, commented_toml(study_table(), &values));
+        write_file(folder / names::recording / "recording.json",
+                   R"({"schema": "cutterflow.recording/2", "change": 0.01, "start_s": 0.0, "end_s": 1.0})");
+        return folder;
+    }
+
+    /// The solver fails, so that a call which is not refused ends with ToolError.
+    ReplaySettings settings(const std::vector<fs::path>& runs, const fs::path& study = {}) const {
+        return {runs, study, 1, folder_ / "replays", "/bin/false", 1, fs::exists(folder_ / "replays")};
+    }
+
+    static std::string refusal(const ReplaySettings& settings) {
+        try {
+            run_replays(settings, [](const std::string&) {});
+        } catch (const UserError& error) {
+            return error.what();
+        } catch (const ToolError&) {
+            return "not refused";
+        }
+        return "done";
+    }
+
+    inline static fs::path suite_;
+    fs::path folder_;
+};
+
+TEST_F(RecordedRuns, of_other_settings_are_refused_with_every_key_that_differs) {
+    const fs::path first = run("30rpm", study_text(30)), repeat = run("30rpm_repeat2", study_text(30, 8, 1.05, "second")),
+                   fast = run("90rpm", study_text(90)), coarse = run("coarse", study_text(30) + "density_kg_m3 = 2000\n");
+    EXPECT_THAT(refusal(settings({first, fast, repeat, coarse})),
+                AllOf(HasSubstr("90rpm: "), HasSubstr("rotor.speed_rpm = 90 (the first run has 30)"),
+                      HasSubstr("coarse: feed[1].class[1].density_kg_m3 = 2000 (the first run has 2650)"),
+                      ::testing::Not(HasSubstr("repeat2")), ::testing::Not(HasSubstr("seed = "))));
+    EXPECT_EQ(refusal(settings({first, repeat})), "not refused");
+}
+
+TEST_F(RecordedRuns, come_once_each) {
+    const fs::path first = run("a", study_text()), copy = run("b", study_text());
+    EXPECT_THAT(refusal(settings({first, copy})), AllOf(HasSubstr("is the same run as"), HasSubstr("feed.seed")));
+    EXPECT_THAT(refusal(settings({first, first})), HasSubstr("is the same run as"));
+}
+
+TEST_F(RecordedRuns, of_another_cutter_under_the_same_name_are_refused) {
+    const fs::path first = run("a", study_text()), other = run("b", study_text(60, 8));
+    std::string manifest = read_file(other / names::manifest);
+    const std::string hash = sha256_of_file(suite_ / "crown.stl");
+    ASSERT_NE(manifest.find(hash), std::string::npos);
+    write_file(other / names::manifest, manifest.replace(manifest.find(hash), hash.size(), sha256("another cutter")));
+    EXPECT_THAT(refusal(settings({first, other})), HasSubstr("cutter, SHA-256 = "));
 }
 
 // Pairs are of a coupled run and the replay of its placement.
