@@ -71,6 +71,16 @@ std::string study_of(const RecordedRun& run) {
     return plain_toml(study_table(), run.values);
 }
 
+/// \throws UserError  with every run of water alone
+void require_rock(const std::vector<RecordedRun>& runs) {
+    Mistakes mistakes;
+    for (const RecordedRun& run : runs)
+        if (run.values.tables("feed").empty())
+            mistakes.add(
+                {run.folder.string(), "its study has no [[feed]]", "A replay places a study's rock", "Name a study with rock by --study"});
+    mistakes.refuse();
+}
+
 /// \throws UserError  with every run that is no repeat of the first, or comes twice
 void require_repeats(const std::vector<RecordedRun>& runs) {
     std::vector<RepeatedRun> repeats;
@@ -461,6 +471,7 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
         throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow", "Name one run");
     require_repeats(runs);
     if (!settings.study.empty()) take_study(runs.front(), settings.study);
+    require_rock(runs);
     open_folder(settings, runs);
     const FolderLock lock(settings.folder);
 

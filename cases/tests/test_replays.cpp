@@ -173,6 +173,14 @@ TEST_F(RecordedRuns, of_other_settings_are_refused_with_every_key_that_differs) 
     EXPECT_EQ(refusal(settings({first, repeat})), "not refused");
 }
 
+TEST_F(RecordedRuns, of_water_alone_need_a_study_with_rock) {
+    const std::string study = study_text(), rock = study.substr(study.find("[[feed]]"));
+    const fs::path water = run("water", study.substr(0, study.find("[[feed]]")));
+    EXPECT_THAT(refusal(settings({water})), AllOf(HasSubstr("water: its study has no [[feed]]"), HasSubstr("--study")));
+    write_file(folder_ / "rock.toml", rock);
+    EXPECT_EQ(refusal(settings({water}, folder_ / "rock.toml")), "not refused");
+}
+
 TEST_F(RecordedRuns, come_once_each) {
     const fs::path first = run("a", study_text()), copy = run("b", study_text());
     EXPECT_THAT(refusal(settings({first, copy})), AllOf(HasSubstr("is the same run as"), HasSubstr("feed.seed")));
