@@ -325,11 +325,43 @@ private:
     Progress progress_{"replays"};
 };
 
-/// \throws UserError  when the folder holds something else, or an interrupted call and `resume` is false
-void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
+/// What the replays of a folder are made of: the runs, the file of another study's rock, and what each study says.
+nlohmann::json plan_of(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
     nlohmann::json plan;
-    for (const RecordedRun& run : runs) plan["runs"].push_back(run.folder.string());
+    for (const RecordedRun& run : runs) {
+        plan["runs"].push_back(run.folder.string());
+        plan["studies_sha256"].push_back(sha256(study_of(run)));
+    }
     if (!settings.study.empty()) plan["runs"].push_back(fs::absolute(settings.study).lexically_normal().string());
+    return plan;
+}
+
+/// \throws UserError  when the folder's replays are of other runs or studies. A plan of an earlier program tells no study: those of runs
+/// do not change, another study's rock may have
+void require_same_plan(const fs::path& file, const nlohmann::json& plan, const ReplaySettings& settings) {
+    const nlohmann::json found =
+        read_json_document(file, {{"runs/*", JsonKind::text, true}, {"studies_sha256/*", JsonKind::text}}, "Name a new folder with -o");
+    if (found.at("runs") != plan.at("runs"))
+        throw UserError(
+            {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", "Name a new folder with -o"}});
+    const std::string remedy = fmt::format("name a new folder with -o, or in a sweep move {} away", settings.folder.string());
+    const char* rule = "The replays of a folder are samples of one study";
+    if (!found.contains("studies_sha256")) {
+        if (settings.study.empty()) return;
+        throw UserError(
+            {{file.string(), fmt::format("an earlier program wrote it, which did not note what {} says", settings.study.string()), rule,
+              "To replay its rock again, " + remedy}});
+    }
+    if (found.at("studies_sha256") != plan.at("studies_sha256"))
+        throw UserError({{file.string(),
+                          fmt::format("{} has changed since the folder's replays were begun",
+                                      settings.study.empty() ? "the study of a run" : settings.study.string()),
+                          rule, "Undo the change, or " + remedy}});
+}
+
+/// \throws UserError  when the folder holds something else, replays of something else, or an interrupted call and `resume` is false
+void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
+    const nlohmann::json plan = plan_of(settings, runs);
     const fs::path file = settings.folder / k_plan;
     const bool is_there = fs::exists(settings.folder) && !fs::is_empty(settings.folder);
     if (is_there && !fs::exists(file))
@@ -341,9 +373,7 @@ void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>&
     if (!is_there && settings.resume)
         throw UserError(
             {{settings.folder.string(), "there is nothing to resume", "--resume goes on with a folder of replays", "Leave --resume out"}});
-    if (is_there && read_json_document(file, {{"runs/*", JsonKind::text, true}}, "Name a new folder with -o") != plan)
-        throw UserError(
-            {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", "Name a new folder with -o"}});
+    if (is_there) require_same_plan(file, plan, settings);
     fs::create_directories(settings.folder);
     write_file(file, plan.dump(2) + "\n");
 }

@@ -58,7 +58,8 @@ std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std:
 ParameterValues study_as_recorded(ParameterValues study);
 
 /// Runs every replay and writes replays.csv, replays.json and, where rock is spilled, exits.csv into the folder.
-/// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, and as RunDirectory
+/// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, when the
+///                      folder holds replays of other runs or of a study that has changed since, and as RunDirectory
 /// \throws ToolError    when a replay fails
 /// \throws Interrupted  when the user stops it; finished replays are kept
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);

@@ -196,6 +196,31 @@ TEST_F(RecordedRuns, of_another_cutter_under_the_same_name_are_refused) {
     EXPECT_THAT(refusal(settings({first, other})), HasSubstr("cutter, SHA-256 = "));
 }
 
+// A finished replay is not made again, so that rock of both studies would count as one sample.
+TEST_F(RecordedRuns, are_not_gone_on_with_by_rock_that_has_changed) {
+    const fs::path recorded = run("a", study_text()), rock = folder_ / "rock.toml";
+    const auto write_rock = [&](int count, const char* comment) {
+        write_file(rock, fmt::format("{}\n[[feed]]\ncount = {}\n[[feed.class]]\ndiameter_m = 0.01\n", comment, count));
+    };
+    write_rock(10, "");
+    ASSERT_EQ(refusal(settings({recorded}, rock)), "not refused");
+    write_rock(10, "# the same rock");
+    EXPECT_EQ(refusal(settings({recorded}, rock)), "not refused");
+    write_rock(11, "");
+    EXPECT_THAT(refusal(settings({recorded}, rock)),
+                AllOf(HasSubstr("rock.toml has changed"), HasSubstr("samples of one study"), HasSubstr("a new folder with -o")));
+}
+
+TEST_F(RecordedRuns, of_an_earlier_program_are_gone_on_with_where_no_rock_can_have_changed) {
+    const fs::path recorded = run("a", study_text()), rock = folder_ / "rock.toml";
+    write_file(rock, "[[feed]]\ncount = 10\n[[feed.class]]\ndiameter_m = 0.01\n");
+    const fs::path plan = folder_ / "replays" / "plan.json";
+    write_file(plan, fmt::format(R"({{"runs": ["{}"]}})", recorded.string()));
+    EXPECT_EQ(refusal(settings({recorded})), "not refused");
+    write_file(plan, fmt::format(R"({{"runs": ["{}", "{}"]}})", recorded.string(), rock.string()));
+    EXPECT_THAT(refusal(settings({recorded}, rock)), AllOf(HasSubstr("an earlier program"), HasSubstr("a new folder with -o")));
+}
+
 // Pairs are of a coupled run and the replay of its placement.
 TEST(Replays, are_refused_where_rock_changes_the_flow) {
     const auto estimate = [](double spilled, double correction) {
