@@ -236,6 +236,28 @@ TEST_F(SurfaceStudy, runs_of_one_study_are_repeats_whatever_their_folders_are_ca
     EXPECT_THROW(compared({a1, run("c/again", "0.4", 1, "z")}), UserError);
 }
 
+// A run keeps its own copy of a file under a name of the program's, and a file may be edited where it is.
+TEST_F(SurfaceStudy, runs_with_other_content_of_a_file_are_other_settings) {
+    const auto run = [&](const std::string& folder, const std::string& content, int seed) {
+        write(folder + "/study.toml", fmt::format("[[solid]]\nfile = \"surface_1.stl\"\n[run]\nseed = {}\n", seed));
+        write(folder + "/manifest.json",
+              fmt::format(R"({{"stages": {{"case": {{"inputs": {{"solid.1.file": "{}"}}, "at": "{}"}}}}}})", sha256(content), folder));
+        return folder_ / folder;
+    };
+    const auto names_of = [](const std::vector<fs::path>& runs) {
+        std::vector<std::string> names;
+        for (const auto& setting : postproc::compare_settings(runs, "study.toml", [](const fs::path&) {
+                 return std::vector<postproc::RunQuantity>{{"q", "q", "-", 1.0}};
+             }))
+            names.push_back(setting.name);
+        return names;
+    };
+    EXPECT_THAT(names_of({run("of/ramp", "a", 1), run("of/ramp2", "b", 1), run("of/ramp2_repeat2", "b", 2)}), ElementsAre("ramp", "ramp2"));
+    EXPECT_THAT(names_of({run("of/x_repeat1", "a", 1), run("of/x_repeat2", "b", 2)}),
+                ElementsAre("of/x, solid.1.file " + sha256("a").substr(0, 8), "of/x, solid.1.file " + sha256("b").substr(0, 8)));
+    EXPECT_THROW(names_of({run("of/ramp", "a", 1), run("of/again", "a", 1)}), UserError);
+}
+
 TEST_F(SurfaceStudy, comparison_names_every_run_that_is_not_there_and_every_one_that_measures_something_else) {
     const auto told = [](const std::vector<fs::path>& runs, const std::function<std::string(const fs::path&)>& key) {
         std::vector<std::string> whats;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/json_document.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/statistics/sample.hpp"
@@ -18,6 +19,7 @@
 #include "postproc/analysis/settings/distinct_runs.hpp"
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
+#include "postproc/run/input_files.hpp"
 
 namespace cutterflow::postproc {
 
@@ -39,15 +41,24 @@ std::pair<std::string, int> name_and_repeat(const fs::path& run) {
 }
 
 struct RunSetting {
-    std::string text;  // of the study, without what tells repeats apart
+    std::string text;                          // of the study, without what tells repeats apart
+    std::map<std::string, std::string> files;  // SHA-256 of the files that the study names
     int seed = 1;
+
+    bool is_that_of(const RunSetting& other) const { return text == other.text && files == other.files; }
 };
 
-/// Of a study in TOML: all lines but comments, the study's name and seeds.
+std::map<std::string, std::string> files_of(const fs::path& run) {
+    const fs::path manifest = run / names::manifest;
+    if (!fs::exists(manifest)) return {};
+    return input_files(read_json_document(manifest, {{"stages", JsonKind::object}}, "Start again in another directory with -o"));
+}
+
+/// Of a study in TOML: all lines but comments, the study's name and seeds. A file's name tells nothing of its content.
 RunSetting setting_of(const fs::path& run, const std::string& study_file) {
     const auto [name, repeat] = name_and_repeat(run);
-    if (!fs::exists(run / study_file)) return {name, repeat};
-    RunSetting setting{"", repeat};
+    if (!fs::exists(run / study_file)) return {name, {}, repeat};
+    RunSetting setting{"", files_of(run), repeat};
     std::istringstream lines(read_file(run / study_file));
     bool in_table = false, has_seed = false;
     for (std::string line; std::getline(lines, line);) {
@@ -68,13 +79,41 @@ std::vector<RunSetting> settings_of(const std::vector<fs::path>& runs, const std
     return settings;
 }
 
-/// Puts the folder above it before the name of a setting that another one shares.
-void tell_names_apart(std::vector<SettingResults>& settings, const std::vector<fs::path>& first_runs) {
+/// A setting of the comparison, by its first run.
+struct FirstRun {
+    fs::path folder;
+    RunSetting setting;
+};
+
+/// Names that settings share, and how many share each.
+std::map<std::string, int> name_counts(const std::vector<SettingResults>& settings) {
     std::map<std::string, int> count;
     for (const SettingResults& setting : settings) ++count[setting.name];
+    return count;
+}
+
+/// Files in which a setting differs from another one of the same study, as "solid.ramp.file 3f2a41b7".
+std::string differing_files(const RunSetting& setting, const std::vector<FirstRun>& first_runs) {
+    std::string words;
+    for (const auto& [key, hash] : setting.files) {
+        const bool differs = std::any_of(first_runs.begin(), first_runs.end(), [&, name = key, content = hash](const FirstRun& other) {
+            const auto found = other.setting.files.find(name);
+            return other.setting.text == setting.text && found != other.setting.files.end() && found->second != content;
+        });
+        if (differs) words += fmt::format(", {} {}", key, hash.substr(0, 8));
+    }
+    return words;
+}
+
+/// Puts the folder above it before the name of a setting that another one shares, and behind it the files in which alone they differ.
+void tell_names_apart(std::vector<SettingResults>& settings, const std::vector<FirstRun>& first_runs) {
+    auto count = name_counts(settings);
     for (std::size_t n = 0; n < settings.size(); ++n)
         if (count[settings[n].name] > 1)
-            settings[n].name = (fs::absolute(first_runs[n]).lexically_normal().parent_path().filename() / settings[n].name).string();
+            settings[n].name = (fs::absolute(first_runs[n].folder).lexically_normal().parent_path().filename() / settings[n].name).string();
+    count = name_counts(settings);
+    for (std::size_t n = 0; n < settings.size(); ++n)
+        if (count[settings[n].name] > 1) settings[n].name += differing_files(first_runs[n].setting, first_runs);
 }
 
 std::vector<double> paired_differences(const SettingResults& setting, const SettingResults& first, std::size_t quantity) {
@@ -120,7 +159,7 @@ void require_different(const std::vector<fs::path>& runs, const std::vector<RunS
         const fs::path first = runs[a] / names::manifest, second = runs[b] / names::manifest;
         const bool one_manifest = fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // with its times
         return one_manifest ||
-               (fs::exists(runs[a] / study_file) && settings[a].text == settings[b].text && settings[a].seed == settings[b].seed);
+               (fs::exists(runs[a] / study_file) && settings[a].is_that_of(settings[b]) && settings[a].seed == settings[b].seed);
     };
     require_distinct(runs, are_one_run, "seed");
 }
@@ -171,18 +210,19 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, 
     const std::vector<RunSetting> setting_of_run = settings_of(runs, study_file);
     const std::vector<std::vector<RunQuantity>> of_runs = quantities_of_all(runs, setting_of_run, study_file, quantities_of);
     std::vector<SettingResults> settings;
-    std::vector<fs::path> first_runs;
-    std::map<std::string, std::size_t> number;  // of a setting
+    std::vector<FirstRun> first_runs;
     for (std::size_t n = 0; n < runs.size(); ++n) {
         const std::vector<RunQuantity>& quantities = of_runs[n];
-        const auto [known, is_new] = number.emplace(setting_of_run[n].text, settings.size());
-        if (is_new) {
+        const auto known = std::find_if(first_runs.begin(), first_runs.end(),
+                                        [&](const FirstRun& first) { return first.setting.is_that_of(setting_of_run[n]); });
+        const auto number = static_cast<std::size_t>(known - first_runs.begin());
+        if (known == first_runs.end()) {
             settings.push_back({name_and_repeat(runs[n]).first, {}, {}});
-            first_runs.push_back(runs[n]);
+            first_runs.push_back({runs[n], setting_of_run[n]});
             for (const RunQuantity& one : quantities)
                 settings.back().quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}, {}});
         }
-        SettingResults& setting = settings[known->second];
+        SettingResults& setting = settings[number];
         setting.repeats.push_back(setting_of_run[n].seed);
         if (const std::string warning = warning_of ? warning_of(runs[n]) : ""; !warning.empty()) setting.warnings.push_back(warning);
         for (std::size_t q = 0; q < quantities.size(); ++q) {
