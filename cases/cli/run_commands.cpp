@@ -37,6 +37,7 @@ void add_mesh(CLI::App& app) {
     auto* command = app.add_subcommand("mesh", "Build the mesh of a study of a cutter, or the bed of a room, and no more.");
     const auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
+    command->add_flag("--resume", options->resume, "Resume an interrupted bed from its last checkpoint");
     command->add_flag("--json", options->json, "Print mesh.json");
     command->callback([options] { kind_of_study(options->study).mesh(*options); });
 }

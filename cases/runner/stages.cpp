@@ -176,13 +176,20 @@ std::string why_not_shared(const std::filesystem::path& from, const std::vector<
     return "";
 }
 
+bool stages_are_done(const std::filesystem::path& run, const std::vector<std::string>& stages) {
+    const Manifest manifest(run / names::manifest);
+    return std::all_of(stages.begin(), stages.end(), [&](const std::string& stage) {
+        const StageRecord* record = manifest.find(stage);
+        return record != nullptr && record->state == StageState::done;
+    });
+}
+
 void share_stages(const std::filesystem::path& from, const std::filesystem::path& to, const std::vector<std::string>& stages) {
-    if (std::filesystem::exists(to / names::manifest)) return;
+    if (std::filesystem::exists(to / names::manifest) || !stages_are_done(from, stages)) return;
     const Manifest donor(from / names::manifest);
     Manifest manifest(to / names::manifest);
     for (const std::string& stage : stages) {
         const StageRecord* record = donor.find(stage);
-        if (record == nullptr || record->state != StageState::done) return;
         for (const auto& [file, hash] : record->outputs) {
             std::filesystem::create_directories((to / file).parent_path());
             std::filesystem::copy_file(from / file, to / file, std::filesystem::copy_options::overwrite_existing);

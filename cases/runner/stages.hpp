@@ -43,8 +43,11 @@ void run_stages(const RunDirectory& directory, Manifest& manifest, const std::ve
 /// its files are not as it wrote them. Empty when it can.
 std::string why_not_shared(const std::filesystem::path& from, const std::vector<Stage>& wanted);
 
-/// Copies what stages wrote in one run directory into another in which none began yet. Whether they fit is judged there, by their inputs,
-/// as for every finished stage.
+/// Whether all of these stages are finished in a run directory; a folder without a manifest has none.
+bool stages_are_done(const std::filesystem::path& run, const std::vector<std::string>& stages);
+
+/// Copies what stages wrote in one run directory into another in which none began yet; nothing while one of them is not finished. Whether
+/// they fit is judged there, by their inputs, as for every finished stage.
 void share_stages(const std::filesystem::path& from, const std::filesystem::path& to, const std::vector<std::string>& stages);
 
 }  // namespace cutterflow::cases

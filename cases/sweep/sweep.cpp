@@ -174,7 +174,7 @@ ChildCommand command_of(const SweepSettings& settings, const SweepPoint& point, 
                          (settings.folder / point.name).string(),
                          "--ranks",
                          std::to_string(settings.ranks)};
-    if (what == "run") command.arguments.emplace_back("--resume");
+    command.arguments.emplace_back("--resume");
     if (what == "run" && !point.start_donor.empty() && fs::is_directory(settings.folder / point.start_donor))
         command.arguments.insert(command.arguments.end(), {"--start-from", (settings.folder / point.start_donor).string()});
     command.log = settings.folder / k_logs / fmt::format("{}.{}.log", point.name, what);
@@ -189,12 +189,12 @@ std::map<std::string, std::string> mesh_donors(const std::vector<SweepPoint>& po
     return donors;
 }
 
-/// Points that have to make a mesh for others.
+/// Points that have to make a mesh for others, or to finish it.
 std::vector<SweepPoint> points_to_mesh(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
     const auto donors = mesh_donors(points);
     std::vector<SweepPoint> to_mesh;
     for (const SweepPoint& point : points)
-        if (!point.design.empty() && donors.at(point.design) == point.name && !fs::exists(settings.folder / point.name / names::manifest))
+        if (!point.design.empty() && donors.at(point.design) == point.name && !stages_are_done(settings.folder / point.name, point.shared))
             to_mesh.push_back(point);
     return to_mesh;
 }

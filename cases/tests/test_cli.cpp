@@ -763,6 +763,12 @@ TEST_F(Cli, names_all_wrong_options_of_a_sweep_at_once) {
     EXPECT_FALSE(fs::exists(folder_ / "my sweep"));
 }
 
+TEST_F(Cli, goes_on_with_a_bed_that_was_interrupted) {
+    const Outcome outcome = call({"mesh", study(), "--ranks", "1000", "--resume"});
+    expect_refused(outcome, 2, "1000");
+    EXPECT_EQ(outcome.text.find("--resume"), std::string::npos) << outcome.text;
+}
+
 TEST_F(Cli, looks_at_rock_to_be_replayed_before_a_sweep_runs) {
     study("[run]\nrecord_revolutions = 1\n[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\n");
     write_file(folder_ / "rock.toml", "[rotor]\nspeed_rpm = 50\n[swing]\ndirection = \"under_cut\"\n");

@@ -302,6 +302,22 @@ TEST_F(Stages, one_process_at_a_time_works_in_a_run_directory_and_its_children_c
     EXPECT_EQ(go(false, "a"), Names{"a"});
 }
 
+// A part of them would keep the other directory from taking the rest later.
+TEST_F(Stages, are_shared_together_or_not_at_all) {
+    const fs::path other = folder_.parent_path() / "other";
+    interrupted_ = "start";
+    EXPECT_THROW(go(), Interrupted);
+    EXPECT_FALSE(stages_are_done(folder_, {"a", "start"}));
+    share_stages(folder_, other, {"a", "start"});
+    EXPECT_FALSE(fs::exists(other));
+    interrupted_.clear();
+    go(false, "start");
+    EXPECT_TRUE(stages_are_done(folder_, {"a", "start"}));
+    share_stages(folder_, other, {"a", "start"});
+    EXPECT_TRUE(stages_are_done(other, {"a", "start"}));
+    EXPECT_EQ(read_file(other / "start.txt"), "of start");
+}
+
 TEST_F(Stages, overrides_are_copied_over_the_case) {
     const RunDirectory directory(folder_);
     write_file(folder_ / "system/fvSolution", "generated");

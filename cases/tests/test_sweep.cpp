@@ -184,6 +184,33 @@ TEST_F(Sweep, is_gone_on_with_when_asked_and_only_as_the_same_sweep) {
     EXPECT_THROW(run(points({{20, 30}, {}, {}, 1}), settings(k_runs, true)), UserError);
 }
 
+// The first point's manifest is there from the mesh's beginning on.
+TEST_F(Sweep, finishes_a_mesh_that_was_interrupted_and_shares_it) {
+    const auto all = points({{20, 30}, {}, {}, 1});
+    const std::string mesh = R"(if [ "$1" = mesh ]; then mkdir -p "$4"; echo "$@" >> "$4/meshed"; echo of > "$4/mesh.txt"
+cat > "$4/manifest.json" <<END
+{"schema": "cutterflow.manifest/1", "stages": {
+"geometry": {"state": "done", "inputs": {}, "outputs": {}, "wall_s": 1, "core_s": 1, "finished": ""},
+"mesh": {"state": "STATE", "inputs": {}, "outputs": {"mesh.txt": "0"}, "wall_s": 1, "core_s": 1, "finished": ""}}, "versions": {}}
+END
+fi
+)";
+    const auto with_mesh = [&](const std::string& state, bool resume) {
+        std::string script = mesh + k_runs;
+        script.replace(script.find("STATE"), 5, state);
+        run(all, settings(script, resume));
+    };
+    with_mesh("started", false);
+    EXPECT_FALSE(fs::exists(folder_ / "sweep/30rpm/manifest.json"));
+    with_mesh("done", true);
+    EXPECT_THAT(read_file(folder_ / "sweep/20rpm/meshed"), HasSubstr("--resume"));
+    EXPECT_TRUE(fs::exists(folder_ / "sweep/30rpm/mesh.txt"));
+    EXPECT_FALSE(fs::exists(folder_ / "sweep/30rpm/meshed"));
+    const std::string meshed = read_file(folder_ / "sweep/20rpm/meshed");
+    with_mesh("done", true);
+    EXPECT_EQ(read_file(folder_ / "sweep/20rpm/meshed"), meshed) << "a finished mesh is not made again";
+}
+
 TEST_F(Sweep, is_not_begun_by_asking_to_go_on_with_it) {
     EXPECT_THROW(run(points({{20, 30}, {}, {}, 1}), settings(k_runs, true)), UserError);
     EXPECT_FALSE(fs::exists(folder_ / "sweep"));
