@@ -187,6 +187,13 @@ void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed
         throw UserError(fmt::format("--set {} beside --repeats", seed), "Repeats count the seed up from the study's", "Remove one of them");
 }
 
+void require_random(bool is_random, int repeats, const std::string& point, const std::string& differ_by, const std::string& remedy) {
+    if (repeats > 1 && !is_random)
+        throw UserError({{point, fmt::format("--repeats {} of a study in which nothing is random", repeats),
+                          fmt::format("Repeats differ by {}; without it all of them are the same run", differ_by),
+                          fmt::format("{}, or leave --repeats out", remedy)}});
+}
+
 std::optional<KeyPath> find_key(const ParameterTable& table, const std::string& text) {
     using parameter_words::enclosing_array;
     if (const Parameter* parameter = find_parameter(table, text)) return KeyPath{parameter, enclosing_array(table, text), ""};

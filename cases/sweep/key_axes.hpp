@@ -22,6 +22,11 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
 /// \throws UserError  when an axis varies the seed that repeats count up
 void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, int repeats);
 
+/// \param is_random  whether the seed that repeats count up changes anything of the study `point`
+/// \param differ_by, remedy  what is random in studies of the kind, and how this one gets it, for the message
+/// \throws UserError  when repeats would all be one run, whose scatter of 0 tells nothing
+void require_random(bool is_random, int repeats, const std::string& point, const std::string& differ_by, const std::string& remedy);
+
 /// A key of a study, perhaps of one table of an array of tables alone: `contact.gravel-steel.friction` is `friction` of the table
 /// [[contact]] with pair = ["gravel", "steel"], `solid.tube.material` that of the table [[solid]] with name = "tube".
 struct KeyPath {

@@ -1,15 +1,23 @@
 #include "cases/sweep/surface_sweep.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/mistakes.hpp"
 
 namespace cutterflow::cases {
 
 namespace {
 
 constexpr const char* k_seed = "bodies.seed";
+
+bool has_jitter(const ParameterValues& values) {
+    const std::vector<ParameterValues>& bodies = values.tables("bodies");
+    return std::any_of(bodies.begin(), bodies.end(), [](const ParameterValues& table) { return table.number("bodies.jitter_m") > 0.0; });
+}
 
 }  // namespace
 
@@ -18,8 +26,12 @@ std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study,
     const ParameterValues values = read_placed_surface_study(study);  // the points lie in other folders
     require_free_seed(axes, k_seed, repeats);
     std::vector<SweepPoint> points;
-    std::vector<Mistake> mistakes;
+    Mistakes mistakes;
     for (const KeySetting& setting : key_settings(table, values, axes)) {
+        mistakes.gather([&] {
+            require_random(has_jitter(setting.values), repeats, safe_name(study.stem().string()) + setting.name,
+                           "the jitter of the bodies' places", "Give [[bodies]] a jitter_m above 0");
+        });
         for (int repeat = 0; repeat < repeats; ++repeat) {
             KeySetting one{safe_name(study.stem().string()) + setting.name, setting.values};
             if (repeats > 1) {
@@ -32,12 +44,12 @@ std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study,
             try {
                 require_surface_study(text, one.name);
             } catch (const UserError& error) {
-                for (const Mistake& mistake : error.mistakes()) mistakes.push_back(of_point(mistake, one.name));
+                for (const Mistake& mistake : error.mistakes()) mistakes.add(of_point(mistake, one.name));
             }
             points.push_back({one.name, text, "", {}});
         }
     }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    mistakes.refuse();
     return points;
 }
 

@@ -457,6 +457,8 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     if (!early.gather([&] {
             base = read_study(study);
             settings = key_settings(study_table(), base, axes.keys);
+            require_random(!base.tables("feed").empty(), axes.repeats, study.string(), "placement and release of their rock",
+                           "Give the study a [[feed]]");
         }))
         early.refuse();
     std::vector<Mistake> mistakes = early.take();

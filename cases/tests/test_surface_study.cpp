@@ -151,6 +151,24 @@ TEST_F(SurfaceStudy, sweep_sets_the_tables_that_give_a_key_and_pairs_the_seeds) 
     EXPECT_EQ(values(3).number("contact.friction"), 0.1);
 }
 
+// Their scatter would be 0, and a difference certain.
+TEST_F(SurfaceStudy, sweep_repeats_nothing_that_has_no_jitter) {
+    const auto refusal_of = [&](const std::string& text, const std::vector<std::string>& set, int repeats) -> std::string {
+        try {
+            surface_sweep_points(write("dam.toml", text), key_axes(surface_study_table(), set, "params"), repeats);
+        } catch (const UserError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string jitter = surface_study_template("dam"), none = replaced(jitter, "jitter_m = 1e-5", "jitter_m = 0.0");
+    EXPECT_EQ(refusal_of(jitter, {}, 3), "");
+    EXPECT_EQ(refusal_of(none, {}, 1), "");
+    EXPECT_THAT(refusal_of(none, {}, 3), AllOf(HasSubstr("dam: --repeats 3"), HasSubstr("jitter of the bodies' places"),
+                                               HasSubstr("jitter_m above 0, or leave --repeats out")));
+    EXPECT_THAT(refusal_of(jitter, {"bodies.jitter_m=0,1e-5"}, 3), AllOf(HasSubstr("dam_jitter_m_0: "), Not(HasSubstr("1e-5: "))));
+}
+
 TEST_F(SurfaceStudy, sweep_names_wrong_keys_and_values) {
     const auto text_of = [](const std::function<void()>& act) {
         try {

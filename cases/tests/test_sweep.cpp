@@ -151,6 +151,18 @@ TEST_F(Sweep, refuses_a_point_whose_feed_does_not_use_a_key) {
     expect_refused("feed.kind=batch,cut_face", "study_kind_cut_face: feed.azimuth_width_deg = 30. It places a batch");
 }
 
+TEST_F(Sweep, repeats_no_water_alone) {
+    const std::string study = read_file(folder_ / "study.toml");
+    write_file(folder_ / "study.toml", study.substr(0, study.find("[[feed]]")));
+    EXPECT_EQ(points({{}, {}, {}, 1}).size(), 1u);
+    try {
+        points({{}, {}, {}, 2});
+        FAIL() << "accepted";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("--repeats 2 of a study in which nothing is random"));
+    }
+}
+
 TEST_F(Sweep, ends_with_wrong_input_when_that_is_all_that_failed) {
     const std::string refuse = "; case $4 in *30rpm) exit 2;; *45rpm) exit CODE;; esac";
     const auto outcome_with = [&](const std::string& code) {
