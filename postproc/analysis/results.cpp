@@ -447,6 +447,7 @@ Results compute_results(const RunData& run) {
 
 json results_json(const Results& results, const RunData& run) {
     json document{{"schema", k_results_schema}};
+    document["warnings"] = run.warnings;
     document["run"] = {{"name", run.operating_point.study_name}, {"finished", results.finished}, {"end_time_s", results.end_time}};
     document["rock"] = results.spillage ? rock_json(results) : json(nullptr);
     document["spillage"] = results.spillage ? spillage_json(*results.spillage, results.outflow) : json(nullptr);

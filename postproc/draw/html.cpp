@@ -188,6 +188,12 @@ std::string section(const std::string& title, const std::string& content) {
     return fmt::format("<section><h2>{}</h2>\n{}</section>\n", title, content);
 }
 
+std::string notices(const std::vector<std::string>& texts) {
+    std::string markup;
+    for (const std::string& text : texts) markup += fmt::format("<p class=\"notice\">{}.</p>\n", escape(text));
+    return markup;
+}
+
 std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail) {
     return fmt::format(
         "<div class=\"answer\" style=\"--colour: {}\"><div class=\"label\">{}</div><div class=\"value\">{}</div>"

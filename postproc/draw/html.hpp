@@ -31,6 +31,9 @@ std::string legend(const std::vector<std::pair<std::string, std::string>>& entri
 
 std::string section(const std::string& title, const std::string& content);
 
+/// A block for each text that a reader has to know before the numbers. \param texts  not markup, without a final dot
+std::string notices(const std::vector<std::string>& texts);
+
 /// A box with one number: its label, the value in large letters, a detail; all markup. \param colour  of its upper edge
 std::string answer(const char* colour, const std::string& label, const std::string& value, const std::string& detail);
 

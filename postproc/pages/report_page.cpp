@@ -583,7 +583,7 @@ std::string version_section(const json& versions) {
 void write_report_page(const Page& page, const Results& results, const RunData& run, const PageFigures& figures) {
     const std::string title = run.operating_point.study_name.empty() ? std::string("Cutter head") : escape(run.operating_point.study_name);
     std::string body = header(results, run) + page.how_to_make_live("cutterflow report RUN");
-    body += unfinished_notice(results, run.flow.has_value());
+    body += unfinished_notice(results, run.flow.has_value()) + html::notices(run.warnings);
     body += answer_section(results, run, figures);
     if (!figures.note.empty()) body += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
     body += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);

@@ -14,6 +14,7 @@
 #include "geometry/base/toml.hpp"
 #include "geometry/head/head_names.hpp"
 #include "postproc/run/input_files.hpp"
+#include "postproc/run/solver_starts.hpp"
 #include "postproc/run/study_setting.hpp"
 
 namespace cutterflow::postproc {
@@ -295,6 +296,7 @@ void read_cost(RunData& run) {
     const auto folders = start_folders(run.directory, "cost");
     run.cost_summary = folders.empty() ? json::object() : read_json(folders.back().second / "cost.json", k_cost_fields);
     run.finished = !run.cost_summary.empty();
+    run.warnings = first_warnings(solver_warnings(run.directory));
 }
 
 void read_setting(RunData& run, const StudyReader& study) {

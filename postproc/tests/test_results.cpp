@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
@@ -42,7 +43,8 @@ TEST(ResultsJson, has_every_key_of_the_contract) {
     const json results = document_of_small_run("contract");
     EXPECT_EQ(results.at("schema"), "cutterflow.results/1");
     expect_keys(results,
-                {"rock", "spillage", "conservation", "rotor", "operation", "scale", "cost", "models", "not_modelled", "mesh", "versions"},
+                {"warnings", "rock", "spillage", "conservation", "rotor", "operation", "scale", "cost", "models", "not_modelled", "mesh",
+                 "versions"},
                 "");
     expect_keys(results.at("rock"), {"requested", "placed", "rejected", "fates"}, "rock");
     for (const char* fate : {"sucked_up", "spilled", "in_cutter", "never_entered"}) {
@@ -271,6 +273,31 @@ TEST(ResultsJson, a_resumed_run_gives_the_numbers_of_an_uninterrupted_one) {
         same["run"]["name"] = "small run";
         return same.dump(2);
     }());
+}
+
+// The last start may have had nothing to warn of.
+TEST(ResultsJson, warnings_are_those_of_all_starts) {
+    SmallRun run("warnings");
+    run.write();
+    EXPECT_EQ(document_of(run).at("warnings"), json::array());
+    fs::remove_all(run.directory / "postProcessing");
+    run.write_tables("0", 0.0, 1.5);
+    run.write_tables("1.5", 1.5, 2.0);
+    const fs::path cost = run.directory / "postProcessing/cost";
+    const auto warn = [&](const char* start, const std::vector<std::string>& texts) {
+        json summary = json::parse(testing::read_text(cost / start / "cost.json"));
+        summary["warnings"] = texts;
+        testing::write_text(cost / start / "cost.json", summary.dump());
+    };
+    warn("0", {"time 0.5 s: 64 cells hold <much> rock"});
+    warn("1.5", {"time 1.9 s: the end"});
+    EXPECT_EQ(document_of(run).at("warnings"), json::array({"time 0.5 s: 64 cells hold <much> rock", "time 1.9 s: the end"}));
+    write_report(run.directory);
+    EXPECT_THAT(testing::read_text(run.directory / "report/index.html"),
+                ::testing::HasSubstr("<p class=\"notice\">time 0.5 s: 64 cells hold &lt;much&gt; rock.</p>"));
+    warn("1.5", std::vector<std::string>(12, "time 1.9 s: again"));
+    EXPECT_EQ(document_of(run).at("warnings").size(), 11u);
+    EXPECT_EQ(document_of(run).at("warnings").back(), "3 more are in cost.json of postProcessing/cost");
 }
 
 TEST(ResultsJson, pure_flow_has_outflow_and_no_rock) {

@@ -164,8 +164,7 @@ void report(const ReportOptions& options) {
     const postproc::ReportSummary summary =
         options.still_folder ? postproc::publish_report(options.folder, *options.still_folder) : postproc::write_report(options.folder);
     if (!summary.note.empty()) say(summary.note);
-    std::cout << (options.json ? read_file(summary.results_file) : fmt::format("the report: {}\n", summary.page_file.string()))
-              << std::flush;
+    say_report(summary.results_file, summary.page_file, options.json);
 }
 
 std::vector<cases::SweepPoint> points(const SweepOptions& options, const fs::path& folder) {

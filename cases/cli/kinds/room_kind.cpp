@@ -139,15 +139,8 @@ void prepare(const RunOptions& options) {
 
 /// results.json, or warnings, the measures and where the report is. \pre the report is written
 void say_results(const fs::path& folder, bool json) {
-    const std::string results = read_file(folder / names::results_json);
-    if (json) {
-        std::cout << results << std::flush;
-        return;
-    }
-    const nlohmann::json read = nlohmann::json::parse(results);
-    for (const nlohmann::json& warning : read.value("warnings", nlohmann::json::array())) say("warning: " + warning.get<std::string>());
-    if (postproc::has_measures(folder)) std::cout << postproc::measures_text(postproc::read_measures(folder));
-    std::cout << fmt::format("the report: {}\n", (folder / names::report_page).string()) << std::flush;
+    const std::string measures = postproc::has_measures(folder) ? postproc::measures_text(postproc::read_measures(folder)) : "";
+    say_report(folder / names::results_json, folder / names::report_page, json, measures);
 }
 
 void run(const RunOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 /// \file What a user reads while the stages of a run go on.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -39,10 +40,22 @@ inline nlohmann::json mistakes_json(const std::vector<Mistake>& mistakes) {
     return list;
 }
 
+/// The report's results, or what the solver warned of and where the page is.
+/// \param lines  between the two
+inline void say_report(const std::filesystem::path& results_file, const std::filesystem::path& page, bool json,
+                       const std::string& lines = {}) {
+    const std::string results = read_file(results_file);
+    if (json) {
+        std::cout << results << std::flush;
+        return;
+    }
+    for (const nlohmann::json& warning : nlohmann::json::parse(results).value("warnings", nlohmann::json::array()))
+        say("warning: " + warning.get<std::string>());
+    std::cout << lines << fmt::format("the report: {}\n", page.string()) << std::flush;
+}
+
 inline void say_where_the_report_is(const RunOptions& options, const cases::RunDirectory& directory) {
-    std::cout << (options.json ? read_file(directory.file(names::results_json))
-                               : fmt::format("the report: {}\n", directory.file(names::report_page).string()))
-              << std::flush;
+    say_report(directory.file(names::results_json), directory.file(names::report_page), options.json);
 }
 
 }  // namespace cutterflow::cli

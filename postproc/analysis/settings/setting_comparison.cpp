@@ -286,8 +286,7 @@ fs::path write_setting_comparison(const std::vector<SettingResults>& settings, c
     require_own_folder(folder, "comparison.json");
     fs::create_directories(folder);
     write_file(folder / "comparison.json", setting_comparison_json(settings, schema).dump(2) + "\n");
-    std::string body = "<header><h1>Comparison of runs</h1></header>\n";
-    for (const std::string& warning : warnings_of(settings)) body += fmt::format("<p class=\"notice\">{}.</p>\n", html::escape(warning));
+    std::string body = "<header><h1>Comparison of runs</h1></header>\n" + html::notices(warnings_of(settings));
     for (std::size_t q = 0; q < settings.front().quantities.size(); ++q) {
         if (!is_known(settings, q)) continue;
         std::vector<std::vector<std::string>> rows;

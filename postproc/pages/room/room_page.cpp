@@ -22,6 +22,7 @@
 #include "postproc/pages/room/room_pictures.hpp"
 #include "postproc/run/run_reader.hpp"
 #include "postproc/run/run_table.hpp"
+#include "postproc/run/solver_starts.hpp"
 
 namespace cutterflow::postproc {
 
@@ -33,7 +34,6 @@ constexpr const char* k_schema = "cutterflow.room_comparison/1";
 constexpr const char* k_account = "rock/account.csv";
 constexpr const char* k_contacts = "rock/contacts.csv";
 constexpr double k_moved_whole = 0.99;  // of what feeds and extractions are asked for
-constexpr std::size_t k_most_warnings = 10;
 constexpr double k_deep_overlap = 0.1;  // of a radius
 constexpr const char* k_dry_bed =
     "Grains are spheres or rigid clumps; they neither break nor wear nor stick together. The preparation is computed without a medium.";
@@ -54,29 +54,14 @@ nlohmann::json cost_of(const fs::path& run) {
     return cost;
 }
 
-/// What the solver warned of in all starts of a run or of a part of its preparation.
-std::vector<std::string> solver_warnings(const fs::path& run) {
-    std::vector<std::string> warnings;
-    for (const auto& [time, folder] : start_folders(run, "cost")) {
-        const nlohmann::json cost = read_if_there(folder / "cost.json");
-        for (const nlohmann::json& warning : cost.value("warnings", nlohmann::json::array()))
-            warnings.push_back(warning.get<std::string>());
-    }
-    return warnings;
-}
-
-/// Of preparation and run, those that came first; a run can have very many.
-std::vector<std::string> first_warnings(const fs::path& run, const nlohmann::json& bed) {
+/// Of preparation and run, those that came first.
+std::vector<std::string> warnings_of(const fs::path& run, const nlohmann::json& bed) {
     std::vector<std::string> warnings;
     for (int part = 1; !bed.is_null() && part <= bed.at("parts").get<int>(); ++part)
         for (const std::string& warning : solver_warnings(run / "bed" / std::to_string(part)))
             warnings.push_back(fmt::format("bed/{}: {}", part, warning));
     for (std::string& warning : solver_warnings(run)) warnings.push_back(std::move(warning));
-    if (warnings.size() <= k_most_warnings) return warnings;
-    const std::size_t more = warnings.size() - k_most_warnings;
-    warnings.resize(k_most_warnings);
-    warnings.push_back(fmt::format("{} more are in cost.json of postProcessing/cost", more));
-    return warnings;
+    return first_warnings(std::move(warnings));
 }
 
 /// Core seconds of a stage, from the manifest.
@@ -133,7 +118,7 @@ nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const
             {"bed", room.value("bed", nlohmann::json())},
             {"account", account_of(source, room)},
             {"largest_overlap", largest_overlap(source)},
-            {"warnings", first_warnings(run, room.value("bed", nlohmann::json()))},
+            {"warnings", warnings_of(run, room.value("bed", nlohmann::json()))},
             {"core_s", {{"bed", core_seconds(manifest, "bed")}, {"run", core_seconds(manifest, "run")}}}};
 }
 
@@ -154,13 +139,6 @@ std::string gravity_text(const nlohmann::json& gravity) {
     const Vec3 g(gravity.at(0).get<double>(), gravity.at(1).get<double>(), gravity.at(2).get<double>());
     const double tilt = std::atan2(std::hypot(g.x(), g.y()), -g.z()) * 180.0 / k_pi;
     return fmt::format("{:.4g} m/s2{}", g.norm(), tilt > 1e-6 ? fmt::format(", {:.4g} degrees from the vertical", tilt) : "");
-}
-
-std::string notices(const nlohmann::json& results) {
-    std::string markup;
-    for (const nlohmann::json& warning : results.at("warnings"))
-        markup += fmt::format("<p class=\"notice\">{}.</p>\n", html::escape(warning.get<std::string>()));
-    return markup;
 }
 
 /// "2500 kg/m3, 3.8 to 4.2 mm"; a clump is as large as the sphere of its volume.
@@ -316,12 +294,12 @@ fs::path write_room_report(const fs::path& run) {
     const fs::path file = run / names::report_page;
     const Page page(file, PageForm::live);
     const std::string title = html::escape(room.at("name").get<std::string>());
-    const std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + answers(results, measures) + notices(results) +
-                             html::section("What was run", what_was_run(room, results)) +
-                             (results.at("account").is_null() ? "" : html::section("What became of the grains", what_became(results))) +
-                             html::section("Grains and solids", room_pictures(page, room, source)) +
-                             (measures.empty() ? "" : measures_section(page, measures)) +
-                             html::section("Models and cost", models_and_cost(run, results)) + fmt::format("<p>{}</p>", k_dry_bed);
+    const std::string body =
+        fmt::format("<header><h1>{}</h1></header>\n", title) + answers(results, measures) +
+        html::notices(results.at("warnings").get<std::vector<std::string>>()) + html::section("What was run", what_was_run(room, results)) +
+        (results.at("account").is_null() ? "" : html::section("What became of the grains", what_became(results))) +
+        html::section("Grains and solids", room_pictures(page, room, source)) + (measures.empty() ? "" : measures_section(page, measures)) +
+        html::section("Models and cost", models_and_cost(run, results)) + fmt::format("<p>{}</p>", k_dry_bed);
     page.write(title, body, "");
     return file;
 }

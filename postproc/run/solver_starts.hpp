@@ -1,0 +1,16 @@
+#pragma once
+/// \file What the solver wrote of itself in all starts of a run: a run that was stopped and resumed has several.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cutterflow::postproc {
+
+/// What the solver warned of in all starts of a run or of a part of a room's preparation. A start that did not come to its end told
+/// nothing. \throws UserError  when a cost.json breaks its contract
+std::vector<std::string> solver_warnings(const std::filesystem::path& run);
+
+/// Those that came first, ten at most and how many more there are: a run can have very many.
+std::vector<std::string> first_warnings(std::vector<std::string> warnings);
+
+}  // namespace cutterflow::postproc
