@@ -203,8 +203,7 @@ Cost sum_cost(const RunData& run, double end_time, double revolutions) {
     cost.ranks = whole_number(run.cost_summary, "ranks");
     cost.cells = whole_number(run.mesh, "cells");
     if (!cost.cells) cost.cells = whole_number(run.cost_summary, "cells");
-    if (cost.ranks) cost.core_s = cost.wall_s * *cost.ranks;
-    if (run.flow && run.cost_summary.contains("core_s")) cost.core_s = run.cost_summary.at("core_s");
+    cost.core_s = run.core_s;
     cost.predicted = predicted_cost(run.prediction, end_time, revolutions);
     if (cost.core_s && revolutions > 0.0) cost.core_s_per_revolution = *cost.core_s / revolutions;
     for (const char* part : {"fluid", "mesh_motion", "mapping", "dem", "output"}) {
@@ -447,8 +446,8 @@ Results compute_results(const RunData& run) {
 
 json results_json(const Results& results, const RunData& run) {
     json document{{"schema", k_results_schema}};
-    document["warnings"] = run.warnings;
     document["run"] = {{"name", run.operating_point.study_name}, {"finished", results.finished}, {"end_time_s", results.end_time}};
+    document["warnings"] = run.warnings;
     document["rock"] = results.spillage ? rock_json(results) : json(nullptr);
     document["spillage"] = results.spillage ? spillage_json(*results.spillage, results.outflow) : json(nullptr);
     document["outflow"] = results.outflow.empty() ? json(nullptr) : outflow_json(results.outflow);

@@ -113,7 +113,7 @@ struct PredictedCost {
 
 struct Cost {
     double wall_s = 0.0;           ///< sum over the steps
-    std::optional<double> core_s;  ///< wall_s times ranks
+    std::optional<double> core_s;  ///< as RunData::core_s
     std::size_t steps = 0;
     std::optional<int> cells, ranks;
     std::optional<double> core_s_per_revolution;

@@ -547,7 +547,7 @@ std::string prediction_table(const Cost& cost) {
     rows.push_back(
         row("time steps", fmt::format("{:.0f}", p.steps), fmt::format("{}", cost.steps), p.steps / static_cast<double>(cost.steps) - 1.0));
     if (cost.core_s)
-        rows.push_back(row("core time of the steps", duration(p.core_s), duration(*cost.core_s), p.core_s / *cost.core_s - 1.0));
+        rows.push_back(row("core time of the solver", duration(p.core_s), duration(*cost.core_s), p.core_s / *cost.core_s - 1.0));
     return html::table({"for the time that the run went through", "predicted", "actual", "error"}, rows, true);
 }
 

@@ -296,6 +296,7 @@ void read_cost(RunData& run) {
     const auto folders = start_folders(run.directory, "cost");
     run.cost_summary = folders.empty() ? json::object() : read_json(folders.back().second / "cost.json", k_cost_fields);
     run.finished = !run.cost_summary.empty();
+    run.core_s = solver_core_seconds(run.directory);
     run.warnings = first_warnings(solver_warnings(run.directory));
 }
 

@@ -106,6 +106,7 @@ struct RunData {
     std::string release{};                                  ///< as StudySetting::release
     int seed = 0;                                           ///< of the first feed
     nlohmann::json prediction{};                            ///< of the run's cost, before it; empty when the file is absent
+    std::optional<double> core_s{};                         ///< of the solver in all starts, as solver_core_seconds
     std::vector<std::string> warnings{};                    ///< of the solver, as first_warnings
     std::optional<RecordedFlow> flow{};                     ///< of a replay, which has rock: all but rock, feed and cost is then that run's
 

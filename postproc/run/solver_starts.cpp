@@ -1,5 +1,7 @@
 #include "postproc/run/solver_starts.hpp"
 
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "geometry/base/json_document.hpp"
@@ -18,7 +20,15 @@ constexpr std::size_t k_most_warnings = 10;
 json summary_of(const fs::path& start) {
     const fs::path file = start / "cost.json";
     if (!fs::exists(file)) return json::object();
-    return read_json_document(file, {{"warnings/*", JsonKind::text}}, k_rerun);
+    return read_json_document(file, {{"ranks", JsonKind::whole}, {"core_s", JsonKind::number}, {"warnings/*", JsonKind::text}}, k_rerun);
+}
+
+/// Wall time of the steps of a start [s].
+double wall_seconds(const fs::path& start) {
+    const fs::path file = start / "cost.csv";
+    if (!fs::exists(file)) return 0.0;
+    const std::vector<double> steps = read_table(file, {{"step_s"}, {}, {}, k_rerun}).number("step_s");
+    return std::accumulate(steps.begin(), steps.end(), 0.0);
 }
 
 }  // namespace
@@ -36,6 +46,21 @@ std::vector<std::string> first_warnings(std::vector<std::string> warnings) {
     warnings.resize(k_most_warnings);
     warnings.push_back(fmt::format("{} more are in cost.json of postProcessing/cost", more));
     return warnings;
+}
+
+std::optional<double> solver_core_seconds(const fs::path& run) {
+    std::optional<int> ranks;  // of the last start that told them
+    double told = 0.0, wall_of_others = 0.0;
+    for (const auto& [time, start] : start_folders(run, "cost")) {
+        const json summary = summary_of(start);
+        if (summary.contains("ranks")) ranks = summary.at("ranks").get<int>();
+        if (summary.contains("core_s"))
+            told += summary.at("core_s").get<double>();
+        else
+            wall_of_others += wall_seconds(start);
+    }
+    if (!ranks) return std::nullopt;
+    return told + wall_of_others * *ranks;
 }
 
 }  // namespace cutterflow::postproc

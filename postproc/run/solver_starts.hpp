@@ -1,6 +1,7 @@
 #pragma once
 /// \file What the solver wrote of itself in all starts of a run: a run that was stopped and resumed has several.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,11 @@ std::vector<std::string> solver_warnings(const std::filesystem::path& run);
 
 /// Those that came first, ten at most and how many more there are: a run can have very many.
 std::vector<std::string> first_warnings(std::vector<std::string> warnings);
+
+/// Processor time of all ranks over all starts of a run [s], as their cost.json have it. A start that did not come to its end has none: its
+/// part is the wall time of its steps times the ranks of the last start that told its own.
+/// \return nothing while no start came to its end
+/// \throws UserError  when a cost.json or a cost.csv breaks its contract
+std::optional<double> solver_core_seconds(const std::filesystem::path& run);
 
 }  // namespace cutterflow::postproc
