@@ -1,10 +1,13 @@
 #include "postproc/run/solver_starts.hpp"
 
 #include <numeric>
+#include <sstream>
 
 #include <fmt/format.h>
 
+#include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
+#include "geometry/base/run_files.hpp"
 #include "postproc/run/run_table.hpp"
 
 namespace cutterflow::postproc {
@@ -31,12 +34,22 @@ double wall_seconds(const fs::path& start) {
     return std::accumulate(steps.begin(), steps.end(), 0.0);
 }
 
+/// What the solver warned of in a start; earlier programs told it at its end.
+std::vector<std::string> warnings_of(const fs::path& start) {
+    const fs::path file = start / names::warnings;
+    if (!fs::exists(file)) return summary_of(start).value("warnings", std::vector<std::string>());
+    std::vector<std::string> warnings;
+    std::istringstream text(read_file(file));
+    for (std::string line; std::getline(text, line);) warnings.push_back(line);
+    return warnings;
+}
+
 }  // namespace
 
 std::vector<std::string> solver_warnings(const fs::path& run) {
     std::vector<std::string> warnings;
     for (const auto& [time, start] : start_folders(run, "cost"))
-        for (const json& warning : summary_of(start).value("warnings", json::array())) warnings.push_back(warning.get<std::string>());
+        for (std::string& warning : warnings_of(start)) warnings.push_back(std::move(warning));
     return warnings;
 }
 
@@ -44,7 +57,7 @@ std::vector<std::string> first_warnings(std::vector<std::string> warnings) {
     if (warnings.size() <= k_most_warnings) return warnings;
     const std::size_t more = warnings.size() - k_most_warnings;
     warnings.resize(k_most_warnings);
-    warnings.push_back(fmt::format("{} more are in cost.json of postProcessing/cost", more));
+    warnings.push_back(fmt::format("{} more are in postProcessing/cost/*/{}", more, names::warnings));
     return warnings;
 }
 

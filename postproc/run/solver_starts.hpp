@@ -7,8 +7,8 @@
 
 namespace cutterflow::postproc {
 
-/// What the solver warned of in all starts of a run or of a part of a room's preparation. A start that did not come to its end told
-/// nothing. \throws UserError  when a cost.json breaks its contract
+/// What the solver warned of in all starts of a run or of a part of a room's preparation. \throws UserError  when a cost.json breaks its
+/// contract
 std::vector<std::string> solver_warnings(const std::filesystem::path& run);
 
 /// Those that came first, ten at most and how many more there are: a run can have very many.

@@ -319,7 +319,7 @@ TEST(ResultsJson, warnings_are_those_of_all_starts) {
                 ::testing::HasSubstr("<p class=\"notice\">time 0.5 s: 64 cells hold &lt;much&gt; rock.</p>"));
     warn("1.5", std::vector<std::string>(12, "time 1.9 s: again"));
     EXPECT_EQ(document_of(run).at("warnings").size(), 11u);
-    EXPECT_EQ(document_of(run).at("warnings").back(), "3 more are in cost.json of postProcessing/cost");
+    EXPECT_EQ(document_of(run).at("warnings").back(), "3 more are in postProcessing/cost/*/warnings.txt");
 }
 
 TEST(ResultsJson, pure_flow_has_outflow_and_no_rock) {

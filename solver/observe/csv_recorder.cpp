@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/run_files.hpp"
 #include "geometry/head/axial_bins.hpp"
 #include "solver/observe/velocity/velocity_tables.hpp"
 
@@ -41,6 +42,8 @@ void CsvRecorder::begin() {
         "rocks,contacts,"
         "exchanged_volume_m3,exchanged_momentum_n_s");
     cost_ = open("cost", "cost.csv", "time_s,step_s,fluid_s,mesh_motion_s,mapping_s,dem_s,output_s");
+    warnings_.open(folder("cost") / names::warnings);
+    require_written(warnings_, folder("cost") / names::warnings);
     if (settings_.outflow && settings_.fates) {
         std::string header = "time_s";
         for (const geometry::AxialBin& bin : geometry::axial_bins(read_contour(*settings_.fates), settings_.fates->bin_width))
@@ -287,13 +290,14 @@ void CsvRecorder::finished(const RunCost& cost) {
     json["models"] = nlohmann::json::array();
     for (const ModelNote& model : models_) json["models"].push_back({{"name", model.name}, {"why", model.why}});
     json["versions"] = versions_;
-    json["warnings"] = warnings_;
     write_file(folder("cost") / "cost.json", json.dump(2) + "\n");
 }
 
 void CsvRecorder::warning(double time, const std::string& text) {
-    warnings_.push_back(fmt::format("time {:.6g} s: {}", time, text));
-    std::cerr << "cutterFoam: warning: " << warnings_.back() << std::endl;
+    const std::string line = fmt::format("time {:.6g} s: {}", time, text);
+    std::cerr << "cutterFoam: warning: " << line << std::endl;
+    warnings_ << line << std::endl;  // on the disk at once, whatever becomes of this start
+    require_written(warnings_, folder("cost") / names::warnings);
 }
 
 void CsvRecorder::flush() {

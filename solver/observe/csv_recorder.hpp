@@ -39,7 +39,7 @@ public:
     void outcomes(gsl::span<const RockOutcome> outcomes) override;
     void velocity(const VelocitySets& sets, double time) override;
     void finished(const RunCost& cost) override;
-    /// Written to standard error at once and to cost.json.
+    /// Written to standard error and to a file at once.
     void warning(double time, const std::string& text) override;
     void flush() override;
 
@@ -54,10 +54,9 @@ private:
     double start_time_;
     std::string start_;
     std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, flux_, loads_, balance_,
-        cost_;
+        cost_, warnings_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;
-    std::vector<std::string> warnings_;
     std::map<std::string, std::string> versions_;
 };
 

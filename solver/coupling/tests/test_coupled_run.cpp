@@ -1122,6 +1122,15 @@ TEST(CsvRecorder, has_tables_as_far_as_its_pictures) {
     EXPECT_NE(text_of(rejected).find("7,0.25,no_room"), std::string::npos);
 }
 
+TEST(CsvRecorder, keeps_the_warnings_of_a_start_that_is_killed) {
+    const TemporaryFolder folder;
+    CsvRecorder recorder(folder.path(), case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), 0.5);
+    recorder.begin();
+    recorder.warning(0.75, "events[0] (remove) finds nothing in its region");
+    EXPECT_EQ(text_of(folder.path() / "postProcessing/cost/0.5/warnings.txt"),
+              "time 0.75 s: events[0] (remove) finds nothing in its region\n");
+}
+
 TEST(CsvRecorder, writes_the_files_of_the_contract) {
     const TemporaryFolder folder;
     CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n2,0,-0.1,0.02,-0.05,0.02,2650\n");

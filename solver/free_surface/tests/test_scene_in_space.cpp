@@ -10,6 +10,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/io/read_surface.hpp"
 #include "solver/free_surface/scene_file/scene_file.hpp"
 
 namespace cutterflow::free_surface {
