@@ -74,10 +74,7 @@ public:
         Names names(file_.studies.size());
         std::vector<SweepPoint> points;
         for (std::size_t study = 0; study < file_.studies.size(); ++study) {
-            std::vector<SweepPoint> all = points_at(study, answer, file_.repeats + file_.repeats_at_answer);
-            all.erase(all.begin(), all.begin() + file_.repeats);
-            for (SweepPoint& point : all) point.start_donor = &point == &all.front() ? "" : all.front().name;
-            add(points, names[study], std::move(all));
+            add(points, names[study], points_at(study, answer, {file_.repeats_at_answer, file_.repeats}));
         }
         return {answer, values_of(names, file_.measured.size(), run(points))};
     }
@@ -110,7 +107,7 @@ private:
         return place;
     }
 
-    std::vector<SweepPoint> points_at(std::size_t study, const Eigen::VectorXd& place, int repeats) const {
+    std::vector<SweepPoint> points_at(std::size_t study, const Eigen::VectorXd& place, const RepeatRange& repeats) const {
         std::vector<KeyAxis> axes;
         for (std::size_t k = 0; k < file_.parameters.size(); ++k)
             axes.push_back({file_.parameters[k].key, {number_text(place[static_cast<Eigen::Index>(k)])}});

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t k_most_parameters = 4;
 constexpr int k_default_values = 5;
-constexpr int k_profile_places = 100;  // N of the profile error [WasserfallCoetzeeMeyer2024]
+constexpr double k_between = 0.3819660113;  // place in a range that is no value of a grid and no whole number
+constexpr int k_profile_places = 100;       // N of the profile error [WasserfallCoetzeeMeyer2024]
 
 std::vector<std::string> objective_names() {
     std::vector<std::string> names;
@@ -157,8 +158,8 @@ public:
         found_.measured = fitted_measured_;
         found_.measured.insert(found_.measured.end(), held_out_measured_.begin(), held_out_measured_.end());
         check_whole(values);
-        check_points();
         if (read.complete) read_budget(values);
+        check_points();
         if (read.complete && studies_are_sound_) mistakes_.gather([&] { check_plan(); });
         mistakes_.refuse();
         found_.identity = identity(values) + profiles_;
@@ -399,12 +400,18 @@ private:
     /// The keys, the ends of the ranges and the grid are allowed in all studies.
     void check_points() {
         for (const fs::path& study : found_.studies) {
-            const bool sound = fs::exists(study) && mistakes_.gather([&] { access_.points(study, {}, 1, fs::path("runs")); });
+            const bool sound = fs::exists(study) && mistakes_.gather([&] { require_repeats(study); });
             studies_are_sound_ = studies_are_sound_ && sound;
             for (std::size_t n = 0; sound && n < found_.parameters.size(); ++n)
                 if (!found_.parameters[n].key.empty()) check_parameter(study, found_.parameters[n], places_[n]);
             if (sound && mistakes_.empty()) check_together(study);
         }
+    }
+
+    /// The study, and as many repeats of it as places and the answer take.
+    void require_repeats(const fs::path& study) const {
+        access_.points(study, {}, found_.repeats, fs::path("runs"));
+        access_.points(study, {}, {found_.repeats_at_answer, found_.repeats}, fs::path("runs"));
     }
 
     /// The parameters set different tables.
@@ -420,6 +427,23 @@ private:
         std::vector<std::string> texts;
         for (const double value : all) texts.push_back(number_text(value));
         require_points(study, {{parameter.key, texts}}, place);
+        if (found_.method != "grid") check_between(study, parameter, place);
+    }
+
+    /// Methods that choose places themselves take them from all of the range.
+    void check_between(const fs::path& study, const CalibratedParameter& parameter, const std::string& place) {
+        const double between = parameter.range.low + k_between * (parameter.range.high - parameter.range.low);
+        const auto takes = [&](double value) {
+            Mistakes refused;
+            return refused.gather([&] { access_.points(study, {{parameter.key, {number_text(value)}}}, 1, fs::path("runs")); });
+        };
+        if (takes(between)) return;
+        if (takes(std::round(between)))
+            mistakes_.add({place, fmt::format("{}: {} takes whole numbers alone", study.string(), parameter.key),
+                           fmt::format("method = \"{}\" looks for places between those of the grid", found_.method),
+                           "Use method = \"grid\""});
+        else
+            require_points(study, {{parameter.key, {number_text(between)}}}, place);
     }
 
     void require_points(const fs::path& study, const std::vector<KeyAxis>& axes, const std::string& place) {

@@ -24,7 +24,9 @@ struct StudyAccess {
     using Path = std::filesystem::path;
     /// As of a sweep: all combinations of the axes' values, repeats differ in the seed.
     /// \throws UserError  with every mistake: unknown keys, values that a study does not take
-    std::function<std::vector<SweepPoint>(const Path& study, const std::vector<KeyAxis>& axes, int repeats, const Path& folder)> points;
+    std::function<std::vector<SweepPoint>(const Path& study, const std::vector<KeyAxis>& axes, const RepeatRange& repeats,
+                                          const Path& folder)>
+        points;
     /// Core seconds of one run; none where the kind has no prediction without building a case.
     std::function<std::optional<double>(const Path& study)> predicted_core_s;
     /// A study's measures; empty where the results are those of its kind.

@@ -29,7 +29,8 @@ std::vector<std::string> words_of(const std::vector<cases::KeyAxis>& axes) {
     return words;
 }
 
-std::vector<cases::SweepPoint> points(const fs::path& study, const std::vector<cases::KeyAxis>& axes, int repeats, const fs::path& folder) {
+std::vector<cases::SweepPoint> points(const fs::path& study, const std::vector<cases::KeyAxis>& axes, const cases::RepeatRange& repeats,
+                                      const fs::path& folder) {
     SweepOptions options;
     options.study = study.string();
     options.axes.repeats = repeats;

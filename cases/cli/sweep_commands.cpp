@@ -54,8 +54,8 @@ void require_recorded_points(const SweepOptions& options) {
     Mistakes mistakes;
     mistakes.require(options.replay_study.empty() || options.replays > 0, "--replay-study without --replay",
                      "It names the study whose rock is replayed", "Add --replay N");
-    mistakes.require(options.replay_study.empty() || options.axes.repeats == 1,
-                     fmt::format("--replay-study with --repeats {}", options.axes.repeats),
+    mistakes.require(options.replay_study.empty() || options.axes.repeats.count == 1,
+                     fmt::format("--replay-study with --repeats {}", options.axes.repeats.count),
                      "Another study's rock is replayed in one flow of each setting", "Leave --repeats out");
     mistakes.require(options.replay_study.empty() || fs::exists(options.replay_study),
                      fmt::format("--replay-study {} does not exist", options.replay_study), "Its path is relative to the current folder",
@@ -203,7 +203,7 @@ void add_sweep(CLI::App& app) {
     command->add_option("--design", options->axes.designs, "Surfaces of cutters, as a.stl,b.stl")->delimiter(',');
     command->add_option("--set", options->set, "Values of a key of the study, as swing.speed_m_min=4,8; may be given again")->take_all();
     command
-        ->add_option("--repeats", options->axes.repeats,
+        ->add_option("--repeats", options->axes.repeats.count,
                      "Repeats that differ by placement and angle of release; three or more give intervals")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();

@@ -182,16 +182,16 @@ std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std
     return axes;
 }
 
-void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, int repeats) {
-    if (repeats > 1 && std::any_of(axes.begin(), axes.end(), [&](const KeyAxis& axis) { return axis.key == seed; }))
+void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, const RepeatRange& repeats) {
+    if (repeats.are_numbered() && std::any_of(axes.begin(), axes.end(), [&](const KeyAxis& axis) { return axis.key == seed; }))
         throw UserError(fmt::format("--set {} beside --repeats", seed), "Repeats count the seed up from the study's", "Remove one of them");
 }
 
 void require_random(bool is_random, int repeats, const std::string& point, const std::string& differ_by, const std::string& remedy) {
     if (repeats > 1 && !is_random)
-        throw UserError({{point, fmt::format("--repeats {} of a study in which nothing is random", repeats),
+        throw UserError({{point, fmt::format("{} repeats of a study in which nothing is random", repeats),
                           fmt::format("Repeats differ by {}; without it all of them are the same run", differ_by),
-                          fmt::format("{}, or leave --repeats out", remedy)}});
+                          fmt::format("{}, or run it once", remedy)}});
 }
 
 std::optional<KeyPath> find_key(const ParameterTable& table, const std::string& text) {

@@ -19,8 +19,17 @@ struct KeyAxis {
 /// \throws UserError  with every word that is no key of the table with values
 std::vector<KeyAxis> key_axes(const ParameterTable& table, const std::vector<std::string>& words, const std::string& params);
 
+/// Repeats of a setting, numbered from `first` on: repeat n has the study's seed plus n.
+struct RepeatRange {
+    int count = 1;
+    int first = 0;
+    RepeatRange(int number, int from = 0) : count(number), first(from) {}
+    /// Whether names and seeds tell repeats apart: a single one, the first, is the study itself.
+    bool are_numbered() const { return count > 1 || first > 0; }
+};
+
 /// \throws UserError  when an axis varies the seed that repeats count up
-void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, int repeats);
+void require_free_seed(const std::vector<KeyAxis>& axes, const std::string& seed, const RepeatRange& repeats);
 
 /// \param is_random  whether the seed that repeats count up changes anything of the study `point`
 /// \param differ_by, remedy  what is random in studies of the kind, and how this one gets it, for the message

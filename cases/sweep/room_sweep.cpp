@@ -32,15 +32,15 @@ void forget_single_beds(std::vector<SweepPoint>& points) {
 }  // namespace
 
 std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const ParameterValues& values,
-                                          const std::vector<KeyAxis>& axes, int repeats, int ranks) {
+                                          const std::vector<KeyAxis>& axes, const RepeatRange& repeats, int ranks) {
     const ParameterTable& table = room_table();
     require_free_seed(axes, k_seed, repeats);
     std::vector<SweepPoint> points;
     std::vector<Mistake> mistakes;
     for (const KeySetting& setting : key_settings(table, values, axes)) {
-        for (int repeat = 0; repeat < repeats; ++repeat) {
+        for (int repeat = repeats.first; repeat < repeats.first + repeats.count; ++repeat) {
             KeySetting one{safe_name(study.stem().string()) + setting.name, setting.values};
-            if (repeats > 1) {
+            if (repeats.are_numbered()) {
                 one.name += fmt::format("_repeat{}", repeat + 1);
                 one.values.set(k_seed, values.integer(k_seed) + repeat);
             }

@@ -11,6 +11,6 @@ namespace cutterflow::cases {
 /// \param values  of the study, from read_placed_room: the points lie in other folders
 /// \param ranks  of each run \throws UserError  with every mistake of all points
 std::vector<SweepPoint> room_sweep_points(const std::filesystem::path& study, const ParameterValues& values,
-                                          const std::vector<KeyAxis>& axes, int repeats, int ranks);
+                                          const std::vector<KeyAxis>& axes, const RepeatRange& repeats, int ranks);
 
 }  // namespace cutterflow::cases

@@ -21,7 +21,8 @@ bool has_jitter(const ParameterValues& values) {
 
 }  // namespace
 
-std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes, int repeats) {
+std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study, const std::vector<KeyAxis>& axes,
+                                             const RepeatRange& repeats) {
     const ParameterTable& table = surface_study_table();
     const ParameterValues values = read_placed_surface_study(study);  // the points lie in other folders
     require_free_seed(axes, k_seed, repeats);
@@ -29,12 +30,12 @@ std::vector<SweepPoint> surface_sweep_points(const std::filesystem::path& study,
     Mistakes mistakes;
     for (const KeySetting& setting : key_settings(table, values, axes)) {
         mistakes.gather([&] {
-            require_random(has_jitter(setting.values), repeats, safe_name(study.stem().string()) + setting.name,
+            require_random(has_jitter(setting.values), repeats.count, safe_name(study.stem().string()) + setting.name,
                            "the jitter of the bodies' places", "Give [[bodies]] a jitter_m above 0");
         });
-        for (int repeat = 0; repeat < repeats; ++repeat) {
+        for (int repeat = repeats.first; repeat < repeats.first + repeats.count; ++repeat) {
             KeySetting one{safe_name(study.stem().string()) + setting.name, setting.values};
-            if (repeats > 1) {
+            if (repeats.are_numbered()) {
                 one.name += fmt::format("_repeat{}", repeat + 1);
                 set_key(one.values, table, *find_key(table, k_seed),
                         [&](const ParameterValues& bodies) { return bodies.integer(k_seed) + repeat; });

@@ -45,7 +45,7 @@ struct Combination {
     std::optional<std::string> design;
     std::optional<double> speed, discharge;
     std::size_t keys = 0;  ///< index of the setting of other keys
-    int repeat = 0;
+    int repeat = 0;        ///< from 0 on
 };
 
 std::vector<Combination> combinations_of(const SweepAxes& axes, std::size_t key_settings) {
@@ -54,7 +54,7 @@ std::vector<Combination> combinations_of(const SweepAxes& axes, std::size_t key_
         for (const auto& speed : or_own(axes.speeds))
             for (const auto& discharge : or_own(axes.discharges))
                 for (std::size_t keys = 0; keys < key_settings; ++keys)
-                    for (int repeat = 0; repeat < axes.repeats; ++repeat) all.push_back({design, speed, discharge, keys, repeat});
+                    for (int repeat = 0; repeat < axes.repeats.count; ++repeat) all.push_back({design, speed, discharge, keys, repeat});
     return all;
 }
 
@@ -457,7 +457,7 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     if (!early.gather([&] {
             base = read_study(study);
             settings = key_settings(study_table(), base, axes.keys);
-            require_random(!base.tables("feed").empty(), axes.repeats, study.string(), "placement and release of their rock",
+            require_random(!base.tables("feed").empty(), axes.repeats.count, study.string(), "placement and release of their rock",
                            "Give the study a [[feed]]");
         }))
         early.refuse();
@@ -471,12 +471,13 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
         const KeySetting& keys = settings[combination.keys];
         std::string name = setting_name(combination, keys.name, study.stem().string());
         ParameterValues values = values_of(combination, keys.values, name, !axes.keys.empty());
-        const std::string first = name + "_repeat1";
-        if (axes.repeats > 1) name += fmt::format("_repeat{}", combination.repeat + 1);
+        const std::string first = fmt::format("{}_repeat{}", name, axes.repeats.first + 1);
+        const int repeat = axes.repeats.first + combination.repeat;
+        if (axes.repeats.are_numbered()) name += fmt::format("_repeat{}", repeat + 1);
         try {
             const geometry::Head& head = designs.head_of(values, cutter);
             // Repeats are released at angles within one passing of a blade.
-            vary_release(values, combination.repeat, static_cast<double>(combination.repeat) / (axes.repeats * head.symmetry.blade_count));
+            vary_release(values, repeat, static_cast<double>(combination.repeat) / (axes.repeats.count * head.symmetry.blade_count));
             const ParameterValues placed_here = values;
             values.set("cutter.file", from_studies(cutter, folder));
             if (values.has("report.adv_points"))

@@ -15,7 +15,7 @@ struct SweepAxes {
     std::vector<double> speeds;        ///< [rpm]
     std::vector<double> discharges;    ///< [m3/s]
     std::vector<std::string> designs;  ///< surfaces of cutters
-    int repeats = 1;
+    RepeatRange repeats = 1;
     std::vector<KeyAxis> keys{};  ///< other keys of the study
 };
 

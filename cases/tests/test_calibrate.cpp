@@ -73,7 +73,7 @@ protected:
     }
 
     static StudyAccess access() {
-        return {[](const fs::path& study, const std::vector<KeyAxis>& axes, int repeats, const fs::path&) {
+        return {[](const fs::path& study, const std::vector<KeyAxis>& axes, const RepeatRange& repeats, const fs::path&) {
                     std::vector<std::string> words;
                     for (const KeyAxis& axis : axes) words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
                     return surface_sweep_points(study, key_axes(surface_study_table(), words, "cutterflow params --kind free_surface"),
@@ -166,6 +166,31 @@ TEST_F(Calibrate, recovers_a_hidden_value_and_predicts_what_was_held_out) {
         EXPECT_EQ(evaluation.values.size(), 1u) << "the held-out one is not read";
     EXPECT_NEAR(outcome.calibration.cost.core_h, 0.01 * static_cast<double>(outcome.calibration.cost.runs), 1e-12);
     EXPECT_EQ(made(), outcome.calibration.cost.runs);
+}
+
+TEST_F(Calibrate, takes_a_study_in_which_nothing_is_random_once) {
+    std::string still = surface_study_template("heap");
+    still.replace(still.find("jitter_m = 1e-5"), 15, "jitter_m = 0.0");
+    write_file(folder_ / "heap.toml", still);
+    const auto text = [](const std::string& repeats) {
+        return calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"\n" + repeats, angle_target());
+    };
+    EXPECT_THAT(refusal(text("repeats = 3\nrepeats_at_answer = 1")), HasSubstr("3 repeats of a study in which nothing is random"));
+    EXPECT_THAT(refusal(text("repeats = 1\nrepeats_at_answer = 2")), HasSubstr("2 repeats of a study in which nothing is random"));
+    write(text("repeats = 1\nrepeats_at_answer = 1"));
+    const auto outcome = run();
+    ASSERT_EQ(outcome.agreements.size(), 1u);
+    EXPECT_EQ(outcome.agreements[0].runs, 1u);
+}
+
+TEST_F(Calibrate, searches_between_whole_numbers_on_a_grid_alone) {
+    const std::string layers = "[[parameter]]\nkey = \"bodies.layers\"\nrange = [2, 6]\nvalues = [2, 4, 6]\n";
+    for (const char* method : {"surface", "bobyqa"})
+        EXPECT_THAT(refusal(fmt::format("study = [\"heap.toml\"]\nmethod = \"{}\"\n[budget]\nruns = 200\ncore_h = 10\n", method) + layers +
+                            angle_target()),
+                    AllOf(HasSubstr("bodies.layers takes whole numbers"), HasSubstr("method = \"grid\"")))
+            << method;
+    EXPECT_EQ(refusal("study = [\"heap.toml\"]\nmethod = \"grid\"\n[budget]\nruns = 200\ncore_h = 10\n" + layers + angle_target()), "");
 }
 
 TEST_F(Calibrate, shares_one_set_of_parameters_between_studies) {
@@ -527,7 +552,7 @@ TEST_F(Calibrate, goes_on_with_its_own_file_alone) {
 }
 
 TEST_F(Calibrate, every_example_reads) {
-    const StudyAccess rooms{[](const fs::path& study, const std::vector<KeyAxis>& axes, int repeats, const fs::path&) {
+    const StudyAccess rooms{[](const fs::path& study, const std::vector<KeyAxis>& axes, const RepeatRange& repeats, const fs::path&) {
                                 std::vector<std::string> words;
                                 for (const KeyAxis& axis : axes)
                                     words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));

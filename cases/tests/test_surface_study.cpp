@@ -164,8 +164,8 @@ TEST_F(SurfaceStudy, sweep_repeats_nothing_that_has_no_jitter) {
     const std::string jitter = surface_study_template("dam"), none = replaced(jitter, "jitter_m = 1e-5", "jitter_m = 0.0");
     EXPECT_EQ(refusal_of(jitter, {}, 3), "");
     EXPECT_EQ(refusal_of(none, {}, 1), "");
-    EXPECT_THAT(refusal_of(none, {}, 3), AllOf(HasSubstr("dam: --repeats 3"), HasSubstr("jitter of the bodies' places"),
-                                               HasSubstr("jitter_m above 0, or leave --repeats out")));
+    EXPECT_THAT(refusal_of(none, {}, 3), AllOf(HasSubstr("dam: 3 repeats"), HasSubstr("jitter of the bodies' places"),
+                                               HasSubstr("jitter_m above 0, or run it once")));
     EXPECT_THAT(refusal_of(jitter, {"bodies.jitter_m=0,1e-5"}, 3), AllOf(HasSubstr("dam_jitter_m_0: "), Not(HasSubstr("1e-5: "))));
 }
 

@@ -159,7 +159,7 @@ TEST_F(Sweep, repeats_no_water_alone) {
         points({{}, {}, {}, 2});
         FAIL() << "accepted";
     } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("--repeats 2 of a study in which nothing is random"));
+        EXPECT_THAT(error.what(), HasSubstr("2 repeats of a study in which nothing is random"));
     }
 }
 

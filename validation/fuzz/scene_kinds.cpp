@@ -259,17 +259,16 @@ void write_calibrated_studies(const fs::path& folder) {
 }
 
 void read_calibration_file(const fs::path& folder, const std::string& file) {
-    const cases::StudyAccess access{[](const fs::path& study, const std::vector<cases::KeyAxis>& axes, int repeats, const fs::path&) {
-                                        std::vector<std::string> words;
-                                        for (const cases::KeyAxis& axis : axes)
-                                            words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
-                                        return cases::surface_sweep_points(
-                                            study, cases::key_axes(cases::surface_study_table(), words, "cutterflow params"), repeats);
-                                    },
-                                    [](const fs::path&) { return std::optional<double>(36.0); },
-                                    [](const fs::path&) {
-                                        return std::vector<cases::StudyMeasure>{{"angle"}, {"profile", true}};
-                                    }};
+    const cases::StudyAccess access{
+        [](const fs::path& study, const std::vector<cases::KeyAxis>& axes, const cases::RepeatRange& repeats, const fs::path&) {
+            std::vector<std::string> words;
+            for (const cases::KeyAxis& axis : axes) words.push_back(fmt::format("{}={}", axis.key, fmt::join(axis.values, ",")));
+            return cases::surface_sweep_points(study, cases::key_axes(cases::surface_study_table(), words, "cutterflow params"), repeats);
+        },
+        [](const fs::path&) { return std::optional<double>(36.0); },
+        [](const fs::path&) {
+            return std::vector<cases::StudyMeasure>{{"angle"}, {"profile", true}};
+        }};
     cases::read_calibration(folder / file, access);
 }
 
