@@ -444,14 +444,14 @@ bool LiggghtsEngine::Implementation::overlaps_wall(const Vec3& centre, double ra
         const double outward = side % 2 == 0 ? -1.0 : 1.0;
         if (outward * (centre[static_cast<Eigen::Index>(side / 2)] - domain.position_of(side)) + radius > 0.0) return true;
     }
-    double turns_of_rotor = 0.0, turns_of_stator = 0.0, turns_of_soil = 0.0;
+    std::vector<double> of_rotor, of_stator, of_soil;
     for (const SteelWall& wall : walls_) {
         if (wall.is_removed(time_)) continue;
         const Vec3 point = wall.pose(time_).into_frame(centre);
         if (wall.surface().is_within(point, radius)) return true;
-        (wall.may_be_open() ? turns_of_soil : wall.rotating() ? turns_of_rotor : turns_of_stator) += wall.surface().winding_number(point);
+        (wall.is_soil() ? of_soil : wall.rotating() ? of_rotor : of_stator).push_back(wall.surface().winding_number(point));
     }
-    return is_inside(turns_of_rotor) || is_inside(turns_of_stator) || is_inside(turns_of_soil);
+    return is_inside(of_rotor) || is_inside(of_stator) || is_inside(of_soil);
 }
 
 /// Box around rocks with all their spheres.

@@ -48,7 +48,7 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
     : surface_(read_stl(given.file)),
       body_(body),
       rotating_(given.rotating),
-      may_be_open_(given.material == coupling::k_soil),
+      is_soil_(given.material == coupling::k_soil),
       removed_at_(given.removed_at),
       travel_(given.travel),
       turn_(given.turn),

@@ -48,7 +48,7 @@ public:
     SteelWall(const coupling::WallSettings& given, int body, const coupling::ZoneMotion& rotor);
 
     bool rotating() const { return rotating_; }
-    bool may_be_open() const { return may_be_open_; }
+    bool is_soil() const { return is_soil_; }
     /// Whether it was taken out before or at `time` [s].
     bool is_removed(double time) const { return time >= removed_at_ * (1.0 - k_rounding); }
     const WallSurface& surface() const { return surface_; }
@@ -82,7 +82,7 @@ private:
     WallSurface surface_;
     int body_;
     bool rotating_;
-    bool may_be_open_;
+    bool is_soil_;
     double removed_at_;
     coupling::WallTravel travel_;
     coupling::WallTurn turn_;

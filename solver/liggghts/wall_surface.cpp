@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -84,6 +85,11 @@ Vec3 closest_on_segment(const Vec3& a, const Vec3& b, const Vec3& point) {
     return a + s * along;
 }
 
+bool is_whole(double turns) {
+    constexpr double tolerance = 1e-6;
+    return std::fabs(turns - std::round(turns)) < tolerance;
+}
+
 }  // namespace
 
 std::vector<Triangle> read_stl(const std::filesystem::path& file) {
@@ -131,8 +137,13 @@ double WallSurface::winding_number(const Vec3& point) const {
 }
 
 bool is_inside(double turns) {
-    constexpr double tolerance = 1e-6;
-    return std::fabs(turns) > 0.5 && std::fabs(turns - std::round(turns)) < tolerance;
+    return std::fabs(turns) > 0.5 && is_whole(turns);
+}
+
+bool is_inside(const std::vector<double>& turns) {
+    const double sum = std::accumulate(turns.begin(), turns.end(), 0.0);
+    if (is_whole(sum)) return is_inside(sum);
+    return std::any_of(turns.begin(), turns.end(), [](double each) { return is_inside(each); });
 }
 
 }  // namespace cutterflow::liggghts

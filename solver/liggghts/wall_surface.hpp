@@ -39,8 +39,11 @@ private:
     Vec3 low_, high_;
 };
 
-/// Whether a point of winding number `turns` lies inside steel. Surfaces that form a closed one only together count by their sum; one that
-/// is not closed has no inside, as its winding number is not whole.
+/// Whether a point of winding number `turns` lies inside a surface. One that is not closed has no inside, as its winding number is not
+/// whole.
 bool is_inside(double turns);
+/// The same of surfaces that may form a closed one only together: they count by their sum, and each by itself where an open one among them
+/// leaves a fraction of a turn.
+bool is_inside(const std::vector<double>& turns);
 
 }  // namespace cutterflow::liggghts

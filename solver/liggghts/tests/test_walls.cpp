@@ -248,6 +248,12 @@ TEST(Insertion, refuses_steel_where_it_stands_now_and_inside_it) {
         {"column", write_stl(scratch_folder() / "column.stl", block(Vec3(-0.4, -0.05, -0.3), Vec3(-0.3, 0.05, 0.3), 2)), false});
     paddle.settings.walls[0].file =
         write_stl(paddle.settings.walls[1].file.parent_path() / "paddle.stl", block(Vec3(0.05, -0.01, -0.05), Vec3(0.3, 0.01, 0.05), 3));
+    // Open, and far from all rock but for the box around it.
+    paddle.settings.walls.push_back({"strip",
+                                     write_stl(paddle.settings.walls[1].file.parent_path() / "strip.stl",
+                                               {Triangle{Vec3(-0.6, -0.3, -0.5), Vec3(-0.5, -0.3, -0.5), Vec3(-0.5, -0.2, -0.5)},
+                                                Triangle{Vec3(-0.2, 0.3, 0.5), Vec3(-0.1, 0.3, 0.5), Vec3(-0.1, 0.4, 0.5)}}),
+                                     false});
     LiggghtsEngine engine(paddle.settings, {paddle.rotor}, MPI_COMM_WORLD);
     engine.advance(0.01, no_force);
     EXPECT_NEAR(engine.zone_angles().at(0), k_pi / 2.0, 1e-12);
