@@ -60,6 +60,11 @@ void check_walls(Mistakes& mistakes, const DemSettings& settings) {
         mistakes.require(turn.speed == 0.0 || (!wall.rotating && travel.velocity.norm() == 0.0),
                          fmt::format("{} turns by itself and {}", key, wall.rotating ? "with the moving zone" : "travels"),
                          "A wall moves in one way", "Remove one of them");
+        mistakes.require(!wall.rotating || travel.velocity.norm() == 0.0, fmt::format("{} turns with the moving zone and travels", key),
+                         "A wall moves in one way", "Remove one of them");
+        mistakes.require(wall.surface_velocity.norm() == 0.0 || (!wall.rotating && turn.speed == 0.0),
+                         fmt::format("{}.surfaceVelocity of a wall that turns", key), "A wall whose surface runs does not turn",
+                         "Remove one of them");
         check_press(mistakes, key, wall);
     }
     for (const char* side : k_domain_sides)
