@@ -174,7 +174,7 @@ struct RayMoments {
     }
 };
 
-/// To 1e-4 in less than a millisecond: along each of 1,000 even rays from the origin the union is exact. It changes smoothly with the
+/// To 1e-4 in less than a millisecond: along each of 2,000 even rays from the origin the union is exact. It changes smoothly with the
 /// balls.
 RayMoments moments_by_rays(const Clump& clump) {
     static const std::vector<Vec3> rays = [] {

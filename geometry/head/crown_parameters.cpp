@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
 #include "geometry/head/crown_cutter.hpp"
 
 namespace cutterflow::geometry {
@@ -110,6 +111,9 @@ std::string crown_manual_page() {
 
 CrownParameters read_crown_parameters(const std::filesystem::path& file) {
     const ParameterValues values = read_parameters(crown_parameter_table(), file);
+    if (values.has("shaft.radius_at_hub_m") && !values.has("shaft.radius_m"))
+        throw UserError({{file.string(), "shaft.radius_at_hub_m without shaft.radius_m", "A shaft has a radius at its upper end, too",
+                          "Give shaft.radius_m, or remove the key"}});
     CrownParameters p;
     p.ring_radius = values.number("ring.radius_m");
     p.ring_inner_radius = values.number("ring.inner_radius_m");

@@ -1,11 +1,16 @@
 /// Blade angle and coverage of helicoids, whose slope and width are known, and of the shipped heads.
 #include "geometry/head/blade_profile.hpp"
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "geometry/base/axis_frame.hpp"
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_content.hpp"
 #include "geometry/head/head.hpp"
 #include "geometry/surface/revolve.hpp"
 #include "geometry/tests/solids.hpp"
@@ -103,6 +108,14 @@ TEST(BladeProfile, does_not_count_shaft_and_hub_and_shows_a_ring_as_closed) {
     EXPECT_EQ(share_flatter_than(with, 80.0 * k_pi / 180.0), 1.0);
     EXPECT_EQ(share_flatter_than(with, 10.0 * k_pi / 180.0), 0.0);
     EXPECT_FALSE(share_flatter_than({{-0.1, 0.5, 1.0}}, 0.1));
+}
+
+TEST(CrownParameters, of_a_shaft_without_a_radius_are_refused) {
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("cutterflow_shaft_" + std::to_string(::getpid()) + ".toml");
+    write_file(file, "[shaft]\nradius_at_hub_m = 0.05\n");
+    EXPECT_THROW(read_crown_parameters(file), UserError);
+    std::filesystem::remove(file);
 }
 
 // Blades at least a quarter of the ring radius deep that lean, steeper than a ladder at 45 degrees.
