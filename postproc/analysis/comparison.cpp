@@ -23,7 +23,6 @@ namespace {
 
 using nlohmann::json;
 
-const double k_normal_factor = 1.959964;
 constexpr const char* k_release = "seed or time of release";  // tells repeats apart
 
 std::optional<double> half_width_of(const Sample& sample) {
@@ -33,9 +32,7 @@ std::optional<double> half_width_of(const Sample& sample) {
 
 Estimate of_average(const std::optional<TimeAverage>& average) {
     if (!average) return {};
-    Estimate estimate{average->mean, std::nullopt, std::nullopt, std::nullopt};
-    if (average->standard_error) estimate.half_width = k_normal_factor * *average->standard_error;
-    return estimate;
+    return {average->mean, average->half_interval, std::nullopt, std::nullopt};
 }
 
 Estimate plain(const std::optional<double>& value) {

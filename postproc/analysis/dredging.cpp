@@ -47,6 +47,11 @@ std::optional<WaysOut> ways_out_of(const Results& results, double by_cutting, do
     return ways;
 }
 
+bool has_spilled(const Results& results) {
+    const std::vector<BinSpillage>& bins = results.spillage->bins;
+    return std::any_of(bins.begin(), bins.end(), [](const BinSpillage& bin) { return bin.spilled.mass > 0.0; });
+}
+
 }  // namespace
 
 Dredging dredging_of(const Results& results, const RunData& run) {
@@ -95,8 +100,9 @@ std::string limits_text(const Results& results) {
     const std::optional<WaysOut>& ways = results.dredging->ways_out;
     std::string sentence = "What limits: ";
     if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts";
-    if (!ways) return results.fed->is_full ? sentence + "." : "What limits: nothing was spilled.";
-    if (results.fed->is_full) sentence += "; ";
+    if (results.fed->is_full) sentence += ways || has_spilled(results) ? "; " : ".";
+    if (!ways && !has_spilled(results)) return results.fed->is_full ? sentence : sentence + "nothing was spilled.";
+    if (!ways) return sentence + "which way rock leaves is not known, for want of mean velocities on the head's contour.";
     sentence += fmt::format(
         "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
         "flows inwards (it fell through or was thrown out)",

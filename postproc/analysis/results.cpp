@@ -104,6 +104,12 @@ RotorLoads average_loads(const RunData& run, double start, double last) {
     return rotor;
 }
 
+/// In the window of its production where a head is fed all the time, else from the first rock on.
+RotorLoads loads_of_run(const RunData& run, const Results& results) {
+    if (results.fed) return average_loads(run, results.fed->production.from, results.fed->production.to);
+    return average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start, results.end_time);
+}
+
 /// The recorded flow's own torque; what rock does to the rotor, and with it the power of the drive, is not known.
 RotorLoads loads_of_replay(const RunData& run, double end_time) {
     RotorLoads rotor = average_loads(run, run.flow->start, run.flow->end);
@@ -432,9 +438,7 @@ Results compute_results(const RunData& run) {
     results.mixing = mixing_of(run, results.outflow);
     if (run.operating_point.fed_by_cutting && run.rock && !run.rock->ledger.empty())
         results.fed = fed_head_of(run.rock->ledger, run.operating_point.revolution_s(), blade_period(run));
-    results.rotor = run.flow ? loads_of_replay(run, results.end_time)
-                             : average_loads(run, results.spillage ? results.spillage->feed_start : run.operating_point.outflow_start,
-                                             results.end_time);
+    results.rotor = run.flow ? loads_of_replay(run, results.end_time) : loads_of_run(run, results);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.fed) results.dredging = dredging_of(results, run);
     results.scale = compute_scale(run);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/base/statistics/sample.hpp"
+
 namespace cutterflow::postproc {
 namespace {
 
@@ -32,7 +34,8 @@ Integral integrate(const std::vector<double>& times, const std::vector<double>& 
     return sum;
 }
 
-std::optional<double> batch_error(const std::vector<double>& times, const std::vector<double>& values, double start, double end,
+/// Means over equal stretches; none when there are too few of them.
+std::optional<Sample> batch_means(const std::vector<double>& times, const std::vector<double>& values, double start, double end,
                                   double period) {
     // A thousandth of a period short still counts as whole: the run's end is a sum of time steps.
     const double periods = std::floor((end - start) / period + 1e-3);
@@ -46,11 +49,7 @@ std::optional<double> batch_error(const std::vector<double>& times, const std::v
         if (part.steps < k_steps_per_batch) return std::nullopt;
         means.push_back(part.value / part.duration);
     }
-    double mean = 0.0;
-    for (const double value : means) mean += value / batches;
-    double variance = 0.0;
-    for (const double value : means) variance += (value - mean) * (value - mean) / (batches - 1);
-    return std::sqrt(variance / batches);
+    return sample_of(means);
 }
 
 }  // namespace
@@ -62,7 +61,12 @@ std::optional<TimeAverage> time_average(const std::vector<double>& times, const 
     const double to = std::min(end, times.back());
     const Integral whole = integrate(times, values, from, to);
     if (!(whole.duration > 0.0)) return std::nullopt;
-    return TimeAverage{whole.value / whole.duration, batch_error(times, values, from, to, period), from, to};
+    TimeAverage average{whole.value / whole.duration, std::nullopt, std::nullopt, from, to};
+    if (const std::optional<Sample> batches = batch_means(times, values, from, to, period)) {
+        average.standard_error = standard_error(*batches);
+        average.half_interval = half_interval(*batches);
+    }
+    return average;
 }
 
 }  // namespace cutterflow::postproc

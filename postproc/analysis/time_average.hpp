@@ -8,6 +8,7 @@ namespace cutterflow::postproc {
 struct TimeAverage {
     double mean = 0.0;
     std::optional<double> standard_error;  ///< by batch means; none when the window holds too few batches or steps
+    std::optional<double> half_interval;   ///< half the 95 % interval, by Student's t of the batches; with standard_error
     double start = 0.0, end = 0.0;         ///< the part of the window that the values cover [s]
 };
 
@@ -20,7 +21,7 @@ inline constexpr int k_steps_per_batch = 5;  ///< fewer do not determine an erro
 ///
 /// The standard error of the mean comes from batch means: s / sqrt(n), s the standard deviation of n means over equal stretches. A stretch
 /// is a whole number of `period`s, so that what repeats in each period (the passing of a blade) is not taken for scatter; the stretches end
-/// with the window.
+/// with the window. Half the 95 % interval is t(0.975, n - 1) standard errors.
 /// \param times   increasing [s]
 /// \param values  as long as times
 /// \param period  [s] > 0

@@ -505,14 +505,15 @@ std::vector<PlacedFigure> report_figures(const Results& results, const RunData& 
     const std::optional<Spillage>& rock = results.spillage;
     std::vector<PlacedFigure> all;
     const auto add = [&](Place place, const Figure& figure) { all.push_back({place, figure}); };
-    if (rock) add(Place::answer, outcome(*rock));
+    const bool is_batch = rock && !run.operating_point.fed_by_cutting;  // a head that is fed all the time has a production
+    if (is_batch) add(Place::answer, outcome(*rock));
     if (rock || !results.outflow.empty()) add(Place::figures, bins(results));
     if (rock && has_outflow(results) && rock->fates.placed.mass > 0.0) add(Place::figures, top_bin(results));
     for (const auto& plane : {axial_plane(run), plane_under_ring(run)})
         if (plane) add(Place::figures, *plane);
     if (rock && !rock->first_exit_azimuths.empty()) add(Place::figures, first_exit(rock->first_exit_azimuths, bank_sector(run)));
     if (rock) add(Place::figures, fates_over_time(run.rock->fates, *rock, revolution));
-    if (rock && !run.operating_point.fed_by_cutting) add(Place::figures, ratio_over_time(run.rock->fates, *rock, revolution));
+    if (is_batch) add(Place::figures, ratio_over_time(run.rock->fates, *rock, revolution));
     const bool is_coupled = rock && !run.flow;
     add(Place::figures, torque(run.loads, results.rotor, revolution, is_coupled));
     add(Place::figures, balances(run.balance, revolution, is_coupled));

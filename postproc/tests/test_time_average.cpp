@@ -47,6 +47,7 @@ TEST(TimeAverage, batch_means_give_the_standard_error_of_the_mean) {
     ASSERT_TRUE(average && average->standard_error);
     EXPECT_NEAR(average->mean, 0.5, 1e-12);
     EXPECT_NEAR(*average->standard_error, std::sqrt(1.0 / 36.0), 1e-9);
+    EXPECT_NEAR(*average->half_interval / *average->standard_error, 2.262157, 1e-6) << "Student's t of nine degrees of freedom";
 }
 
 TEST(TimeAverage, what_repeats_every_period_is_no_scatter) {
