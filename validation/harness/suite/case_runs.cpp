@@ -75,11 +75,14 @@ std::string obstacle(const VerificationCase& one, const VerificationPlaces& plac
     return missing.empty() ? "" : fmt::format("{} not found; ./bootstrap installs and builds it", fmt::join(missing, ", "));
 }
 
-/// What a result depends on: the case's own program and cutterFoam.
+/// What a result depends on: the case's own program, cutterFoam, and what it needs of the programs beside it.
 std::string programs_hash(const VerificationCase& one, const VerificationPlaces& places) {
     std::string sum;
-    const fs::path files[] = {places.programs / one.name, places.tools / "cutterFoam"};
-    for (const fs::path& file : files) sum += fs::exists(file) ? sha256_of_file(file) : "none";
+    const auto add = [&](const fs::path& file) { sum += fs::exists(file) ? sha256_of_file(file) : "none"; };
+    add(places.programs / one.name);
+    add(places.tools / "cutterFoam");
+    for (const std::string& name : one.needs)
+        if (name != "cutterFoam") add(places.tools / name);
     return sha256(sum);
 }
 

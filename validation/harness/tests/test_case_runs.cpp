@@ -110,6 +110,19 @@ TEST_F(VerificationRun, resume_keeps_what_the_same_programs_finished) {
     EXPECT_EQ(times_run("two"), 4u);
 }
 
+TEST_F(VerificationRun, resume_runs_again_what_needs_a_program_that_changed) {
+    write_file(places_.tools / "cutterflow", "the program");
+    add_case("study", fmt::format("echo run >> {}\necho '[{}]' > $2/quantities.json", (root_ / "study.runs").string(), quantity("pass")),
+             "- class: fast\n- needs: cutterflow\n");
+    run();
+    settings_.resume = true;
+    run();
+    EXPECT_EQ(times_run("study"), 1u);
+    write_file(places_.tools / "cutterflow", "with other defaults");
+    run();
+    EXPECT_EQ(times_run("study"), 2u);
+}
+
 TEST_F(VerificationRun, counts_the_cost_of_all_starts_that_went_on) {
     add_case("goes_on", fmt::format("echo '[{}]' > $2/quantities.json", quantity("pass")), "- class: fast\n- resumes: yes\n");
     run();
