@@ -5,6 +5,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gsl/assert>
 
 #include "geometry/base/mistakes.hpp"
@@ -36,8 +37,19 @@ void check_press(Mistakes& mistakes, const std::string& key, const WallSettings&
     mistakes.positive(key + ".press.speed", wall.press->largest_speed);
     mistakes.require(std::abs(wall.press->direction.norm() - 1.0) < 1e-9, key + ".press.direction: its length",
                      wall.press->direction.norm(), "It must be 1", k_correct);
-    mistakes.require(!wall.rotating && wall.turn.speed == 0.0 && wall.travel.velocity.norm() == 0.0, key + " presses and moves by itself",
-                     "A wall moves in one way", "Remove one of them");
+}
+
+/// The surface of a wall at rest, or of one that travels or presses, may run.
+void check_motions(Mistakes& mistakes, const std::string& key, const WallSettings& wall) {
+    std::vector<std::string> ways;
+    if (wall.rotating) ways.emplace_back("turns with the moving zone");
+    if (wall.turn.speed != 0.0) ways.emplace_back("turns by itself");
+    if (wall.travel.velocity.norm() != 0.0) ways.emplace_back("travels");
+    if (wall.press) ways.emplace_back("presses");
+    mistakes.require(ways.size() <= 1, fmt::format("{} {}", key, fmt::join(ways, " and ")), "A wall moves in one way",
+                     "Remove one of them");
+    mistakes.require(wall.surface_velocity.norm() == 0.0 || (!wall.rotating && wall.turn.speed == 0.0),
+                     key + ".surfaceVelocity of a wall that turns", "A wall whose surface runs does not turn", "Remove one of them");
 }
 
 void check_walls(Mistakes& mistakes, const DemSettings& settings) {
@@ -57,15 +69,8 @@ void check_walls(Mistakes& mistakes, const DemSettings& settings) {
                          "A wall turns from a time to a later one", k_correct);
         mistakes.require(std::abs(turn.axis.direction.norm() - 1.0) < 1e-9, fmt::format("{}.turn.axis", key), "It must be of length 1",
                          k_correct);
-        mistakes.require(turn.speed == 0.0 || (!wall.rotating && travel.velocity.norm() == 0.0),
-                         fmt::format("{} turns by itself and {}", key, wall.rotating ? "with the moving zone" : "travels"),
-                         "A wall moves in one way", "Remove one of them");
-        mistakes.require(!wall.rotating || travel.velocity.norm() == 0.0, fmt::format("{} turns with the moving zone and travels", key),
-                         "A wall moves in one way", "Remove one of them");
-        mistakes.require(wall.surface_velocity.norm() == 0.0 || (!wall.rotating && turn.speed == 0.0),
-                         fmt::format("{}.surfaceVelocity of a wall that turns", key), "A wall whose surface runs does not turn",
-                         "Remove one of them");
         check_press(mistakes, key, wall);
+        check_motions(mistakes, key, wall);
     }
     for (const char* side : k_domain_sides)
         mistakes.require(names.count(side) == 0, fmt::format("rock.walls.{} is called as a side of the domain", side),

@@ -1,6 +1,7 @@
 // Settings: good ones pass, bad ones name every key.
 #include <gtest/gtest.h>
 
+#include "solver/ports/dem_settings.hpp"
 #include "solver/ports/settings.hpp"
 #include "solver/ports/testing/temporary_folder.hpp"
 
@@ -131,6 +132,36 @@ TEST(Settings, only_outflow_and_the_stop_rule_need_fates) {
     EXPECT_EQ(check_settings(settings, k_water, "x").size(), 1u);
     settings.stop.reset();
     EXPECT_TRUE(check_settings(settings, k_water, "x").empty());
+}
+
+TEST(DemWalls, move_in_one_way) {
+    WallSettings still;
+    still.name = "lid";
+    still.file = "lid.stl";
+    WallSettings rotating = still, travelling = still, turning = still, pressing = still, belt = still;
+    rotating.rotating = true;
+    travelling.travel = {Vec3::UnitZ(), 0.0, 1.0};
+    turning.turn.speed = 1.0;
+    pressing.press = WallPress{-Vec3::UnitZ(), 8.0, 0.05};
+    belt.surface_velocity = Vec3::UnitX();
+    const auto of_motion = [](const WallSettings& wall) {
+        DemSettings settings;
+        settings.walls = {wall};
+        std::string texts;
+        for (const Mistake& mistake : check_settings(settings, "x"))
+            if (mistake.rule == "A wall moves in one way" || mistake.rule == "A wall whose surface runs does not turn")
+                texts += mistake.what + ";";
+        return texts;
+    };
+    for (const WallSettings& one : {still, rotating, travelling, turning, pressing, belt}) EXPECT_EQ(of_motion(one), "");
+    rotating.travel = travelling.travel;
+    EXPECT_EQ(of_motion(rotating), "rock.walls.lid turns with the moving zone and travels;");
+    turning.travel = travelling.travel;
+    turning.press = pressing.press;
+    EXPECT_EQ(of_motion(turning), "rock.walls.lid turns by itself and travels and presses;");
+    rotating.travel = {};
+    rotating.surface_velocity = belt.surface_velocity;
+    EXPECT_EQ(of_motion(rotating), "rock.walls.lid.surfaceVelocity of a wall that turns;");
 }
 
 TEST(Contour, is_read_and_a_bad_one_named) {
