@@ -73,9 +73,8 @@ public:
         say_(fmt::format("the answer: {} run(s)", file_.runs_of_the_answer()));
         Names names(file_.studies.size());
         std::vector<SweepPoint> points;
-        for (std::size_t study = 0; study < file_.studies.size(); ++study) {
+        for (std::size_t study = 0; study < file_.studies.size(); ++study)
             add(points, names[study], points_at(study, answer, {file_.repeats_at_answer, file_.repeats}));
-        }
         return {answer, values_of(names, file_.measured.size(), run(points))};
     }
 

@@ -397,21 +397,16 @@ private:
                                   "A held-out target never enters the objective", "Remove one of the two");
     }
 
-    /// The keys, the ends of the ranges and the grid are allowed in all studies.
+    /// Repeats, the keys, the ends of the ranges and the grid are allowed in all studies.
     void check_points() {
+        const int repeats = std::max(found_.repeats, found_.repeats_at_answer);
         for (const fs::path& study : found_.studies) {
-            const bool sound = fs::exists(study) && mistakes_.gather([&] { require_repeats(study); });
+            const bool sound = fs::exists(study) && mistakes_.gather([&] { access_.points(study, {}, repeats, fs::path("runs")); });
             studies_are_sound_ = studies_are_sound_ && sound;
             for (std::size_t n = 0; sound && n < found_.parameters.size(); ++n)
                 if (!found_.parameters[n].key.empty()) check_parameter(study, found_.parameters[n], places_[n]);
             if (sound && mistakes_.empty()) check_together(study);
         }
-    }
-
-    /// The study, and as many repeats of it as places and the answer take.
-    void require_repeats(const fs::path& study) const {
-        access_.points(study, {}, found_.repeats, fs::path("runs"));
-        access_.points(study, {}, {found_.repeats_at_answer, found_.repeats}, fs::path("runs"));
     }
 
     /// The parameters set different tables.
