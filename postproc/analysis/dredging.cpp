@@ -100,8 +100,8 @@ std::string limits_text(const Results& results) {
     const std::optional<WaysOut>& ways = results.dredging->ways_out;
     std::string sentence = "What limits: ";
     if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts";
-    if (results.fed->is_full) sentence += ways || has_spilled(results) ? "; " : ".";
-    if (!ways && !has_spilled(results)) return results.fed->is_full ? sentence : sentence + "nothing was spilled.";
+    if (!ways && !has_spilled(results)) return sentence + (results.fed->is_full ? "." : "nothing was spilled.");
+    if (results.fed->is_full) sentence += "; ";
     if (!ways) return sentence + "which way rock leaves is not known, for want of mean velocities on the head's contour.";
     sentence += fmt::format(
         "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
