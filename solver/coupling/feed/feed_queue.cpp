@@ -60,8 +60,8 @@ std::vector<FeedRock> FeedQueue::next_packet(double time, double tolerance, cons
 
 /// When rock that was due and found no place is due again [s]: whole retry intervals later, so that the rotor brings its first place back.
 double FeedQueue::next_try(double due, double time) const {
-    while (due <= time) due += queue_->retry_interval;
-    return due;
+    const double intervals = std::floor((time - due) / queue_->retry_interval) + 1.0;
+    return due + intervals * queue_->retry_interval;
 }
 
 /// \param due  what is left of it has no room
