@@ -630,12 +630,12 @@ void CoupledRun::resume_recording(const fs::path& checkpoint, double time) {
         return on_all_ranks([&] { phases_->restore(checkpoint / names::recording); },
                             "the recording of another rank does not fit its cells");
     if (time <= settings_.record->start_time) return;
-    phases_.reset();
     if (!fs::exists(case_folder_ / names::recording))
         throw UserError(
             {{names::coupling_properties,
               fmt::format("record.startTime = {:g} s in a run that goes on at {:g} s", settings_.record->start_time, time),
               "A recording begins in the run that it is of", "Begin it later, remove the section, or start from the beginning"}});
+    phases_.reset();
 }
 
 void CoupledRun::resume(const fs::path& checkpoint) {

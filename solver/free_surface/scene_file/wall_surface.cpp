@@ -12,7 +12,7 @@ struct Extruded {
     Interval across;
 };
 
-/// Of a prism or a box.
+/// Of a prism or a box; none of other solids.
 std::optional<Extruded> extruded(const StillSolid& solid, double depth) {
     const Interval tank{0.0, depth};
     if (const auto* prism = std::get_if<SolidPrism>(&solid)) return Extruded{prism->corners, tank};
