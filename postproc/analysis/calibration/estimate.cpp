@@ -24,7 +24,7 @@ constexpr std::array<Eigen::Index, 4> k_net{401, 81, 31, 15};
 /// What chi^2 may rise in the region of `count` parameters.
 double rise(std::size_t count, double freedom) {
     const auto p = static_cast<double>(count);
-    if (freedom <= 0.0) return quantile(boost::math::chi_squared(p), k_confidence);
+    if (std::isinf(freedom)) return quantile(boost::math::chi_squared(p), k_confidence);
     return p * quantile(boost::math::fisher_f(p, freedom), k_confidence);
 }
 
@@ -76,7 +76,7 @@ public:
         const double spare = static_cast<double>(surface_.targets().size()) - static_cast<double>(ranges_.size());
         if (spare > 0.0 && found.least_chi_squared > quantile(boost::math::chi_squared(spare), k_confidence))
             found.contradiction = found.least_chi_squared / spare;
-        const double freedom = surface_.degrees_of_freedom();
+        const double freedom = surface_.degrees_of_freedom(likeliest);
         const double limit = rise(1, freedom) * found.contradiction, region = rise(ranges_.size(), freedom) * found.contradiction;
         for (Eigen::Index k = 0; k < net_.parameters; ++k) {
             found.profiles.push_back(profile(k, likeliest, found.least_chi_squared, limit));
@@ -290,9 +290,15 @@ Eigen::MatrixXd Surface::information(const Eigen::VectorXd& at) const {
     return sum;
 }
 
-double Surface::degrees_of_freedom() const {
+double Surface::degrees_of_freedom(const Eigen::VectorXd& at) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const std::vector<Response>& places : responses_) least = std::min(least, places.front().degrees_of_freedom());
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+        const double own = std::pow(targets_[t].tolerance / k_normal_quantile, 2);
+        for (const Response& place : responses_[t]) {
+            const double variance = place.variance(at);
+            if (variance > 0.0) least = std::min(least, place.degrees_of_freedom(at) * std::pow((own + variance) / variance, 2));
+        }
+    }
     return least;
 }
 

@@ -3,9 +3,10 @@
 ///
 /// chi^2(u) = sum over the fitted targets of (y(u) - t)^2/(sigma_t^2 + sigma_y^2(u)), with sigma_t = tolerance/1.96 and sigma_y^2 the
 /// variance of the response (response.hpp); of a profile the mean over its places. The 95 % region of p parameters is where chi^2 exceeds
-/// its minimum by at most p F(0.95; p, nu), the interval of one by at most F(0.95; 1, nu), the others chosen at their best; nu are the
-/// degrees of freedom of the scatter (chi-squared quantiles without any). Targets contradict each other
-/// when the least chi^2 is above its 95 % quantile for targets less parameters; both limits then grow by the ratio of the two.
+/// its minimum by at most p F(0.95; p, nu), the interval of one by at most F(0.95; 1, nu), the others chosen at their best; nu is the
+/// least over the targets of nu_y ((sigma_t^2 + sigma_y^2)/sigma_y^2)^2 (Welch and Satterthwaite), nu_y that of the response: tolerances
+/// are known, variances are estimated. Where no response has a variance the quantiles are those of chi squared. Targets contradict each
+/// other when the least chi^2 is above its 95 % quantile for targets less parameters; both limits then grow by the ratio of the two.
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ public:
     /// Half the matrix of second derivatives of chi^2 without those of the responses: sum of g g^T/sigma^2.
     Eigen::MatrixXd information(const Eigen::VectorXd& at) const;
 
-    double degrees_of_freedom() const;
+    /// nu above; infinite where no response has a variance.
+    double degrees_of_freedom(const Eigen::VectorXd& at) const;
     /// Of a target: the response at its first place.
     const Response& response(std::size_t target) const { return responses_[target].front(); }
     const std::vector<Target>& targets() const { return targets_; }

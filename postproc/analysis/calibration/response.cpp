@@ -125,6 +125,13 @@ double Response::variance(const Eigen::VectorXd& at) const {
     return terms.dot(covariance_ * terms) + misfit_;
 }
 
+double Response::degrees_of_freedom(const Eigen::VectorXd& at) const {
+    const auto spare = static_cast<double>(spare_);
+    if (scatter_ == 0.0 || misfit_ == 0.0) return scatter_ == 0.0 ? spare : freedom_;
+    const double all = variance(at), of_fit = all - misfit_;
+    return all * all / (of_fit * of_fit / freedom_ + misfit_ * misfit_ / spare);
+}
+
 Eigen::VectorXd Response::gradient(const Eigen::VectorXd& at) const {
     const Eigen::Index n = at.size();
     Eigen::VectorXd slope = coefficients_.segment(1, n);

@@ -43,8 +43,9 @@ public:
     double scatter_variance() const { return scatter_; }
     /// tau^2
     double misfit_variance() const { return misfit_; }
-    /// Of the pooled scatter; 0 when no point has repeats.
-    double degrees_of_freedom() const { return freedom_; }
+    /// Of variance(at), by Welch and Satterthwaite: nu = (v_s + tau^2)^2/(v_s^2/nu_s + tau^4/nu_m), v_s of the fit with the nu_s of the
+    /// pooled scatter, nu_m the spare points. Where nothing scatters, all of it is known from the spare points.
+    double degrees_of_freedom(const Eigen::VectorXd& at) const;
     /// Points more than terms: without any the misfit of the quadratic is unknown, and taken as 0.
     std::size_t spare_points() const { return spare_; }
 

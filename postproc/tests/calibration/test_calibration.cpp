@@ -146,6 +146,28 @@ TEST(CalibrationFit, has_intervals_that_hold_the_truth_as_often_as_they_say) {
     EXPECT_GE(undetermined, 100);
 }
 
+TEST(CalibrationFit, has_intervals_that_hold_the_truth_where_no_run_was_repeated) {
+    // One place more than terms: how far runs are from the quadratic is known from one residual.
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> hidden(0.3, 0.5);
+    std::normal_distribution<double> noise(0.0, 0.2);
+    const auto quadratic = [](double mu) { return 34.0 + 18.0 * mu - 9.0 * mu * mu; };
+    int held = 0;
+    constexpr int trials = 200;
+    for (int trial = 0; trial < trials; ++trial) {
+        const double mu = hidden(random);
+        Calibration calibration;
+        calibration.objective = find_objective("squared_misfit");
+        calibration.ranges = {{"mu", 0.1, 0.7, 0.05}};
+        calibration.targets.fitted = {{"repose", {quadratic(mu)}, 0.02, 1.0}};
+        for (const double at : {0.1, 0.3, 0.5, 0.7})
+            calibration.evaluations.push_back({Eigen::VectorXd::Constant(1, at), {{{quadratic(at) + noise(random)}}}});
+        if (holds(outcome_of(calibration, true).estimate->intervals[0], mu)) ++held;
+    }
+    RecordProperty("intervals_that_hold", held);
+    EXPECT_GE(held, 182) << "95 %: fewer of 200 has a chance of 1 %";
+}
+
 TEST(CalibrationFit, finds_a_valley_that_the_targets_leave_open) {
     // One target of two parameters that act together: neither is determined, their sum is.
     Box box;
