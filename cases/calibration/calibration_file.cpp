@@ -158,6 +158,7 @@ public:
         found_.measured = fitted_measured_;
         found_.measured.insert(found_.measured.end(), held_out_measured_.begin(), held_out_measured_.end());
         check_whole(values);
+        check_unused(values);
         if (read.complete) read_budget(values);
         check_points();
         if (read.complete && studies_are_sound_) mistakes_.gather([&] { check_plan(); });
@@ -265,6 +266,9 @@ private:
             mistakes_.add({where, fmt::format("the target {} has {}", target.name, value ? "a value and a profile" : "no value"),
                            "A target is either a value or a profile", "Give one of them"});
         if (table.has("target.value")) target.values = {table.number("target.value")};
+        if (value && !table.where("target.lowest_m").empty())
+            mistakes_.add({table.where("target.lowest_m"), fmt::format("the target {} has a value and lowest_m", target.name),
+                           "lowest_m leaves out places of a profile", "Remove it"});
         if (table.has("target.profile")) read_target_profile(table, target, measured);
         check_measure(measured, profile && !value, where);
         if (found_.objective != nullptr && found_.objective->relative && !held_out &&
@@ -374,6 +378,18 @@ private:
         for (std::size_t study = 0; study < found_.studies.size(); ++study)
             mistakes_.require(has_target(study), fmt::format("{} has no target", found_.studies[study].string()),
                               "The runs of each study are compared with a target", "Add a [[target]] with this study, or remove it");
+    }
+
+    /// Rounds and evaluations that the method does not take.
+    void check_unused(const ParameterValues& values) {
+        if (found_.method.empty()) return;
+        const auto require_method = [&](const char* key, const std::string& method, const char* rule) {
+            if (found_.method != method && !values.where(key).empty())
+                mistakes_.add({values.where(key), fmt::format("{} is given with method = \"{}\"", key, found_.method), rule,
+                               fmt::format("Remove it, or use method = \"{}\"", method)});
+        };
+        require_method("rounds", "surface", "Rounds follow the grid of method = \"surface\"");
+        require_method("evaluations", "bobyqa", "Evaluations are the places that method = \"bobyqa\" tries");
     }
 
     bool has_target(std::size_t study) const {

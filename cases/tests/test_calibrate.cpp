@@ -425,6 +425,19 @@ weight = 2
     EXPECT_THAT(text, HasSubstr("has the weight 2 in the objective"));
 }
 
+TEST_F(Calibrate, refuses_keys_that_nothing_looks_at) {
+    const auto with = [&](const std::string& head, const std::string& target) {
+        return refusal("\nstudy = [\"heap.toml\"]\n" + head +
+                       "\n[budget]\nruns = 50\ncore_h = 1\n[[parameter]]\nkey = \"contact.friction\"\n" +
+                       "range = [0.1, 0.9]\n[[target]]\nmeasure = \"angle\"\nvalue = 20\ntolerance = 1\n" + target);
+    };
+    EXPECT_THAT(with("method = \"grid\"\nrounds = 2\nevaluations = 9", ""),
+                AllOf(HasSubstr("rounds is given with method = \"grid\""), HasSubstr("evaluations is given with method = \"grid\"")));
+    EXPECT_THAT(with("method = \"bobyqa\"\nrounds = 2", ""), HasSubstr("rounds is given with method = \"bobyqa\""));
+    EXPECT_THAT(with("evaluations = 9", "lowest_m = 0.1\n"),
+                AllOf(HasSubstr("evaluations is given with method = \"surface\""), HasSubstr("has a value and lowest_m")));
+}
+
 TEST_F(Calibrate, reports_wrong_values_beside_missing_studies_and_empty_ranges) {
     write_file(folder_ / "bad.toml", "kind = \"free_surface\"\n");
     const std::string text = refusal(R"(
