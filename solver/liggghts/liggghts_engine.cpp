@@ -120,6 +120,12 @@ void require_whole_restart_file(const std::filesystem::path& file, const nlohman
         throw UserError({{file.string(), fmt::format("the file is not the one that {} belongs to", names::dem_state), rule, k_remedy}});
 }
 
+/// LIGGGHTS drops what leaves its box within one step of contacts.
+CheckFailure vanished(const std::string& what) {
+    return CheckFailure({"", what, "The DEM drops rock that leaves its box within a step of contacts, thrown out by a deep overlap",
+                         "Look at the last picture; give the rock a larger modulus, solids less speed, or the contacts a smaller step"});
+}
+
 }  // namespace
 
 class LiggghtsEngine::Implementation {
@@ -391,7 +397,8 @@ void LiggghtsEngine::Implementation::gather() {
     MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, communicator_);
 
     if (!bodies_.empty() && static_cast<std::size_t>(std::lround(sum(spheres_of_bodies))) != bodies_.spheres())
-        throw std::logic_error(fmt::format("{:.0f} of {} spheres of clumps are in the DEM", sum(spheres_of_bodies), bodies_.spheres()));
+        throw vanished(fmt::format("{:.0f} of {} spheres of clumps vanished from the DEM by {:.6g} s",
+                                   static_cast<double>(bodies_.spheres()) - sum(spheres_of_bodies), bodies_.spheres(), time_));
 
     struct Found {
         coupling::Rock rock;
@@ -655,13 +662,10 @@ void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& b
     if (rocks_.id != before) {
         double fastest = 0.0;
         for (const Vec3& velocity : rocks_.velocity) fastest = std::max(fastest, velocity.norm());
-        throw CheckFailure(
-            {"",
-             fmt::format("{} of {} rocks vanished from the DEM near {:.6g} s; the fastest of the others moves at {:.3g} m/s, "
-                         "and rock overlaps by up to {:.2g} of its radius",
-                         before.size() - rocks_.size(), before.size(), time_, fastest, motion_->largest_overlap_ratio()),
-             "The DEM drops rock that leaves its box within a step of contacts, thrown out by a deep overlap",
-             "Look at the last picture; give the rock a larger modulus, solids less speed, or the contacts a smaller step"});
+        throw vanished(
+            fmt::format("{} of {} rocks vanished from the DEM near {:.6g} s; the fastest of the others moves at {:.3g} m/s, "
+                        "and rock overlaps by up to {:.2g} of its radius",
+                        before.size() - rocks_.size(), before.size(), time_, fastest, motion_->largest_overlap_ratio()));
     }
     for (std::size_t k = 0; k < rocks_.size(); ++k)
         if (!rocks_.position[k].allFinite())

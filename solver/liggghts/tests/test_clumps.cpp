@@ -336,6 +336,22 @@ TEST(Clumps, leave_as_a_whole_when_their_centre_leaves_the_domain) {
     EXPECT_EQ(engine.insert(only(clump_at(2, Vec3(0, 0, 0)))), std::vector<int>{2}) << "its spheres went with it";
 }
 
+TEST(Clumps, that_vanish_end_the_run_with_their_cause) {
+    LiggghtsEngine engine(with({lump()}), no_zones(), MPI_COMM_WORLD);
+    Rock rock = clump_at(1, Vec3(0.45, 0, 0));
+    rock.velocity = Vec3(100.0, 0, 0);
+    Rocks rocks = only(rock);
+    rocks.append(clump_at(2, Vec3(0, 0, 0)));
+    ASSERT_EQ(engine.insert(rocks).size(), 2u);
+    try {
+        engine.advance(0.01, no_force);
+        FAIL();
+    } catch (const CheckFailure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("of 8 spheres of clumps vanished from the DEM by 0.01 s"), std::string::npos)
+            << failure.what();
+    }
+}
+
 TEST(Clumps, move_alike_on_any_number_of_ranks) {
     const Heap heap;
     LiggghtsEngine all(heap.settings, no_zones(), MPI_COMM_WORLD), alone(heap.settings, no_zones(), MPI_COMM_SELF);
