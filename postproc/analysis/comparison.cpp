@@ -150,13 +150,13 @@ std::vector<QuantityRule> rock_rules(const Comparison& comparison) {
 /// Delivered volume of soil as it was in the bank [m3/h], at lengths `ratio` times the model's by Froude's law; its interval is that of the
 /// share of what was fed.
 Estimate in_situ_rate(const ComparedRun& compared, double ratio) {
-    const double density = compared.run.operating_point.in_situ_density;
-    if (!compared.results.fed || !(density > 0.0)) return {};
+    if (!compared.results.dredging || !compared.results.dredging->delivered_in_situ) return {};
     const Production& production = compared.results.fed->production;
-    const double per_share = 3600.0 * production.fed / (production.to - production.from) / density * std::pow(ratio, 2.5);
+    const double hourly = 3600.0 * std::pow(ratio, 2.5);
     Estimate estimate = share_of(production);
-    estimate.value = per_share * *estimate.value;
-    if (estimate.half_width) estimate.half_width = per_share * *estimate.half_width;
+    estimate.value = hourly * *compared.results.dredging->delivered_in_situ;
+    if (estimate.half_width)
+        *estimate.half_width *= hourly * production.fed / (production.to - production.from) / compared.run.operating_point.in_situ_density;
     return estimate;
 }
 

@@ -84,12 +84,16 @@ Dredging dredging_of(const Results& results, const RunData& run) {
             (window.undelivered * window.fed + results.mixing->well_mixed_spillage * fines) / (window.fed + fines);
     if (!(point.in_situ_density > 0.0)) return dredging;
     dredging.cut_in_situ = of_soil / duration / point.in_situ_density;
-    dredging.delivered_in_situ = window.delivered / duration / point.in_situ_density;
+    dredging.fed_in_situ = (window.fed + fines) / duration / point.in_situ_density;
+    if (fines == 0.0 || results.mixing) {
+        const double delivered_fines = fines > 0.0 ? (1.0 - results.mixing->well_mixed_spillage) * fines : 0.0;
+        dredging.delivered_in_situ = (window.delivered + delivered_fines) / duration / point.in_situ_density;
+    }
     if (window.is_steady && point.swing_speed > 0.0 && point.step > 0.0)
         dredging.spill_layer =
             window.undelivered * window.fed / duration / point.in_situ_density * point.bulking / (point.swing_speed * point.step);
     if (point.specific_energy) dredging.cutting_power = *point.specific_energy * *dredging.cut_in_situ;
-    if (!(*dredging.delivered_in_situ > 0.0)) return dredging;
+    if (!dredging.delivered_in_situ || !(*dredging.delivered_in_situ > 0.0)) return dredging;
     if (results.rotor.power) dredging.energy = results.rotor.power->mean / *dredging.delivered_in_situ;
     if (dredging.cutting_power) dredging.cutting_energy = *dredging.cutting_power / *dredging.delivered_in_situ;
     return dredging;

@@ -267,7 +267,7 @@ json series_json(const std::vector<RatiosAt>& series, const char* key) {
     return list;
 }
 
-json fed_json(const FedHead& head, double in_situ_density) {
+json fed_json(const FedHead& head, const Dredging& dredging) {
     const Production& production = head.production;
     const double duration = production.to - production.from;
     json object{{"start_s", or_null(production.start)},
@@ -275,8 +275,7 @@ json fed_json(const FedHead& head, double in_situ_density) {
                 {"window_end_s", production.to},
                 {"fed_kg_s", production.fed / duration},
                 {"delivered_kg_s", production.delivered / duration},
-                {"delivered_in_situ_m3_h",
-                 in_situ_density > 0.0 ? json(3600.0 * production.delivered / duration / in_situ_density) : json(nullptr)},
+                {"delivered_in_situ_m3_h", dredging.delivered_in_situ ? json(3600.0 * *dredging.delivered_in_situ) : json(nullptr)},
                 {"share", production.delivered / production.fed},
                 {"share_half_interval", production.share ? json(production.share->half_interval) : json(nullptr)},
                 {"hold_up_kg", production.held},
@@ -434,6 +433,11 @@ Results compute_results(const RunData& run) {
         results.rock_requested = run.feed ? run.feed->requested : results.spillage->fates.placed.count + rejected_in_run;
         results.rock_rejected = (run.feed ? run.feed->rejected : 0) + rejected_in_run;
     }
+    if (results.spillage && run.operating_point.fed_by_cutting) {  // a ratio without its hold-up would mislead
+        results.spillage->ratios = {{}, {}, {}, {}, "rock comes all the time: production has its spillage and its hold-up"};
+        results.spillage->at_revolutions.clear();
+        results.spillage->at_seconds.clear();
+    }
     results.outflow = average_outflow(run);
     results.mixing = mixing_of(run, results.outflow);
     if (run.operating_point.fed_by_cutting && run.rock && !run.rock->ledger.empty())
@@ -469,7 +473,7 @@ json results_json(const Results& results, const RunData& run) {
     document["mixing"] = {{"outflow_over_discharge", of_mixing(&Mixing::outflow_over_discharge)},
                           {"well_mixed_spillage", of_mixing(&Mixing::well_mixed_spillage)},
                           {"balance_error", results.mixing ? or_null(results.mixing->balance_error) : json(nullptr)}};
-    document["production"] = results.fed ? fed_json(*results.fed, run.operating_point.in_situ_density) : json(nullptr);
+    document["production"] = results.fed ? fed_json(*results.fed, *results.dredging) : json(nullptr);
     document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
     document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},

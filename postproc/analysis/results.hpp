@@ -71,7 +71,8 @@ struct WaysOut {
 /// What a head that is fed from a cut face does in the window of its production (dredging.hpp).
 struct Dredging {
     std::optional<double> cut_in_situ;          ///< soil that the swing cuts [m3/s]
-    std::optional<double> delivered_in_situ;    ///< [m3/s]
+    std::optional<double> fed_in_situ;          ///< the same and what the swing before left [m3/s]
+    std::optional<double> delivered_in_situ;    ///< fines as neutral rock: (delivered + (1 - S_mix) fines) / (rho_grain (1 - n)) [m3/s]
     double layer_share = 0.0;                   ///< of what was fed: loose rock that the swing before left
     double concentration = 0.0;                 ///< delivered rock's volume over the mixture's
     double mixture_density = 0.0;               ///< [kg/m3]

@@ -183,9 +183,6 @@ std::string production_table(const Results& results, const RunData& run) {
     const OperatingPoint& point = run.operating_point;
     const double duration = production.to - production.from;
     const auto tonnes = [&](double mass) { return 3.6 * mass / duration; };
-    const auto in_situ = [&](double mass) {
-        return point.in_situ_density > 0.0 ? std::optional<double>(3600.0 * mass / duration / point.in_situ_density) : std::nullopt;
-    };
     const auto mean = [](const std::optional<TimeAverage>& average) {
         return average ? std::optional<double>(average->mean) : std::nullopt;
     };
@@ -204,9 +201,9 @@ std::string production_table(const Results& results, const RunData& run) {
         {"speed in the suction mouth", "m/s", results.delivery.pipe_velocity, 0.5},
         {"cut, soil in situ", "m³/h", times(3600.0, dredging.cut_in_situ), 2.5},
         {"fed, dry", "t/h", tonnes(production.fed), 2.5},
-        {"fed, soil in situ", "m³/h", in_situ(production.fed), 2.5},
+        {"fed, soil in situ", "m³/h", times(3600.0, dredging.fed_in_situ), 2.5},
         {"delivered, dry", "t/h", tonnes(production.delivered), 2.5},
-        {"delivered, soil in situ", "m³/h", in_situ(production.delivered), 2.5},
+        {"delivered, soil in situ", "m³/h", times(3600.0, dredging.delivered_in_situ), 2.5},
         {"spilled, dry", "t/h", tonnes(production.spilled), 2.5},
         {"hold-up grows by", "t/h", tonnes(production.held_change), 2.5},
         {"hold-up", "kg", production.held, 3.0},

@@ -97,6 +97,11 @@ TEST(Dredging, counts_fines_as_neutral_rock_and_the_layer_as_not_cut) {
     const double fines = 7.5 / 0.8 * 0.2, spilled = results.fed->production.undelivered * 10.0;
     EXPECT_NEAR(*work.spillage_with_fines, (spilled + results.mixing->well_mixed_spillage * fines) / (10.0 + fines), 1e-6);
     EXPECT_EQ(work.layer_share, 0.25);
+    // What is fed is cut or lay there; it is delivered or spilled, fines as rock.
+    EXPECT_NEAR(*work.fed_in_situ, (10.0 + fines) / 2000.0, 1e-6);
+    EXPECT_NEAR(*work.delivered_in_situ, (1.0 - *work.spillage_with_fines) * *work.fed_in_situ, 1e-6);
+    EXPECT_NEAR(results_json(results, run).at("production").at("delivered_in_situ_m3_h").get<double>(), 3600.0 * *work.delivered_in_situ,
+                1e-3);
 }
 
 TEST(Dredging, follows_delivered_rock_from_cut_to_mouth) {

@@ -95,7 +95,11 @@ TEST(WriteReport, of_a_fed_head_gives_production_and_spillage_with_interval_and_
     run.write();
     testing::make_fed(run, 5.0);
     const ReportSummary summary = write_report(run.directory);
-    const auto production = nlohmann::json::parse(read_text(summary.results_file)).at("production");
+    const auto results = nlohmann::json::parse(read_text(summary.results_file));
+    EXPECT_TRUE(results.at("spillage").at("ratio").is_null() && results.at("spillage").at("ratio_max").is_null());
+    EXPECT_TRUE(contains(results.at("spillage").at("ratio_reason"), "hold-up"));
+    EXPECT_TRUE(results.at("spillage").at("at_equal_time").empty());
+    const auto& production = results.at("production");
     EXPECT_NEAR(production.at("share").get<double>(), 0.6, 0.01);
     EXPECT_NEAR(production.at("spillage").get<double>(), 0.4, 0.01);
     EXPECT_GT(production.at("share_half_interval").get<double>(), 0.0);
