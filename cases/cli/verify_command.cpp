@@ -32,7 +32,7 @@ struct VerifyOptions {
 
 validation::VerificationPlaces places() {
     const Installation own = installation();
-    return {own.data / "validation/cases", own.verification, own.programs, own.data / "docs" / k_kept};
+    return {own.data / "validation/cases", own.verification, own.programs, own.data / "docs" / k_kept, own.data / "cases/examples"};
 }
 
 void say(const std::string& text) {

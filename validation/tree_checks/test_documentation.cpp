@@ -101,4 +101,18 @@ TEST(Documentation, citations_are_entries_of_the_bibliography) {
     EXPECT_GT(citations, 30u);
 }
 
+// Else verify --resume would keep a result of examples that have changed.
+TEST(Documentation, verification_cases_name_the_examples_they_read) {
+    std::size_t readers = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(k_root / "validation/cases")) {
+        if (entry.path().extension() != ".cpp") continue;
+        const std::string readme = cutterflow::read_file(entry.path().parent_path() / "README.md");
+        for (const std::string& example : matches(cutterflow::read_file(entry.path()), R"re(cases/examples/([A-Za-z0-9_]+))re")) {
+            ++readers;
+            EXPECT_NE(readme.find("\n- examples: " + example + "\n"), std::string::npos) << entry.path() << " reads " << example;
+        }
+    }
+    EXPECT_GT(readers, 2u);
+}
+
 }  // namespace

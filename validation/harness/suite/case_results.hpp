@@ -58,7 +58,7 @@ struct VerifiedCase {
     double wall_s = 0.0;   ///< of the last start
     std::string date;      ///< UTC, as 2026-01-31 12:34
     std::string machine;   ///< processor and cores
-    std::string programs;  ///< SHA-256 over the programs that made it
+    std::string programs;  ///< SHA-256 over the programs and files that made it
     CaseVerdict verdict() const;
 };
 

@@ -55,8 +55,8 @@ VerificationCase read_case(const fs::path& folder, std::vector<Mistake>& mistake
     if (text.compare(0, 2, "# ") != 0 || effort == std::end(k_words))
         mistakes.push_back({readme.string(), "its head tells no title or no class",
                             "It begins with \"# <title>\" and has a line \"- class: fast\", standard or long", "Write them"});
-    return {folder.filename().string(), text.substr(2, text.find('\n') - 2), static_cast<Effort>(effort - std::begin(k_words)),
-            words_of(head_value(text, "needs")), head_value(text, "resumes") == "yes"};
+    return {folder.filename().string(),          text.substr(2, text.find('\n') - 2),    static_cast<Effort>(effort - std::begin(k_words)),
+            words_of(head_value(text, "needs")), words_of(head_value(text, "examples")), head_value(text, "resumes") == "yes"};
 }
 
 /// Path of a program that a case needs: in cutterflow's folder or on PATH; empty when missing.
@@ -75,7 +75,18 @@ std::string obstacle(const VerificationCase& one, const VerificationPlaces& plac
     return missing.empty() ? "" : fmt::format("{} not found; ./bootstrap installs and builds it", fmt::join(missing, ", "));
 }
 
-/// What a result depends on: the case's own program, cutterFoam, and what it needs of the programs beside it.
+/// Of all files of a folder and in its folders, by path, but for READMEs.
+std::string sha256_of_folder(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file() && entry.path().filename() != "README.md") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::string sum;
+    for (const fs::path& file : files) sum += file.lexically_relative(folder).string() + sha256_of_file(file);
+    return sha256(sum);
+}
+
+/// What a result depends on: the case's own program and files, cutterFoam, what it needs of the programs beside it, examples that it reads.
 std::string programs_hash(const VerificationCase& one, const VerificationPlaces& places) {
     std::string sum;
     const auto add = [&](const fs::path& file) { sum += fs::exists(file) ? sha256_of_file(file) : "none"; };
@@ -83,6 +94,8 @@ std::string programs_hash(const VerificationCase& one, const VerificationPlaces&
     add(places.tools / "cutterFoam");
     for (const std::string& name : one.needs)
         if (name != "cutterFoam") add(places.tools / name);
+    sum += sha256_of_folder(places.cases / one.name);
+    for (const std::string& example : one.examples) sum += sha256_of_folder(places.examples / example);
     return sha256(sum);
 }
 

@@ -13,11 +13,12 @@ namespace cutterflow::validation {
 
 /// One folder of validation/cases, from the head of its README.md.
 struct VerificationCase {
-    std::string name;                ///< of the folder and of the program
-    std::string title;               ///< the README's first line
-    Effort effort = Effort::fast;    ///< the least effort at which it has something to check
-    std::vector<std::string> needs;  ///< programs without which it is skipped
-    bool resumes = false;            ///< its program resumes from the files in its folder
+    std::string name;                   ///< of the folder and of the program
+    std::string title;                  ///< the README's first line
+    Effort effort = Effort::fast;       ///< the least effort at which it has something to check
+    std::vector<std::string> needs;     ///< programs without which it is skipped
+    std::vector<std::string> examples;  ///< folders of cases/examples that its program reads
+    bool resumes = false;               ///< its program resumes from the files in its folder
 };
 
 /// Folders and programs.
@@ -26,6 +27,7 @@ struct VerificationPlaces {
     std::filesystem::path programs;  ///< one program a case
     std::filesystem::path tools;     ///< folder of cutterFoam
     std::filesystem::path kept;      ///< published results, <case>.json
+    std::filesystem::path examples;  ///< cases/examples
 };
 
 /// All cases, by name. \throws UserError  with every README whose head is wrong
@@ -37,7 +39,7 @@ std::vector<VerificationCase> select_cases(const std::vector<VerificationCase>& 
 struct VerificationSettings {
     std::filesystem::path folder;  ///< receives <case>.json, <case>/ (what the case wrote), <case>.log, the pages
     Effort effort = Effort::standard;
-    bool resume = false;  ///< cases finished with the same programs and at least this effort are kept; resumable ones are resumed
+    bool resume = false;  ///< cases finished with the same programs and files and at least this effort are kept; resumable ones are resumed
 };
 
 /// Runs cases one after the other; each finished one is kept in the folder at once. A failed case is reported; the others continue.

@@ -27,7 +27,7 @@ protected:
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
         root_ = fs::temp_directory_path() / ("cutterflow_verify_" + std::string(test->name()));
         fs::remove_all(root_);
-        places_ = {root_ / "cases", root_ / "programs", root_ / "bin", root_ / "kept"};
+        places_ = {root_ / "cases", root_ / "programs", root_ / "bin", root_ / "kept", root_ / "examples"};
         settings_.folder = root_ / "results";
         fs::create_directories(places_.programs);
     }
@@ -121,6 +121,26 @@ TEST_F(VerificationRun, resume_runs_again_what_needs_a_program_that_changed) {
     write_file(places_.tools / "cutterflow", "with other defaults");
     run();
     EXPECT_EQ(times_run("study"), 2u);
+}
+
+TEST_F(VerificationRun, resume_runs_again_what_reads_a_file_that_changed) {
+    write_file(places_.examples / "heap/study.toml", "friction = 0.5\n");
+    write_file(places_.examples / "heap/README.md", "A heap.\n");
+    add_case("study", fmt::format("echo run >> {}\necho '[{}]' > $2/quantities.json", (root_ / "study.runs").string(), quantity("pass")),
+             "- class: fast\n- examples: heap\n");
+    write_file(places_.cases / "study/reference.csv", "1\n");
+    run();
+    settings_.resume = true;
+    write_file(places_.examples / "heap/README.md", "A heap of gravel.\n");
+    write_file(places_.examples / "other/study.toml", "friction = 0.4\n");
+    run();
+    EXPECT_EQ(times_run("study"), 1u);
+    write_file(places_.examples / "heap/study.toml", "friction = 0.6\n");
+    run();
+    EXPECT_EQ(times_run("study"), 2u);
+    write_file(places_.cases / "study/reference.csv", "2\n");
+    run();
+    EXPECT_EQ(times_run("study"), 3u);
 }
 
 TEST_F(VerificationRun, counts_the_cost_of_all_starts_that_went_on) {
