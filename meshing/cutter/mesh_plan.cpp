@@ -126,6 +126,13 @@ std::string sentence(const std::string& optional_start, const std::string& rest)
     return optional_start.empty() ? static_cast<char>(std::toupper(rest.front())) + rest.substr(1) : optional_start + rest;
 }
 
+/// With four digits, not below the value: who gives what a refusal asks for is not refused again.
+std::string not_below(double value) {
+    const double last_digit = std::pow(10.0, std::floor(std::log10(value)) - 3.0);
+    const std::string text = fmt::format("{:.4g}", value);
+    return std::stod(text) < value ? fmt::format("{:.4g}", std::stod(text) + last_digit) : text;
+}
+
 void check_gap(const MeshInput& in, std::vector<Mistake>& mistakes) {
     const double top = std::max(0.0, in.cutter.z_max);
     const double gap = in.steel.gap - top;
@@ -136,9 +143,9 @@ void check_gap(const MeshInput& in, std::vector<Mistake>& mistakes) {
     mistakes.push_back({"",
                         fmt::format("suction.gap_m = {:.4g} leaves {:.4g} m between the cutter (up to z = {:.4g} m) and the backplate",
                                     in.steel.gap, gap, in.cutter.z_max),
-                        fmt::format("The rotor zone must end between them with {} cells on each side, which takes {:.4g} m at preset {}",
-                                    k_gap_cells_min, needed, in.resolution.preset),
-                        sentence(finer, fmt::format("make suction.gap_m at least {:.4g}", top + needed))});
+                        fmt::format("The rotor zone must end between them with {} cells on each side, which takes {} m at preset {}",
+                                    k_gap_cells_min, not_below(needed), in.resolution.preset),
+                        sentence(finer, fmt::format("make suction.gap_m at least {}", not_below(top + needed)))});
 }
 
 void check_mouth(const MeshInput& in, std::vector<Mistake>& mistakes) {
@@ -148,8 +155,8 @@ void check_mouth(const MeshInput& in, std::vector<Mistake>& mistakes) {
     const std::string finer = finer_preset(
         [&](const MeshResolution& r) { return r.cell_size < in.resolution.cell_size && radius >= needed_mouth_radius(in.ring_radius, r); });
     mistakes.push_back({"", fmt::format("suction.mouth_radius_m = {:.4g}", radius),
-                        fmt::format("The mouth needs {:g} cells across, a radius of {:.4g} m at preset {}", k_mouth_cells_min, needed,
-                                    in.resolution.preset),
+                        fmt::format("The mouth needs {:g} cells across, a radius of {} m at preset {}", k_mouth_cells_min,
+                                    not_below(needed), in.resolution.preset),
                         sentence(finer, "enlarge the mouth")});
 }
 
@@ -159,9 +166,10 @@ void check_passage(const MeshInput& in, std::vector<Mistake>& mistakes) {
     const double passage = *in.cutter.passage;
     const std::string finer = finer_preset(
         [&](const MeshResolution& r) { return r.cell_size < in.resolution.cell_size && passage >= needed_passage(in.ring_radius, r); });
-    mistakes.push_back({"", fmt::format("The passage between two blades is {:.4g} m wide", passage),
-                        fmt::format("It needs {:g} cells across, {:.4g} m at preset {}", k_passage_cells_min, needed, in.resolution.preset),
-                        sentence(finer, "widen the passages, with fewer or thinner blades")});
+    mistakes.push_back(
+        {"", fmt::format("The passage between two blades is {:.4g} m wide", passage),
+         fmt::format("It needs {:g} cells across, {} m at preset {}", k_passage_cells_min, not_below(needed), in.resolution.preset),
+         sentence(finer, "widen the passages, with fewer or thinner blades")});
 }
 
 /// Room of the tank around zone, backplate and pipe.
@@ -169,7 +177,7 @@ void check_tank(const MeshPlan& plan, std::vector<Mistake>& mistakes) {
     const MeshInput& in = plan.input;
     const double margin = k_tank_cells_min * plan.cell_size;
     const auto require = [&](bool holds, const std::string& what, double needed, const std::string& remedy) {
-        if (!holds) mistakes.push_back({"", what, fmt::format("The mesh needs {:.4g} m there", needed), remedy});
+        if (!holds) mistakes.push_back({"", what, fmt::format("The mesh needs {} m there", not_below(needed)), remedy});
     };
     const double mouth_reach = in.steel.mouth.offset + in.steel.mouth.radius + in.steel.pipe_wall;
     const double reach = std::max({plan.rotor.radius, in.steel.plate_radius, mouth_reach}) + margin;

@@ -188,6 +188,27 @@ TEST(MeshPlan, refuses_a_gap_that_cannot_hold_the_interface_and_names_the_preset
     EXPECT_TRUE(refusals(input).empty());
 }
 
+TEST(MeshPlan, accepts_what_its_refusals_ask_for) {
+    const auto number_after = [](const std::string& text, const std::string& words) {
+        const std::size_t at = text.find(words);
+        EXPECT_NE(at, std::string::npos) << text;
+        return std::stod(text.substr(at + words.size()));
+    };
+    for (const double ring : {0.17, 0.2, 0.2137, 0.25, 0.311}) {
+        MeshInput input = model_mesh_input();
+        input.cutter.z_max = 0.0037 * ring;
+        input.ring_radius = ring;
+        input.tank = {100.0 * ring, -100.0 * ring, 100.0 * ring};
+        input.steel.gap = 0.01 * ring;
+        input.steel.mouth.radius = 0.01 * ring;
+        const std::vector<Mistake> mistakes = refusals(input);
+        ASSERT_EQ(mistakes.size(), 2u);
+        input.steel.gap = number_after(mistakes[0].remedy, "suction.gap_m at least ");
+        input.steel.mouth.radius = number_after(mistakes[1].rule, "a radius of ");
+        for (const Mistake& mistake : refusals(input)) ADD_FAILURE() << ring << ": " << mistake.text();
+    }
+}
+
 TEST(MeshPlan, refuses_a_cutter_that_reaches_the_backplate_without_naming_a_preset) {
     MeshInput input = model_mesh_input();
     input.cutter.z_max = 0.035;
