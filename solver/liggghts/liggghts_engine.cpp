@@ -37,7 +37,6 @@
 #include "solver/liggghts/rigid_bodies.hpp"
 #include "solver/liggghts/rock_grid.hpp"
 #include "solver/liggghts/rock_motion.hpp"
-#include "solver/liggghts/settings_check.hpp"
 #include "solver/liggghts/steel_wall.hpp"
 #include "solver/physics/contact.hpp"
 
@@ -207,7 +206,7 @@ private:
 namespace {
 
 const coupling::DemSettings& checked(const coupling::DemSettings& settings) {
-    std::vector<Mistake> mistakes = check_settings(settings);
+    std::vector<Mistake> mistakes = coupling::check_settings(settings, "constant/couplingProperties");
     if (!mistakes.empty()) throw UserError(std::move(mistakes));
     return settings;
 }

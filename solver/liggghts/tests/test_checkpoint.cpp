@@ -73,6 +73,18 @@ TEST(Checkpoint, contact_free_rocks_go_on_as_if_never_stopped) {
 }
 
 // With contacts: history, springs, impact speeds, contact forces and the rotor's position come back.
+TEST(Checkpoint, lies_in_a_folder_with_a_long_path) {
+    std::filesystem::path folder = scratch_folder();
+    for (int part = 0; part < 8; ++part) folder /= std::string(120, static_cast<char>('a' + part));
+    std::filesystem::create_directories(folder);
+    LiggghtsEngine first(still_water(), no_zones(), MPI_COMM_WORLD);
+    first.insert(one_rock(Vec3(0.1, 0, 0)));
+    first.write_checkpoint(folder);
+    LiggghtsEngine second(still_water(), no_zones(), MPI_COMM_WORLD);
+    second.read_checkpoint(folder);
+    EXPECT_EQ(second.rocks().id, first.rocks().id);
+}
+
 TEST(Checkpoint, rocks_in_contact_and_the_rotor_go_on_as_if_never_stopped) {
     const Mill mill;
     const int half = 60;
