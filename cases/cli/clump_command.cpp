@@ -6,7 +6,7 @@
 
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
-#include "geometry/base/error.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/clump/clump_file.hpp"
 #include "geometry/clump_fit/fit_clump.hpp"
 #include "geometry/io/read_surface.hpp"
@@ -39,14 +39,22 @@ std::string table_of(const geometry::ClumpFit& fit) {
     return text;
 }
 
-void make_clump(const ClumpOptions& options) {
-    require_new_file(options.output);
-    const geometry::TriangleSurface rock = geometry::read_surface(options.rock);
+geometry::TriangleSurface read_rock(const std::string& file) {
+    geometry::TriangleSurface rock = geometry::read_surface(file);
     const geometry::SoundnessReport report = geometry::inspect_surface(rock);
-    geometry::require_sound(report, options.rock);
+    geometry::require_sound(report, file);
     if (report.components.size() > 1)
-        throw UserError(fmt::format("{} has {} bodies that do not touch", options.rock, report.components.size()), "A clump is one rock",
+        throw UserError(fmt::format("{} has {} bodies that do not touch", file, report.components.size()), "A clump is one rock",
                         "Remove the others, or join them, in CAD");
+    return rock;
+}
+
+void make_clump(const ClumpOptions& options) {
+    Mistakes mistakes;
+    geometry::TriangleSurface rock;
+    mistakes.gather([&] { require_new_file(options.output); });
+    mistakes.gather([&] { rock = read_rock(options.rock); });
+    mistakes.refuse();
     const geometry::ClumpFit fit = geometry::fit_clump(rock, options.balls);
     const std::string text =
         table_of(fit) + fmt::format(

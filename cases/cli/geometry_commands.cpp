@@ -9,10 +9,10 @@
 #include "cases/cli/commands.hpp"
 #include "cases/cli/inspection_page.hpp"
 #include "cases/cli/new_file.hpp"
-#include "geometry/base/error.hpp"
+#include "cases/cli/surface_option.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/head/crown_cutter.hpp"
 #include "geometry/head/geometry_report.hpp"
-#include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
 
 namespace cutterflow::cli {
@@ -24,8 +24,11 @@ struct GenerateOptions {
 };
 
 void generate(const GenerateOptions& options) {
-    require_new_file(options.output);
-    const geometry::TriangleSurface surface = geometry::generate_crown_cutter(geometry::read_crown_parameters(options.crown));
+    Mistakes mistakes;
+    geometry::TriangleSurface surface;
+    mistakes.gather([&] { require_new_file(options.output); });
+    mistakes.gather([&] { surface = geometry::generate_crown_cutter(geometry::read_crown_parameters(options.crown)); });
+    mistakes.refuse();
     geometry::write_stl(surface, options.output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3 of steel, in metres\n", options.output, surface.triangles.size(),
                              geometry::volume_of(surface));
@@ -40,13 +43,17 @@ struct InspectOptions {
 };
 
 void inspect(const InspectOptions& options) {
-    if (options.contour) require_new_file(*options.contour);
-    if (options.contour && options.output) require_different_places("--output", *options.output, "--contour", *options.contour);
-    std::optional<geometry::LengthUnit> unit;
-    if (options.unit) unit = geometry::length_unit_of(*options.unit);
-    const geometry::ImportedSurface imported = geometry::import_cutter(options.cutter, unit);
-    const geometry::GeometryInspection inspection = geometry::inspect_cutter(imported, options.cutter);
-    if (options.output) cases::write_inspection(inspection, imported.surface, *options.output);
+    Mistakes mistakes;
+    mistakes.gather([&] {
+        if (options.contour) require_new_file(*options.contour);
+    });
+    mistakes.gather([&] {
+        if (options.contour && options.output) require_different_places("--output", *options.output, "--contour", *options.contour);
+    });
+    const std::optional<geometry::ImportedSurface> imported = import_surface(options.cutter, options.unit, mistakes);
+    mistakes.refuse();
+    const geometry::GeometryInspection inspection = geometry::inspect_cutter(*imported, options.cutter);
+    if (options.output) cases::write_inspection(inspection, imported->surface, *options.output);
     std::cout << (options.json ? geometry::to_json(inspection).dump(2) + "\n" : geometry::to_text(inspection)) << std::flush;
     geometry::require_head(inspection);
     if (options.contour) geometry::write_contour_csv(inspection.head->contour, *options.contour);

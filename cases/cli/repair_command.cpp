@@ -10,10 +10,10 @@
 #include "cases/cli/commands.hpp"
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
+#include "cases/cli/surface_option.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
-#include "geometry/io/read_surface.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "geometry/io/write_vtp.hpp"
 #include "geometry/repair/repair.hpp"
@@ -73,17 +73,7 @@ geometry::ImportedSurface import_and_check(const RepairOptions& options) {
         mistakes.gather([&] { require_new_file(*options.report); });
         mistakes.gather([&] { require_different_places("--output", options.output, "--report", *options.report); });
     }
-    std::optional<geometry::LengthUnit> unit;
-    std::optional<geometry::ImportedSurface> imported;
-    const bool unit_is_known = mistakes.gather([&] {
-        if (options.unit) unit = geometry::length_unit_of(*options.unit);
-    });
-    mistakes.gather([&] {
-        if (unit_is_known)
-            imported = geometry::import_cutter(options.input, unit);
-        else
-            geometry::read_surface(options.input);  // has to be a surface whatever its unit
-    });
+    std::optional<geometry::ImportedSurface> imported = import_surface(options.input, options.unit, mistakes);
     mistakes.refuse();
     return std::move(*imported);
 }

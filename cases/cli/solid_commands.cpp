@@ -1,5 +1,6 @@
 /// \file generate-solid: simple solids, and the steel that does not turn.
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -9,7 +10,7 @@
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "geometry/base/axis_frame.hpp"
-#include "geometry/base/error.hpp"
+#include "geometry/base/mistakes.hpp"
 #include "geometry/head/stationary_steel.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "geometry/surface/simple_solids.hpp"
@@ -17,8 +18,14 @@
 namespace cutterflow::cli {
 namespace {
 
-void write_solid(const geometry::TriangleSurface& surface, double exact_volume, const std::string& output) {
-    require_new_file(output);
+using Generate = std::function<geometry::TriangleSurface()>;
+
+void write_solid(const Generate& generate, double exact_volume, const std::string& output) {
+    Mistakes mistakes;
+    geometry::TriangleSurface surface;
+    mistakes.gather([&] { require_new_file(output); });
+    mistakes.gather([&] { surface = generate(); });
+    mistakes.refuse();
     geometry::write_stl(surface, output);
     std::cout << fmt::format("wrote {}: {} triangles, {:.5g} m3, {:.2g} % less than the exact solid, in metres\n", output,
                              surface.triangles.size(), geometry::volume_of(surface),
@@ -54,7 +61,7 @@ void add_pipe(CLI::App& app) {
     add_common_options(*command, *solid);
     command->callback([pipe, solid] {
         pipe->edge_length = solid->edge_length;
-        write_solid(geometry::generate_pipe(*pipe), pipe->volume(), solid->output);
+        write_solid([&] { return geometry::generate_pipe(*pipe); }, pipe->volume(), solid->output);
     });
 }
 
@@ -66,7 +73,8 @@ void add_box(CLI::App& app) {
     add_length(*command, "--y-m", size->y(), "Length along y");
     add_length(*command, "--z-m", size->z(), "Length along z");
     add_common_options(*command, *solid);
-    command->callback([size, solid] { write_solid(geometry::generate_box(*size, solid->edge_length), size->prod(), solid->output); });
+    command->callback(
+        [size, solid] { write_solid([&] { return geometry::generate_box(*size, solid->edge_length); }, size->prod(), solid->output); });
 }
 
 void add_funnel(CLI::App& app) {
@@ -81,7 +89,7 @@ void add_funnel(CLI::App& app) {
     add_common_options(*command, *solid);
     command->callback([funnel, solid] {
         funnel->edge_length = solid->edge_length;
-        write_solid(geometry::generate_funnel(*funnel), funnel->volume(), solid->output);
+        write_solid([&] { return geometry::generate_funnel(*funnel); }, funnel->volume(), solid->output);
     });
 }
 
@@ -118,7 +126,7 @@ void add_backplate(CLI::App& app) {
         steel->mouth.azimuth = *azimuth_deg * k_pi / 180.0;
         steel->pipe_top = steel->gap + steel->plate_thickness + *pipe_length;
         steel->edge_length = solid->edge_length;
-        write_solid(geometry::generate_stationary_steel(*steel).solid(), exact_volume(*steel), solid->output);
+        write_solid([&] { return geometry::generate_stationary_steel(*steel).solid(); }, exact_volume(*steel), solid->output);
     });
 }
 

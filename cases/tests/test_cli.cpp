@@ -709,6 +709,24 @@ TEST_F(Cli, names_all_mistakes_of_a_repair_and_of_a_report_at_once) {
     expect_contains(report.text, "no_run");
 }
 
+TEST_F(Cli, names_all_mistakes_of_commands_on_surfaces_at_once) {
+    write_file(folder_ / "there.stl", "mine");
+    write_file(folder_ / "there.csv", "mine");
+    write_file(folder_ / "crown.toml", "[ring]\nradius_m = -1\n");
+    const Outcome inspected = call({"inspect", "none.stl", "--contour", "there.csv", "-o", "there.csv", "--unit", "furlong"});
+    expect_refused(inspected, 2, "there.csv is there already");
+    for (const char* part : {"none.stl", "furlong", "--output and --contour both name there.csv"}) expect_contains(inspected.text, part);
+    const Outcome crown = call({"generate-cutter", "crown.toml", "-o", "there.stl"});
+    expect_refused(crown, 2, "there.stl is there already");
+    expect_contains(crown.text, "crown.toml:");
+    const Outcome clump = call({"clump", "none.stl", "-o", "there.csv"});
+    expect_refused(clump, 2, "there.csv is there already");
+    expect_contains(clump.text, "none.stl");
+    const Outcome box = call({"generate-solid", "box", "--x-m", "0", "--y-m", "1", "--z-m", "1", "--edge-m", "1", "-o", "there.stl"});
+    expect_refused(box, 2, "there.stl is there already");
+    expect_contains(box.text, "length along x = 0 m");
+}
+
 TEST_F(Cli, says_that_a_resumed_run_begins_only_where_it_does) {
     write_file(folder_ / "used/notes.txt", "mine");
     const Outcome outcome = call({"run", study(), "-o", "used", "--resume"});
