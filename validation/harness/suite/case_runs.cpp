@@ -138,20 +138,6 @@ void require_usable_folder(const fs::path& folder) {
     write_file(folder / k_mark, "Results of cutterflow verify.\n");
 }
 
-/// Hours of work are not replaced with a glance.
-void require_no_dearer_results(const std::vector<VerificationCase>& cases, const VerificationSettings& settings) {
-    std::vector<Mistake> mistakes;
-    for (const VerifiedCase& result : read_verification(settings.folder)) {
-        const bool is_asked_for =
-            std::any_of(cases.begin(), cases.end(), [&](const VerificationCase& one) { return one.name == result.name; });
-        if (is_asked_for && effort_of(result) > static_cast<int>(settings.effort))
-            mistakes.push_back({(settings.folder / (result.name + ".json")).string(), fmt::format("is a result of class {}", result.effort),
-                                fmt::format("A run of class {} does not replace it", effort_text(settings.effort)),
-                                "Name another folder with -o"});
-    }
-    if (!mistakes.empty()) throw UserError(std::move(mistakes));
-}
-
 /// Files of other origin stand where results are to be written.
 void require_own_files(const std::vector<VerificationCase>& cases, const fs::path& folder) {
     std::vector<Mistake> mistakes;
@@ -269,7 +255,6 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     const ChildResult ended = run_child(command);
     result.core_s = work.add_core_s(ended.core_s);
     result.wall_s = ended.wall_s;
-    if (ended.exit_code == static_cast<int>(ExitCode::user_input)) throw UserError({failure_of(command, ended)});
     const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) || ended.exit_code == static_cast<int>(ExitCode::check_failed);
     if (!judged || !fs::exists(written)) {
         result.failed_as_a_whole = true;
@@ -296,8 +281,24 @@ std::vector<double> expected_costs(const std::vector<VerificationCase>& cases, c
 }
 
 bool is_finished(const VerifiedCase& result, const VerificationCase& one, const VerificationPlaces& places, Effort effort) {
-    return result.name == one.name && effort_of(result) >= static_cast<int>(effort) && !result.programs.empty() &&
-           result.programs == programs_hash(one, places);
+    return result.name == one.name && effort_of(result) >= static_cast<int>(effort) && !result.failed_as_a_whole &&
+           !result.programs.empty() && result.programs == programs_hash(one, places);
+}
+
+/// Hours of work are not replaced with a glance. With --resume what is finished is not run.
+void require_no_dearer_results(const std::vector<VerificationCase>& cases, const VerificationPlaces& places,
+                               const VerificationSettings& settings) {
+    std::vector<Mistake> mistakes;
+    for (const VerifiedCase& result : read_verification(settings.folder)) {
+        const bool would_replace = std::any_of(cases.begin(), cases.end(), [&](const VerificationCase& one) {
+            return one.name == result.name && !(settings.resume && is_finished(result, one, places, settings.effort));
+        });
+        if (would_replace && effort_of(result) > static_cast<int>(settings.effort))
+            mistakes.push_back({(settings.folder / (result.name + ".json")).string(), fmt::format("is a result of class {}", result.effort),
+                                fmt::format("A run of class {} does not replace it", effort_text(settings.effort)),
+                                "Name another folder with -o"});
+    }
+    if (!mistakes.empty()) throw UserError(std::move(mistakes));
 }
 
 }  // namespace
@@ -343,7 +344,7 @@ std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& 
                                            const VerificationSettings& settings, const std::function<void(const std::string&)>& say) {
     require_usable_folder(settings.folder);
     require_own_files(cases, settings.folder);
-    if (!settings.resume) require_no_dearer_results(cases, settings);
+    require_no_dearer_results(cases, places, settings);
     const std::vector<double> costs = expected_costs(cases, places, settings);
     double total = 0.0, done = 0.0;
     for (const double cost : costs) total += cost;
@@ -382,13 +383,24 @@ std::vector<VerifiedCase> read_verification(const fs::path& folder) {
     return results;
 }
 
+namespace {
+
+/// A later failure counts at any effort; what was found with less effort, or before, does not replace the rest.
+bool replaces(const VerifiedCase& result, const VerifiedCase& found) {
+    if (result.verdict() == CaseVerdict::skipped) return false;
+    if (effort_of(result) > effort_of(found)) return true;
+    if (result.date < found.date) return false;
+    return effort_of(result) == effort_of(found) || result.verdict() == CaseVerdict::fail;
+}
+
+}  // namespace
+
 std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& older, const std::vector<VerifiedCase>& newer) {
     std::map<std::string, VerifiedCase> merged;
     for (const VerifiedCase& result : older) merged[result.name] = result;
     for (const VerifiedCase& result : newer) {
         const auto found = merged.find(result.name);
-        const bool is_less = found != merged.end() && effort_of(found->second) > effort_of(result) && result.verdict() != CaseVerdict::fail;
-        if (is_less || (found != merged.end() && result.verdict() == CaseVerdict::skipped)) continue;
+        if (found != merged.end() && !replaces(result, found->second)) continue;
         merged[result.name] = result;
     }
     std::vector<VerifiedCase> results;

@@ -213,14 +213,16 @@ TEST_F(VerificationRun, refuses_a_case_folder_and_a_result_of_other_origin) {
     EXPECT_EQ(times_run("one"), 0u);
 }
 
-TEST_F(VerificationRun, refuses_what_a_case_refuses_and_passes_over_files_of_others) {
+TEST_F(VerificationRun, fails_a_case_that_refuses_its_input_goes_on_and_passes_over_files_of_others) {
     add_case("bad_reference", "echo 'reference.csv:3: \"nan\"'; exit 2");
-    try {
-        run();
-        FAIL() << "taken";
-    } catch (const UserError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("reference.csv:3"));
-    }
+    add_case_with("good", "pass");
+    const std::vector<VerifiedCase> results = run();
+    ASSERT_EQ(results.size(), 2u);
+    EXPECT_EQ(results[0].verdict(), CaseVerdict::fail);
+    EXPECT_THAT(results[0].reason, HasSubstr("reference.csv:3"));
+    EXPECT_EQ(results[1].verdict(), CaseVerdict::pass);
+    fs::remove_all(settings_.folder);
+    fs::create_directories(settings_.folder);
     write_file(settings_.folder / "all.json", "[]");
     write_file(settings_.folder / "empty.json", "");
     EXPECT_TRUE(read_verification(settings_.folder).empty());
@@ -233,23 +235,18 @@ TEST_F(VerificationRun, resume_leaves_the_begun_work_of_cases_that_go_on_with_it
     add_case("goes_on", script, "- class: fast\n- resumes: yes\n");
     add_case("begins_anew", script);
     const auto parts = [&](const std::string& name) { return read_file(root_ / (name + ".parts")); };
-    // As if the suite itself had been killed: there are no results yet.
-    const auto start_again = [&] {
-        for (const char* name : {"goes_on", "begins_anew"}) fs::remove(settings_.folder / (std::string(name) + ".json"));
-        run();
-    };
     run();
     settings_.resume = true;
-    start_again();
+    run();
     EXPECT_EQ(parts("goes_on"), "2\n");
     EXPECT_EQ(parts("begins_anew"), "1\n");
     write_file(places_.tools / "cutterFoam", "another solver");
-    start_again();
+    run();
     EXPECT_EQ(parts("goes_on"), "1\n");
-    start_again();
+    run();
     EXPECT_EQ(parts("goes_on"), "2\n");
     settings_.resume = false;
-    start_again();
+    run();
     EXPECT_EQ(parts("goes_on"), "1\n");
 }
 
@@ -288,6 +285,27 @@ TEST_F(VerificationRun, keeps_the_result_that_was_run_with_more_effort) {
     EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "long");
     newer.quantities.clear();
     EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard") << "a skipped case replaces nothing";
+    VerifiedCase old = older;
+    old.date = "2026-01-01 10:00";
+    older.date = "2026-01-02 09:00";
+    older.quantities[0].value = 2.0;
+    EXPECT_EQ(merged_verification({older}, {old}).at(0).date, older.date) << "a week-old folder does not replace what came later";
+    EXPECT_EQ(merged_verification({old}, {older}).at(0).date, older.date);
+    old.effort = "long";
+    EXPECT_EQ(merged_verification({older}, {old}).at(0).effort, "long") << "more was done";
+}
+
+TEST_F(VerificationRun, resume_does_not_replace_dearer_results_of_other_programs) {
+    add_case_with("one", "pass");
+    settings_.effort = Effort::longest;
+    run();
+    settings_.effort = Effort::fast;
+    settings_.resume = true;
+    run();
+    EXPECT_EQ(times_run("one"), 1u);
+    write_file(places_.tools / "cutterFoam", "another solver");
+    EXPECT_THROW(run(), UserError);
+    EXPECT_EQ(read_verification(settings_.folder).at(0).effort, "long");
 }
 
 TEST_F(VerificationRun, pages_name_every_shortfall_with_its_cause) {
