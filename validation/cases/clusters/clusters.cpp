@@ -87,7 +87,7 @@ Fall read_fall(const std::filesystem::path& folder) {
         fall.largest = larger(fall.largest, speed);
     }
     fall.mean = first / time;
-    fall.rms = std::sqrt(std::max(0.0, second / time - fall.mean * fall.mean));
+    fall.rms = std::sqrt(larger(0.0, second / time - fall.mean * fall.mean));
     const auto balance = read_columns(folder / "postProcessing/balance/0/balance.csv");
     fall.volume_error = largest(balance.at("solid_volume_error"));
     return fall;

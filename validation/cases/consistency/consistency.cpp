@@ -61,6 +61,8 @@ fs::path rotor_run(const fs::path& folder, int ranks) {
 /// Largest distance of any rock over the tank's diameter in two checkpoints, which keep all digits.
 double apart_in(const fs::path& a, const fs::path& b) {
     const auto one = coupling::read_state(a), other = coupling::read_state(b);
+    if (one.rocks.empty() || one.rocks.size() != other.rocks.size())
+        throw std::runtime_error(fmt::format("{} rocks in {}, {} in {}", one.rocks.size(), a.string(), other.rocks.size(), b.string()));
     double most = std::abs(one.time - other.time) < 1e-9 ? 0.0 : 1.0;
     for (const auto& [id, rock] : one.rocks) most = larger(most, (rock.position - other.rocks.at(id).position).norm());
     return most / (2.0 * cases::test::k_tiny_tank_radius);

@@ -40,7 +40,8 @@ double energy_of(const coupling::Rocks& rocks, const CylinderColumn& column) {
 }
 
 struct Collapse {
-    double arrival = 0.0, overlap = 0.0, energy_rise = 0.0, drift = 0.0;
+    double arrival = std::nan("");  ///< [s]; not a number: never
+    double overlap = 0.0, energy_rise = 0.0, drift = 0.0;
     std::size_t count = 0;
 };
 
@@ -58,7 +59,7 @@ Collapse collapse(const CylinderColumn& column, double end) {
         const double energy = energy_of(engine->rocks(), column);
         result.energy_rise = larger(result.energy_rise, (energy - lowest) / start);
         lowest = std::min(lowest, energy);
-        if (result.arrival == 0.0 && has_arrived(engine->rocks(), column)) result.arrival = n * sample;
+        if (std::isnan(result.arrival) && has_arrived(engine->rocks(), column)) result.arrival = n * sample;
         if (std::abs(n * sample - (end - 0.2)) < 0.5 * sample) before = mean_place(engine->rocks());
     }
     result.drift = (mean_place(engine->rocks()) - before).norm();

@@ -248,6 +248,14 @@ double error(double value, double reference) {
 
 constexpr std::array<double, 3> k_sizes{4.0, 8.0, 12.0};  // cells per block height
 
+/// The smaller of the two orders, 4 to 8 and 8 to 12 cells: an error that grows again has none, whatever its ends are.
+double least_order(const std::array<Outcome, 3>& errors, double Outcome::*error) {
+    const auto order = [&](std::size_t n) {
+        return std::log(errors[n].*error / errors[n + 1].*error) / std::log(k_sizes[n + 1] / k_sizes[n]);
+    };
+    return std::min(order(0), order(1));
+}
+
 /// Soil against walls on meshes with faces on the block. \param kind  begins the names of runs and rows \return the walls of the mesh in
 /// the middle
 Outcome check_orders(Verification& verification, const std::string& kind, const Liquid& liquid, const About& about) {
@@ -267,9 +275,8 @@ Outcome check_orders(Verification& verification, const std::string& kind, const 
     }
     verification.at_most(kind + "flow rate at 8 cells: share off", "-", errors[1].flow, 0.05, about);
     verification.at_most(kind + "drag at 8 cells: share off", "-", errors[1].drag, 0.05, about);
-    const auto order = [](double coarse, double fine) { return std::log(coarse / fine) / std::log(k_sizes.back() / k_sizes.front()); };
-    verification.at_least(kind + "order of the flow rate's error, 4 to 12 cells", "-", order(errors[0].flow, errors[2].flow), 1.0, about);
-    verification.at_least(kind + "order of the drag's error, 4 to 12 cells", "-", order(errors[0].drag, errors[2].drag), 1.0, about);
+    verification.at_least(kind + "order of the flow rate's error, 4 to 12 cells", "-", least_order(errors, &Outcome::flow), 1.0, about);
+    verification.at_least(kind + "order of the drag's error, 4 to 12 cells", "-", least_order(errors, &Outcome::drag), 1.0, about);
     return middle;
 }
 

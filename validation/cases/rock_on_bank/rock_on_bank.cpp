@@ -108,8 +108,9 @@ void let_rock_fall(Verification& verification, const geometry::Bank& bank, const
     double nearest = 1.0, fastest = 0.0;
     for (std::size_t p = 0; p < dem->rocks().size(); ++p) {
         const Vec3& at = dem->rocks().position[p];
+        if (!at.allFinite()) throw std::runtime_error("a rock is nowhere");
         nearest = std::min(nearest, soil.contains(at) ? 0.0 : soil.nearest(at).distance);
-        fastest = std::max(fastest, dem->rocks().velocity[p].norm());
+        fastest = larger(fastest, dem->rocks().velocity[p].norm());
     }
     verification.absolute("rocks on the bank: still there", "-", static_cast<double>(dem->rocks().size()), 24.0, 0.0,
                           {"exact", "after 2 s", {}});
@@ -236,7 +237,7 @@ double solid_in_soil(const fs::path& folder) {
         const std::vector<double> open = read_scalar_field(entry.path() / "voidFraction", box.cell_count());
         for (std::size_t cell = 0; cell < open.size(); ++cell) {
             const double x = (static_cast<double>(cell % n) + 0.5) * k_cell, z = (static_cast<double>(cell / n / n) + 0.5) * k_cell;
-            if (x < k_face && z < k_top) most = std::max(most, 1.0 - open[cell]);
+            if (x < k_face && z < k_top) most = larger(most, 1.0 - open[cell]);
         }
         ++written;
     }
@@ -251,7 +252,7 @@ double largest_overlap(const fs::path& folder) {
         for (const Vec3& at : picture.position) {
             const double beside = at.x() - k_face, above = at.z() - k_top;
             const double distance = beside > 0.0 && above > 0.0 ? std::hypot(beside, above) : std::max(beside, above);
-            overlap = std::max(overlap, 0.5 * k_diameter - distance);
+            overlap = larger(overlap, 0.5 * k_diameter - distance);
         }
     return overlap;
 }
