@@ -1,6 +1,7 @@
 #include "cases/replay/replay.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numeric>
@@ -37,6 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_plan = "plan.json";
+constexpr const char* k_fed_until = "fed_until_s";  // in a replay's names::replay, of a cut face
 
 /// Replays have other seeds than the repeats of a sweep, which count up from the study's.
 constexpr std::int64_t k_first_seed = 1000;
@@ -191,45 +193,62 @@ nlohmann::json optional_json(const std::optional<double>& value) {
     return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
+/// The study of a replay that ends as long after its release as the run, and with it the feed of a cut face: were that to end with the
+/// run, more would be delivered in the replay's last revolutions than is fed.
+Study study_of_replay(const RecordedRun& run, ParameterValues values) {
+    const auto start = [](const ParameterValues& study) { return study.tables("feed").front().number("feed.start_revolution"); };
+    values.set("run.max_revolutions", values.number("run.max_revolutions") + start(values) - start(run.values));
+    return make_study(values, run.folder);
+}
+
 /// What makes a replay's folder one that reports and comparisons read: its study, its rock, and whose flow it goes through.
+/// \param fed_until  end of the feed [s]; none: not known
 void describe_replay(const RecordedRun& run, const ParameterValues& values, const Study& study, const std::vector<PlacedFeed>& feeds,
-                     const fs::path& folder) {
+                     const std::optional<double>& fed_until, const fs::path& folder) {
     const coupling::RecordingSummary recording = coupling::read_recording_summary(run.folder / names::recording);
     write_file(folder / names::resolved_study,
                "# Every key of the study as it was replayed. Written by cutterflow: change the study, not this file.\n\n" +
                    commented_toml(study_table(), &values));
     write_file(folder / names::feed_report, feed_json(feeds, study));
-    const nlohmann::json replay{{"schema", postproc::k_replay_schema},
-                                {"run", run.folder.string()},
-                                {"flow_start_s", recording.start},
-                                {"flow_end_s", recording.end},
-                                {"flow_change", optional_json(recording.change)}};
+    nlohmann::json replay{{"schema", postproc::k_replay_schema},
+                          {"run", run.folder.string()},
+                          {"flow_start_s", recording.start},
+                          {"flow_end_s", recording.end},
+                          {"flow_change", optional_json(recording.change)}};
+    if (fed_until) replay[k_fed_until] = *fed_until;
     write_file(folder / names::replay, replay.dump(2) + "\n");
 }
 
 /// The case of a replay: the run's steel and contour, its own rock. It has no mesh. \param folder  of the replay
 void write_replay(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
-    const Study study = make_study(values, run.folder);
+    const Study study = study_of_replay(run, values);
     const geometry::Contour contour = contour_of(run, study);
     CaseInputs inputs = case_inputs_of(study, run.head.size, contour, 1);
-    // As long after its release as the run.
-    inputs.times.end += (values.tables("feed").front().number("feed.start_revolution") -
-                         run.values.tables("feed").front().number("feed.start_revolution")) *
-                        study.period();
     inputs.record.reset();
     inputs.replay = run.folder / names::recording;
     for (coupling::WallSettings& wall : inputs.rock->walls) wall.file = run.folder / wall.file;
     write_replay_case(folder, inputs);
     const std::vector<PlacedFeed> feeds = place_rock(run, study);
     write_file(folder / names::rock_feed, rock_feed_csv(feeds));
-    describe_replay(run, values, study, feeds, folder);
+    const std::optional<double> fed_until = study.is_fed_by_cutting() ? std::optional(study.feeds.front().end) : std::nullopt;
+    describe_replay(run, values, study, feeds, fed_until, folder);
 }
 
 /// For replays of before their folders told what they are.
 void describe_finished(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
     if (fs::exists(folder / names::replay)) return;
     const Study study = make_study(values, run.folder);
-    describe_replay(run, values, study, place_rock(run, study), folder);
+    describe_replay(run, values, study, place_rock(run, study), {}, folder);
+}
+
+/// Whether an earlier program made a replay whose feed ended with the run, up to the passing of a blade before the replay.
+bool ends_unfed(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
+    const ParameterValues &feed = values.tables("feed").front(), &of_run = run.values.tables("feed").front();
+    if (feed.text("feed.kind") != k_cut_face || feed.number("feed.duration_s") > 0.0 ||
+        feed.number("feed.start_revolution") == of_run.number("feed.start_revolution"))
+        return false;
+    return !read_json_document(folder / names::replay, {{k_fed_until, JsonKind::number}}, "Start again in another folder")
+                .contains(k_fed_until);
 }
 
 /// Written when a replay came to its end.
@@ -270,6 +289,9 @@ public:
         for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) add(r, 0);
         for (int index = 1; index <= settings.count; ++index) add(0, index);
     }
+
+    /// Replays of earlier programs whose feed ended before them.
+    std::size_t unfed() const { return unfed_; }
 
     std::vector<Replay> take_all() {
         side_by_side(tasks_.size(), settings_.jobs, [this](std::size_t n) {
@@ -312,7 +334,10 @@ private:
             const std::lock_guard<std::mutex> lock(mutex_);  // the placement of rock is not made for threads
             (is_finished ? describe_finished : write_replay)(run, tasks_[n].values, folder);
         }
-        if (!is_finished) run_own_solver(meshing::foam_command(folder, settings_.solver.string()));
+        if (!is_finished)
+            run_own_solver(meshing::foam_command(folder, settings_.solver.string()));
+        else if (ends_unfed(run, tasks_[n].values, folder))
+            ++unfed_;
         evaluate(folder, run, replays_[n]);
     }
 
@@ -322,6 +347,7 @@ private:
     std::vector<Replay> replays_;
     std::mutex mutex_;
     std::size_t done_ = 0;
+    std::atomic<std::size_t> unfed_{0};
     Progress progress_{"replays"};
 };
 
@@ -506,7 +532,12 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     const FolderLock lock(settings.folder);
 
     ReplayResults results;
-    results.replays = Replays(settings, runs).take_all();
+    Replays replays(settings, runs);
+    results.replays = replays.take_all();
+    if (replays.unfed() > 0)
+        say(fmt::format("warning: {} of these replays are an earlier program's, whose feed ended up to the passing of a blade before them: "
+                        "they deliver 1 to 2 % more of what is fed than they should. Replay again in a new folder",
+                        replays.unfed()));
     std::vector<double> spillage;
     std::vector<postproc::FedHead> fed;
     for (const Replay& replay : results.replays) {

@@ -1,6 +1,8 @@
 // Whose rock may be replayed in a recorded flow.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -133,6 +135,20 @@ protected:
             name, rpm, seed, start);
     }
 
+    /// Of a head that is fed from its second revolution to its end, in the last of two seconds.
+    static std::string fed_study_text() {
+        return "name = \"fed\"\n[cutter]\nfile = \"crown.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n"
+               "[swing]\ndirection = \"over_cut\"\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n"
+               "[run]\nflow_revolutions = 1\nmax_revolutions = 2\n[[feed]]\nkind = \"cut_face\"\n[[feed.class]]\ndiameter_m = 0.02\n";
+    }
+
+    /// A stand-in for cutterFoam, which is called in the replay's folder.
+    fs::path program(const std::string& script) const {
+        write_file(folder_ / "program", "#!/bin/sh\n" + script + "\n");
+        fs::permissions(folder_ / "program", fs::perms::owner_all);
+        return folder_ / "program";
+    }
+
     fs::path run(const std::string& name, const std::string& study) const {
         const fs::path folder = folder_ / name;
         fs::copy(suite_ / "geometry_alone", folder, fs::copy_options::recursive);
@@ -219,6 +235,30 @@ TEST_F(RecordedRuns, of_an_earlier_program_are_gone_on_with_where_no_rock_can_ha
     EXPECT_EQ(refusal(settings({recorded})), "not refused");
     write_file(plan, fmt::format(R"({{"runs": ["{}", "{}"]}})", recorded.string(), rock.string()));
     EXPECT_THAT(refusal(settings({recorded}, rock)), AllOf(HasSubstr("an earlier program"), HasSubstr("a new folder with -o")));
+}
+
+// Later releases end later. A replay is of the run's study all the same, so that replays are repeats of one setting.
+TEST_F(RecordedRuns, of_a_cut_face_are_fed_until_they_end) {
+    const fs::path recorded = run("fed", fed_study_text());
+    ASSERT_EQ(refusal(settings({recorded})), "not refused");
+    const auto last_release = [](const fs::path& folder) {
+        std::istringstream lines(read_file(folder / names::rock_feed));
+        std::string line;
+        std::getline(lines, line);
+        double last = 0.0;
+        while (std::getline(lines, line)) last = std::max(last, std::stod(line.substr(line.find(',') + 1)));
+        return last;
+    };
+    const ReplaySettings later{{recorded}, {}, 1, folder_ / "later", program("exit 0"), 1, false};
+    refusal(later);
+    const fs::path replay = folder_ / "later/replay_001";
+    const std::string control = read_file(replay / "system/controlDict"), key = "endTime ";
+    const double end = std::stod(control.substr(control.find(key) + key.size()));
+    EXPECT_GT(end, 2.0 + 0.05) << "of a run of two seconds";
+    EXPECT_LT(last_release(replay), end);
+    EXPECT_GT(last_release(replay), end - 0.03);
+    EXPECT_NEAR(last_release(replay) - last_release(folder_ / "replays/pair_1"), end - 2.0, 0.03);
+    EXPECT_EQ(read_parameters(study_table(), replay / names::resolved_study).number("run.max_revolutions"), 2.0);
 }
 
 // Pairs are of a coupled run and the replay of its placement.
