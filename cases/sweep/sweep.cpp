@@ -99,9 +99,20 @@ void require_other_keys(const std::vector<KeyAxis>& axes) {
     mistakes.refuse();
 }
 
-/// A path of the user's (relative to where the command was given) as the studies in the sweep's folder name it.
+/// A path of the user's (relative to where the command was given) as the studies in the sweep's folder name it. A file that is a symbolic
+/// link is named, not what it leads to; folders are not, as ".." leaves what a link leads to.
 std::string from_studies(const fs::path& path, const fs::path& folder) {
-    return fs::absolute(path).lexically_normal().lexically_relative((fs::absolute(folder) / k_studies).lexically_normal()).string();
+    const fs::path file = fs::absolute(path);
+    return (fs::weakly_canonical(file.parent_path()) / file.filename()).lexically_relative(studies_folder(folder)).string();
+}
+
+/// Keys of a study that name files, beside the cutter's.
+std::vector<std::string> other_files(const ParameterValues& values) {
+    std::vector<std::string> keys;
+    for (const Parameter& parameter : study_table())
+        if (parameter.kind == ParameterKind::path && parameter.key != "cutter.file" && values.has(parameter.key))
+            keys.push_back(parameter.key);
+    return keys;
 }
 
 /// Reads cutters once each: a sweep names the same design many times.
@@ -432,6 +443,10 @@ private:
 
 }  // namespace
 
+fs::path studies_folder(const fs::path& sweep) {
+    return fs::weakly_canonical(fs::absolute(sweep)) / k_studies;
+}
+
 void require_sweep_folder(const fs::path& folder, bool resume) {
     require_openfoam_path(fs::absolute(folder));
     const bool begun = fs::exists(folder / k_studies);
@@ -480,14 +495,16 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
             vary_release(values, repeat, static_cast<double>(combination.repeat) / (axes.repeats.count * head.symmetry.blade_count));
             const ParameterValues placed_here = values;
             values.set("cutter.file", from_studies(cutter, folder));
-            if (values.has("report.adv_points"))
-                values.set("report.adv_points", from_studies(study.parent_path() / base.text("report.adv_points"), folder));
+            for (const std::string& key : other_files(values))
+                values.set(key, from_studies(study.parent_path() / values.text(key), folder));
             const std::string text = commented_toml(study_table(), &values);
             parse_parameters(study_table(), text, name);  // bounds of what the axes set
             points.push_back({name, text, cutter.lexically_normal().string() + shape_of(values, axes.keys),
                               combination.repeat > 0 ? first : std::string()});
             const ParameterValues resolved = resolve_study(placed_here, head_size(head));
             std::vector<Mistake> wrong = check_file_rules(placed_here, name);
+            for (const std::string& key : other_files(placed_here))
+                if (const auto missing = missing_file(placed_here, key.c_str(), study.parent_path())) wrong.push_back(*missing);
             const std::vector<Mistake> beside_head = check_study(resolved, head_size(head));
             wrong.insert(wrong.end(), beside_head.begin(), beside_head.end());
             for (Mistake mistake : wrong) {

@@ -16,7 +16,7 @@ struct SweepAxes {
     std::vector<double> discharges;    ///< [m3/s]
     std::vector<std::string> designs;  ///< surfaces of cutters
     RepeatRange repeats = 1;
-    std::vector<KeyAxis> keys{};  ///< other keys of the study
+    std::vector<KeyAxis> keys{};  ///< other keys of the study; files are relative to it
 };
 
 struct SweepPoint {
@@ -26,6 +26,9 @@ struct SweepPoint {
     std::string start_donor{};  ///< of a repeat: the first one of its setting, whose frozen-rotor flow it takes if that is done; else empty
     std::vector<std::string> shared{"geometry", "mesh"};  ///< stages that points of one design share: what `cutterflow mesh` makes
 };
+
+/// Where a sweep keeps the studies of its points, without symbolic links. Their files are named relative to it.
+std::filesystem::path studies_folder(const std::filesystem::path& sweep);
 
 /// \throws UserError  for a path that OpenFOAM does not take; when the folder holds something else, a sweep and `resume` is false, or
 /// none and `resume` is true

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cases/scenes/cutter/study_bank.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
@@ -38,6 +40,13 @@ protected:
     void TearDown() override { fs::remove_all(folder_); }
 
     std::vector<SweepPoint> points(SweepAxes axes) const { return sweep_points(folder_ / "study.toml", axes, folder_ / "sweep"); }
+
+    /// The file that a point's study names.
+    fs::path named_file(const SweepPoint& point, const std::string& key) const {
+        const fs::path studies = folder_ / "sweep/studies";
+        fs::create_directories(studies);
+        return studies / parse_parameters(study_table(), point.text, point.name).text(key);
+    }
 
     /// A sweep over one key, `set` as on the command line, is refused with a message that holds `part`.
     void expect_refused(const std::string& set, const std::string& part) const {
@@ -105,6 +114,45 @@ TEST_F(Sweep, varies_any_key_and_shares_the_mesh_where_the_key_leaves_it_as_it_i
     EXPECT_EQ(values.tables("feed")[0].tables("feed.class")[0].number("feed.class.diameter_m"), 0.03);
     EXPECT_EQ(all[0].design, all[2].design) << "the inclination only turns gravity";
     EXPECT_NE(all[0].design, all[1].design) << "another mesh";
+}
+
+TEST_F(Sweep, has_points_that_find_the_soil_of_the_study) {
+    const std::string study = read_file(folder_ / "study.toml");
+    const auto write_study = [&](const std::string& file) {
+        write_file(folder_ / "study.toml",
+                   study.substr(0, study.find("[[feed]]")) + "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n" + file);
+    };
+    write_study("");
+    const ParameterValues values = read_study(folder_ / "study.toml");
+    const geometry::Head head = *import_study_cutter(values, folder_).head;
+    const Study beside_bank = make_study(resolve_study(values, head_size(head)), folder_);
+    geometry::write_stl(bank_surface(beside_bank, head_size(head), head_contour(head, beside_bank.suction.gap)), folder_ / "soil.stl");
+    write_study("file = \"soil.stl\"\n");
+    EXPECT_TRUE(fs::equivalent(named_file(points({{30}, {}, {}, 1}).at(0), "bank.file"), folder_ / "soil.stl"));
+}
+
+TEST_F(Sweep, varies_the_points_of_measurement_whose_files_are_relative_to_the_study) {
+    for (const char* file : {"near.csv", "far.csv"})
+        write_file(folder_ / file,
+                   "name,r_m,theta_deg,z_m,frame,u_radial_m_s,u_tangential_m_s,u_axial_m_s\np,0.6,0,-0.1,still,0.1,0.2,0.3\n");
+    SweepAxes axes;
+    axes.keys = key_axes(study_table(), {"report.adv_points=near.csv,far.csv"}, "params");
+    const std::vector<SweepPoint> all = points(axes);
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_TRUE(fs::equivalent(named_file(all[0], "report.adv_points"), folder_ / "near.csv"));
+    EXPECT_TRUE(fs::equivalent(named_file(all[1], "report.adv_points"), folder_ / "far.csv"));
+    expect_refused("report.adv_points=absent.csv", "absent.csv");
+}
+
+// A study's ".." leaves what a symbolic link leads to, not the link.
+TEST_F(Sweep, has_points_that_find_the_cutter_from_below_a_symbolic_link) {
+    fs::create_directories(folder_ / "disk/deep/runs");
+    fs::create_directory_symlink(folder_ / "disk/deep/runs", folder_ / "runs");
+    const fs::path sweep = folder_ / "runs/sweep";
+    const SweepPoint point = sweep_points(folder_ / "study.toml", {{30}, {}, {}, 1}, sweep).at(0);
+    const fs::path file = sweep / "studies" / (point.name + ".toml");
+    write_file(file, point.text);
+    EXPECT_TRUE(fs::exists(file.parent_path() / read_study(file).text("cutter.file"))) << point.text;
 }
 
 TEST_F(Sweep, refuses_keys_that_other_options_vary_and_values_out_of_bounds) {
