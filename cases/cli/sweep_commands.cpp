@@ -16,7 +16,9 @@
 #include "cases/cli/numbers.hpp"
 #include "cases/cli/replay_lines.hpp"
 #include "cases/replay/replay.hpp"
+#include "cases/replay/rock_study.hpp"
 #include "cases/runner/machine.hpp"
+#include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/installation.hpp"
@@ -70,13 +72,21 @@ void require_recorded_points(const SweepOptions& options) {
                           "A replay needs the flow that its run recorded before the rock", "Set run.record_revolutions = 1"}});
 }
 
+cases::HeadSize size_of(const fs::path& cutter, ParameterValues values) {
+    values.set("cutter.file", cutter.string());
+    return cases::head_size(*cases::import_study_cutter(values, "").head);
+}
+
 /// \throws UserError  when the rock to be replayed does not fit the flow of a point
-void require_fitting_rock(const SweepOptions& options, const std::vector<cases::SweepPoint>& points) {
+void require_fitting_rock(const SweepOptions& options, const std::vector<cases::SweepPoint>& points, const fs::path& folder) {
     if (options.replay_study.empty()) return;
+    const fs::path studies = cases::studies_folder(folder);
+    std::map<fs::path, cases::HeadSize> heads;  // a cutter is read once
     for (const cases::SweepPoint& point : points) {
         const ParameterValues values = parse_parameters(cases::study_table(), point.text, point.name);
-        std::vector<Mistake> mistakes = cases::check_rock_study(values, options.replay_study);
-        if (!mistakes.empty()) throw UserError(std::move(mistakes));
+        const fs::path cutter = (studies / values.text("cutter.file")).lexically_normal();
+        if (heads.count(cutter) == 0) heads[cutter] = size_of(cutter, values);
+        cases::read_rock_study(cases::planned_flow(values, studies, heads[cutter]), options.replay_study);
     }
 }
 
@@ -139,7 +149,7 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     mistakes.gather([&] { cases::require_sweep_folder(folder, options.resume); });
     mistakes.gather([&] { points = kind_of_study(options.study).points(options, folder); });
     mistakes.gather([&] { require_recorded_points(options); });
-    mistakes.gather([&] { require_fitting_rock(options, points); });
+    mistakes.gather([&] { require_fitting_rock(options, points, folder); });
     mistakes.refuse();
     const int jobs = std::max(1, cases::available_cores() / options.ranks);
     const cases::SweepSettings settings{folder,         installation().programs / "cutterflow",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <numeric>
 
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/replay/repeats.hpp"
+#include "cases/replay/rock_study.hpp"
 #include "cases/runner/pipeline.hpp"
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/solver_run.hpp"
@@ -29,6 +31,7 @@
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "meshing/dictionary/foam_command.hpp"
+#include "postproc/run/input_files.hpp"
 #include "postproc/run/run_reader.hpp"
 #include "solver/ports/recording_summary.hpp"
 
@@ -50,6 +53,7 @@ constexpr double k_golden_ratio = 0.6180339887498949;
 struct RecordedRun {
     fs::path folder;  ///< absolute
     ParameterValues values;
+    std::map<std::string, std::string> files;  ///< that the run was made from, by their content
     RunHead head;
     geometry::TriangleSurface cutter;
 };
@@ -64,7 +68,9 @@ RecordedRun open_run(const fs::path& run) {
     mistakes.refuse();
     // A file that was changed by hand may lack keys.
     values = resolve_study(values, head.size);
-    return {fs::absolute(run).lexically_normal(), std::move(values), std::move(head),
+    const nlohmann::json manifest = read_json_document(directory.file(names::manifest), {{"stages", JsonKind::object, true}},
+                                                       "Start again in another directory with -o");
+    return {fs::absolute(run).lexically_normal(), std::move(values), postproc::input_files(manifest), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }
 
@@ -112,64 +118,6 @@ void require_recordings(const std::vector<fs::path>& runs, const std::function<v
                       "Set run.record_revolutions = 1 in the study and run it in another directory"});
     }
     mistakes.refuse();
-}
-
-/// Relative difference of two numbers that were written as text.
-constexpr double k_same = 1e-9;
-
-bool same(const ParameterValue& a, const ParameterValue& b) {
-    const double *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
-    return x != nullptr && y != nullptr ? std::abs(*x - *y) <= k_same * std::max(std::abs(*x), std::abs(*y)) : a == b;
-}
-
-/// Whether the flow of that run depends on the key: soil stands where swing and ladder have it, and hauled water has the swing's speed.
-bool belongs_to_flow(const Parameter& parameter, const ParameterValues& recorded) {
-    if (parameter.key == "swing.direction" || parameter.key == "ladder.inclination_deg") return has_bank(recorded);
-    if (parameter.key == "swing.speed_m_min") return recorded.boolean("hauling.water");
-    if (parameter.stage == k_geometry_stage || parameter.stage == k_mesh_stage) return true;
-    const std::string section = parameter.key.substr(0, parameter.key.find('.'));
-    return section == "rotor" || section == "suction" || section == "fluid" || section == "bank" || section == "hauling";
-}
-
-/// The table of a study of which all that belongs to the recorded flow may be left out.
-ParameterTable rock_study_table(const ParameterValues& recorded) {
-    ParameterTable table = study_table();
-    for (Parameter& parameter : table) {
-        if (!belongs_to_flow(parameter, recorded)) continue;
-        parameter.default_value.reset();
-        parameter.optional = true;
-    }
-    return table;
-}
-
-/// A study whose rock is replayed, with all that belongs to the recorded flow, and what is wrong with it.
-struct RockStudy {
-    ParameterValues values;
-    std::vector<Mistake> mistakes;
-};
-
-/// \param has_steel  whether `recorded` names the file that the flow's steel was made from, for comparison
-RockStudy read_rock_study(ParameterValues recorded, const fs::path& file, bool has_steel) {
-    ParameterValues values = read_parameters(rock_study_table(recorded), file);
-    // The steel is the run's own copy; a study names the file that it was made from, relative to itself.
-    if (values.has("cutter.file")) {
-        values.set("cutter.file", (fs::absolute(file).parent_path() / values.text("cutter.file")).lexically_normal().string());
-        if (!has_steel) recorded.set("cutter.file", values.text("cutter.file"));
-    }
-    Mistakes mistakes(file.string());
-    mistakes.add(check_same_flow(recorded, values, file));
-    mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
-    for (const Parameter& parameter : study_table())
-        if (belongs_to_flow(parameter, recorded) && recorded.has(parameter.key)) values.set(parameter.key, *recorded.find(parameter.key));
-    mistakes.add(check_file_rules(values, file));
-    return {std::move(values), mistakes.take()};
-}
-
-/// The rock of another study in a run's flow.
-void take_study(RecordedRun& run, const fs::path& file) {
-    RockStudy study = read_rock_study(run.values, file, true);
-    if (!study.mistakes.empty()) throw UserError(std::move(study.mistakes));
-    run.values = resolve_study(study.values, run.head.size);
 }
 
 /// The study of one replay. \param index  from 1 on; 0 is the run's own placement
@@ -462,22 +410,6 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
 
 }  // namespace
 
-std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const fs::path& file) {
-    std::vector<Mistake> mistakes;
-    for (const Parameter& parameter : study_table()) {
-        const ParameterValue *of_run = recorded.find(parameter.key), *of_study = study.find(parameter.key);
-        if (!belongs_to_flow(parameter, recorded) || of_run == nullptr || of_study == nullptr || same(*of_run, *of_study)) continue;
-        mistakes.push_back({file.string(), fmt::format("{} = {}", parameter.key, toml_text(*of_study)),
-                            fmt::format("A replay takes the flow as the run recorded it, with {}", toml_text(*of_run)),
-                            "Give the run's value, or run the study itself"});
-    }
-    return mistakes;
-}
-
-std::vector<Mistake> check_rock_study(const ParameterValues& planned, const fs::path& study) {
-    return read_rock_study(planned, study, false).mistakes;
-}
-
 ParameterValues study_as_recorded(ParameterValues study) {
     if (study.where("kernel.sampling").empty()) study.set("kernel.sampling", std::string(coupling::k_quadratic_sampling));
     for (ParameterValues& feed : study.tables_for_writing("feed"))
@@ -526,7 +458,8 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     if (!settings.study.empty() && runs.size() > 1)
         throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow", "Name one run");
     require_repeats(runs);
-    if (!settings.study.empty()) take_study(runs.front(), settings.study);
+    if (RecordedRun& run = runs.front(); !settings.study.empty())
+        run.values = read_rock_study({run.values, run.files, run.head.size}, settings.study);
     require_rock(runs);
     open_folder(settings, runs);
     const FolderLock lock(settings.folder);
@@ -535,7 +468,8 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     Replays replays(settings, runs);
     results.replays = replays.take_all();
     if (replays.unfed() > 0)
-        say(fmt::format("warning: {} of these replays are an earlier program's, whose feed ended up to the passing of a blade before them: "
+        say(
+            fmt::format("warning: {} of these replays are an earlier program's, whose feed ended up to the passing of a blade before them: "
                         "they deliver 1 to 2 % more of what is fed than they should. Replay again in a new folder",
                         replays.unfed()));
     std::vector<double> spillage;

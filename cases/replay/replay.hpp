@@ -44,15 +44,6 @@ struct ReplayResults {
     std::vector<postproc::Exits> exits;       ///< of the replays in which rock is spilled, without pairs
 };
 
-/// Keys of `study` that differ from `recorded` although a recorded flow depends on them: what a run settles by its geometry and its mesh,
-/// sections rotor, suction, fluid, bank and hauling, with a bank the swing's direction and the ladder, with hauled water its speed. Both
-/// are resolved. \param file  of the study, for messages
-std::vector<Mistake> check_same_flow(const ParameterValues& recorded, const ParameterValues& study, const std::filesystem::path& file);
-
-/// Mistakes of a study whose rock is to be replayed in the flow of a study that has not run yet. The cutter's file is not compared.
-/// \throws UserError  as read_parameters
-std::vector<Mistake> check_rock_study(const ParameterValues& planned, const std::filesystem::path& study);
-
 /// The study of a run by the program that ran it: before the key kernel.sampling existed, rock sampled from a shell, and keys that a feed
 /// does not use were allowed.
 ParameterValues study_as_recorded(ParameterValues study);

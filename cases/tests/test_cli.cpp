@@ -797,6 +797,9 @@ TEST_F(Cli, looks_at_rock_to_be_replayed_before_a_sweep_runs) {
     expect_refused(rock, 2, "rotor.speed_rpm = 50. A replay takes the flow as the run recorded it, with 45");
     expect_contains(rock.text, "no [[feed]]");
     expect_refused(call({"sweep", "study.toml", "--replay", "3", "--replay-study", "none.toml", "-o", "sweep"}), 2, "none.toml");
+    write_file(folder_ / "other.stl", "another cutter");
+    write_file(folder_ / "rock.toml", "[cutter]\nfile = \"other.stl\"\n[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\n");
+    expect_refused(call({"sweep", "study.toml", "--replay", "3", "--replay-study", "rock.toml", "-o", "sweep"}), 2, "other content");
     EXPECT_FALSE(fs::exists(folder_ / "sweep"));
 }
 

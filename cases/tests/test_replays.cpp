@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/replay/replay.hpp"
+#include "cases/replay/rock_study.hpp"
 #include "cases/runner/pipeline.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/error.hpp"
@@ -32,33 +33,38 @@ ParameterValues study(const std::string& more) {
                             "study.toml");
 }
 
+/// Of a study that leaves out the cutter.
+std::vector<Mistake> mistakes_of(const ParameterValues& recorded, ParameterValues other) {
+    other.remove("cutter.file");
+    return check_same_flow({recorded, {}, {}}, other, "other.toml");
+}
+
 TEST(SameFlow, other_rock_another_ladder_and_a_longer_run_are_the_same_flow) {
     const ParameterValues other = study(
         "[ladder]\ninclination_deg = 30\n[run]\nmax_revolutions = 5\nmax_courant = 0.5\n[kernel]\ngamma = 2\n"
         "[[feed]]\ncount = 7\n[[feed.class]]\ndiameter_m = 0.002\ndensity_kg_m3 = 1050\n");
-    EXPECT_THAT(check_same_flow(study(""), other, "other.toml"), ::testing::IsEmpty());
+    EXPECT_THAT(mistakes_of(study(""), other), ::testing::IsEmpty());
 }
 
 TEST(SameFlow, every_key_of_another_flow_is_named) {
     ParameterValues other = study("[fluid]\ndensity_kg_m3 = 1025\n[mesh]\npreset = \"standard\"\n");
     other.set("rotor.speed_rpm", 59.0);
-    other.set("cutter.file", std::string("/other.stl"));
     other.set("suction.mouth_offset_m", 0.22 * (1.0 + 1e-12));  // written as text and read again
     std::string all;
-    for (const Mistake& mistake : check_same_flow(study(""), other, "other.toml")) all += mistake.text() + "\n";
-    for (const char* part : {"rotor.speed_rpm = 59", "fluid.density_kg_m3 = 1025", "mesh.preset = \"standard\"",
-                             "cutter.file = \"/other.stl\"", "as the run recorded it, with 60"})
+    for (const Mistake& mistake : mistakes_of(study(""), other)) all += mistake.text() + "\n";
+    for (const char* part :
+         {"rotor.speed_rpm = 59", "fluid.density_kg_m3 = 1025", "mesh.preset = \"standard\"", "as the run recorded it, with 60"})
         EXPECT_THAT(all, ::testing::HasSubstr(part));
     EXPECT_THAT(all, ::testing::Not(::testing::HasSubstr("mouth_offset")));
 }
 
 TEST(SameFlow, a_recorded_flow_keeps_its_bank_and_its_hauling) {
     const std::string bank = "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n";
-    EXPECT_THAT(check_same_flow(study(bank), study(bank), "other.toml"), ::testing::IsEmpty());
-    const std::vector<Mistake> mistakes = check_same_flow(study(bank), study(""), "other.toml");
+    EXPECT_THAT(mistakes_of(study(bank), study(bank)), ::testing::IsEmpty());
+    const std::vector<Mistake> mistakes = mistakes_of(study(bank), study(""));
     ASSERT_EQ(mistakes.size(), 1u);
     EXPECT_THAT(mistakes.front().text(), ::testing::HasSubstr("bank.model = \"none\""));
-    EXPECT_EQ(check_same_flow(study(bank), study(bank + "[hauling]\nwater = true\n"), "other.toml").size(), 1u);
+    EXPECT_EQ(mistakes_of(study(bank), study(bank + "[hauling]\nwater = true\n")).size(), 1u);
 }
 
 // Soil stands to one side and is level; only hauled water knows the swing's speed.
@@ -67,12 +73,11 @@ TEST(SameFlow, beside_a_bank_swing_and_ladder_belong_to_the_flow) {
         return study("[swing]\n" + swing + "[bank]\nmodel = \"wall\"\n" + more);
     };
     const ParameterValues slow = beside_bank("speed_m_min = 6\n", "");
-    EXPECT_THAT(check_same_flow(slow, beside_bank("speed_m_min = 12\n", ""), "other.toml"), ::testing::IsEmpty());
+    EXPECT_THAT(mistakes_of(slow, beside_bank("speed_m_min = 12\n", "")), ::testing::IsEmpty());
     const auto other = beside_bank("speed_m_min = 6\ndirection = \"under_cut\"\n", "[ladder]\ninclination_deg = 30\n");
-    EXPECT_EQ(check_same_flow(slow, other, "other.toml").size(), 2u);
+    EXPECT_EQ(mistakes_of(slow, other).size(), 2u);
     const std::string hauling = "[hauling]\nwater = true\n";
-    EXPECT_EQ(check_same_flow(beside_bank("speed_m_min = 6\n", hauling), beside_bank("speed_m_min = 12\n", hauling), "other.toml").size(),
-              1u);
+    EXPECT_EQ(mistakes_of(beside_bank("speed_m_min = 6\n", hauling), beside_bank("speed_m_min = 12\n", hauling)).size(), 1u);
 }
 
 TEST(Replays, of_a_sweep_are_a_table_of_its_settings) {
@@ -210,6 +215,32 @@ TEST_F(RecordedRuns, of_another_cutter_under_the_same_name_are_refused) {
     ASSERT_NE(manifest.find(hash), std::string::npos);
     write_file(other / names::manifest, manifest.replace(manifest.find(hash), hash.size(), sha256("another cutter")));
     EXPECT_THAT(refusal(settings({first, other})), HasSubstr("cutter, SHA-256 = "));
+}
+
+// A study names its cutter relative to itself, and the run's own may lie elsewhere.
+TEST_F(RecordedRuns, take_rock_of_studies_that_name_the_same_cutter_by_any_path) {
+    const fs::path recorded = run("a", study_text());
+    const auto refusal_of = [&](const std::string& cutter) {
+        std::string rock = study_text(60, 8, 1.2);
+        rock.replace(rock.find("crown.stl"), 9, cutter);
+        write_file(folder_ / "rock.toml", rock);
+        fs::remove_all(folder_ / "replays");
+        return refusal(settings({recorded}, folder_ / "rock.toml"));
+    };
+    fs::copy_file(suite_ / "crown.stl", folder_ / "copy.stl");
+    write_file(folder_ / "other.stl", "another cutter");
+    EXPECT_EQ(refusal_of("../crown.stl"), "not refused");
+    EXPECT_EQ(refusal_of("copy.stl"), "not refused");
+    EXPECT_THAT(refusal_of("other.stl"), AllOf(HasSubstr("cutter.file = \"other.stl\""), HasSubstr("had other content")));
+    EXPECT_THAT(refusal_of("absent.stl"), HasSubstr("absent.stl"));
+}
+
+TEST_F(RecordedRuns, take_no_rock_beside_soil_of_another_file) {
+    const std::string bank = "[bank]\nmodel = \"wall\"\n", swing = "[swing]\nspeed_m_min = 6\n";
+    const fs::path recorded = run("a", study_text() + swing + bank);
+    write_file(folder_ / "soil.stl", "soil");
+    write_file(folder_ / "rock.toml", swing + bank + "file = \"soil.stl\"\n[[feed]]\ncount = 10\n[[feed.class]]\ndiameter_m = 0.01\n");
+    EXPECT_THAT(refusal(settings({recorded}, folder_ / "rock.toml")), AllOf(HasSubstr("soil.stl"), HasSubstr("without such a file")));
 }
 
 // A finished replay is not made again, so that rock of both studies would count as one sample.
