@@ -149,6 +149,13 @@ Study study_of_replay(const RecordedRun& run, ParameterValues values) {
     return make_study(values, run.folder);
 }
 
+/// The rock of another study in a run's flow; how much of it has a place is said.
+void take_study(RecordedRun& run, const fs::path& file, const std::function<void(const std::string&)>& say) {
+    run.values = read_rock_study({run.values, run.files, run.head.size}, file);
+    for (const std::string& line : feed_lines(place_rock(run, make_study(run.values, run.folder))))
+        say(fmt::format("{}: {}", file.string(), line));
+}
+
 /// What makes a replay's folder one that reports and comparisons read: its study, its rock, and whose flow it goes through.
 /// \param fed_until  end of the feed [s]; none: not known
 void describe_replay(const RecordedRun& run, const ParameterValues& values, const Study& study, const std::vector<PlacedFeed>& feeds,
@@ -458,8 +465,7 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     if (!settings.study.empty() && runs.size() > 1)
         throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow", "Name one run");
     require_repeats(runs);
-    if (RecordedRun& run = runs.front(); !settings.study.empty())
-        run.values = read_rock_study({run.values, run.files, run.head.size}, settings.study);
+    if (!settings.study.empty()) take_study(runs.front(), settings.study, say);
     require_rock(runs);
     open_folder(settings, runs);
     const FolderLock lock(settings.folder);

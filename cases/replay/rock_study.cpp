@@ -59,6 +59,12 @@ void check_same_file(const ReplayedFlow& flow, const ParameterValues& study, con
                   "Leave the key out, or run the study itself"});
 }
 
+/// A replay records nothing.
+std::vector<Mistake> check_beside_head(ParameterValues resolved, const HeadSize& head) {
+    resolved.set("run.record_revolutions", 0.0);
+    return check_study(resolved, head);
+}
+
 }  // namespace
 
 ReplayedFlow planned_flow(const ParameterValues& values, const fs::path& folder, const HeadSize& head) {
@@ -92,8 +98,10 @@ ParameterValues read_rock_study(const ReplayedFlow& flow, const fs::path& file) 
         if (belongs_to_flow(parameter, flow.values) && flow.values.has(parameter.key))
             values.set(parameter.key, *flow.values.find(parameter.key));
     mistakes.add(check_file_rules(values, file));
+    const ParameterValues resolved = resolve_study(values, flow.head);
+    mistakes.add(check_beside_head(resolved, flow.head));
     mistakes.refuse();
-    return resolve_study(values, flow.head);
+    return resolved;
 }
 
 }  // namespace cutterflow::cases

@@ -235,6 +235,23 @@ TEST_F(RecordedRuns, take_rock_of_studies_that_name_the_same_cutter_by_any_path)
     EXPECT_THAT(refusal_of("absent.stl"), HasSubstr("absent.stl"));
 }
 
+TEST_F(RecordedRuns, take_rock_that_fits_the_head_and_say_how_much_has_a_place) {
+    const fs::path recorded = run("a", study_text());
+    const auto write_rock = [&](const std::string& quantity, double diameter) {
+        write_file(folder_ / "rock.toml",
+                   fmt::format("[run]\nrecord_revolutions = 20\n[[feed]]\n{}\n[[feed.class]]\ndiameter_m = {}\n", quantity, diameter));
+    };
+    write_rock("count = 2000000000", 0.02);
+    EXPECT_THAT(refusal(settings({recorded}, folder_ / "rock.toml")), HasSubstr("rock.toml:4: feed.count = 2e+09"));
+    write_rock("count = 10", 2.0);
+    EXPECT_THAT(refusal(settings({recorded}, folder_ / "rock.toml")), HasSubstr("smaller than the head"));
+    write_rock("count = 20", 0.02);
+    std::string said;
+    EXPECT_THROW(run_replays(settings({recorded}, folder_ / "rock.toml"), [&](const std::string& line) { said += line + "\n"; }),
+                 ToolError);
+    EXPECT_THAT(said, HasSubstr("rock.toml: 20 rocks requested, 20 placed"));
+}
+
 TEST_F(RecordedRuns, take_no_rock_beside_soil_of_another_file) {
     const std::string bank = "[bank]\nmodel = \"wall\"\n", swing = "[swing]\nspeed_m_min = 6\n";
     const fs::path recorded = run("a", study_text() + swing + bank);
