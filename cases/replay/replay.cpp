@@ -15,6 +15,7 @@
 #include "cases/runner/pipeline.hpp"
 #include "cases/runner/run_directory.hpp"
 #include "cases/runner/solver_run.hpp"
+#include "cases/runner/stages.hpp"
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/feed.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
@@ -214,6 +215,14 @@ fs::path cost_file(const fs::path& folder) {
 postproc::RockAnswer answer_of(const fs::path& folder, const RecordedRun& run) {
     const Study study = make_study(run.values, run.folder);
     return postproc::rock_answer(folder, study.is_fed_by_cutting(), study.period(), run.head.size.blades);
+}
+
+/// Of a run whose flow is replayed: its replay goes on to the end, so the run has to have ended as well.
+postproc::RockAnswer coupled_answer(const RecordedRun& run) {
+    if (stages_are_done(run.folder, {"run"})) return answer_of(run.folder, run);
+    postproc::RockAnswer none;
+    none.reason = "it has not ended";
+    return none;
 }
 
 std::optional<postproc::Exits> exits_of(const fs::path& folder, const RecordedRun& run) {
@@ -487,7 +496,7 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
         if (replay.exits) results.exits.push_back(*replay.exits);
     }
     for (std::size_t r = 0; settings.study.empty() && r < runs.size(); ++r) {
-        const postproc::RockAnswer coupled = answer_of(runs[r].folder, runs[r]);
+        const postproc::RockAnswer coupled = coupled_answer(runs[r]);
         if (coupled.spillage)
             results.pairs.push_back({*coupled.spillage, results.replays[r].spillage});
         else

@@ -14,6 +14,7 @@
 #include "cases/study/study.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/crown_cutter.hpp"
 #include "geometry/io/write_stl.hpp"
@@ -307,6 +308,38 @@ TEST_F(RecordedRuns, of_a_cut_face_are_fed_until_they_end) {
     EXPECT_GT(last_release(replay), end - 0.03);
     EXPECT_NEAR(last_release(replay) - last_release(folder_ / "replays/pair_1"), end - 2.0, 0.03);
     EXPECT_EQ(read_parameters(study_table(), replay / names::resolved_study).number("run.max_revolutions"), 2.0);
+}
+
+/// Tables of a replay or a run that has spilled a share of its rock by now and sucked up the rest.
+std::string tables_script(double spilled) {
+    return fmt::format(
+        "mkdir -p postProcessing/rock/0 postProcessing/cost/0\n"
+        "echo time_s,placed_count,placed_kg,sucked_up_count,sucked_up_kg,spilled_count,spilled_kg,in_cutter_count,in_cutter_kg,"
+        "never_entered_count,never_entered_kg > postProcessing/rock/0/fates.csv\n"
+        "echo 1.5,20,1,10,{},10,{},0,0,0,0 >> postProcessing/rock/0/fates.csv\n"
+        "echo "
+        "time_s,id,surface,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,rotor_angle_rad,azimuth_rad,axial_m,diameter_m,density_kg_m3,bin "
+        "> postProcessing/rock/0/events.csv\n"
+        "echo '{{\"core_s\": 2}}' > postProcessing/cost/0/cost.json\n",
+        1.0 - spilled, spilled);
+}
+
+// A run that was stopped has answered for a part of its time, its replay for all of it.
+TEST_F(RecordedRuns, correct_when_they_have_ended) {
+    const fs::path stopped = run("stopped", study_text()), ended = run("ended", study_text(60, 8));
+    for (const fs::path& folder : {stopped, ended}) {
+        ASSERT_EQ(run_child({{program(tables_script(0.7)).string()}, folder, {}, {}}).exit_code, 0);
+        Manifest manifest(folder / names::manifest);
+        manifest.start("run", {}, {});
+        if (folder == ended) manifest.finish("run", {}, 1.0, 1.0);
+    }
+    std::string said;
+    const ReplayResults results = run_replays({{stopped, ended}, {}, 2, folder_ / "replays", program(tables_script(0.6)), 1, false},
+                                              [&](const std::string& line) { said += line + "\n"; });
+    ASSERT_EQ(results.pairs.size(), 1u);
+    EXPECT_NEAR(results.pairs.front().coupled, 0.7, 1e-9);
+    EXPECT_NEAR(results.estimate.spillage, 0.7, 1e-9);
+    EXPECT_THAT(said, HasSubstr("stopped corrects nothing: it has not ended"));
 }
 
 // Pairs are of a coupled run and the replay of its placement.
