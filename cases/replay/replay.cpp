@@ -326,46 +326,45 @@ nlohmann::json plan_of(const ReplaySettings& settings, const std::vector<Recorde
     return plan;
 }
 
+std::string other_folder(const fs::path& folder) {
+    return fmt::format("Name a new folder with -o, or in a sweep move {} away", folder.string());
+}
+
 /// \throws UserError  when the folder's replays are of other runs or studies. A plan of an earlier program tells no study: those of runs
 /// do not change, another study's rock may have
 void require_same_plan(const fs::path& file, const nlohmann::json& plan, const ReplaySettings& settings) {
     const nlohmann::json found =
-        read_json_document(file, {{"runs/*", JsonKind::text, true}, {"studies_sha256/*", JsonKind::text}}, "Name a new folder with -o");
+        read_json_document(file, {{"runs/*", JsonKind::text, true}, {"studies_sha256/*", JsonKind::text}}, other_folder(settings.folder));
     if (found.at("runs") != plan.at("runs"))
         throw UserError(
-            {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", "Name a new folder with -o"}});
-    const std::string remedy = fmt::format("name a new folder with -o, or in a sweep move {} away", settings.folder.string());
+            {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", other_folder(settings.folder)}});
     const char* rule = "The replays of a folder are samples of one study";
     if (!found.contains("studies_sha256")) {
         if (settings.study.empty()) return;
         throw UserError(
             {{file.string(), fmt::format("an earlier program wrote it, which did not note what {} says", settings.study.string()), rule,
-              "To replay its rock again, " + remedy}});
+              "To replay its rock again: " + other_folder(settings.folder)}});
     }
     if (found.at("studies_sha256") != plan.at("studies_sha256"))
         throw UserError({{file.string(),
                           fmt::format("{} has changed since the folder's replays were begun",
                                       settings.study.empty() ? "the study of a run" : settings.study.string()),
-                          rule, "Undo the change, or " + remedy}});
+                          rule, "Undo the change, or: " + other_folder(settings.folder)}});
 }
 
 /// \throws UserError  when the folder holds something else, replays of something else, or an interrupted call and `resume` is false
-void open_folder(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
-    const nlohmann::json plan = plan_of(settings, runs);
-    const fs::path file = settings.folder / k_plan;
-    const bool is_there = fs::exists(settings.folder) && !fs::is_empty(settings.folder);
-    if (is_there && !fs::exists(file))
+void require_folder(const ReplaySettings& settings, const nlohmann::json& plan) {
+    const bool is_there = holds_files(settings.folder);
+    if (is_there && !holds_replays(settings.folder))
         throw UserError(
-            {{settings.folder.string(), "the folder holds something else", "Nothing is overwritten", "Name a new folder with -o"}});
+            {{settings.folder.string(), "the folder holds something else", "Nothing is overwritten", other_folder(settings.folder)}});
     if (is_there && !settings.resume)
         throw UserError({{settings.folder.string(), "the folder holds replays", "Results are kept",
                           "Add --resume to go on, or name a new folder with -o"}});
     if (!is_there && settings.resume)
         throw UserError(
             {{settings.folder.string(), "there is nothing to resume", "--resume goes on with a folder of replays", "Leave --resume out"}});
-    if (is_there) require_same_plan(file, plan, settings);
-    fs::create_directories(settings.folder);
-    write_file(file, plan.dump(2) + "\n");
+    if (is_there) require_same_plan(settings.folder / k_plan, plan, settings);
 }
 
 std::string loss_columns(const postproc::Losses& losses) {
@@ -426,6 +425,10 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
 
 }  // namespace
 
+bool holds_replays(const fs::path& folder) {
+    return fs::exists(folder / k_plan);
+}
+
 ParameterValues study_as_recorded(ParameterValues study) {
     if (study.where("kernel.sampling").empty()) study.set("kernel.sampling", std::string(coupling::k_quadratic_sampling));
     for (ParameterValues& feed : study.tables_for_writing("feed"))
@@ -476,8 +479,12 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     require_repeats(runs);
     if (!settings.study.empty()) take_study(runs.front(), settings.study, say);
     require_rock(runs);
-    open_folder(settings, runs);
+    const nlohmann::json plan = plan_of(settings, runs);
+    require_folder(settings, plan);
+    fs::create_directories(settings.folder);
     const FolderLock lock(settings.folder);
+    require_folder(settings, plan);  // another call may have worked there since
+    write_file(settings.folder / k_plan, plan.dump(2) + "\n");
 
     ReplayResults results;
     Replays replays(settings, runs);

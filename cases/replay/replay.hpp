@@ -48,6 +48,9 @@ struct ReplayResults {
 /// does not use were allowed.
 ParameterValues study_as_recorded(ParameterValues study);
 
+/// Whether run_replays has begun in a folder.
+bool holds_replays(const std::filesystem::path& folder);
+
 /// Runs every replay and writes replays.csv, replays.json and, where rock is spilled, exits.csv into the folder.
 /// \throws UserError    with every run that has no recording or is of another study, with every key of another flow, when the
 ///                      folder holds replays of other runs or of a study that has changed since, and as RunDirectory

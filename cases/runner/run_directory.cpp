@@ -41,6 +41,11 @@ bool may_hold_a_run(const fs::path& path) {
     });
 }
 
+bool holds_files(const fs::path& folder) {
+    return fs::exists(folder) && std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                                             [](const fs::directory_entry& entry) { return entry.path().filename() != k_lock; });
+}
+
 namespace {
 
 /// Processes that hold a file open, as "cutterFoam, process 1234"; empty when that cannot be seen.

@@ -21,6 +21,9 @@ void require_usable_run_directory(const std::filesystem::path& path);
 /// not begun is an empty one
 void require_start_donor(const std::filesystem::path& folder);
 
+/// Whether there is a folder with anything in it but the lock.
+bool holds_files(const std::filesystem::path& folder);
+
 /// One process at a time works in a folder, and its children.
 class FolderLock {
 public:

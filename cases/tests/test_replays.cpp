@@ -276,6 +276,23 @@ TEST_F(RecordedRuns, are_not_gone_on_with_by_rock_that_has_changed) {
                 AllOf(HasSubstr("rock.toml has changed"), HasSubstr("samples of one study"), HasSubstr("a new folder with -o")));
 }
 
+// A second call that is refused leaves the plan of the first alone; one that was ended before its plan leaves a folder to begin in.
+TEST_F(RecordedRuns, are_replayed_by_one_call_at_a_time) {
+    const fs::path recorded = run("a", study_text());
+    const ReplaySettings first = settings({recorded});
+    fs::create_directories(first.folder);
+    {
+        const FolderLock lock(first.folder);
+        EXPECT_THAT(refusal(first), HasSubstr("is in use by another process"));
+        EXPECT_FALSE(holds_replays(first.folder));
+    }
+    EXPECT_EQ(refusal(first), "not refused");
+    EXPECT_TRUE(holds_replays(first.folder));
+    write_file(folder_ / "others/notes.txt", "of the user");
+    EXPECT_THAT(refusal({{recorded}, {}, 1, folder_ / "others", "/bin/false", 1, true}),
+                AllOf(HasSubstr("something else"), HasSubstr("move " + (folder_ / "others").string() + " away")));
+}
+
 TEST_F(RecordedRuns, of_an_earlier_program_are_gone_on_with_where_no_rock_can_have_changed) {
     const fs::path recorded = run("a", study_text()), rock = folder_ / "rock.toml";
     write_file(rock, "[[feed]]\ncount = 10\n[[feed.class]]\ndiameter_m = 0.01\n");
