@@ -14,8 +14,7 @@ struct ReplayAnswer {
 };
 
 /// Runs replays on all cores (cases::ReplaySettings has the parameters).
-/// \throws CheckFailure  when rock changes the flow more than replays may leave out
-/// \throws Interrupted   with the way to go on
+/// \throws as cases::run_replays, Interrupted with the way to go on
 ReplayAnswer replay_answer(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& study, int count,
                            const std::filesystem::path& folder, bool resume);
 

@@ -15,7 +15,7 @@
 #include "cases/cli/new_file.hpp"
 #include "cases/cli/numbers.hpp"
 #include "cases/cli/replay_lines.hpp"
-#include "cases/replay/replay.hpp"
+#include "cases/replay/replayed_settings.hpp"
 #include "cases/replay/rock_study.hpp"
 #include "cases/runner/machine.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
@@ -109,31 +109,26 @@ std::vector<fs::path> replay_folders(const fs::path& replays, const cases::Repla
     return folders;
 }
 
-/// Replays every setting, writes replays.csv and compares the replays. \return what the settings lack whose replays tell nothing; they do
-/// not stop the others
-std::vector<std::string> replay_settings(const SweepOptions& options, const std::vector<cases::SweepPoint>& points,
-                                         const std::vector<fs::path>& done, const fs::path& folder) {
-    std::vector<cases::ReplayedSetting> settings;
+/// Replays every setting, writes replays.csv and compares the replays. \return why settings have no answer, or one that is refused
+std::vector<cases::SweepFailure> replay_settings(const SweepOptions& options, const std::vector<cases::SweepPoint>& points,
+                                                 const std::vector<fs::path>& done, const fs::path& folder) {
     std::vector<fs::path> told;
-    std::vector<std::string> failures;
-    for (const auto& [name, runs] : runs_by_setting(points, done)) {
+    const auto replay = [&](const std::string& name, const std::vector<fs::path>& runs) {
         const fs::path replays = folder / ("replays_" + name);
         say(fmt::format("{}: {} replay{} in {}", name, options.replays, options.replays == 1 ? "" : "s", replays.string()));
-        try {
-            ReplayAnswer answer = replay_answer(runs, options.replay_study, options.replays, replays, fs::exists(replays));
-            std::cout << name << '\n' << answer.lines;
-            for (fs::path& replay : replay_folders(replays, answer.results)) told.push_back(std::move(replay));
-            settings.push_back({name, std::move(answer.results)});
-        } catch (const CheckFailure& failure) {
-            failures.push_back(failure.what());
-        }
-    }
-    write_file(folder / "replays.csv", cases::replays_csv(settings));
+        ReplayAnswer answer = replay_answer(runs, options.replay_study, options.replays, replays, cases::holds_replays(replays));
+        std::cout << name << '\n' << answer.lines;
+        if (cases::is_weakly_coupled(answer.results.estimate))
+            for (fs::path& folder_told : replay_folders(replays, answer.results)) told.push_back(std::move(folder_told));
+        return std::move(answer.results);
+    };
+    cases::ReplayedSettings all = cases::replay_each(runs_by_setting(points, done), replay);
+    write_file(folder / "replays.csv", cases::replays_csv(all.settings));
     std::cout << fmt::format("the replays: {}\n", (folder / "replays.csv").string());
     if (told.size() > 1)
         std::cout << fmt::format("their comparison: {}\n",
                                  kind_of_study(options.study).write_comparison(told, folder / "replays_comparison").string());
-    return failures;
+    return std::move(all.failures);
 }
 
 /// \param words  that belong to no option
@@ -179,16 +174,12 @@ void sweep(const SweepOptions& options, const std::vector<std::string>& words) {
     if (outcome.done.size() > 1)
         std::cout << fmt::format("the comparison: {}\n",
                                  kind_of_study(options.study).write_comparison(outcome.done, folder / "comparison").string());
-    std::vector<std::string> failures;
-    if (options.replays > 0) failures = replay_settings(options, points, outcome.done, folder);
-    if (!outcome.failed.empty()) {
-        failures.insert(failures.begin(), outcome.failed.begin(), outcome.failed.end());
-        std::vector<Mistake> causes;
-        for (const std::string& text : failures) causes.push_back({"", text, "", ""});
-        if (outcome.refused == failures.size()) throw UserError(std::move(causes));
-        throw ToolError(causes);
-    }
-    if (!failures.empty()) throw CheckFailure({"", fmt::format("{}", fmt::join(failures, "\n")), "", ""});
+    std::vector<cases::SweepFailure> failures;
+    for (std::size_t i = 0; i < outcome.failed.size(); ++i)
+        failures.push_back({i < outcome.refused ? ExitCode::user_input : ExitCode::external_program, outcome.failed[i]});
+    if (options.replays > 0)
+        for (cases::SweepFailure& failure : replay_settings(options, points, outcome.done, folder)) failures.push_back(std::move(failure));
+    cases::require_no_failures(failures);
 }
 
 void compare(const CompareOptions& options) {

@@ -367,10 +367,6 @@ void require_folder(const ReplaySettings& settings, const nlohmann::json& plan) 
     if (is_there) require_same_plan(settings.folder / k_plan, plan, settings);
 }
 
-std::string loss_columns(const postproc::Losses& losses) {
-    return fmt::format("{:.6g},{:.6g},{:.6g}", losses.mixing, losses.cutting, losses.left_behind);
-}
-
 /// Bound, interval of the run itself, hold-up, what was found and losses; empty for a batch.
 std::string fed_columns(const std::optional<postproc::FedHead>& fed) {
     if (!fed) return ",,,,,,,";
@@ -391,10 +387,6 @@ nlohmann::json fed_json(const std::optional<postproc::FedReplays>& fed) {
             {"spilled_cutting", fed->losses.cutting},
             {"left_behind", fed->losses.left_behind},
             {"spillage_min", fed->spillage_min}};
-}
-
-double cost_of(const std::vector<Replay>& replays) {
-    return std::accumulate(replays.begin(), replays.end(), 0.0, [](double sum, const Replay& replay) { return sum + replay.core_s; });
 }
 
 void write_results(const fs::path& folder, const ReplayResults& results) {
@@ -425,6 +417,14 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
 
 }  // namespace
 
+std::string loss_columns(const postproc::Losses& losses) {
+    return fmt::format("{:.6g},{:.6g},{:.6g}", losses.mixing, losses.cutting, losses.left_behind);
+}
+
+double cost_of(const std::vector<Replay>& replays) {
+    return std::accumulate(replays.begin(), replays.end(), 0.0, [](double sum, const Replay& replay) { return sum + replay.core_s; });
+}
+
 bool holds_replays(const fs::path& folder) {
     return fs::exists(folder / k_plan);
 }
@@ -436,37 +436,19 @@ ParameterValues study_as_recorded(ParameterValues study) {
     return study;
 }
 
-void require_weak_coupling(const postproc::ReplayEstimate& estimate, const fs::path& folder) {
-    const double largest = postproc::largest_correction(estimate);
-    if (std::abs(estimate.corrections.mean) <= largest) return;
-    throw CheckFailure({folder.string(),
+bool is_weakly_coupled(const postproc::ReplayEstimate& estimate) {
+    return std::abs(estimate.corrections.mean) <= postproc::largest_correction(estimate);
+}
+
+void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::string& replays) {
+    if (is_weakly_coupled(estimate)) return;
+    throw CheckFailure({replays,
                         fmt::format("coupled runs spill {:+.1f} points against replays, which spill {:.1f} %",
                                     100.0 * estimate.corrections.mean, 100.0 * estimate.replays.mean),
                         fmt::format("Replays stand for coupled runs while rock changes spillage by at most {:.2g} points: 5, and a quarter "
                                     "of the share that is delivered or spilled, whichever is least",
-                                    100.0 * largest),
+                                    100.0 * postproc::largest_correction(estimate)),
                         "Use coupled runs (cutterflow sweep --repeats), or put in less rock"});
-}
-
-std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
-    std::string csv =
-        "setting,placements,spillage,half_interval_95,own_half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,spilled_"
-        "mixing,spilled_cutting,"
-        "left_behind,core_s\n";
-    const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string(); };
-    for (const ReplayedSetting& setting : settings) {
-        const ReplayResults& results = setting.results;
-        const postproc::ReplayEstimate& estimate = results.estimate;
-        csv += fmt::format("{},{},{:.6g},{},", setting.name, estimate.replays.count, estimate.spillage,
-                           cell(estimate.corrections.count == 0 ? estimate.replay_interval : estimate.interval));
-        if (const auto& fed = results.fed)
-            csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{},{},{}", cell(fed->own_interval), fed->spillage_min, fed->fed, fed->held,
-                               fed->steady, fed->full, loss_columns(fed->losses));
-        else
-            csv += ",,,,,,,,";
-        csv += fmt::format(",{:.6g}\n", cost_of(results.replays));
-    }
-    return csv;
 }
 
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say) {

@@ -58,18 +58,16 @@ bool holds_replays(const std::filesystem::path& folder);
 /// \throws Interrupted  when the user stops it; finished replays are kept
 ReplayResults run_replays(const ReplaySettings& settings, const std::function<void(const std::string&)>& say);
 
-/// \throws CheckFailure  when the coupled runs differ from their replays by more than postproc::largest_correction
-void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::filesystem::path& folder);
+/// Core seconds of all of them.
+double cost_of(const std::vector<Replay>& replays);
 
-/// One setting of a sweep and its replays.
-struct ReplayedSetting {
-    std::string name;
-    ReplayResults results;
-};
+/// Cells of a table: shares of what is fed that are lost after mixing, where rock is cut, and left behind.
+std::string loss_columns(const postproc::Losses& losses);
 
-/// One line per setting: spillage with half its 95 % interval, and of a head that is fed all the time the rate of the feed, hold-up, in how
-/// many placements it has settled and in how many the head is full, and what was lost. Cost [core s]. Empty cells: of a batch, or not
-/// known.
-std::string replays_csv(const std::vector<ReplayedSetting>& settings);
+/// Whether the coupled runs differ from their replays by at most postproc::largest_correction; so does no run at all.
+bool is_weakly_coupled(const postproc::ReplayEstimate& estimate);
+
+/// \param replays  for the message \throws CheckFailure  when they are not weakly coupled
+void require_weak_coupling(const postproc::ReplayEstimate& estimate, const std::string& replays);
 
 }  // namespace cutterflow::cases

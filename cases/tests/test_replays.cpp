@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cases/replay/replay.hpp"
+#include "cases/replay/replayed_settings.hpp"
 #include "cases/replay/rock_study.hpp"
 #include "cases/runner/pipeline.hpp"
 #include "cases/study/study.hpp"
@@ -92,11 +92,40 @@ TEST(Replays, of_a_sweep_are_a_table_of_its_settings) {
     EXPECT_EQ(replays_csv({fed, batch}),
               "setting,placements,spillage,half_interval_95,own_half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,"
               "spilled_mixing,spilled_"
-              "cutting,left_behind,core_s\n"
+              "cutting,left_behind,core_s,weakly_coupled\n"
               "45rpm,2,0.92," +
                   half +
-                  ",0.012,0.85,11.5,11.25,1,2,0.3,0.2,0.42,600\n"
-                  "60rpm,1,0.96,,,,,,,,,,,0\n");
+                  ",0.012,0.85,11.5,11.25,1,2,0.3,0.2,0.42,600,\n"
+                  "60rpm,1,0.96,,,,,,,,,,,0,1\n");
+}
+
+TEST(Replays, of_a_setting_that_fails_do_not_stop_the_others) {
+    const auto replay = [](const std::string& name, const std::vector<fs::path>&) {
+        if (name == "a") throw UserError("the folder holds something else", "Nothing is overwritten", "Move it away");
+        ReplayResults results;
+        results.estimate = postproc::estimate_spillage({0.5}, {{name == "b" ? 0.8 : 0.51, 0.5}});
+        return results;
+    };
+    const ReplayedSettings all = replay_each({{"a", {}}, {"b", {}}, {"c", {}}}, replay);
+    ASSERT_EQ(all.settings.size(), 2u) << "rock that changes the flow too much has an answer, which is refused";
+    EXPECT_THAT(replays_csv(all.settings), AllOf(HasSubstr("\nb,1,0.8,"), HasSubstr(",0,0\nc,1,0.51,"), HasSubstr(",0,1\n")));
+    ASSERT_EQ(all.failures.size(), 2u);
+    EXPECT_EQ(all.failures[0].code, ExitCode::user_input);
+    EXPECT_THAT(all.failures[0].text, HasSubstr("replays of a: the folder holds something else"));
+    EXPECT_EQ(all.failures[1].code, ExitCode::check_failed);
+    EXPECT_THROW(
+        replay_each({{"a", {}}}, [](const std::string&, const std::vector<fs::path>&) -> ReplayResults { throw Interrupted("stopped"); }),
+        Interrupted);
+}
+
+TEST(Replays, that_fail_in_one_way_end_the_sweep_that_way) {
+    const SweepFailure refused{ExitCode::user_input, "wrong"}, failed{ExitCode::external_program, "broken"},
+        strong{ExitCode::check_failed, "too much"};
+    EXPECT_NO_THROW(require_no_failures({}));
+    EXPECT_THROW(require_no_failures({refused, refused}), UserError);
+    EXPECT_THROW(require_no_failures({strong}), CheckFailure);
+    EXPECT_THROW(require_no_failures({refused, strong}), ToolError);
+    EXPECT_THROW(require_no_failures({failed}), ToolError);
 }
 
 TEST(Replays, of_a_run_from_before_the_key_sample_as_that_run) {
