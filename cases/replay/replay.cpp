@@ -124,6 +124,8 @@ void require_recordings(const std::vector<fs::path>& runs, const std::function<v
 /// The study of one replay. \param index  from 1 on; 0 is the run's own placement
 ParameterValues values_of(const RecordedRun& run, int index) {
     ParameterValues values = run.values;
+    // A replay averages no water, and the file is relative to the study that names it.
+    if (values.has("report.adv_points")) values.remove("report.adv_points");
     if (index == 0) return values;
     const double turned = index * k_golden_ratio - std::floor(index * k_golden_ratio);
     vary_release(values, k_first_seed + index, turned / run.head.size.blades);

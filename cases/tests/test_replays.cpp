@@ -332,6 +332,13 @@ TEST_F(RecordedRuns, of_an_earlier_program_are_gone_on_with_where_no_rock_can_ha
     EXPECT_THAT(refusal(settings({recorded}, rock)), AllOf(HasSubstr("an earlier program"), HasSubstr("a new folder with -o")));
 }
 
+// The file of the points is relative to the study, which may be gone.
+TEST_F(RecordedRuns, with_measured_velocities_are_replayed_without_them) {
+    const fs::path recorded = run("a", study_text() + "[report]\nadv_points = \"points.csv\"\n");
+    EXPECT_EQ(refusal(settings({recorded})), "not refused");
+    EXPECT_FALSE(read_parameters(study_table(), folder_ / "replays/pair_1" / names::resolved_study).has("report.adv_points"));
+}
+
 // Later releases end later. A replay is of the run's study all the same, so that replays are repeats of one setting.
 TEST_F(RecordedRuns, of_a_cut_face_are_fed_until_they_end) {
     const fs::path recorded = run("fed", fed_study_text());
