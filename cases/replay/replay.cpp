@@ -90,6 +90,21 @@ void require_rock(const std::vector<RecordedRun>& runs) {
     mistakes.refuse();
 }
 
+/// \param own_rock  whether each run's own rock is replayed
+/// \throws UserError  with every override of files that a replay makes anew from the study
+void require_no_overrides(const std::vector<RecordedRun>& runs, bool own_rock) {
+    std::vector<std::string> files{names::coupling_properties};
+    if (own_rock) files.emplace_back(names::rock_feed);
+    Mistakes mistakes;
+    for (const RecordedRun& run : runs)
+        for (const std::string& file : files)
+            if (const std::string mine = "overrides/" + file; run.files.count(mine) > 0)
+                mistakes.add({(run.folder / mine).string(), "the run took it in place of what its study says",
+                              "A replay makes this file from the study: its rock would not be the run's",
+                              "Give what it changes as keys of the study and run that, or use coupled runs alone"});
+    mistakes.refuse();
+}
+
 /// \throws UserError  with every run that is no repeat of the first, or comes twice
 void require_repeats(const std::vector<RecordedRun>& runs) {
     std::vector<RepeatedRun> repeats;
@@ -124,8 +139,7 @@ void require_recordings(const std::vector<fs::path>& runs, const std::function<v
 /// The study of one replay. \param index  from 1 on; 0 is the run's own placement
 ParameterValues values_of(const RecordedRun& run, int index) {
     ParameterValues values = run.values;
-    // A replay averages no water, and the file is relative to the study that names it.
-    if (values.has("report.adv_points")) values.remove("report.adv_points");
+    values.remove("report.adv_points");  // a replay averages no water, and the file is relative to the study that names it
     if (index == 0) return values;
     const double turned = index * k_golden_ratio - std::floor(index * k_golden_ratio);
     vary_release(values, k_first_seed + index, turned / run.head.size.blades);
@@ -461,6 +475,7 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     if (!settings.study.empty() && runs.size() > 1)
         throw UserError(fmt::format("--study with {} runs", runs.size()), "Another study's rock is replayed in one flow", "Name one run");
     require_repeats(runs);
+    require_no_overrides(runs, settings.study.empty());
     if (!settings.study.empty()) take_study(runs.front(), settings.study, say);
     require_rock(runs);
     const nlohmann::json plan = plan_of(settings, runs);

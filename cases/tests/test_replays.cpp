@@ -232,6 +232,27 @@ TEST_F(RecordedRuns, of_water_alone_need_a_study_with_rock) {
     EXPECT_EQ(refusal(settings({water}, folder_ / "rock.toml")), "not refused");
 }
 
+// The coupled run and the replay of its rock would differ by the override.
+TEST_F(RecordedRuns, with_an_override_of_rock_or_coupling_are_refused) {
+    const auto run_with = [&](const std::string& file) {
+        const fs::path folder = run(fs::path(file).stem().string(), study_text());
+        Manifest manifest(folder / names::manifest);
+        manifest.start("case", {{"overrides/" + file, sha256("mine")}}, {});
+        manifest.finish("case", {}, 1.0, 1.0);
+        return folder;
+    };
+    const fs::path feed = run_with("constant/rockFeed.csv"), coupling = run_with("constant/couplingProperties"),
+                   scheme = run_with("system/fvSchemes");
+    EXPECT_THAT(refusal(settings({feed})), HasSubstr("overrides/constant/rockFeed.csv: the run took it"));
+    EXPECT_THAT(refusal(settings({coupling})), HasSubstr("overrides/constant/couplingProperties: the run took it"));
+    EXPECT_EQ(refusal(settings({scheme})), "not refused");
+    write_file(folder_ / "rock.toml", "[[feed]]\ncount = 10\n[[feed.class]]\ndiameter_m = 0.01\n");
+    ReplaySettings other = settings({feed}, folder_ / "rock.toml");
+    other.folder = folder_ / "other_rock";
+    other.resume = false;
+    EXPECT_EQ(refusal(other), "not refused");
+}
+
 TEST_F(RecordedRuns, come_once_each) {
     const fs::path first = run("a", study_text()), copy = run("b", study_text());
     EXPECT_THAT(refusal(settings({first, copy})), AllOf(HasSubstr("is the same run as"), HasSubstr("feed.seed")));
