@@ -50,6 +50,11 @@ constexpr std::int64_t k_first_seed = 1000;
 /// Releases are spread over the passing of a blade; multiples of the golden ratio stay spread when more are added.
 constexpr double k_golden_ratio = 0.6180339887498949;
 
+/// Remedy for what a folder of replays holds.
+std::string other_folder(const fs::path& folder) {
+    return fmt::format("Name a new folder with -o, or in a sweep move {} away", folder.string());
+}
+
 /// What all replays of one recorded flow share.
 struct RecordedRun {
     fs::path folder;  ///< absolute
@@ -206,9 +211,24 @@ void write_replay(const RecordedRun& run, const ParameterValues& values, const f
     describe_replay(run, values, study, feeds, fed_until, folder);
 }
 
-/// For replays of before their folders told what they are.
+/// \throws UserError  when a finished replay went through another flow than its run has recorded
+void require_its_flow(const RecordedRun& run, const fs::path& folder) {
+    const fs::path file = folder / names::replay;
+    const nlohmann::json replay =
+        read_json_document(file, {{"flow_end_s", JsonKind::number, true}, {"flow_change", JsonKind::number_or_null, true}},
+                           other_folder(folder.parent_path()));
+    const coupling::RecordingSummary recording = coupling::read_recording_summary(run.folder / names::recording);
+    if (replay.at("flow_end_s") == recording.end && replay.at("flow_change") == optional_json(recording.change)) return;
+    throw UserError({{file.string(), fmt::format("{} has recorded another flow since", run.folder.string()),
+                      "The replays of a folder are samples of one flow", other_folder(folder.parent_path())}});
+}
+
+/// Replays of before their folders told what they are are described now; others are held against their flow.
 void describe_finished(const RecordedRun& run, const ParameterValues& values, const fs::path& folder) {
-    if (fs::exists(folder / names::replay)) return;
+    if (fs::exists(folder / names::replay)) {
+        require_its_flow(run, folder);
+        return;
+    }
     const Study study = make_study(values, run.folder);
     describe_replay(run, values, study, place_rock(run, study), {}, folder);
 }
@@ -331,29 +351,30 @@ private:
     Progress progress_{"replays"};
 };
 
-/// What the replays of a folder are made of: the runs, the file of another study's rock, and what each study says.
+/// What the replays of a folder are made of: the runs, the file of another study's rock, what each study says and each recording.
 nlohmann::json plan_of(const ReplaySettings& settings, const std::vector<RecordedRun>& runs) {
     nlohmann::json plan;
     for (const RecordedRun& run : runs) {
         plan["runs"].push_back(run.folder.string());
         plan["studies_sha256"].push_back(sha256(study_of(run)));
+        plan["recordings_sha256"].push_back(sha256_of_file(run.folder / names::recording / coupling::k_recording_summary));
     }
     if (!settings.study.empty()) plan["runs"].push_back(fs::absolute(settings.study).lexically_normal().string());
     return plan;
 }
 
-std::string other_folder(const fs::path& folder) {
-    return fmt::format("Name a new folder with -o, or in a sweep move {} away", folder.string());
-}
-
-/// \throws UserError  when the folder's replays are of other runs or studies. A plan of an earlier program tells no study: those of runs
-/// do not change, another study's rock may have
+/// \throws UserError  when the folder's replays are of other runs or studies. A plan of an earlier program tells no study and no recording:
+/// those of runs do not change, another study's rock may have
 void require_same_plan(const fs::path& file, const nlohmann::json& plan, const ReplaySettings& settings) {
-    const nlohmann::json found =
-        read_json_document(file, {{"runs/*", JsonKind::text, true}, {"studies_sha256/*", JsonKind::text}}, other_folder(settings.folder));
+    const nlohmann::json found = read_json_document(
+        file, {{"runs/*", JsonKind::text, true}, {"studies_sha256/*", JsonKind::text}, {"recordings_sha256/*", JsonKind::text}},
+        other_folder(settings.folder));
     if (found.at("runs") != plan.at("runs"))
         throw UserError(
             {{file.string(), "the folder holds replays of other runs", "Results belong to their runs", other_folder(settings.folder)}});
+    if (found.contains("recordings_sha256") && found.at("recordings_sha256") != plan.at("recordings_sha256"))
+        throw UserError({{file.string(), "a run has recorded another flow since the folder's replays were begun",
+                          "The replays of a folder are samples of one flow", other_folder(settings.folder)}});
     const char* rule = "The replays of a folder are samples of one study";
     if (!found.contains("studies_sha256")) {
         if (settings.study.empty()) return;
