@@ -22,6 +22,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/process/child_process.hpp"
+#include "geometry/base/process/stop_signals.hpp"
 #include "geometry/base/progress.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -249,15 +250,18 @@ public:
     }
 
     SweepOutcome take_all() {
+        const StopSignals signals;
         for (const SweepPoint& point : points_to_mesh(points_, settings_)) {
             say_(fmt::format("{}: mesh", point.name));
             run_child(command_of(settings_, point, "mesh"));  // on failure the point's own run reports the reason
         }
         share_meshes(points_, settings_);
         std::vector<std::thread> workers;
-        for (int job = 0; job < settings_.jobs; ++job) workers.emplace_back([this] { work(); });
+        for (std::size_t job = 0; job < std::min(static_cast<std::size_t>(settings_.jobs), k_most_children); ++job)
+            workers.emplace_back([this] { work(); });
         for (std::thread& worker : workers) worker.join();
         if (interrupted_) throw Interrupted(fmt::format("{}; {} of {} points are done", *interrupted_, finished_, points_.size()));
+        signals.require_none();
         progress_.finish();
         SweepOutcome outcome;
         for (std::size_t i = 0; i < points_.size(); ++i)

@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -14,86 +13,19 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
-#include <mutex>
+#include <optional>
 #include <set>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <gsl/assert>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/process/stop_signals.hpp"
 
 extern char** environ;
 
 namespace cutterflow {
 namespace {
-
-constexpr std::array<int, 3> k_stop_signals{SIGINT, SIGTERM, SIGHUP};
-
-// State of the signal handler; a handler must not access anything else.
-constexpr std::size_t k_most_children = 256;
-struct RunningChild {
-    volatile std::sig_atomic_t pid, first_stop_signal;
-};
-std::array<RunningChild, k_most_children> g_children{};
-volatile std::sig_atomic_t g_received = 0;
-
-constexpr std::string_view k_ends_in_order = "\nstopping at the end of this step; a second time stops at once\n";
-
-extern "C" void pass_on(int signal_number) {
-    const int saved_errno = errno;
-    const bool is_first = g_received == 0;
-    g_received = signal_number;
-    bool ends_in_order = false;
-    for (const RunningChild& child : g_children) {
-        if (child.pid <= 0) continue;
-        const bool asks = is_first && child.first_stop_signal != 0;
-        ::kill(static_cast<pid_t>(child.pid), asks ? child.first_stop_signal : signal_number);
-        ends_in_order = ends_in_order || asks;
-    }
-    if (ends_in_order) {
-        [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, k_ends_in_order.data(), k_ends_in_order.size());
-    }
-    errno = saved_errno;
-}
-
-/// Forwards stop signals to the children while any of them runs; restores the caller's handlers after the last.
-class SignalRelay {
-public:
-    SignalRelay() {
-        const std::lock_guard<std::mutex> lock(s_mutex);
-        if (s_relays++ > 0) return;
-        g_received = 0;
-        struct sigaction action {};
-        action.sa_handler = pass_on;
-        sigemptyset(&action.sa_mask);
-        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &action, &s_previous[i]);
-    }
-    ~SignalRelay() {
-        const std::lock_guard<std::mutex> lock(s_mutex);
-        if (slot_ != nullptr) slot_->pid = 0;
-        if (--s_relays > 0) return;
-        for (std::size_t i = 0; i < k_stop_signals.size(); ++i) ::sigaction(k_stop_signals[i], &s_previous[i], nullptr);
-    }
-    SignalRelay(const SignalRelay&) = delete;
-    SignalRelay& operator=(const SignalRelay&) = delete;
-
-    void attach(pid_t child, int first_stop_signal) {
-        const std::lock_guard<std::mutex> lock(s_mutex);
-        slot_ = std::find_if(g_children.begin(), g_children.end(), [](const RunningChild& c) { return c.pid == 0; });
-        Expects(slot_ != g_children.end());
-        slot_->first_stop_signal = first_stop_signal;
-        slot_->pid = child;
-        if (g_received != 0) ::kill(child, g_received);  // received before the child was registered
-    }
-    static int received() { return g_received; }
-
-private:
-    RunningChild* slot_ = nullptr;
-    static inline std::mutex s_mutex;
-    static inline int s_relays = 0;
-    static inline std::array<struct sigaction, k_stop_signals.size()> s_previous{};
-};
 
 class FileDescriptor {
 public:
@@ -170,7 +102,7 @@ void require_system(int error, const std::string& doing) {
 }
 
 /// Starts the program with its output on `output`, empty standard input, in a separate process group: the terminal's Ctrl-C
-/// reaches it through SignalRelay alone, once.
+/// reaches it through StopSignals alone, once.
 pid_t spawn(const std::filesystem::path& program, const ChildCommand& command, int output) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -273,19 +205,6 @@ private:
     std::string line_;
 };
 
-/// The stop signal as the user knows it.
-std::string stop_text(int signal_number) {
-    switch (signal_number) {
-        case SIGINT:
-            return "Ctrl-C (SIGINT)";
-        case SIGTERM:
-            return "a request to end (SIGTERM)";
-        case SIGHUP:
-            return "the end of its terminal (SIGHUP)";
-    }
-    return ::strsignal(signal_number);
-}
-
 std::string last_lines(const std::filesystem::path& log, std::size_t count) {
     std::ifstream stream(log);
     std::deque<std::string> lines;
@@ -330,16 +249,17 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
     FileDescriptor output(ends[1]);
 
     const auto begin = std::chrono::steady_clock::now();
-    SignalRelay relay;
+    const StopSignals signals;
+    std::optional<ForwardedChild> forwarded;  // until it has been waited for
     const pid_t pid = spawn(program, command, output.number());
     ChildGuard child(pid);
-    relay.attach(pid, command.first_stop_signal);
+    forwarded.emplace(pid, command.first_stop_signal);
     output.close();
     reader.read_all(input.number());
     ChildResult result = child.wait();
     result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (SignalRelay::received() != 0)
-        throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), stop_text(SignalRelay::received())));
+    if (const std::string signal = StopSignals::received(); !signal.empty())
+        throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), signal));
     return result;
 }
 
