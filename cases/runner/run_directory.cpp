@@ -42,8 +42,9 @@ bool may_hold_a_run(const fs::path& path) {
 }
 
 bool holds_files(const fs::path& folder) {
-    return fs::exists(folder) && std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                                             [](const fs::directory_entry& entry) { return entry.path().filename() != k_lock; });
+    if (!fs::is_directory(folder)) return fs::exists(folder);
+    return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                       [](const fs::directory_entry& entry) { return entry.path().filename() != k_lock; });
 }
 
 namespace {

@@ -21,7 +21,7 @@ void require_usable_run_directory(const std::filesystem::path& path);
 /// not begun is an empty one
 void require_start_donor(const std::filesystem::path& folder);
 
-/// Whether there is a folder with anything in it but the lock.
+/// Whether there is a folder with anything in it but the lock, or something that is no folder.
 bool holds_files(const std::filesystem::path& folder);
 
 /// One process at a time works in a folder, and its children.

@@ -14,6 +14,7 @@
 
 #include "cases/runner/manifest.hpp"
 #include "cases/runner/run_directory.hpp"
+#include "cases/runner/run_progress.hpp"
 #include "cases/runner/stages.hpp"
 #include "cases/scenes/cutter/checked_study.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
@@ -287,6 +288,7 @@ private:
     void take(std::size_t i) {
         const ChildCommand command = command_of(settings_, points_[i], "run");
         try {
+            keep_older_log(command.log);
             const ChildResult result = run_child(command, [&](const std::string& line) { note(i, share_of(line)); });
             const std::lock_guard<std::mutex> lock(mutex_);
             if (result.exit_code == 0) {
@@ -400,6 +402,7 @@ private:
 
     void take(const std::vector<SweepPoint>& points, const std::string& what) {
         if (points.empty()) return;
+        for (const SweepPoint& point : points) keep_older_log(command_of(settings_, point, what).log);
         const std::string job = submit_to_slurm(write_slurm_script(points, settings_, what));
         write_file(job_file(), job);
         say_(fmt::format("job {}: {} of {} point(s); scancel {} ends it", job, what, points.size(), job));
@@ -460,7 +463,7 @@ void require_sweep_folder(const fs::path& folder, bool resume) {
     if (begun && !resume)
         throw UserError(fmt::format("{} already contains a sweep", folder.string()), "Its runs are kept",
                         "Add --resume to continue it, or name another folder with -o");
-    if (!begun && fs::exists(folder) && !fs::is_empty(folder))
+    if (!begun && holds_files(folder))
         throw UserError(fmt::format("{} already contains something else", folder.string()), "Nothing is overwritten",
                         "Name another folder with -o");
 }
@@ -529,14 +532,27 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
     return points;
 }
 
+namespace {
+
+/// One process at a time works in a sweep's folder.
+FolderLock locked(const SweepSettings& settings) {
+    require_sweep_folder(settings.folder, settings.resume);
+    fs::create_directories(settings.folder);
+    return FolderLock(settings.folder);
+}
+
+}  // namespace
+
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say) {
+    const FolderLock lock = locked(settings);
     write_studies(points, settings);
     if (settings.launcher == Launcher::slurm) return SlurmRuns(points, settings, say).take_all();
     return LocalRuns(points, settings, say).take_all();
 }
 
 fs::path emit_slurm(const std::vector<SweepPoint>& points, const SweepSettings& settings) {
+    const FolderLock lock = locked(settings);
     write_studies(points, settings);
     const std::vector<SweepPoint> missing = without_report(points, settings);
     return missing.empty() ? fs::path() : write_slurm_script(missing, settings, "run");

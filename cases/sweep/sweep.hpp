@@ -58,8 +58,9 @@ struct SweepOutcome {
     std::size_t refused = 0;                  ///< failed points that were refused as wrong input
 };
 
-/// Runs every point to its report. A failed point is reported; the others continue. Lines for the user go to `say`.
-/// \throws UserError    as require_sweep_folder, and when the folder holds another sweep
+/// Runs every point to its report. A failed point is reported; the others continue. Logs of earlier calls are kept. Lines for the user go
+/// to `say`.
+/// \throws UserError    as require_sweep_folder and FolderLock, and when the folder holds another sweep
 /// \throws Interrupted  when the user stops it; finished work is kept, submitted Slurm jobs continue
 SweepOutcome run_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings,
                        const std::function<void(const std::string&)>& say);

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cases/runner/run_directory.hpp"
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/study.hpp"
@@ -274,6 +275,30 @@ fi
 TEST_F(Sweep, is_not_begun_by_asking_to_go_on_with_it) {
     EXPECT_THROW(run(points({{20, 30}, {}, {}, 1}), settings(k_runs, true)), UserError);
     EXPECT_FALSE(fs::exists(folder_ / "sweep"));
+}
+
+TEST_F(Sweep, keeps_the_logs_of_an_earlier_call) {
+    const auto all = points({{20}, {}, {}, 1});
+    run(all, settings(std::string(k_runs) + "; echo the first; exit 3"));
+    run(all, settings(std::string(k_runs) + "; echo the second", true));
+    EXPECT_THAT(read_file(folder_ / "sweep/logs/20rpm.run.log.1"), HasSubstr("the first"));
+    EXPECT_THAT(read_file(folder_ / "sweep/logs/20rpm.run.log"), HasSubstr("the second"));
+}
+
+TEST_F(Sweep, works_alone_in_its_folder) {
+    const auto all = points({{20}, {}, {}, 1});
+    fs::create_directories(folder_ / "sweep");
+    {
+        const FolderLock other(folder_ / "sweep");
+        try {
+            run(all, settings(k_runs));
+            ADD_FAILURE() << "ran beside another";
+        } catch (const UserError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("in use by another process"));
+        }
+        EXPECT_FALSE(fs::exists(folder_ / "sweep/studies"));
+    }
+    EXPECT_EQ(run(all, settings(k_runs)).done.size(), 1u) << "a folder with the lock of one that has ended is empty";
 }
 
 TEST_F(Sweep, runs_as_many_at_a_time_as_it_is_told) {
