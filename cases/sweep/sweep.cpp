@@ -350,8 +350,14 @@ fs::path free_script(const fs::path& folder, const std::string& what) {
     return script;
 }
 
-/// Writes the job array that takes `points` through `what`. \return the script, a new one
-fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::string& what) {
+/// What tells the job of a sweep to a later call.
+fs::path job_file(const SweepSettings& settings) {
+    return settings.folder / "slurm.job";
+}
+
+/// Writes the job array that takes `points` through `what`. \param by_user  submitted by the user: the job notes itself
+/// \return the script, a new one
+fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSettings& settings, const std::string& what, bool by_user) {
     SweepSettings absolute = settings;  // the working directory of a job is not defined
     absolute.folder = fs::absolute(settings.folder).lexically_normal();
     std::vector<SlurmTask> tasks;
@@ -362,7 +368,8 @@ fs::path write_slurm_script(const std::vector<SweepPoint>& points, const SweepSe
     }
     fs::create_directories(absolute.folder / k_logs);
     const fs::path script = free_script(settings.folder, what == "run" ? "sweep" : "mesh");
-    write_file(script, slurm_script(fmt::format("cutterflow_{}", safe_name(absolute.folder.filename().string())), tasks, settings.ranks));
+    write_file(script, slurm_script(fmt::format("cutterflow_{}", safe_name(absolute.folder.filename().string())), tasks, settings.ranks,
+                                    by_user ? job_file(absolute) : fs::path()));
     return script;
 }
 
@@ -390,30 +397,28 @@ public:
     }
 
 private:
-    fs::path job_file() const { return settings_.folder / "slurm.job"; }
-
     /// The process that submitted a job may have ended while the job is still running.
     void wait_for_earlier_job() {
-        if (!fs::exists(job_file())) return;
-        const std::string job = read_file(job_file());
-        say_(fmt::format("waiting for job {}, submitted earlier, if it is still running", job));
+        if (!fs::exists(job_file(settings_))) return;
+        const SlurmJob job = slurm_job(read_file(job_file(settings_)));
+        say_(fmt::format("waiting for job {}, submitted earlier, if it is still running", job.number));
         wait(job);
     }
 
     void take(const std::vector<SweepPoint>& points, const std::string& what) {
         if (points.empty()) return;
         for (const SweepPoint& point : points) keep_older_log(command_of(settings_, point, what).log);
-        const std::string job = submit_to_slurm(write_slurm_script(points, settings_, what));
-        write_file(job_file(), job);
-        say_(fmt::format("job {}: {} of {} point(s); scancel {} ends it", job, what, points.size(), job));
+        const SlurmJob job = submit_to_slurm(write_slurm_script(points, settings_, what, false));
+        write_file(job_file(settings_), job.text());
+        say_(fmt::format("job {}: {} of {} point(s); {} ends it", job.number, what, points.size(), job.cancel()));
         wait(job);
     }
 
-    void wait(const std::string& job) {
+    void wait(const SlurmJob& job) {
         try {
             wait_for_slurm(job, [this] { look(); });
         } catch (const Interrupted&) {
-            throw Interrupted(fmt::format("the waiting for job {} was stopped, the job continues (scancel {} ends it)", job, job));
+            throw Interrupted(fmt::format("the waiting for job {} was stopped, the job continues ({} ends it)", job.number, job.cancel()));
         }
     }
 
@@ -555,7 +560,7 @@ fs::path emit_slurm(const std::vector<SweepPoint>& points, const SweepSettings& 
     const FolderLock lock = locked(settings);
     write_studies(points, settings);
     const std::vector<SweepPoint> missing = without_report(points, settings);
-    return missing.empty() ? fs::path() : write_slurm_script(missing, settings, "run");
+    return missing.empty() ? fs::path() : write_slurm_script(missing, settings, "run", true);
 }
 
 }  // namespace cutterflow::cases

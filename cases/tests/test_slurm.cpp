@@ -133,6 +133,28 @@ TEST_F(Slurm, script_is_an_array_of_quoted_commands) {
         EXPECT_THAT(script, HasSubstr(part));
 }
 
+// Of several clusters; squeue then names the cluster even where it has no element.
+TEST_F(Slurm, is_asked_about_a_job_on_the_cluster_that_took_it) {
+    const auto stand_in = [&](const char* name, const std::string& script) {
+        write_file(folder_ / name, "#!/bin/sh\n" + script + "\n");
+        fs::permissions(folder_ / name, fs::perms::owner_all);
+    };
+    stand_in("sbatch", "echo '123;far'");
+    stand_in("squeue", fmt::format("echo \"$@\" >> {0}/asked; echo 'CLUSTER: far'; [ -e {0}/once ] || {{ touch {0}/once; echo 123_0; }}",
+                                   folder_.string()));
+    const std::string path = std::getenv("PATH");
+    ::setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+    const SlurmJob job = submit_to_slurm("sweep.slurm");
+    int looks = 0;
+    wait_for_slurm(job, [&] { ++looks; });
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(looks, 2);
+    EXPECT_THAT(read_file(folder_ / "asked"), HasSubstr("--jobs=123 --clusters=far"));
+    EXPECT_EQ(job.text(), "123;far");
+    EXPECT_EQ(job.cancel(), "scancel --clusters=far 123");
+    EXPECT_EQ(slurm_job("123").cancel(), "scancel 123") << "as earlier programs noted it";
+}
+
 TEST_F(Slurm, emit_writes_the_missing_points_and_starts_nothing) {
     const fs::path script = emit_slurm(points_, settings(k_run));
     EXPECT_THAT(read_file(script), HasSubstr("#SBATCH --array=0-2"));
@@ -141,6 +163,9 @@ TEST_F(Slurm, emit_writes_the_missing_points_and_starts_nothing) {
     // Run by hand without a scheduler, as an element of an array would be.
     write_file(folder_ / "go", "");
     for (const char* index : {"0", "1"}) require_child({{"sh", script.string()}, {}, {}, {{"SLURM_ARRAY_TASK_ID", index}}});
+    EXPECT_FALSE(fs::exists(folder_ / "sweep/slurm.job"));
+    require_child({{"sh", script.string()}, {}, {}, {{"SLURM_ARRAY_TASK_ID", "7"}, {"SLURM_ARRAY_JOB_ID", "123"}}});
+    EXPECT_EQ(read_file(folder_ / "sweep/slurm.job"), "123") << "a later call waits for it";
     EXPECT_THAT(read_file(folder_ / "sweep/logs/30rpm.run.log"), HasSubstr("run: 50 %"));
     write_file(script, read_file(script) + "# the user's own line\n");
     const fs::path second = emit_slurm(points_, settings(k_run, true));
