@@ -21,7 +21,9 @@ using nlohmann::json;
 
 constexpr const char* k_mesh_folder = "mesh";  // of the run directory
 constexpr double k_most_non_orthogonal = 75.0, k_most_skew = 4.0;
-constexpr double k_volume_error = 0.01, k_solid_volume_error = 0.3;
+// Cells that follow a surface err by 0.1 % of the medium at most (measured in rooms with pipes); a thin solid may lose a third of itself.
+// Beside thick solids, which fill most of a room, a third of them would be more than all of the medium.
+constexpr double k_volume_error = 0.01, k_solid_volume_error = 0.3, k_largest_volume_error = 0.05;
 
 std::vector<std::string> names_of_solids(const RoomMeshPlan& plan) {
     std::vector<std::string> names;
@@ -77,7 +79,7 @@ std::vector<MeshGate> check_room_mesh(const RoomMeshPlan& plan, const CheckMeshF
         {"missing patches", static_cast<double>(missing.size()), 0.0, false,
          fmt::format("No face belongs to {}: take smaller cells there, or do not cover it by a later boundary", fmt::join(missing, ", "))},
         {"relative error of the medium's volume", std::abs(size.volume / plan.medium_volume - 1.0),
-         k_volume_error + k_solid_volume_error * plan.solid_volume / plan.medium_volume, false,
+         std::min(k_volume_error + k_solid_volume_error * plan.solid_volume / plan.medium_volume, k_largest_volume_error), false,
          "Check that no part of the room is closed off, and that solids do not overlap; or take smaller cells near them"},
     };
 }

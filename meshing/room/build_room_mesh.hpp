@@ -27,7 +27,8 @@ struct RoomMeshReport {
 ///   non-orthogonality [deg], skewness                       75, 4
 ///   parts that no face connects                             1
 ///   patches of the plan that are missing                    0
-///   |volume / medium_volume - 1|                            0.01 + 0.3 solid_volume / medium_volume (a closed pipe, a lost solid)
+///   |volume / medium_volume - 1|                            0.01 + 0.3 solid_volume / medium_volume, at most 0.05 (a closed pipe, a lost
+///   solid)
 std::vector<MeshGate> check_room_mesh(const RoomMeshPlan& plan, const CheckMeshFigures& quality, const CheckMeshSize& size);
 
 /// mesh.json (docs/design/001-contracts.md).

@@ -204,6 +204,12 @@ TEST(RoomMeshReport, gates_each_see_their_own_fault) {
     CheckMeshSize lost = size;
     lost.volume = 0.055;  // 8 %: the solid's error is 2 % at most, and a hundredth is allowed besides
     EXPECT_EQ(failed(plan, good, lost), (std::vector<std::string>{"relative error of the medium's volume"}));
+    RoomMeshPlan full = plan;  // a room that is solid but for two pipes of equal volume, one of which is closed
+    full.medium_volume = 0.008;
+    full.solid_volume = 0.056;
+    CheckMeshSize closed = size;
+    closed.volume = 0.004;
+    EXPECT_EQ(failed(full, good, closed), (std::vector<std::string>{"relative error of the medium's volume"}));
     CheckMeshSize split = size;
     split.regions = 2;
     EXPECT_EQ(failed(plan, good, split), (std::vector<std::string>{"number of parts that no face connects"}));
