@@ -500,7 +500,8 @@ void check_recording(const ParameterValues& study, Rules& rules) {
     if (recorded == 0.0) return;
     const char* key = "run.record_revolutions";
     rules.require(recorded >= 1.0, key, "The rotor passes all its phases in one revolution", "Use 1 or more, or 0 for no recording");
-    rules.require(!study.tables("feed").empty(), key, "A recording is for rock", "Add a feed, or use 0");
+    rules.require(!study.tables("feed").empty(), key, "A recording ends where rock comes in",
+                  "Add a feed, of a few rocks near the run's end for the flow alone, or use 0");
     for (const ParameterValues& feed : study.tables("feed"))
         rules.require(
             recorded <= feed.number("feed.start_revolution"), key,

@@ -401,7 +401,7 @@ TEST(Study, records_whole_revolutions_before_the_rock) {
     EXPECT_TRUE(mistakes(feed + "[run]\nrecord_revolutions = 1\n").empty());
     EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 0.5\n"), "all its phases in one revolution"));
     EXPECT_TRUE(any_contains(mistakes(feed + "[run]\nrecord_revolutions = 7\n"), "at most the flow before the rock"));
-    EXPECT_TRUE(any_contains(mistakes(minimal("[run]\nrecord_revolutions = 1\n")), "A recording is for rock"));
+    EXPECT_TRUE(any_contains(mistakes(minimal("[run]\nrecord_revolutions = 1\n")), "A recording ends where rock comes in"));
 }
 
 TEST(Study, refuses_sizes_out_of_proportion_to_the_head) {
