@@ -38,7 +38,7 @@ void read_pipe(const SurfaceRun& run, const PipeGauge& pipe, SceneReading& readi
     const StaggeredGrid& grid = run.grid();
     const double h = grid.spacing();
     const auto plane = [&](double place) { return static_cast<int>(std::lround(place / h)); };
-    const int bottom = plane(pipe.bottom), top = plane(pipe.top);
+    const int bottom = plane(pipe.bottom), top = std::min(plane(pipe.top), grid.cells(2));  // it may reach out of the tank
     const int left = plane(pipe.axis - 0.5 * pipe.inner_width), right = plane(pipe.axis + 0.5 * pipe.inner_width);
     int inside = 0;
     for (int j = 0; j < grid.cells(1); ++j) {

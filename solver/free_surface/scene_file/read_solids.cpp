@@ -93,6 +93,9 @@ void read_pipe(SceneFileReading& reading, const ParameterValues& solid) {
                        fmt::format("A hole narrower than a cell ({:g} m) would close", reading.cell()),
                        fmt::format("Use cells of {:g} m", hole));
     require_top_above_bottom(reading, solid, bottom, top);
+    if (solid.has("solid.bottom_m") && bottom >= reading.height())
+        reading.refuse(solid.where("solid.bottom_m"), fmt::format("solid.bottom_m = {:g} m lies above the domain", bottom),
+                       fmt::format("The domain reaches to {:g} m", reading.height()), "Lower the pipe");
     if (!reading.scene.pipe) reading.scene.pipe = PipeGauge{axis, 2.0 * half, wall, bottom, top};
     const double spacing = hole > 0.0 ? required(reading, solid, "solid.hole_spacing_m") : k_far;
     if (spacing < hole + (1.0 - 1e-6) * reading.cell())
@@ -155,20 +158,52 @@ void read_funnel(SceneFileReading& reading, const ParameterValues& solid) {
     reading.scene.settings.solids.emplace_back(plate(left, left + Eigen::Vector2d(-way.x(), way.y()), wall));
 }
 
+/// Its lower corner comes first, and a part of it stands in the tank.
+void read_box(SceneFileReading& reading, const ParameterValues& solid) {
+    const std::size_t before = reading.mistakes.size();
+    const Interval y = reading.across(solid, "solid.from_y_m", "solid.to_y_m");
+    const Vec3 from(required(reading, solid, "solid.from_x_m"), y.from, required(reading, solid, "solid.from_z_m"));
+    const Vec3 to(required(reading, solid, "solid.to_x_m"), y.to, required(reading, solid, "solid.to_z_m"));
+    if (reading.mistakes.size() > before) return;
+    const auto shown = [&](const Vec3& corner) {  // an end that is not given is the tank's
+        return reading.text_of(Vec3(corner.x(),
+                                    std::abs(corner.y()) < k_far ? corner.y()
+                                    : corner.y() < 0.0           ? 0.0
+                                                                 : reading.depth(),
+                                    corner.z()));
+    };
+    const std::string box = fmt::format("A box from {} to {}", shown(from), shown(to));
+    if (from.x() >= to.x() || from.z() >= to.z())
+        return reading.refuse(solid.where("solid.kind"), box, "Its lower corner must come first", "Exchange the corners");
+    if ((to.array() <= 0.0).any() || (from.array() >= Vec3(reading.width(), reading.depth(), reading.height()).array()).any())
+        return reading.refuse(solid.where("solid.kind"), box + " stands outside the domain",
+                              fmt::format("The domain is {}", reading.text_of_domain()), "Move or remove it");
+    reading.scene.settings.solids.emplace_back(SolidBox{from, to});
+}
+
+/// One side of it runs from one end to the other.
+void read_plate(SceneFileReading& reading, const ParameterValues& solid) {
+    const std::size_t before = reading.mistakes.size();
+    const Eigen::Vector2d from(required(reading, solid, "solid.from_x_m"), required(reading, solid, "solid.from_z_m"));
+    const Eigen::Vector2d to(required(reading, solid, "solid.to_x_m"), required(reading, solid, "solid.to_z_m"));
+    const double wall = wall_of(reading, solid);
+    if (reading.mistakes.size() > before) return;
+    if ((to - from).norm() < (1.0 - 1e-6) * reading.cell())
+        return reading.refuse(solid.where("solid.kind"),
+                              fmt::format("A plate from ({:g}, {:g}) to ({:g}, {:g}) m", from.x(), from.y(), to.x(), to.y()),
+                              fmt::format("It is at least a cell long ({:g} m)", reading.cell()), "Move one of its ends");
+    reading.scene.settings.solids.emplace_back(plate(from, to, wall));
+}
+
 void read_solid(SceneFileReading& reading, const ParameterValues& solid) {
     const std::string& kind = solid.text("solid.kind");
     refuse_other_keys(reading, solid);
     if (kind == "box") {
-        const Interval y = reading.across(solid, "solid.from_y_m", "solid.to_y_m");
-        const Vec3 from(required(reading, solid, "solid.from_x_m"), y.from, required(reading, solid, "solid.from_z_m"));
-        reading.scene.settings.solids.emplace_back(
-            SolidBox{from, Vec3(required(reading, solid, "solid.to_x_m"), y.to, required(reading, solid, "solid.to_z_m"))});
+        read_box(reading, solid);
     } else if (kind == "surface") {
         read_surface(reading, solid);
     } else if (kind == "plate") {
-        const Eigen::Vector2d from(required(reading, solid, "solid.from_x_m"), required(reading, solid, "solid.from_z_m"));
-        const Eigen::Vector2d to(required(reading, solid, "solid.to_x_m"), required(reading, solid, "solid.to_z_m"));
-        reading.scene.settings.solids.emplace_back(plate(from, to, wall_of(reading, solid)));
+        read_plate(reading, solid);
     } else if (kind == "pipe") {
         read_pipe(reading, solid);
     } else if (kind == "gate") {
@@ -193,7 +228,6 @@ void require_thick_box(SceneFileReading& reading, const ParameterValues& solid) 
     const Vec3 tank(reading.width(), reading.depth(), reading.height());
     const Vec3 from = Vec3(solid.number("solid.from_x_m"), y.from, solid.number("solid.from_z_m")).cwiseMax(0.0);
     const Vec3 to = Vec3(solid.number("solid.to_x_m"), y.to, solid.number("solid.to_z_m")).cwiseMin(tank);
-    if ((to.array() <= from.array()).any()) return;  // outside the tank
     for (const int d : {0, 1, 2}) {
         const double thickness = to[d] - from[d], beside = 0.5 * reading.cell();
         if (thickness >= (k_thinnest_wall - 1e-6) * reading.cell()) continue;

@@ -38,6 +38,20 @@ TEST(Gauges, tell_a_wave_from_its_trough) {
     EXPECT_NEAR(read_gauge(run, {"right", 0.35, 0.0, {}}).level, 0.1, 1e-9);
 }
 
+/// Above the tank there are no cells.
+TEST(Gauges, read_a_pipe_that_reaches_out_of_the_tank_up_to_its_end) {
+    SceneSettings scene = pool();
+    scene.solids = {SolidBox{Vec3(0.10, -1, 0.05), Vec3(0.12, 1, 1e3)}, SolidBox{Vec3(0.22, -1, 0.05), Vec3(0.24, 1, 1e3)}};
+    scene.water.filled = {{Vec3(-1, -1, -1), Vec3(0.2, 1, 0.2)}};
+    SurfaceRun run(scene, nullptr);
+    for (int n = 0; n < 3; ++n) run.step();
+    const SceneReading within = read_gauges(run, PipeGauge{0.17, 0.1, 0.02, 0.05, 0.3});
+    const SceneReading beyond = read_gauges(run, PipeGauge{0.17, 0.1, 0.02, 0.05, 1e3});
+    EXPECT_NE(within.mouth_flow, 0.0);
+    EXPECT_EQ(beyond.hole_flow, within.hole_flow);
+    EXPECT_EQ(beyond.level_in_pipe, within.level_in_pipe);
+}
+
 /// A step across: gauges read the water where they stand, not that in the middle. The pressure between two centres is their mean.
 TEST(Gauges, in_space_read_their_place_across) {
     SceneSettings scene = pool();

@@ -164,6 +164,17 @@ TEST(SceneFile, refuses_pipes_outside_and_a_flood_of_pictures) {
     EXPECT_THAT(mistakes_of(k_tank + "write_interval_s = 1e-12\n" + k_fill), ::testing::HasSubstr("at most 10000 of them"));
 }
 
+/// The gauge of a pipe reads the cells from its mouth up.
+TEST(SceneFile, refuses_a_pipe_above_the_tank_and_takes_one_that_reaches_out_of_it) {
+    const auto pipe = [](const std::string& bottom, const std::string& top) {
+        return k_tank + k_fill + "[[solid]]\nkind = \"pipe\"\ninner_width_m = 0.06\nwall_m = 0.002\naxis_x_m = 0.1\nbottom_m = " + bottom +
+               "\ntop_m = " + top + "\n";
+    };
+    EXPECT_THAT(mistakes_of(pipe("0.2", "0.3")),
+                ::testing::HasSubstr("solid.bottom_m = 0.2 m lies above the domain. The domain reaches to"));
+    EXPECT_EQ(mistakes_of(pipe("0.19", "0.3")), "");
+}
+
 TEST(SceneFile, refuses_stacks_of_too_many_bodies) {
     EXPECT_THAT(mistakes_of(k_tank + k_fill +
                             "[[bodies]]\ndiameter_m = 0.01\nlayers = 1000000000\nwidest = 6\ncentre_x_m = 0.1\n"
@@ -245,6 +256,33 @@ TEST(SceneFile, refuses_boxes_that_are_thin_walls) {
     EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.05", "0.0", "0.1", "0.001")), "");
     EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.05", "0.03", "0.1", "0.032")), "");
     EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.19", "0.0", "0.191", "0.05") + box("0.191", "0.0", "0.2", "0.05")), "");
+}
+
+/// Water would not feel such a box, bodies would.
+TEST(SceneFile, refuses_boxes_with_exchanged_corners_and_boxes_outside_the_tank) {
+    for (const auto& [from_x, from_z, to_x, to_z] :
+         {std::tuple{"0.1", "0.02", "0.05", "0.1"}, {"0.05", "0.1", "0.1", "0.02"}, {"0.05", "0.02", "0.05", "0.1"}})
+        EXPECT_THAT(mistakes_of(k_tank + k_fill + box(from_x, from_z, to_x, to_z)),
+                    ::testing::AllOf(::testing::HasSubstr("A box from (0."), ::testing::HasSubstr("lower corner must come first")));
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + box("0.2", "0.0", "0.3", "0.1")),
+                ::testing::HasSubstr("A box from (0.2, 0) m to (0.3, 0.1) m stands outside the domain"));
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + box("0.1", "0.2", "0.15", "0.3")), ::testing::HasSubstr("stands outside the domain"));
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + box("0.15", "0.0", "0.3", "0.3")), "") << "a part of it stands in the tank";
+    const std::string space = std::string(k_tank).replace(k_tank.find("cell_m"), 0, "dimensions = 'space'\nlength_m = 0.04\n");
+    EXPECT_THAT(mistakes_of(space + k_fill + box("0.05", "0.0", "0.1", "0.05") + "from_y_m = 0.05\nto_y_m = 0.06\n"),
+                ::testing::HasSubstr("A box from (0.05, 0.05, 0) m to (0.1, 0.06, 0.05) m stands outside the domain"));
+}
+
+/// Its direction would be none, and it would cover the whole tank.
+TEST(SceneFile, refuses_a_plate_shorter_than_a_cell) {
+    const auto plate = [](const std::string& to_x) {
+        return k_tank + k_fill +
+               "[[solid]]\nkind = \"plate\"\nfrom_x_m = 0.05\nfrom_z_m = 0.15\nto_z_m = 0.15\nwall_m = 0.003\nto_x_m = " + to_x + "\n";
+    };
+    for (const char* end : {"0.05", "0.0509"})
+        EXPECT_THAT(mistakes_of(plate(end)), ::testing::AllOf(::testing::HasSubstr("A plate from (0.05, 0.15) to (0.05"),
+                                                              ::testing::HasSubstr("at least a cell long")));
+    EXPECT_EQ(mistakes_of(plate("0.051")), "");
 }
 
 TEST(SceneFile, tells_how_deep_a_body_stands_in_a_solid) {
