@@ -51,6 +51,7 @@ std::vector<ListedBody> read_body_list(const std::filesystem::path& file, std::v
         body.z = table.at(row, "z_m");
         if (table.has("y_m")) body.y = table.at(row, "y_m");
         body.velocity = Vec3(number(row, "vx_m_s"), number(row, "vy_m_s"), number(row, "vz_m_s"));
+        body.moves_across = table.has("vy_m_s");
         body.spin = number(row, "spin_rad_s");
         if (table.has("id")) body.id = read_id(table, row, seen, mistakes);
         body.where = table.where(row);

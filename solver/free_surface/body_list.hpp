@@ -14,6 +14,7 @@ struct ListedBody {
     double x = 0.0, z = 0.0;       ///< of its centre [m]
     std::optional<double> y;       ///< none: in the middle of the tank
     Vec3 velocity = Vec3::Zero();  ///< [m/s]
+    bool moves_across = false;     ///< the file has its velocity across
     double spin = 0.0;             ///< about y [rad/s]
     int id = 0;                    ///< 0: none is given
     std::string where;             ///< file:line

@@ -438,6 +438,9 @@ void SurfaceRun::move_bodies(double step) {
     if (!engine_ || bodies_.empty()) return;
     const std::vector<Vec3>& force = report_.body_force;
     const coupling::DemStep moved = engine_->advance(step, [&](std::size_t index, const Vec3&) { return force[index]; });
+    if (moved.left.size() > 0)
+        throw CheckFailure({"", fmt::format("Body {} left the tank at {} {}", moved.left.id[0], text_of(moved.left.position[0]), moment()),
+                            "Bodies stay between the tank's walls", "Give it less velocity, or look for what presses it through a wall"});
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         contact_force_[b] = moved.contact_impulse[b] / step;
         const double size = step * force[b].norm();

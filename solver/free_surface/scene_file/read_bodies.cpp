@@ -46,10 +46,15 @@ std::vector<ListedBody> listed(SceneFileReading& reading, const ParameterValues&
         if (mistake.where.empty()) mistake.where = bodies.where("bodies.file");
         reading.mistakes.push_back(std::move(mistake));
     }
+    if (reading.scene.settings.spheres) return list;
     for (const ListedBody& body : list) {
-        if (body.y && !reading.scene.settings.spheres)
-            reading.refuse(body.where, fmt::format("The cylinder at x = {:g} m has a place across", body.x),
-                           "Cylinders reach across the tank", "Leave the column y_m out, or set bodies.shape = \"sphere\"");
+        const auto refuse = [&](const char* what, const char* column) {
+            reading.refuse(body.where, fmt::format("The cylinder at x = {:g} m has a {} across", body.x, what),
+                           "Cylinders reach across the tank",
+                           fmt::format("Leave the column {} out, or set bodies.shape = \"sphere\"", column));
+        };
+        if (body.y) refuse("place", "y_m");
+        if (body.moves_across) refuse("velocity", "vy_m_s");
     }
     return list;
 }

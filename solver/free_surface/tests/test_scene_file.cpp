@@ -419,6 +419,9 @@ TEST_F(BodyFile, gives_places_velocities_spins_and_ids_in_their_order) {
 
 TEST_F(BodyFile, names_file_and_line_of_every_mistake) {
     EXPECT_THAT(mistakes_of("x_m,z_m,y_m\n0.1,0.1,0.1\n"), ::testing::HasSubstr("has a place across"));
+    EXPECT_THAT(mistakes_of("x_m,z_m,vy_m_s\n0.1,0.1,5\n"),
+                ::testing::AllOf(::testing::HasSubstr("list.csv:2: The cylinder at x = 0.1 m has a velocity across"),
+                                 ::testing::HasSubstr("Leave the column vy_m_s out")));
     EXPECT_THAT(mistakes_of("x_m,w_m\n0.1,0.1\n"), ::testing::AllOf(::testing::HasSubstr("list.csv:1: column 'z_m' is missing"),
                                                                     ::testing::HasSubstr("column 'w_m' is not known")));
     EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,nan\n0.1\n"), ::testing::AllOf(::testing::HasSubstr("list.csv:2: z_m = 'nan' is not a number"),

@@ -34,6 +34,31 @@ void expect_equal(const WaterParticles& a, const WaterParticles& b, double toler
     EXPECT_LE(largest, tolerance);
 }
 
+/// A DEM that loses a body in its first step.
+class LosesABody final : public BodiesWithoutContacts {
+public:
+    using BodiesWithoutContacts::BodiesWithoutContacts;
+    coupling::DemStep advance(double, const coupling::HydrodynamicForce&) override {
+        coupling::DemStep step;
+        step.left = std::move(rocks_);
+        rocks_ = {};
+        step.left_impulse = step.left_contact_impulse = {Vec3::Zero()};
+        return step;
+    }
+};
+
+TEST(SurfaceRun, ends_when_a_body_leaves_the_tank) {
+    const SceneSettings scene = pool();
+    LosesABody bodies(one_rock(Vec3(0.2, 0.025, 0.2), 0.05, 2700.0));
+    SurfaceRun run(scene, &bodies);
+    try {
+        run.step();
+        FAIL() << "no body is left";
+    } catch (const CheckFailure& failure) {
+        EXPECT_THAT(failure.what(), ::testing::HasSubstr("Body 1 left the tank at (0.2, 0.2) m at 0 s, in a step of"));
+    }
+}
+
 TEST(SurfaceRun, water_at_rest_stays_at_rest) {
     SurfaceRun run(pool(), nullptr);
     const double energy = run.energy();
