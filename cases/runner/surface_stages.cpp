@@ -32,6 +32,7 @@ StageOutcome write_case(const RunDirectory& directory, const SurfaceInputs& inpu
 StageOutcome run_solver(const RunDirectory& directory, const fs::path& solver, bool resume) {
     ChildCommand command{{solver.string(), directory.path().string()}, {}, directory.file("log.cutterSurface"), {}};
     if (resume && fs::exists(directory.file("scene.started.toml"))) command.arguments.emplace_back("--resume");
+    command.first_stop_signal = k_end_in_order;
     keep_older_log(command.log);
     const double core_s = run_own_solver(command, [](const std::string& line) { std::cerr << "  " << line << std::endl; });
     return {{}, core_s};

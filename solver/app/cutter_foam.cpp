@@ -1,7 +1,5 @@
 /// \file cutterFoam: the coupled solver, an ordinary OpenFOAM application. On a case without constant/couplingProperties, or without its
 /// section `rock`, it is a pure flow solver.
-#include <array>
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -16,6 +14,7 @@
 #include "geometry/base/process/child_process.hpp"
 #include "geometry/base/versions.hpp"
 #include "solver/app/models_in_use.hpp"
+#include "solver/app/stop_request.hpp"
 #include "solver/coupling/coupled_run.hpp"
 #include "solver/coupling/dry/no_fluid.hpp"
 #include "solver/coupling/feed/rock_feed.hpp"
@@ -61,19 +60,9 @@ std::unique_ptr<coupling::RunRecorder> make_recorder(const foam::FoamSession& se
     return recorder;
 }
 
-constexpr std::array<int, 4> k_stop_signals{k_end_in_order, SIGINT, SIGTERM, SIGHUP};
-
-volatile std::sig_atomic_t g_stop_is_asked = 0;
-
-/// The next one stops at once.
-extern "C" void ask_to_stop(int) {
-    g_stop_is_asked = 1;
-    for (const int number : k_stop_signals) std::signal(number, SIG_DFL);
-}
-
 /// On any rank: a launcher reaches one before the other. Collective
 bool stop_is_asked(coupling::Communicator& communicator) {
-    double asked = g_stop_is_asked != 0 ? 1.0 : 0.0;
+    double asked = is_asked_to_stop() ? 1.0 : 0.0;
     communicator.max(gsl::span<double>(&asked, 1));
     return asked > 0.0;
 }
@@ -137,7 +126,7 @@ void solve(foam::FoamSession& session, foam::CouplingDictionary& dictionary) {
 void run(int argc, char** argv) {
     foam::require_openfoam_of_build();
     foam::FoamSession session(argc, argv);
-    for (const int number : k_stop_signals) std::signal(number, ask_to_stop);
+    listen_for_stop();
     foam::CouplingDictionary dictionary = foam::read_coupling_dictionary(session);
     require_feed_in_domain(dictionary);
     if (!dictionary.coupling.has_medium)

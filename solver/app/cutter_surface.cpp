@@ -16,8 +16,10 @@
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/process/processor_time.hpp"
 #include "geometry/base/progress.hpp"
+#include "solver/app/stop_request.hpp"
 #include "solver/free_surface/output/surface_checkpoint.hpp"
 #include "solver/free_surface/output/surface_recorder.hpp"
 #include "solver/free_surface/scene_file/scene_file.hpp"
@@ -124,7 +126,9 @@ double next_multiple(double time, double interval) {
     return (std::floor(time / interval * (1.0 + 1e-12) + 1e-9) + 1.0) * interval;
 }
 
+/// \throws Interrupted  after a checkpoint, at a request to stop
 void run_scene(const Arguments& arguments) {
+    if (!arguments.check) listen_for_stop();
     Scene scene = read_scene(arguments.folder / k_scene);
     tell(scene);
     if (arguments.check) return;
@@ -141,6 +145,10 @@ void run_scene(const Arguments& arguments) {
 
     SurfaceRecorder recorder(arguments.folder, run.time(), scene.gauges, scene.write_particles);
     if (run.time() == 0.0) recorder.output(run, engine.get());
+    const auto keep = [&] {  // a run that goes on has the rows up to its checkpoint
+        recorder.flush();
+        write_checkpoint(arguments.folder, run.state(), engine.get());
+    };
     Progress progress("run");
     int most_enclosed = 0;
     double end = fs::exists(arguments.folder / k_ends) ? std::stod(read_file(arguments.folder / k_ends)) : scene.end;
@@ -163,12 +171,16 @@ void run_scene(const Arguments& arguments) {
             output_due = next_multiple(run.time(), scene.write_interval);
         }
         if (run.time() >= checkpoint_due * (1.0 - 1e-12)) {
-            write_checkpoint(arguments.folder, run.state(), engine.get());
+            keep();
             checkpoint_due = next_multiple(run.time(), scene.checkpoint_interval);
+        }
+        if (is_asked_to_stop() && run.time() < end * (1.0 - 1e-12)) {
+            keep();
+            throw Interrupted(fmt::format("stopped on request at {:.9g} s", run.time()));
         }
         progress.update(run.time() / end, fmt::format("{:.4f} of {:g} s", run.time(), end));
     }
-    write_checkpoint(arguments.folder, run.state(), engine.get());
+    keep();
     progress.finish(fmt::format("{:.1f} core s", processor_seconds()));
 }
 
@@ -185,6 +197,9 @@ int main(int argc, char** argv) {
         } else {
             run_scene(arguments);
         }
+    } catch (const Interrupted& stop) {
+        std::cout << "cutterSurface: " << stop.what() << std::endl;
+        code = static_cast<int>(ExitCode::interrupted);
     } catch (const Failure& failure) {
         std::cerr << "cutterSurface: " << failure.what() << std::endl;
         code = static_cast<int>(failure.code());

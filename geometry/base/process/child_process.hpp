@@ -13,7 +13,7 @@
 
 namespace cutterflow {
 
-/// At this signal cutterFoam writes a checkpoint at the end of its step and ends.
+/// At this signal cutterFoam and cutterSurface write a checkpoint at the end of their step and end.
 inline constexpr int k_end_in_order = SIGUSR1;
 
 /// Command to start. Arguments are passed unchanged, without a shell.

@@ -1,7 +1,9 @@
 /// cutterSurface as a user starts it: what it refuses, and what stays of a run that breaks off.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/process/child_process.hpp"
 
@@ -29,12 +31,30 @@ protected:
     }
     int start(const std::string& text, const std::vector<std::string>& options = {}) {
         write_file(folder_ / "scene.toml", text);
-        std::vector<std::string> arguments{(fs::path(CUTTERFLOW_BUILD_DIR) / "bin" / "cutterSurface").string(), folder_.string()};
+        std::vector<std::string> arguments{program(), folder_.string()};
         arguments.insert(arguments.end(), options.begin(), options.end());
         const fs::path log = folder_ / "log";
         const int code = run_child({arguments, folder_, log, {}}).exit_code;
         output_ = read_file(log);
         return code;
+    }
+    std::string program() const { return (fs::path(CUTTERFLOW_BUILD_DIR) / "bin" / "cutterSurface").string(); }
+    /// Starts the scene of the folder, and sends a signal when it has a checkpoint.
+    int send(const std::string& signal) {
+        const std::string wait = "for n in $(seq 500); do ls checkpoints/*[0-9] 2> /dev/null && break; sleep 0.02; done";
+        const std::string script = fmt::format("'{}' . & p=$!; {}; kill -{} $p; wait $p", program(), wait, signal);
+        const fs::path log = folder_ / "log";
+        const int code = run_child({{"sh", "-c", script}, folder_, log, {}}).exit_code;
+        output_ = read_file(log);
+        return code;
+    }
+    /// Time [s] of the newest checkpoint.
+    double kept() const { return std::stod(newest_checkpoint(folder_).filename().string()); }
+    /// Time [s] of the last whole row of a table of the process that began at 0.
+    double last_row(const std::string& name) const {
+        std::string text = read_file(folder_ / "postProcessing" / name / "0" / (name + ".csv"));
+        text.erase(text.rfind('\n'));
+        return std::stod(text.substr(text.rfind('\n') + 1));
     }
     int checkpoints() const {
         int count = 0;
@@ -110,6 +130,31 @@ TEST_F(CutterSurface, ends_when_it_would_have_after_a_resume) {
     for (const auto& entry : fs::directory_iterator(folder_ / "checkpoints"))
         last = std::max(last, std::stod(entry.path().filename().string()));
     EXPECT_NEAR(last, end, 1e-9) << "a finished run is not made longer";
+}
+
+std::string long_scene() {
+    std::string text = scene("");
+    return text.replace(text.find("end_s = 0.01\nwrite_interval_s = 0.002"), 37, "end_s = 5\nwrite_interval_s = 2");
+}
+
+TEST_F(CutterSurface, ends_its_step_and_keeps_rows_and_state_when_it_is_asked_to_stop) {
+    write_file(folder_ / "scene.toml", long_scene());
+    for (const char* number : {"USR1", "TERM"}) {
+        fs::remove_all(folder_ / "checkpoints");
+        fs::remove(folder_ / "scene.started.toml");
+        EXPECT_EQ(send(number), 130) << number;
+        EXPECT_THAT(output_, HasSubstr(fmt::format("stopped on request at {:.9g} s", last_row("balance")))) << number;
+        EXPECT_NEAR(kept(), last_row("balance"), 1e-7) << number;
+        EXPECT_NEAR(kept(), last_row("levels"), 1e-7) << number;
+    }
+}
+
+/// A resumed run begins at the checkpoint: rows before it are written by the process that was killed, or never.
+TEST_F(CutterSurface, has_the_rows_up_to_its_checkpoint_in_the_files_when_it_is_killed) {
+    write_file(folder_ / "scene.toml", long_scene());
+    send("KILL");
+    EXPECT_GE(last_row("balance"), kept() - 1e-7);
+    EXPECT_GE(last_row("levels"), kept() - 1e-7);
 }
 
 }  // namespace

@@ -120,6 +120,10 @@ void SurfaceRecorder::output(const SurfaceRun& run, const coupling::DemEngine* b
         write_bodies(run, name);
         write_series("bodies", "vtp");
     }
+    flush();
+}
+
+void SurfaceRecorder::flush() {
     for (std::ofstream* stream : {&balance_, &levels_, &rows_, &gauge_rows_}) {
         if (!stream->is_open()) continue;
         stream->flush();

@@ -17,6 +17,8 @@ public:
 
     void step(const SurfaceRun& run, const SceneReading& reading, double core_seconds);
     void output(const SurfaceRun& run, const coupling::DemEngine* bodies);
+    /// Brings all rows to the files. \throws Failure  when they cannot be written
+    void flush();
 
 private:
     void write_water(const SurfaceRun& run, const std::string& name) const;
