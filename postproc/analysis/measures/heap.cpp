@@ -196,6 +196,15 @@ Slopes slopes_of(const Grains& grains, const SlopeSearch& search) {
             k_straight);
         return slopes;
     }
+    const auto falls = std::count_if(slopes.sides.begin(), slopes.sides.end(),
+                                     [](const SlopeSide& side) { return side.is_straight && side.angle_deg > 0.0; });
+    const auto rises = std::count_if(slopes.sides.begin(), slopes.sides.end(),
+                                     [](const SlopeSide& side) { return side.is_straight && side.angle_deg < 0.0; });
+    if (falls > 0 && rises > 0) {
+        slopes.reason = fmt::format(
+            "no angle: {} of the slopes fall outwards and {} rise; on both sides of a heap or a hollow they do the same", falls, rises);
+        return slopes;
+    }
     slopes.angle_deg = std::abs(mean);
     if (search.around) fit_cone(counted, search, diameter, slopes);
     return slopes;

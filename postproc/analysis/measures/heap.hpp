@@ -52,7 +52,7 @@ struct SlopeSide {
 struct Slopes {
     std::vector<SlopeSide> sides;
     std::vector<Profile> silhouettes;  ///< of the views; places along the view's direction from the axis
-    std::optional<double> angle_deg;   ///< mean over the sides, positive; none: no straight slope, `reason` says why
+    std::optional<double> angle_deg;   ///< mean over the sides, positive; none: no straight slope, or some fall and some rise; `reason`
     double spread_deg = 0.0;           ///< standard deviation of the sides
     double r2 = 0.0;                   ///< lower quartile of the sides: a quarter of them is no straighter
     bool rises_outwards = false;       ///< a hollow

@@ -165,6 +165,20 @@ TEST(Heap, between_plates_rises_outwards_from_an_opening) {
     EXPECT_FALSE(slopes.cone_angle_deg);
 }
 
+/// Its sides are as steep, with opposite signs: their mean would be 0 deg.
+TEST(Heap, that_falls_one_way_has_no_angle) {
+    const double half = 20.0 * k_d, slope = std::tan(25.0 * k_pi / 180.0);
+    const Grains grains = testing::packed_grains({-half, -4.0 * k_d, 0.0}, {half, 4.0 * k_d, 3.0 * half * slope}, k_d, 1,
+                                                 [=](const Vec3& place) { return place.z() < slope * (2.0 * half - place.x()); });
+    SlopeSearch search;
+    search.around = false;
+    search.radius = 18.0 * k_d;
+    const Slopes slopes = slopes_of(grains, search);
+    EXPECT_FALSE(slopes.angle_deg) << *slopes.angle_deg;
+    EXPECT_THAT(slopes.reason, HasSubstr("no angle: 1 of the slopes fall outwards and 1 rise"));
+    for (const SlopeSide& side : slopes.sides) EXPECT_NEAR(std::abs(side.angle_deg), 25.0, 0.5);
+}
+
 TEST(Profile, is_the_upper_envelope_of_the_spheres) {
     Grains grains;
     grains.add({0.0, 0.3, 1.0}, Vec3::Zero(), 1.0, 1.0);
