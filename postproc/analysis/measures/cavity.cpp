@@ -74,6 +74,12 @@ double surface_level(const Grains& grains, const Eigen::Vector2d& lower, const E
     return std::accumulate(map.height.begin(), map.height.end(), 0.0) / static_cast<double>(map.height.size());
 }
 
+bool has_bare_corner(const Grains& grains, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double cell) {
+    const HeightMap map = median_filtered(height_map(grains, lower, upper, cell, 0.0), mean_diameter(grains));
+    const int right = map.columns - 1, far = map.rows - 1;
+    return std::min({map.at(0, 0), map.at(right, 0), map.at(0, far), map.at(right, far)}) <= 0.0;
+}
+
 std::optional<Cavity> cavity_of(const Grains& grains, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double undisturbed,
                                 double cell) {
     const double diameter = mean_diameter(grains);

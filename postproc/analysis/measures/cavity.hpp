@@ -28,6 +28,9 @@ struct Cavity {
 /// Mean height of a bed's surface: of the median of its height map [m].
 double surface_level(const Grains& grains, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double cell);
 
+/// Whether a corner of the extent has no grains, in the median of the height map: a bed that is not rectangular leaves its corners free.
+bool has_bare_corner(const Grains& grains, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double cell);
+
 /// Height map of the grains with cells of `cell`, its median over one mean diameter, and the largest area that lies half a mean diameter
 /// and more below `undisturbed`. Floor without grains has height 0. \param lower, upper  horizontal extent of the map \return nothing when
 /// no place lies so low

@@ -417,8 +417,12 @@ MeasureOutcome measure_cavity(const MeasureSource& source, const MeasureValues& 
     if (!(lower.array() < upper.array()).all()) return without_value(unit, "no grains, or too few for a map");
     const double cell = values.number("cell_m");
     if (const auto mistake = map_size_mistake(upper.x() - lower.x(), upper.y() - lower.y(), cell)) throw UserError({*mistake});
-    const double undisturbed = values.has("undisturbed_m") ? values.number("undisturbed_m")
-                                                           : surface_level(grains_of_map(source.grains(0), region), lower, upper, cell);
+    const bool is_level_given = values.has("undisturbed_m");
+    const Grains first = is_level_given ? Grains{} : grains_of_map(source.grains(0), region);
+    const auto is_bare = [&](const Grains& bed) { return has_bare_corner(bed, lower, upper, cell); };
+    if (!values.has("region") && (is_bare(grains) || (!is_level_given && is_bare(first))))
+        return without_value(unit, "a corner of the bed's extent has no grains: give a region, a box within the bed");
+    const double undisturbed = is_level_given ? values.number("undisturbed_m") : surface_level(first, lower, upper, cell);
     const auto cavity = cavity_of(grains, lower, upper, undisturbed, cell);
     if (!cavity) {
         MeasureOutcome none = without_value(unit, "no cavity: no place lies half a mean diameter below the undisturbed level");

@@ -175,10 +175,11 @@ void require_map(const json& measure, char across, std::vector<Mistake>& mistake
     if (const auto found = map_size_mistake(size[grid.first()], size[grid.second()], grid.cell)) mistakes.push_back(*found);
 }
 
-/// Without a box the extent is known with the grains.
+/// Without a box the extent is known with the grains. Of other regions the places outside would count as floor.
 std::vector<Mistake> cavity_rules(const json& measure) {
     std::vector<Mistake> mistakes;
-    if (measure.contains("region") && measure["region"].contains("box")) require_map(measure, 'z', mistakes);
+    require_kind_of_region(measure, {"box"}, mistakes);
+    if (mistakes.empty() && measure.contains("region")) require_map(measure, 'z', mistakes);
     return mistakes;
 }
 
@@ -328,7 +329,11 @@ std::vector<MeasureKind> make_table() {
           single(ParameterRow("cell_m", k_number, "m", "Cell of the height map.").above(0).by_default(0.005)),
           single(
               ParameterRow("quantity", k_choice, "-", "What the value is.").one_of({"diameter", "depth", "volume"}).by_default("diameter")),
-          grains_in(), at_time()},
+          shaped(MeasureShape::region,
+                 ParameterRow("region", k_text, "-",
+                              "A box: the part of the bed that is looked at. A bed that is not rectangular needs one within it.")
+                     .derived("the grains' extent less a mean diameter at each side")),
+          at_time()},
          cavity_rules});
     table.push_back({"void_area",
                      measure_void_area,

@@ -227,6 +227,22 @@ TEST_F(MeasuredRun, measures_grains_of_its_pictures) {
     EXPECT_THAT(measures_text(results), HasSubstr("no angle"));
 }
 
+/// Outside a round bed there is no cavity; a box within it has none either, and its own level.
+TEST_F(MeasuredRun, finds_no_cavity_beside_a_round_bed) {
+    const Grains bed =
+        testing::packed_grains({-0.1, -0.1, 0.0}, {0.1, 0.1, 0.06}, k_d, 1, [](const Vec3& place) { return place.head<2>().norm() < 0.1; });
+    picture(0.0, bed);
+    write(k_measures, R"([{"name": "all", "what": "cavity"}, {"name": "given", "what": "cavity", "undisturbed_m": 0.06},
+                          {"name": "within", "what": "cavity",
+                           "region": {"box": {"lower_m": [-0.06, -0.06, 0], "upper_m": [0.06, 0.06, 0.2]}}}])");
+    const json results = measure_run(run_);
+    for (const char* name : {"all", "given"}) {
+        EXPECT_TRUE(results[name]["value"].is_null()) << results[name]["value"];
+        EXPECT_THAT(results[name]["detail"]["reason"].get<std::string>(), HasSubstr("a corner of the bed's extent has no grains"));
+    }
+    EXPECT_LT(results["within"]["value"].get<double>(), 3.0 * k_d);
+}
+
 TEST_F(MeasuredRun, compares_a_profile_with_a_given_one) {
     Grains bar;
     for (int n = 0; n < 101; ++n) bar.add({0.002 * n, 0.0, 0.05}, Vec3::Zero(), 0.02, k_density);

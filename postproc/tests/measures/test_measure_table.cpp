@@ -113,6 +113,14 @@ TEST(MeasureTable, refuses_times_before_the_run) {
                 ::testing::ElementsAre(HasSubstr("at_s = -1"), HasSubstr("to_s = -1"), HasSubstr("from_s = -1")));
 }
 
+/// Outside a region that is no box there is no bed, and its map would have a false cavity there.
+TEST(MeasureTable, takes_a_box_alone_for_a_cavity) {
+    for (const char* region : {R"({"cylinder": {"from_m": [0, 0, 0], "to_m": [0, 0, 1], "radius_m": 0.1}})",
+                               R"({"half_space": {"point_m": [0, 0, 0], "normal": [0, 0, 1]}})"})
+        EXPECT_THAT(texts(fmt::format(R"([{{"name": "a", "what": "cavity", "region": {}}}])", region)),
+                    Contains(HasSubstr("It must be a box here")));
+}
+
 TEST(MeasureTable, refuses_maps_of_a_box_that_are_too_fine) {
     const auto of = [](const char* box, const char* more) {
         return texts(fmt::format(R"([{{"name": "a", "region": {{"box": {}}}, {}}}])", box, more));
