@@ -246,12 +246,85 @@ TEST_F(SurfaceStudy, runs_of_one_study_are_repeats_whatever_their_folders_are_ca
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(two[0].name, "a/x");
     EXPECT_EQ(two[1].name, "b/x");
-    EXPECT_EQ(two[1].repeats, (std::vector<int>{1, 2}));
+    EXPECT_EQ(two[1].repeats, (std::vector<std::string>{"1", "2"}));
     EXPECT_NEAR(two[1].quantities[0].difference.mean, 2.0, 1e-12);
     const auto one = compared({a1, run("c/seed2", "0.4", 2), run("c/other_name", "0.4", 3, "y")});
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(one[0].repeats.size(), 3u);
     EXPECT_THROW(compared({a1, run("c/again", "0.4", 1, "z")}), UserError);
+}
+
+/// Values of a quantity by the runs' folders.
+class SettingsOfRuns : public SurfaceStudy {
+protected:
+    fs::path run(const std::string& folder, double value, const std::string& study) {
+        fs::create_directories(folder_ / folder);
+        write_file(folder_ / folder / "study.toml", study);
+        values_[folder_ / folder] = value;
+        return folder_ / folder;
+    }
+    std::vector<postproc::SettingResults> compared(const std::vector<fs::path>& runs) {
+        return postproc::compare_settings(runs, "study.toml", [&](const fs::path& of) {
+            const double value = values_.at(of);
+            return std::vector<postproc::RunQuantity>{{"q", "quantity", "s", value, false, std::isfinite(value) ? "" : "no crossing"}};
+        });
+    }
+    std::map<fs::path, double> values_;
+};
+
+TEST_F(SettingsOfRuns, take_a_time_in_the_name_for_no_number_of_a_repeat) {
+    const auto found = compared({run("dam_repeat20261124153000", 1.0, "friction = 0.1\n"), run("dam_repeat2", 1.0, "friction = 0.2\n")});
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].name, "dam_repeat20261124153000");
+    EXPECT_EQ(found[1].name, "dam");
+}
+
+TEST_F(SettingsOfRuns, are_those_of_their_studies_however_seeds_and_numbers_are_written) {
+    const auto study = [](const char* seeds) { return std::string("name = 'x'\n[contact]\nfriction = 0.10\n") + seeds; };
+    const auto found = compared({run("a", 1.0, study("[[bodies]]\nseed=1\n[[bodies]]\n  seed = 1\n")),
+                                 run("b", 2.0, study("[[bodies]]\n\tseed = 2 # the second\n[[bodies]]\nseed = 1\n")),
+                                 run("c", 4.0, "name=\"y\"\ncontact.friction = 0.1\n[[bodies]]\nseed = 1\n[[bodies]]\nseed = 2\n")});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].repeats, (std::vector<std::string>{"1, 1", "2, 1", "1, 2"}));
+    EXPECT_THROW(compared({folder_ / "a", run("d", 1.0, study("[[bodies]]\nseed = 1\n[[bodies]]\nseed = 1\n"))}), UserError);
+    try {
+        compared({folder_ / "a", run("e", 1.0, "friction = = 1\n")});
+        FAIL() << "no TOML";
+    } catch (const UserError& error) {
+        EXPECT_THAT(error.what(), HasSubstr((folder_ / "e" / "study.toml").string() + ": a study cannot be read as TOML"));
+    }
+}
+
+TEST_F(SettingsOfRuns, tell_how_many_repeats_have_a_value) {
+    std::vector<fs::path> runs;
+    for (int n = 1; n <= 4; ++n)
+        runs.push_back(run(fmt::format("a{}", n), n == 2 ? std::nan("") : n, fmt::format("friction = 0.1\nseed = {}\n", n)));
+    const auto found = compared(runs);
+    EXPECT_THAT(postproc::setting_comparison_text(found), HasSubstr("3 of 4 repeats have a value (no crossing)"));
+    const auto json = postproc::setting_comparison_json(found, "x/1");
+    EXPECT_EQ(json["settings"][0]["q"]["repeats_with_a_value"], 3);
+    EXPECT_EQ(json["settings"][0]["q"]["reason"], "no crossing");
+    EXPECT_TRUE(json["settings"][0]["q"]["value"]["mean"].is_null()) << "a mean of those that have one would be another quantity";
+    EXPECT_THAT(read_file(postproc::write_setting_comparison(found, "x/1", folder_ / "page")), HasSubstr("3 of 4 repeats have a value"));
+}
+
+/// Means 2 and 12, variance 1 of three values each: Welch's half interval is t(0.975, 4) sqrt(2/3).
+TEST_F(SettingsOfRuns, with_other_seeds_differ_as_independent_samples) {
+    std::vector<fs::path> runs;
+    for (int n = 1; n <= 3; ++n) runs.push_back(run(fmt::format("a{}", n), n, fmt::format("friction = 0.1\nseed = {}\n", n)));
+    for (int n = 1; n <= 3; ++n) runs.push_back(run(fmt::format("b{}", n), 10 + n, fmt::format("friction = 0.2\nseed = {}\n", n + 1)));
+    const auto welch = compared(runs)[1].quantities[0].difference;
+    EXPECT_DOUBLE_EQ(welch.mean, 10.0);
+    EXPECT_NEAR(welch.half, 2.776445 * std::sqrt(2.0 / 3.0), 1e-5);
+    runs[3] = run("b1", 13.0, "friction = 0.2\nseed = 3\n");
+    runs[5] = run("b3", 11.0, "friction = 0.2\nseed = 1\n");
+    runs[4] = run("b2", 12.0, "friction = 0.2\nseed = 2\n");
+    const auto pairs = compared(runs)[1].quantities[0].difference;
+    EXPECT_DOUBLE_EQ(pairs.mean, 10.0);
+    EXPECT_NEAR(pairs.half, 0.0, 1e-12) << "the same seeds, in another order";
+    runs.pop_back();
+    EXPECT_TRUE(std::isnan(compared(runs)[1].quantities[0].difference.half)) << "two do not determine the scatter";
+    EXPECT_DOUBLE_EQ(compared(runs)[1].quantities[0].difference.mean, 10.5);
 }
 
 // A run keeps its own copy of a file under a name of the program's, and a file may be edited where it is.

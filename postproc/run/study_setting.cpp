@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::initializer_list<const char*> k_release_keys{"seed", "start_revolution"};
 
-toml::table parsed(const std::string& toml) {
+toml::table parsed(const std::string& toml, const std::string& where) {
     try {
         return toml::parse(toml);
     } catch (const std::runtime_error& error) {  // toml::parse_error or TomlAssertion
-        throw UserError(fmt::format("a study cannot be read as TOML: {}", error.what()), "",
-                        "Give a run directory written by `cutterflow run`");
+        throw UserError({{where, fmt::format("a study cannot be read as TOML: {}", error.what()), "",
+                          "Give a run directory written by `cutterflow run`"}});
     }
 }
 
@@ -69,8 +69,14 @@ void add_files(const std::map<std::string, std::string>& files, std::map<std::st
 
 }  // namespace
 
+std::map<std::string, std::string> study_values(const std::string& toml, const std::string& where) {
+    std::map<std::string, std::string> values;
+    add_values(parsed(toml, where), "", values);
+    return values;
+}
+
 StudySetting study_setting(const std::string& toml, const std::map<std::string, std::string>& files) {
-    toml::table study = parsed(toml);
+    toml::table study = parsed(toml, "");
     StudySetting setting{{}, release_of(study)};
     study.erase("name");
     erase_keys(study["report"].as_table(), {"adv_points", "adv_probe_diameter_m", "adv_probe_length_m", "adv_position_error_m"});

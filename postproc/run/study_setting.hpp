@@ -12,6 +12,10 @@ struct StudySetting {
     std::string release;  ///< seed and time of release of each feed, which distinguish repeats; empty without rock
 };
 
+/// Every value of a study by its path, however it is written. \param where  the study stands, for messages
+/// \throws UserError  when the text is not TOML
+std::map<std::string, std::string> study_values(const std::string& toml, const std::string& where);
+
 /// \param toml  a study with every key, as runs keep it
 /// \param files  of the run, as input_files; one that is not among them is told by its name in the study
 /// \throws UserError  when the text is not TOML

@@ -1,12 +1,10 @@
 #include "postproc/analysis/settings/setting_comparison.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -20,6 +18,7 @@
 #include "postproc/draw/html.hpp"
 #include "postproc/draw/page.hpp"
 #include "postproc/run/input_files.hpp"
+#include "postproc/run/study_setting.hpp"
 
 namespace cutterflow::postproc {
 
@@ -37,15 +36,17 @@ std::pair<std::string, int> name_and_repeat(const fs::path& run) {
     if (at == std::string::npos) return {name, 1};
     const std::string number = name.substr(at + std::string(k_repeat).size());
     if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return {name, 1};
-    return {name.substr(0, at), std::stoi(number)};
+    int repeat = 1;
+    if (std::from_chars(number.data(), number.data() + number.size(), repeat).ec != std::errc()) return {name, 1};
+    return {name.substr(0, at), repeat};
 }
 
 struct RunSetting {
-    std::string text;                          // of the study, without what tells repeats apart
-    std::map<std::string, std::string> files;  // SHA-256 of the files that the study names
-    int seed = 1;
+    std::map<std::string, std::string> values;  // of the study by their paths, without what tells repeats apart
+    std::map<std::string, std::string> files;   // SHA-256 of the files that the study names
+    std::string seeds;                          // of all its tables
 
-    bool is_that_of(const RunSetting& other) const { return text == other.text && files == other.files; }
+    bool is_that_of(const RunSetting& other) const { return values == other.values && files == other.files; }
 };
 
 std::map<std::string, std::string> files_of(const fs::path& run) {
@@ -54,28 +55,36 @@ std::map<std::string, std::string> files_of(const fs::path& run) {
     return input_files(read_json_document(manifest, {{"stages", JsonKind::object}}, "Start again in another directory with -o"));
 }
 
-/// Of a study in TOML: all lines but comments, the study's name and seeds. A file's name tells nothing of its content.
+bool is_seed(const std::string& path) {
+    return path == "seed" || (path.size() > 5 && path.compare(path.size() - 5, 5, ".seed") == 0);
+}
+
+/// Of a study in TOML: all but its name and seeds. Without seeds, repeats are told apart by the numbers of their folders.
 RunSetting setting_of(const fs::path& run, const std::string& study_file) {
     const auto [name, repeat] = name_and_repeat(run);
-    if (!fs::exists(run / study_file)) return {name, {}, repeat};
-    RunSetting setting{"", files_of(run), repeat};
-    std::istringstream lines(read_file(run / study_file));
-    bool in_table = false, has_seed = false;
-    for (std::string line; std::getline(lines, line);) {
-        in_table = in_table || line.rfind('[', 0) == 0;
-        const bool is_seed = line.rfind("seed = ", 0) == 0;
-        if (is_seed && !has_seed) setting.seed = std::atoi(line.c_str() + std::strlen("seed = "));
-        has_seed = has_seed || is_seed;
-        if (is_seed || line.rfind('#', 0) == 0 || (!in_table && line.rfind("name = ", 0) == 0)) continue;
-        setting.text += line + "\n";
+    const fs::path study = run / study_file;
+    RunSetting setting;
+    if (!fs::exists(study)) {
+        setting.values[name] = "";
+    } else {
+        setting.files = files_of(run);
+        for (const auto& [path, value] : study_values(read_file(study), study.string())) {
+            if (is_seed(path))
+                setting.seeds += (setting.seeds.empty() ? "" : ", ") + value;
+            else if (path != "name")
+                setting.values[path] = value;
+        }
     }
+    if (setting.seeds.empty()) setting.seeds = std::to_string(repeat);
     return setting;
 }
 
+/// \throws UserError  with the mistakes of all runs
 std::vector<RunSetting> settings_of(const std::vector<fs::path>& runs, const std::string& study_file) {
-    std::vector<RunSetting> settings;
-    settings.reserve(runs.size());
-    for (const fs::path& run : runs) settings.push_back(setting_of(run, study_file));
+    std::vector<RunSetting> settings(runs.size());
+    Mistakes mistakes;
+    for (std::size_t n = 0; n < runs.size(); ++n) mistakes.gather([&] { settings[n] = setting_of(runs[n], study_file); });
+    mistakes.refuse();
     return settings;
 }
 
@@ -98,7 +107,7 @@ std::string differing_files(const RunSetting& setting, const std::vector<FirstRu
     for (const auto& [key, hash] : setting.files) {
         const bool differs = std::any_of(first_runs.begin(), first_runs.end(), [&, name = key, content = hash](const FirstRun& other) {
             const auto found = other.setting.files.find(name);
-            return other.setting.text == setting.text && found != other.setting.files.end() && found->second != content;
+            return other.setting.values == setting.values && found != other.setting.files.end() && found->second != content;
         });
         if (differs) words += fmt::format(", {} {}", key, hash.substr(0, 8));
     }
@@ -116,15 +125,27 @@ void tell_names_apart(std::vector<SettingResults>& settings, const std::vector<F
         if (count[settings[n].name] > 1) settings[n].name += differing_files(first_runs[n].setting, first_runs);
 }
 
-std::vector<double> paired_differences(const SettingResults& setting, const SettingResults& first, std::size_t quantity) {
+bool have_same_seeds(const SettingResults& a, const SettingResults& b) {
+    return a.repeats.size() == b.repeats.size() && std::is_permutation(a.repeats.begin(), a.repeats.end(), b.repeats.begin());
+}
+
+/// \pre both have the same seeds
+RepeatMean paired_difference(const SettingResults& setting, const SettingResults& first, std::size_t quantity) {
     std::vector<double> differences;
     for (std::size_t n = 0; n < setting.repeats.size(); ++n) {
-        for (std::size_t m = 0; m < first.repeats.size(); ++m) {
-            if (first.repeats[m] == setting.repeats[n])
-                differences.push_back(setting.quantities[quantity].each[n] - first.quantities[quantity].each[m]);
-        }
+        const auto same = std::find(first.repeats.begin(), first.repeats.end(), setting.repeats[n]);
+        differences.push_back(setting.quantities[quantity].each[n] -
+                              first.quantities[quantity].each[static_cast<std::size_t>(same - first.repeats.begin())]);
     }
-    return differences;
+    return repeat_mean(differences);
+}
+
+/// Of repeats that have nothing in common.
+RepeatMean independent_difference(const SettingQuantity& quantity, const SettingQuantity& first) {
+    RepeatMean difference{quantity.mean.mean - first.mean.mean, k_unknown};
+    if (std::isfinite(quantity.mean.half) && std::isfinite(first.mean.half))
+        difference.half = half_interval_of_two(sample_of(first.each), sample_of(quantity.each));
+    return difference;
 }
 
 /// "0.321 +- 0.012 s"; what is not known is left out.
@@ -133,6 +154,14 @@ std::string mean_text(const RepeatMean& value, const std::string& unit, bool sig
     const std::string mean = sign ? fmt::format("{:+.4g}", value.mean) : fmt::format("{:.4g}", value.mean);
     const std::string half = std::isfinite(value.half) ? fmt::format(" +- {:.2g}", value.half) : "";
     return mean + half + (unit == "-" ? "" : " " + unit);
+}
+
+/// The mean, or of how many repeats a value is known.
+std::string value_text(const SettingQuantity& quantity) {
+    const std::size_t known = quantity.known();
+    if (known == 0 || known == quantity.each.size()) return mean_text(quantity.mean, quantity.unit);
+    return fmt::format("{} of {} repeats have a value{}", known, quantity.each.size(),
+                       quantity.reason.empty() ? "" : " (" + quantity.reason + ")");
 }
 
 /// Why no run has a value, of the first that says so.
@@ -145,7 +174,8 @@ std::string reason_of(const std::vector<SettingResults>& settings, std::size_t q
 bool is_known(const std::vector<SettingResults>& settings, std::size_t quantity) {
     return std::any_of(settings.begin(), settings.end(), [&](const SettingResults& setting) {
         const SettingQuantity& found = setting.quantities[quantity];
-        return std::isfinite(found.mean.mean) && (found.mean.mean != 0.0 || !found.zero_is_nothing);
+        return std::any_of(found.each.begin(), found.each.end(),
+                           [&](double value) { return std::isfinite(value) && (value != 0.0 || !found.zero_is_nothing); });
     });
 }
 
@@ -159,7 +189,7 @@ void require_different(const std::vector<fs::path>& runs, const std::vector<RunS
         const fs::path first = runs[a] / names::manifest, second = runs[b] / names::manifest;
         const bool one_manifest = fs::exists(first) && fs::exists(second) && read_file(first) == read_file(second);  // with its times
         return one_manifest ||
-               (fs::exists(runs[a] / study_file) && settings[a].is_that_of(settings[b]) && settings[a].seed == settings[b].seed);
+               (fs::exists(runs[a] / study_file) && settings[a].is_that_of(settings[b]) && settings[a].seeds == settings[b].seeds);
     };
     require_distinct(runs, are_one_run, "seed");
 }
@@ -190,6 +220,10 @@ std::vector<std::vector<RunQuantity>> quantities_of_all(const std::vector<fs::pa
 }
 
 }  // namespace
+
+std::size_t SettingQuantity::known() const {
+    return static_cast<std::size_t>(std::count_if(each.begin(), each.end(), [](double value) { return std::isfinite(value); }));
+}
 
 RepeatMean repeat_mean(const std::vector<double>& values) {
     if (values.empty() || !std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
@@ -223,7 +257,7 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, 
                 settings.back().quantities.push_back({one.key, one.name, one.unit, one.zero_is_nothing, {}, {}, {}, {}});
         }
         SettingResults& setting = settings[number];
-        setting.repeats.push_back(setting_of_run[n].seed);
+        setting.repeats.push_back(setting_of_run[n].seeds);
         if (const std::string warning = warning_of ? warning_of(runs[n]) : ""; !warning.empty()) setting.warnings.push_back(warning);
         for (std::size_t q = 0; q < quantities.size(); ++q) {
             setting.quantities[q].each.push_back(quantities[q].value);
@@ -234,7 +268,9 @@ std::vector<SettingResults> compare_settings(const std::vector<fs::path>& runs, 
     for (SettingResults& setting : settings) {
         for (std::size_t q = 0; q < setting.quantities.size(); ++q) {
             setting.quantities[q].mean = repeat_mean(setting.quantities[q].each);
-            setting.quantities[q].difference = repeat_mean(paired_differences(setting, settings.front(), q));
+            setting.quantities[q].difference = have_same_seeds(setting, settings.front())
+                                                   ? paired_difference(setting, settings.front(), q)
+                                                   : independent_difference(setting.quantities[q], settings.front().quantities[q]);
         }
     }
     return settings;
@@ -255,7 +291,7 @@ std::string setting_comparison_text(const std::vector<SettingResults>& settings)
         text += fmt::format("{}\n", settings.front().quantities[q].name);
         for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];
-            text += fmt::format("  {:<40} {:<24}", setting.name, mean_text(found.mean, found.unit));
+            text += fmt::format("  {:<40} {:<24}", setting.name, value_text(found));
             if (&setting != &settings.front())
                 text += fmt::format(" difference {}: {}", mean_text(found.difference, found.unit, true), verdict_of(found.difference));
             text += fmt::format("  ({} run{})\n", setting.repeats.size(), setting.repeats.size() == 1 ? "" : "s");
@@ -263,7 +299,7 @@ std::string setting_comparison_text(const std::vector<SettingResults>& settings)
     }
     text +=
         "value +- half the 95 % interval (Student's t over three or more repeats); differences from the first setting, in pairs of "
-        "repeats\n";
+        "repeats where all seeds are the same, else by Welch's test\n";
     for (const std::string& warning : warnings_of(settings)) text += fmt::format("warning: {}\n", warning);
     return text;
 }
@@ -275,6 +311,8 @@ nlohmann::json setting_comparison_json(const std::vector<SettingResults>& settin
         for (const SettingQuantity& quantity : setting.quantities)
             row[quantity.key] = {
                 {"value", json_of(quantity.mean)},
+                {"repeats_with_a_value", quantity.known()},
+                {"reason", quantity.reason.empty() ? nlohmann::json() : nlohmann::json(quantity.reason)},
                 {"difference", json_of(quantity.difference)},
                 {"verdict", &setting == &settings.front() ? nlohmann::json() : nlohmann::json(verdict_of(quantity.difference))}};
         rows.push_back(row);
@@ -293,14 +331,15 @@ fs::path write_setting_comparison(const std::vector<SettingResults>& settings, c
         for (const SettingResults& setting : settings) {
             const SettingQuantity& found = setting.quantities[q];
             const bool is_first = &setting == &settings.front();
-            rows.push_back({html::escape(setting.name), fmt::format("{}", setting.repeats.size()), mean_text(found.mean, found.unit),
+            rows.push_back({html::escape(setting.name), fmt::format("{}", setting.repeats.size()), value_text(found),
                             is_first ? "" : mean_text(found.difference, found.unit, true), is_first ? "" : verdict_of(found.difference)});
         }
         body += html::section(settings.front().quantities[q].name,
                               html::table({"setting", "runs", "mean", "difference from the first", "verdict"}, rows, true));
     }
     body +=
-        "<p>Mean and half of the 95 % interval (Student's t over three or more repeats); differences in pairs of repeats. Higher or lower: "
+        "<p>Mean and half of the 95 % interval (Student's t over three or more repeats); differences in pairs of repeats where all "
+        "seeds are the same, else by Welch's test. Higher or lower: "
         "the interval "
         "of the difference "
         "leaves 0 out.</p>";

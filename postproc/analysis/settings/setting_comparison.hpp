@@ -27,15 +27,16 @@ struct SettingQuantity {
     bool zero_is_nothing = false;
     std::vector<double> each;  ///< of every repeat, infinite when it never came
     RepeatMean mean;
-    RepeatMean difference;  ///< from the first setting, of repeats with the same seed
-    std::string reason{};   ///< why a run has no value
+    RepeatMean difference;      ///< from the first setting: in pairs where both have the same seeds, else of independent repeats
+    std::string reason{};       ///< why a run has no value
+    std::size_t known() const;  ///< repeats with a value
 };
 
 struct SettingResults {
     /// The first run's folder without _repeat<n>, and that above it where two settings share the name; then, where they still share it,
     /// the files in which they differ.
     std::string name;
-    std::vector<int> repeats;  ///< their seeds
+    std::vector<std::string> repeats;  ///< their seeds, as "1", of several tables "1, 2"
     std::vector<SettingQuantity> quantities;
     std::vector<std::string> warnings{};  ///< of its runs
 };
@@ -48,13 +49,11 @@ struct RunQuantity {
     std::string reason{};          ///< why there is no value
 };
 
-/// Runs whose studies differ in name and seed alone, and name files of equal content (by the manifest's hashes), are repeats of one
-/// setting, whatever their folders are called.
-/// \param study_file  name of the study in a run; a run without it has the setting of its folder's name
-/// \param quantities_of  a run: the same ones of every run
-/// \param warning_of  a run: what a reader of its quantities has to know, or nothing
-/// \throws UserError  when runs have other quantities than the first, or a run comes twice: by its path, as a copy, or with the same study,
-/// files and seed
+/// Runs whose studies differ in name and seeds alone, however their values are written, and name files of equal content (by the manifest's
+/// hashes), are repeats of one setting, whatever their folders are called. \param study_file  name of the study in a run; a run without it
+/// has the setting of its folder's name \param quantities_of  a run: the same ones of every run \param warning_of  a run: what a reader of
+/// its quantities has to know, or nothing \throws UserError  when runs have other quantities than the first, or a run comes twice: by its
+/// path, as a copy, or with the same study, files and seeds; when a study is not TOML
 std::vector<SettingResults> compare_settings(const std::vector<std::filesystem::path>& runs, const std::string& study_file,
                                              const std::function<std::vector<RunQuantity>(const std::filesystem::path&)>& quantities_of,
                                              const std::function<std::string(const std::filesystem::path&)>& warning_of = nullptr);
