@@ -36,6 +36,7 @@ std::vector<GapContact> contacts_of(const StaggeredGrid& grid, const GapSolids& 
             contacts.push_back({point, normal, 0.5 * (velocity_at(bodies[a], point) + velocity_at(bodies[b], point))});
         }
         for (const int d : grid.directions()) {
+            if (d == 1 && !bodies[a].sphere) continue;  // a cylinder reaches to both walls
             for (const double wall : {0.0, grid.extent(d)}) {
                 Vec3 point = bodies[a].position;
                 point[d] = wall;
@@ -50,13 +51,14 @@ std::vector<GapContact> contacts_of(const StaggeredGrid& grid, const GapSolids& 
     return contacts;
 }
 
-/// For each cell the contacts whose band may reach into it.
-CellLists contacts_by_cell(const StaggeredGrid& grid, const std::vector<GapContact>& contacts, double reach) {
+/// For each cell the contacts whose band may reach into it. \param spheres  else contacts are lines across the tank
+CellLists contacts_by_cell(const StaggeredGrid& grid, const std::vector<GapContact>& contacts, double reach, bool spheres) {
     CellLists lists;
     lists.clear(grid.size());
     for (std::size_t n = 0; n < contacts.size(); ++n) {
-        std::array<int, 3> from{0, 0, 0}, to{0, 0, 0};
+        std::array<int, 3> from{0, 0, 0}, to{0, grid.cells(1) - 1, 0};
         for (const int d : grid.directions()) {
+            if (d == 1 && !spheres) continue;
             const double place = contacts[n].point[d] / grid.spacing(), cells = reach / grid.spacing();
             from[d] = std::clamp(static_cast<int>(std::floor(place - cells)), 0, grid.cells(d) - 1);
             to[d] = std::clamp(static_cast<int>(std::floor(place + cells)), 0, grid.cells(d) - 1);
@@ -77,14 +79,15 @@ double damp_gaps(const GapDampingSettings& settings, const StaggeredGrid& grid, 
     const double band = k_band_cells * grid.spacing(), half_gap = 0.5 * (settings.gap + grid.spacing());
     const double mass = density * particles.volume, exponent = step / settings.time;
     const std::vector<GapContact> contacts = contacts_of(grid, solids, settings.gap);
-    const CellLists nearby = contacts_by_cell(grid, contacts, std::hypot(band, half_gap));
+    const bool spheres = !solids.bodies.empty() && solids.bodies[0].sphere;  // bodies of a scene have one shape
+    const CellLists nearby = contacts_by_cell(grid, contacts, std::hypot(band, half_gap), spheres);
     double taken = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
         const Vec3 place = particles.place(p);
         nearby.for_each(cell_of(grid, place), [&](int n) {
             const GapContact& contact = contacts[n];
             Vec3 arm = place - contact.point;
-            if (grid.is_plane()) arm.y() = 0.0;
+            if (!spheres) arm.y() = 0.0;
             const double across = arm.dot(contact.normal);
             const double along = (arm - across * contact.normal).norm();
             if (std::abs(across) > half_gap || along >= band) return;

@@ -24,10 +24,10 @@ Body disc(double x, double z, const Vec3& velocity = Vec3::Zero()) {
 }
 
 /// Particles everywhere, each with a velocity of its own around a drift.
-WaterParticles water(const Vec3& drift, double spread) {
+WaterParticles water(const Vec3& drift, double spread, const StaggeredGrid& grid = tank()) {
     WaterParticles particles;
     fill_box(
-        tank(), Vec3::Constant(-1), Vec3::Constant(1), 0, [](const Vec3&) { return true; }, particles);
+        grid, Vec3::Constant(-1), Vec3::Constant(1), 0, [](const Vec3&) { return true; }, particles);
     for (std::size_t p = 0; p < particles.size(); ++p) {
         particles.velocity[0][p] = drift.x() + spread * std::sin(0.1 * static_cast<double>(p));
         particles.velocity[2][p] = drift.z() + spread * std::cos(0.3 * static_cast<double>(p));
@@ -103,6 +103,27 @@ TEST(GapDamping, acts_at_walls_boxes_plates_and_gates_alike) {
     EXPECT_NEAR(taken({inside, {}, gate, still}), expected, 0.02 * expected);
     EXPECT_LT(taken({inside, {}, gate, rising}), taken({inside, {}, gate, still}));  // the contact moves with its water
     EXPECT_EQ(taken({std::vector<Body>{disc(0.0565, 0.05)}, box, {}, {}}), 0.0);     // a gap and a half off
+}
+
+/// Across the tank nothing changes, as in a plane scene; at the walls at their ends cylinders have no gap.
+TEST(GapDamping, of_cylinders_in_space_reaches_across_the_tank) {
+    const StaggeredGrid space = StaggeredGrid::space(80, 12, 80, k_cell);
+    const auto at = [](double x) {
+        Body body = disc(x, 0.04);
+        body.position.y() = 6e-3;
+        return body;
+    };
+    const std::vector<Body> two{at(0.0301), at(0.0406)}, alone{at(0.03)}, plane{disc(0.0301, 0.04), disc(0.0406, 0.04)};
+    WaterParticles particles = water(k_drift, 0.0, space);
+    const double all = damp_gaps(k_half, space, {two, {}, {}, {}}, 1e-4, 1000.0, particles);
+    std::array<int, 12> braked{};
+    for (std::size_t p = 0; p < particles.size(); ++p)
+        braked[static_cast<std::size_t>(particles.position[1][p] / k_cell)] += (particles.speed(p) - k_drift).norm() > 1e-9;
+    for (const int count : braked) EXPECT_EQ(count, braked[0]);
+    EXPECT_GT(braked[0], 0);
+    EXPECT_NEAR(all / 0.012, taken({plane, {}, {}, {}}) / 0.1, 1e-9 * all / 0.012) << "of a length across";
+    particles = water(k_drift, 0.0, space);
+    EXPECT_EQ(damp_gaps(k_half, space, {alone, {}, {}, {}}, 1e-4, 1000.0, particles), 0.0);
 }
 
 }  // namespace
