@@ -41,6 +41,17 @@ void read_pipe(const SurfaceRows& rows, SurfaceResults& results) {
     }
 }
 
+/// Each process counts its own core seconds, in rows that a later one may replace.
+double core_seconds_of_starts(const std::filesystem::path& run_directory, const TableRules& rules) {
+    double sum = 0.0;
+    for (const auto& [start, folder] : start_folders(run_directory, "balance")) {
+        if (!std::filesystem::exists(folder / "balance.csv")) continue;
+        const Table balance = read_table(folder / "balance.csv", rules);
+        if (!balance.empty()) sum += balance.number("core_s").back();
+    }
+    return sum;
+}
+
 }  // namespace
 
 const std::vector<double>* counted(const Table& table, const std::string& column) {
@@ -54,9 +65,9 @@ SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
                         k_remedy);
     SurfaceRows rows;
     rows.scene = read_json_document(run_directory / "scene.json", k_scene_fields, k_remedy);
-    rows.balance =
-        read_joined_table(run_directory, "balance", "balance.csv",
-                          {{"time_s", "volume_error", "energy_j", "pushed_out", "pressure_iterations", "core_s"}, {}, {}, k_remedy});
+    const TableRules of_balance{{"time_s", "volume_error", "energy_j", "pushed_out", "pressure_iterations", "core_s"}, {}, {}, k_remedy};
+    rows.balance = read_joined_table(run_directory, "balance", "balance.csv", of_balance);
+    rows.core_s = core_seconds_of_starts(run_directory, of_balance);
     rows.levels = read_joined_table(run_directory, "levels", "levels.csv",
                                     {{"time_s", "level_m", "level_in_pipe_m", "mouth_flow_m3_s", "hole_flow_m3_s", "bodies_in_pipe",
                                       "rise_in_pipe_m_s", "mean_x_m", "mean_z_m", "farthest_x_m"},
@@ -74,15 +85,13 @@ SurfaceRows read_surface_rows(const std::filesystem::path& run_directory) {
 
 SurfaceResults surface_results(const SurfaceRows& rows) {
     SurfaceResults results;
+    results.core_s = rows.core_s;
     results.end_s = rows.levels.number("time_s").back();
     if (const std::vector<double>* counts = counted(rows.balance, "through_walls"))
         results.through_walls = std::accumulate(counts->begin(), counts->end(), 0.0);
     for (std::size_t n = 0; n < rows.balance.rows(); ++n) {
         const double error = rows.balance.number("volume_error")[n];
         if (std::abs(error) > std::abs(results.volume_error)) results.volume_error = error;
-        // Each process counts its own core seconds.
-        if (n + 1 == rows.balance.rows() || rows.balance.number("core_s")[n + 1] < rows.balance.number("core_s")[n])
-            results.core_s += rows.balance.number("core_s")[n];
     }
     const double wall = rows.scene.at("width_m").get<double>() - rows.scene.at("contact_gap_m").get<double>();
     for (std::size_t n = 0; rows.has_bodies() && n < rows.levels.rows(); ++n) {

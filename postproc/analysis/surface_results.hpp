@@ -17,6 +17,7 @@ struct SurfaceRows {
     Table balance, levels;  ///< every step
     Table bodies;           ///< at outputs; empty without bodies
     Table gauges;           ///< every step and gauge; empty without gauges
+    double core_s = 0.0;    ///< of all processes, also of steps that a resumed one computed again
     bool has_bodies() const { return scene.at("bodies").get<int>() > 0; }
     bool has_pipe() const { return !scene.value("pipe", nlohmann::json()).is_null(); }
 };
