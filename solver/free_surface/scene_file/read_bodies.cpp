@@ -35,10 +35,14 @@ void read_shape(SceneFileReading& reading, const ParameterValues& bodies) {
 }
 
 std::vector<ListedBody> listed(SceneFileReading& reading, const ParameterValues& bodies) {
-    for (const char* key : {"bodies.centre_x_m", "bodies.lowest_m"}) {
-        if (bodies.has(key))
-            reading.refuse(bodies.where(key), fmt::format("{} beside bodies.file", key), "Bodies are a stack or listed in a file",
-                           "Remove one of them; a second [[bodies]] may have the other");
+    const std::initializer_list<const char*> of_stacks{"bodies.centre_x_m", "bodies.centre_y_m", "bodies.lowest_m",   "bodies.layers",
+                                                       "bodies.widest",     "bodies.rows",       "bodies.clearance_m"};
+    for (const Parameter& row : scene_table()) {
+        const auto is_it = [&](const char* key) { return row.key == key; };
+        const ParameterValue* value = bodies.find(row.key);  // a study that is written out in full has the defaults
+        if (value == nullptr || *value == row.default_value || std::none_of(of_stacks.begin(), of_stacks.end(), is_it)) continue;
+        reading.refuse(bodies.where(row.key), fmt::format("{} = {} beside bodies.file", row.key, toml_text(*value)),
+                       "Bodies are a stack or listed in a file", "Remove one of them; a second [[bodies]] may have the other");
     }
     std::vector<Mistake> mistakes;
     std::vector<ListedBody> list = read_body_list(reading.folder / bodies.text("bodies.file"), mistakes);

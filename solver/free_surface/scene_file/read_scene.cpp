@@ -76,7 +76,7 @@ void read_water(SceneFileReading& reading) {
         const double end_x = std::max(reading.width(), reading.values.number("domain.width_m")) + k_tolerance;
         const double end_z = std::max(reading.height(), reading.values.number("domain.height_m")) + k_tolerance;
         const double end_y = std::max(reading.depth(), reading.values.number("domain.length_m")) + k_tolerance;
-        if (to.x() > end_x || to.z() > end_z || (fill.has("fill.to_y_m") && to.y() > end_y))
+        if (to.x() > end_x || to.z() > end_z || (fill.has("fill.to_y_m") && to.y() > end_y) || from.y() >= end_y)
             reading.refuse(where, box, fmt::format("It must lie in the domain of {}", reading.text_of_domain()), "Make it smaller");
         for (const WaterBox& other : water.filled) {
             if ((from.array() < other.to.array() - k_tolerance).all() && (to.array() > other.from.array() + k_tolerance).all())
@@ -219,9 +219,18 @@ Scene read_scene(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> water_notes(const Scene& scene) {
-    const int waters = enclosed_waters(scene.settings, bodies_of(scene));
-    if (waters == 0) return {};
-    return {enclosed_note(waters, 0.0)};
+    std::vector<std::string> notes;
+    const std::vector<Body> bodies = bodies_of(scene);
+    SceneSettings alone = scene.settings;
+    for (const WaterBox& box : scene.settings.water.filled) {
+        alone.water.filled = {box};
+        if (fill_water(alone, bodies).size() == 0)
+            notes.push_back(fmt::format(
+                "the box of water from ({:g}, {:g}) to ({:g}, {:g}) m has no particle: it is thinner than half a cell, or full of solids",
+                box.from.x(), box.from.z(), box.to.x(), box.to.z()));
+    }
+    if (const int waters = enclosed_waters(scene.settings, bodies); waters > 0) notes.push_back(enclosed_note(waters, 0.0));
+    return notes;
 }
 
 std::string enclosed_note(int waters, double time) {

@@ -58,6 +58,19 @@ void require_top_above_bottom(SceneFileReading& reading, const ParameterValues& 
                        "The top is above", "Exchange them");
 }
 
+/// Cylinders are looked at in the middle of the tank alone. \param across  where the solid is
+void require_span_beside_cylinders(SceneFileReading& reading, const ParameterValues& solid, const Interval& across) {
+    const std::vector<ParameterValues>& bodies = reading.values.tables("bodies");
+    const auto is_cylinder = [](const ParameterValues& table) { return table.text("bodies.shape") == "cylinder"; };
+    if (reading.plane() || std::none_of(bodies.begin(), bodies.end(), is_cylinder)) return;
+    if (across.from <= k_tolerance && across.to >= reading.depth() - k_tolerance) return;
+    reading.refuse(solid.where("solid.kind"),
+                   fmt::format("A {} from {:g} to {:g} m across beside cylinders", solid.text("solid.kind"), std::max(0.0, across.from),
+                               std::min(reading.depth(), across.to)),
+                   fmt::format("Cylinders reach across the whole tank of {:g} m, and so do the solids beside them", reading.depth()),
+                   "Let it reach across, or set bodies.shape = \"sphere\"");
+}
+
 /// A closed surface of a file, in metres.
 void read_surface(SceneFileReading& reading, const ParameterValues& solid) {
     const std::string where = solid.where("solid.kind");
@@ -76,6 +89,7 @@ void read_surface(SceneFileReading& reading, const ParameterValues& solid) {
                                   fmt::format("{} lies outside the domain of {:g} x {:g} x {:g} m", file.string(), reading.width(),
                                               reading.scene.settings.tank.depth, reading.height()),
                                   "Its coordinates are those of the scene, in metres", "Move or scale it");
+        require_span_beside_cylinders(reading, solid, {report.bounds.min.y(), report.bounds.max.y()});
         reading.scene.settings.solids.emplace_back(SolidSurface{std::make_shared<const ClosedSurface>(std::move(surface))});
     } catch (const UserError& error) {
         reading.mistakes.insert(reading.mistakes.end(), error.mistakes().begin(), error.mistakes().end());
@@ -178,6 +192,7 @@ void read_box(SceneFileReading& reading, const ParameterValues& solid) {
     if ((to.array() <= 0.0).any() || (from.array() >= Vec3(reading.width(), reading.depth(), reading.height()).array()).any())
         return reading.refuse(solid.where("solid.kind"), box + " stands outside the domain",
                               fmt::format("The domain is {}", reading.text_of_domain()), "Move or remove it");
+    require_span_beside_cylinders(reading, solid, y);
     reading.scene.settings.solids.emplace_back(SolidBox{from, to});
 }
 
@@ -250,25 +265,33 @@ void require_thick_box(SceneFileReading& reading, const ParameterValues& solid) 
     }
 }
 
-/// A gate must not meet what stands still, nor another gate, on its way.
-void require_free_way(SceneFileReading& reading, const ParameterValues& solid) {
-    if (solid.text("solid.kind") != "gate" || !reading.mistakes.empty() || solid.number("solid.speed_m_s") == 0.0) return;
+/// Where a solid stands in the way of a gate; none: nowhere. Looked for along lines upwards, in the middle of every cell across.
+std::optional<Vec3> in_way(const SceneFileReading& reading, const StillSolid& solid, const Interval& thickness, const Interval& way) {
+    const TankSettings& tank = reading.scene.settings.tank;
+    for (int j = 0; j < tank.cells[1]; ++j) {
+        for (int n = 0; n <= k_lines_of_gate; ++n) {
+            const double x = thickness.from + (k_tolerance + (thickness.length() - 2.0 * k_tolerance) * n / k_lines_of_gate);
+            const double y = (j + 0.5) * tank.depth / tank.cells[1];
+            for (const Interval& part : covered_parts(solid, {2, Vec3(x, y, 0.0)}))
+                if (common(part, way).length() > k_tolerance) return Vec3(x, y, common(part, way).from);
+        }
+    }
+    return std::nullopt;
+}
+
+/// A gate must not meet what stands still, nor another gate, on its way. \param number  of the gate
+void require_free_way(SceneFileReading& reading, const ParameterValues& solid, std::size_t number) {
     const Interval across = thickness_of_gate(solid), way{solid.number("solid.bottom_m"), reading.height()};
     std::vector<StillSolid> others = reading.scene.settings.solids;
-    for (const Gate& gate : reading.scene.settings.gates) {
-        if (gate.closed.from.x() != across.from || gate.closed.from.z() != way.from) others.emplace_back(gate.closed);
-    }
+    const std::vector<Gate>& gates = reading.scene.settings.gates;
+    for (std::size_t n = 0; n < gates.size(); ++n)
+        if (n != number) others.emplace_back(gates[n].closed);
     for (const StillSolid& other : others) {
-        for (int n = 0; n <= k_lines_of_gate; ++n) {
-            const double x = across.from + (k_tolerance + (across.length() - 2.0 * k_tolerance) * n / k_lines_of_gate);
-            for (const Interval& part : covered_parts(other, {2, Vec3(x, 0.5 * reading.scene.settings.tank.depth, 0.0)})) {
-                if (common(part, way).length() <= k_tolerance) continue;
-                return reading.refuse(solid.where("solid.kind"),
-                                      fmt::format("The gate at {:g} m meets a solid at ({:.4g}, {:.4g}) m", solid.number("solid.axis_x_m"),
-                                                  x, common(part, way).from),
-                                      "Its way up is free", "Move the gate or the solid");
-            }
-        }
+        const std::optional<Vec3> met = in_way(reading, other, across, way);
+        if (!met) continue;
+        return reading.refuse(solid.where("solid.kind"),
+                              fmt::format("The gate at {:g} m meets a solid at {}", solid.number("solid.axis_x_m"), reading.text_of(*met)),
+                              "Its way up is free", "Move the gate or the solid");
     }
 }
 
@@ -278,7 +301,10 @@ void read_solids(SceneFileReading& reading) {
     const std::vector<ParameterValues>& solids = reading.values.tables("solid");
     for (const ParameterValues& solid : solids) read_solid(reading, solid);
     for (const ParameterValues& solid : solids) require_thick_box(reading, solid);
-    for (const ParameterValues& solid : solids) require_free_way(reading, solid);
+    if (!reading.mistakes.empty()) return;
+    std::size_t gate = 0;
+    for (const ParameterValues& solid : solids)
+        if (solid.text("solid.kind") == "gate" && solid.number("solid.speed_m_s") > 0.0) require_free_way(reading, solid, gate++);
 }
 
 }  // namespace cutterflow::free_surface

@@ -39,7 +39,8 @@ Scene read_scene(const std::filesystem::path& file);
 /// As read_scene, from text; `name` stands for the file in messages. \param folder  in which the files lie that it names
 Scene parse_scene(const std::string& toml, const std::string& name, const std::filesystem::path& folder = {});
 
-/// What is told of the water at the start, none or one line. Fills the tank, which takes as long as a step.
+/// What is told of the water at the start: boxes without a particle, water without a surface. Fills the tank, which takes as long as a
+/// step.
 std::vector<std::string> water_notes(const Scene& scene);
 /// That so many waters are enclosed from a time on [s].
 std::string enclosed_note(int waters, double time);

@@ -145,6 +145,16 @@ TEST(SceneFile, refuses_gates_whose_way_is_not_free) {
     EXPECT_THAT(mistakes_of(k_tank + k_fill + gate("0.5") + body), ::testing::HasSubstr("stands in a solid"));
 }
 
+TEST(SceneFile, refuses_gates_that_meet_each_other_or_a_solid_beside_the_middle) {
+    const std::string space = std::string(k_tank).replace(k_tank.find("cell_m"), 0, "dimensions = 'space'\nlength_m = 0.04\n");
+    const std::string lid =
+        "[[solid]]\nkind = \"box\"\nfrom_x_m = 0.05\nfrom_z_m = 0.15\nto_x_m = 0.15\nto_z_m = 0.16\nfrom_y_m = 0.0\nto_y_m = ";
+    EXPECT_THAT(mistakes_of(space + k_fill + gate("0.5") + lid + "0.005\n"),
+                ::testing::HasSubstr("The gate at 0.1 m meets a solid at (0.099, 0.0005, 0.15) m"));
+    EXPECT_THAT(mistakes_of(k_tank + k_fill + gate("0.5") + gate("0.5")), ::testing::HasSubstr("The gate at 0.1 m meets a solid"));
+    EXPECT_EQ(mistakes_of(k_tank + k_fill + gate("0.5")), "") << "it does not meet itself";
+}
+
 /// Such a tank would fill the memory; numbers beyond the range of int are counted as well.
 TEST(SceneFile, refuses_tanks_of_too_many_cells) {
     const auto mistakes_with = [](const std::string& width, const std::string& more = {}) {
@@ -432,7 +442,11 @@ TEST_F(BodyFile, names_file_and_line_of_every_mistake) {
                 ::testing::AllOf(::testing::HasSubstr("list.csv:3: Bodies 1 and 2 overlap by 0.006 m"),
                                  ::testing::HasSubstr("list.csv:4: Body 3 at (0.25, 0.1) m leaves the domain by 0.055 m")));
     EXPECT_THAT(mistakes_of("x_m,z_m\n"), ::testing::HasSubstr("has no bodies"));
-    EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,0.1\n", "lowest_m = 0.1\n"), ::testing::HasSubstr("beside bodies.file"));
+    EXPECT_THAT(mistakes_of("x_m,z_m\n0.1,0.1\n", "lowest_m = 0.1\n"), ::testing::HasSubstr("bodies.lowest_m = 0.1 beside bodies.file"));
+    const std::string more = mistakes_of("x_m,z_m\n0.1,0.1\n", "layers = 3\nwidest = 2\nclearance_m = 0.001\n");
+    for (const char* part : {"bodies.layers = 3 beside", "bodies.widest = 2 beside", "bodies.clearance_m = 0.001 beside"})
+        EXPECT_THAT(more, ::testing::HasSubstr(part));
+    EXPECT_EQ(mistakes_of("x_m,z_m\n0.1,0.15\n", "layers = 1\nwidest = 1\nrows = 1\nclearance_m = 0.0\n"), "") << "the defaults";
     EXPECT_THAT(mistakes_of("x_m,z_m,id\n0.1,0.1,1\n", "[[bodies]]\ndiameter_m = 0.01\nfile = \"list.csv\"\n"),
                 ::testing::HasSubstr("id 1 is that of a body of another table"));
 }

@@ -86,6 +86,29 @@ TEST(SceneInSpace, boxes_and_water_may_end_across) {
     EXPECT_THAT(walls, ::testing::Not(HasSubstr(" 0.02 ")));
 }
 
+TEST(SceneInSpace, tells_water_that_is_not_in_the_tank) {
+    const auto fill = [](const char* across) {
+        return scene_text("space", std::string("[[fill]]\nfrom_x_m = 0.12\nfrom_z_m = 0.0\nto_x_m = 0.2\nto_z_m = 0.01\n") + across);
+    };
+    EXPECT_THAT(mistakes_of(fill("from_y_m = 0.021\n")), HasSubstr("Water from (0.12, 0) to (0.2, 0.01) m. It must lie in the domain"));
+    EXPECT_EQ(mistakes_of(fill("from_y_m = 0.01\n")), "");
+    EXPECT_THAT(water_notes(parse_scene(fill("from_y_m = 0.01\n"), "scene.toml")), ::testing::IsEmpty());
+    EXPECT_THAT(water_notes(parse_scene(fill("from_y_m = 0.01\nto_y_m = 0.0105\n"), "scene.toml")),
+                ::testing::ElementsAre(HasSubstr("the box of water from (0.12, 0) to (0.2, 0.01) m has no particle")));
+}
+
+TEST(SceneInSpace, cylinders_stand_beside_solids_that_reach_across_alone) {
+    const std::string cylinder = "[[bodies]]\ndiameter_m = 0.04\ncentre_x_m = 0.16\nlowest_m = 0.05\n";
+    const auto box = [](const char* ends) {
+        return scene_text("space",
+                          std::string("[[solid]]\nkind = \"box\"\nfrom_x_m = 0.15\nfrom_z_m = 0.0\nto_x_m = 0.2\nto_z_m = 0.03\n") + ends);
+    };
+    EXPECT_EQ(mistakes_of(box("") + cylinder), "");
+    EXPECT_EQ(mistakes_of(box("from_y_m = 0.0\nto_y_m = 0.02\n") + cylinder), "");
+    EXPECT_THAT(mistakes_of(box("from_y_m = 0.01\n") + cylinder), HasSubstr("A box from 0.01 to 0.02 m across beside cylinders"));
+    EXPECT_EQ(mistakes_of(box("from_y_m = 0.01\n")), "") << "water alone";
+}
+
 const std::string k_spheres =
     "[[bodies]]\nshape = \"sphere\"\ndiameter_m = 0.04\nlayers = 2\nwidest = 2\nrows = 2\ncentre_x_m = 0.1\nlowest_m = 0.11\n"
     "clearance_m = 0.002\n";
@@ -151,6 +174,9 @@ TEST_F(SurfaceFile, stands_in_the_scene_and_must_be_closed) {
     EXPECT_THAT(mistakes_of(wide(solid + sphere), folder_), HasSubstr("stands in a solid"));
 
     const std::size_t first = text.find("facet"), second = text.find("facet", text.find("endfacet", first) + 9);
+    EXPECT_THAT(mistakes_of(wide(solid + "[[bodies]]\ndiameter_m = 0.04\ncentre_x_m = 0.03\nlowest_m = 0.1\n"), folder_),
+                HasSubstr("A surface from 0 to 0.03 m across beside cylinders"));
+
     write_file(folder_ / "open.stl", std::string(text).erase(first, second - first));
     const std::string open =
         mistakes_of(wide("[[solid]]\nkind = \"surface\"\nfile = \"open.stl\"\n[[solid]]\nkind = \"surface\"\n"), folder_);
