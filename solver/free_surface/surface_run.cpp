@@ -125,7 +125,8 @@ SurfaceRun::SurfaceRun(const SceneSettings& settings, coupling::DemEngine* bodie
 }
 
 SurfaceState SurfaceRun::state() const {
-    return {time_, steps_, initial_volume_, mixing_time_, fastest_allowed_, particles_, pressure_, even_out_.potential(), contact_force_};
+    return {time_,      steps_,    initial_volume_,       mixing_time_,   fastest_allowed_,
+            particles_, pressure_, even_out_.potential(), contact_force_, failed_solves_};
 }
 
 void SurfaceRun::restore(SurfaceState state) {
@@ -138,6 +139,7 @@ void SurfaceRun::restore(SurfaceState state) {
     pressure_ = std::move(state.pressure);
     even_out_.begin_with(std::move(state.spreading));
     contact_force_ = std::move(state.contact_force);
+    failed_solves_ = state.failed_solves;
     take_over_bodies();
     place_gates(time_);
     cutter_.cut(bodies_, cells_);

@@ -41,6 +41,7 @@ struct SurfaceState {
     WaterParticles particles;
     CellField pressure, spreading;    ///< where the solvers begin
     std::vector<Vec3> contact_force;  ///< of the last step [N]
+    int failed_solves = 0;            ///< of the pressure, in the last steps
 };
 
 class SurfaceRun {

@@ -13,7 +13,8 @@ namespace cutterflow::free_surface {
 namespace {
 
 constexpr const char* k_state = "water.bin";
-constexpr std::uint64_t k_mark = 0x6375747465723031;  // format 1
+constexpr std::uint64_t k_mark = 0x6375747465723032;    // format 2
+constexpr std::uint64_t k_mark_1 = 0x6375747465723031;  // format 1: without the failed solves
 
 /// Visits every part of a state in a fixed order: one list for writing and reading.
 template <typename State, typename Scalar, typename Array>
@@ -58,6 +59,7 @@ void write_checkpoint(const std::filesystem::path& folder, const SurfaceState& s
             put(stream, static_cast<std::uint64_t>(values.size()));
             stream.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(values[0])));
         });
+    put(stream, state.failed_solves);
     close_written(stream, part / k_state);
     if (bodies) bodies->write_checkpoint(part);
     std::filesystem::remove_all(target);
@@ -74,7 +76,7 @@ SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const Stag
     const std::uintmax_t bytes = std::filesystem::file_size(checkpoint / k_state, missing);
     std::uint64_t mark = 0;
     get(stream, mark);
-    if (!stream || mark != k_mark) refuse("no checkpoint of this program");
+    if (!stream || (mark != k_mark && mark != k_mark_1)) refuse("no checkpoint of this program");
     SurfaceState state;
     for_each_part(
         state, [&](auto& value) { get(stream, value); },
@@ -85,6 +87,7 @@ SurfaceState read_checkpoint(const std::filesystem::path& checkpoint, const Stag
             values.resize(size);
             stream.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(size * sizeof(values[0])));
         });
+    if (mark == k_mark) get(stream, state.failed_solves);
     if (!stream) refuse("cut off");
     if (state.pressure.size() != grid.size() || state.spreading.size() != grid.size()) refuse("of another grid");
     const WaterParticles& water = state.particles;

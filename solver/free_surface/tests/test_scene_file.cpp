@@ -486,6 +486,31 @@ TEST(Checkpoint, gives_the_same_state_back) {
     EXPECT_EQ(first.particles().velocity, later.particles().velocity);
 }
 
+/// A run whose last pressure did not converge ends at the next one that does not, whether it is stopped in between or not.
+TEST(Checkpoint, keeps_how_often_the_pressure_failed) {
+    Scene scene = parse_scene(k_tank + "[[fill]]\nfrom_x_m = 0.0\nfrom_z_m = 0.0\nto_x_m = 0.05\nto_z_m = 0.1\n", "scene.toml");
+    scene.settings.run.pressure_tolerance = 1e-300;
+    SurfaceRun first(scene.settings, nullptr);
+    first.step();
+    ASSERT_FALSE(first.last().pressure.converged);
+    const std::filesystem::path folder = std::filesystem::path(CUTTERFLOW_BUILD_DIR) / "tests" / "surface_checkpoint_failed";
+    std::filesystem::remove_all(folder);
+    write_checkpoint(folder, first.state(), nullptr);
+    SurfaceRun later(scene.settings, nullptr);
+    later.restore(read_checkpoint(newest_checkpoint(folder), later.grid(), nullptr));
+    EXPECT_THROW(later.step(), CheckFailure);
+    // The first format ends before the number.
+    const std::filesystem::path file = newest_checkpoint(folder) / "water.bin";
+    std::string earlier = read_file(file);
+    earlier[0] = '1';
+    earlier.resize(earlier.size() - sizeof(int));
+    write_file(file, earlier);
+    SurfaceRun from_earlier(scene.settings, nullptr);
+    from_earlier.restore(read_checkpoint(newest_checkpoint(folder), from_earlier.grid(), nullptr));
+    EXPECT_EQ(from_earlier.particles().position, first.particles().position);
+    EXPECT_NO_THROW(from_earlier.step());
+}
+
 TEST(Checkpoint, that_is_cut_off_is_refused) {
     const Scene scene = parse_scene(k_tank + k_fill, "scene.toml");
     SurfaceRun run(scene.settings, nullptr);
