@@ -329,10 +329,10 @@ private:
         nlohmann::json solids = nlohmann::json::array();
         for (const RoomSolid& solid : scene_.solids) {
             nlohmann::json one{{"name", solid.name}, {"file", surface_file(solid)}, {"material", solid.material}};
-            if (solid.travel)
-                one["travel"] = {{"velocity_m_s", {solid.travel->velocity.x(), solid.travel->velocity.y(), solid.travel->velocity.z()}},
-                                 {"from_s", solid.travel->begin},
-                                 {"to_s", solid.travel->end}};
+            for (const coupling::WallTravel& travel : solid.travels)
+                one["travel"].push_back({{"velocity_m_s", {travel.velocity.x(), travel.velocity.y(), travel.velocity.z()}},
+                                         {"from_s", travel.begin},
+                                         {"to_s", travel.end}});
             if (solid.turn) one["turn"] = turn_json(*solid.turn);
             if (solid.removed_at) one["removed_at_s"] = *solid.removed_at;
             if (pressed.contains(solid.name)) one["pressed_m"] = pressed.at(solid.name);

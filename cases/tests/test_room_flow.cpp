@@ -144,6 +144,34 @@ TEST_F(RoomFlow, discharge_is_speed_times_area) {
     EXPECT_EQ(outlet_patch(given.scene), "x_max_2");
 }
 
+/// From 1.5 m/s at 0.5 s to 0.5 m/s between 1 and 1.2 s, and to three litres per second at 2 s.
+TEST_F(RoomFlow, events_ramp_the_flow_through_a_boundary) {
+    const auto ramp = [](const char* rest) { return std::string("[[event]]\ndo = \"ramp\"\nboundary = \"out\"\n") + rest + "\n"; };
+    const std::string tank = std::string(k_tank) + k_out + k_free;
+    const std::string first = ramp("speed_m_s = 0.5\nfrom_s = 1\nto_s = 1.2");
+    const RoomRequest room = request(tank + first + ramp("discharge_m3_s = 0.003\nfrom_s = 1.2\nto_s = 2"));
+    const auto& flow = std::get<ThroughFlow>(room.scene.boundaries[0].flow);
+    const std::vector<std::pair<double, double>> expected{{0.0, 0.0}, {0.5, 1.5}, {1.0, 1.5}, {1.2, 0.5}, {2.0, 0.003 / flow.area}};
+    ASSERT_EQ(flow.speed.size(), expected.size());
+    for (std::size_t n = 0; n < expected.size(); ++n) {
+        EXPECT_EQ(flow.speed[n].first, expected[n].first) << n;
+        EXPECT_NEAR(flow.speed[n].second, expected[n].second, 1e-12) << n;
+    }
+    EXPECT_THAT(
+        condition(room, "U", "out"),
+        ContainsRegex("\\(1\\.2 0\\.00251327[0-9]*\\) \\(2 0\\.003[0-9]*\\)|\\(1\\.2 0\\.00251327[0-9]*\\)[ \n]*\\(2 0\\.00(3|29999)"));
+    const RoomRequest raised = request(tank + ramp("speed_m_s = 4\nfrom_s = 1\nto_s = 1.2"));
+    EXPECT_EQ(fastest_flow(raised.scene), 4.0) << "the prediction and the turbulence know the ramp";
+
+    EXPECT_THAT(mistakes_of(tank + ramp("speed_m_s = 1\nfrom_s = 0.4\nto_s = 1")), HasSubstr("Its flow changes until 0.5 s"));
+    EXPECT_THAT(mistakes_of(tank + first + first), HasSubstr("Its flow changes until 1.2 s"));
+    EXPECT_THAT(mistakes_of(tank + ramp("from_s = 1\nto_s = 2")), HasSubstr("neither speed_m_s nor discharge_m3_s"));
+    EXPECT_THAT(mistakes_of(tank + "[[event]]\ndo = \"ramp\"\nboundary = \"free\"\nspeed_m_s = 1\nfrom_s = 1\nto_s = 2\n"),
+                HasSubstr("Boundaries with an inflow or an outflow are out. Name one of them"));
+    EXPECT_THAT(mistakes_of(tank + ramp("speed_m_s = 1\nfrom_s = 1\nto_s = 2\nrate_kg_s = 1")),
+                HasSubstr("It belongs to do = \"feed\" and \"extract\""));
+}
+
 TEST_F(RoomFlow, a_laminar_room_has_no_turbulence_and_a_closed_one_a_reference_of_pressure) {
     std::string text = k_tank;
     text.replace(text.find("cell_m"), 6, "turbulence = \"laminar\"\ncell_m");

@@ -335,6 +335,57 @@ TEST_F(RoomRuns, a_study_that_nobody_foresaw_runs) {
     EXPECT_NEAR(json_of("hourglass/report/measures.json").at("sand").at("value").get<double>(), poured, 0.05 * poured);
 }
 
+/// A plate goes up by its table and down by an event, and its grain with it: both times through a gate.
+const char* const k_lift = R"(
+name = "a grain on a lift"
+[scene]
+kind = "room"
+[room]
+size_m = [0.02, 0.02, 0.08]
+[[solid]]
+name = "plate"
+generate = "box"
+lower_m = [-0.0099, -0.0099, 0.005]
+upper_m = [0.0099, 0.0099, 0.010]
+velocity_m_s = [0, 0, 0.1]
+from_s = 0
+to_s = 0.2
+[[event]]
+do = "move"
+solid = "plate"
+velocity_m_s = [0, 0, -0.05]
+from_s = 0.3
+to_s = 0.5
+[[prepare]]
+do = "pour"
+grains = "grains"
+count = 1
+region = { box = { lower_m = [-0.008, -0.008, 0.01], upper_m = [0.008, 0.008, 0.03] } }
+[[measure]]
+name = "rides"
+what = "passed_mass"
+gate = { disc_m = [0, 0, 0.0275], radius_m = 0.01 }
+[run]
+end_s = 0.6
+write_interval_s = 0.1
+)";
+
+TEST_F(RoomRuns, a_solid_moves_several_times) {
+    std::string study = std::string(k_lift) + k_materials;
+    const std::string sizes = "{ uniform_by_number = [0.0045, 0.0055] }";
+    write_file(folder_ / "lift.toml", study.replace(study.find(sizes), sizes.size(), "0.005"));
+    call({"run", "lift.toml", "-o", "lift"});
+    const postproc::Table rides =
+        postproc::read_joined_table(folder_ / "lift", "rock", "gates.csv", {{"time_s", "vz_m_s"}, {"gate"}, {}, ""});
+    ASSERT_EQ(rides.rows(), 2u);
+    // The centre begins at 12.5 mm and meets the gate after 15 mm on the way up, and after 5 mm on the way down.
+    EXPECT_NEAR(rides.number("time_s")[0], 0.15, 2e-3);
+    EXPECT_NEAR(rides.number("vz_m_s")[0], 0.1, 2e-3);
+    EXPECT_NEAR(rides.number("time_s")[1], 0.4, 2e-3);
+    EXPECT_NEAR(rides.number("vz_m_s")[1], -0.05, 2e-3);
+    EXPECT_NE(read_file(folder_ / "lift/report/index.html").find("moves from 0 to 0.2 s; moves from 0.3 to 0.5 s"), std::string::npos);
+}
+
 /// 5/7 g (sin - rolling cos) moves the sphere of the example by 12 mm in a second at 11.5 degrees, and not at all below 11.31.
 TEST_F(RoomRuns, sweep_over_the_tilt_finds_where_a_sphere_begins_to_roll) {
     const std::string study = (fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/plate/study.toml").string();

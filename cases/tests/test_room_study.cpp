@@ -84,7 +84,7 @@ TEST_F(RoomStudy, template_reads_and_predicts_its_cost) {
     const RoomRequest request = read_room_request(write(room_template("heap \"1\"")));
     EXPECT_EQ(request.scene.name, "heap \"1\"");
     ASSERT_EQ(request.scene.solids.size(), 2u);
-    EXPECT_EQ(request.scene.solids[1].travel->velocity, Vec3(0.0, 0.0, 0.03));
+    EXPECT_EQ(request.scene.solids[1].travels.at(0).velocity, Vec3(0.0, 0.0, 0.03));
     EXPECT_EQ(request.scene.pairs.size(), 2u);
     ASSERT_EQ(request.pieces.size(), 1u);
     // 0.6 of a cylinder of radius 20 mm and height 60 mm, of grains whose mean volume is that of 4 mm and a bit more.
@@ -377,11 +377,35 @@ TEST_F(RoomStudy, solids_turn_about_an_axis_of_their_own) {
     const std::string turn = "turn_rpm = -30\nturn_axis = [0, 3, 4]\nturn_origin_m = [0, 0.01, 0.08]";
     const RoomScene scene = read_room(write(changed("velocity_m_s = [0, 0, 0.03]", turn)));
     ASSERT_TRUE(scene.solids[1].turn);
-    EXPECT_FALSE(scene.solids[1].travel);
+    EXPECT_TRUE(scene.solids[1].travels.empty());
     EXPECT_NEAR(scene.solids[1].turn->speed, -k_pi, 1e-12);
     EXPECT_NEAR((scene.solids[1].turn->axis.direction - Vec3(0, 0.6, 0.8)).norm(), 0.0, 1e-12);
     EXPECT_EQ(scene.solids[1].turn->axis.origin, Vec3(0, 0.01, 0.08));
     EXPECT_EQ(scene.solids[1].turn->end, 4.0);
+}
+
+/// The tube moves by its own table until 4 s; events move it before and after, in any order of the file.
+TEST_F(RoomStudy, events_move_solids_beside_their_own_motion) {
+    const auto move = [](const char* rest) { return fmt::format("[[event]]\ndo = \"move\"\nsolid = \"tube\"\n{}\n\n", rest); };
+    std::string text = changed("from_s = 0.0\nto_s = 4.0", "from_s = 1.0\nto_s = 2.0");
+    text.insert(text.find(k_end),
+                move("velocity_m_s = [0, 0, -0.5]\nfrom_s = 3\nto_s = 3.5") + move("velocity_m_s = [0.1, 0, 0]\nfrom_s = 2\nto_s = 3"));
+    const RoomRequest request = read_room_request(write(text));
+    const RoomSolid& tube = request.scene.solids.at(1);
+    ASSERT_EQ(tube.travels.size(), 3u);
+    EXPECT_EQ(tube.travels[1].velocity, Vec3(0.1, 0, 0));
+    EXPECT_EQ(tube.travels[2].begin, 3.0);
+    EXPECT_EQ(tube.fastest(), 0.5);
+    EXPECT_TRUE(request.scene.is_as_at_first(tube, 1.0));
+    EXPECT_FALSE(request.scene.is_as_at_first(tube, 1.5));
+    const std::string run = grain_files(request.scene, "bed/checkpoints/x", 1).front().text;
+    EXPECT_THAT(run, ContainsRegex("travel *\n? *\\("));
+    EXPECT_THAT(to_text(predict(request.scene, request.pieces, request.mesh)), HasSubstr("tube moves from 2 to 3 s"));
+    // Down 0.25 m in half a second, through the floor; the second look is at its events as well.
+    EXPECT_THAT(warnings_of(text), HasSubstr("through a side of the room"));
+
+    const RoomRequest one = read_room_request(write(room_template("heap")));
+    EXPECT_EQ(bed_name(request.scene, request.pieces), bed_name(one.scene, one.pieces)) << "the preparation does not move solids";
 }
 
 TEST_F(RoomStudy, bed_is_named_by_what_makes_it) {
@@ -427,7 +451,7 @@ TEST_F(RoomStudy, sweep_addresses_tables_by_name_and_shares_the_bed) {
     auto points = points_of(axes({"solid.tube.velocity_m_s=[0,0,0.03],[0,0,0.015]"}), 2);
     ASSERT_EQ(points.size(), 4u);
     EXPECT_EQ(points[2].name, "room_tube.velocity_m_s_0_0_0.015_repeat1");
-    EXPECT_EQ(room_scene(parse_parameters(room_table(), points[2].text, "x"), folder_).solids[1].travel->velocity.z(), 0.015);
+    EXPECT_EQ(room_scene(parse_parameters(room_table(), points[2].text, "x"), folder_).solids[1].travels.at(0).velocity.z(), 0.015);
     EXPECT_EQ(points[0].design, points[2].design);  // one bed for both speeds, of each pour
     EXPECT_NE(points[0].design, points[1].design);
     EXPECT_EQ(points[0].shared, (std::vector<std::string>{"geometry", "bed"}));
@@ -675,6 +699,27 @@ INSTANTIATE_TEST_SUITE_P(
             "It must not be zero"},
         Bad{k_end, "[[prepare]]\ndo = \"trim\"\nabove_m = 0.1\npressure_pa = 10\n\n[run]\n", "It belongs to do = \"compress\""},
         Bad{k_end, "[[event]]\ndo = \"remove\"\nat_s = 9\nregion = { above_m = 0.05 }\n\n[run]\n", "The run ends at 4 s"},
+        Bad{k_end, "[[event]]\ndo = \"move\"\nsolid = \"tube\"\nvelocity_m_s = [0, 0, 1]\nfrom_s = 3\nto_s = 5\n\n[run]\n",
+            "A solid has one velocity at a time, and it moves from 0 to 4 s"},
+        Bad{k_end, "[[event]]\ndo = \"move\"\nsolid = \"pipe\"\nvelocity_m_s = [0, 0, 1]\nfrom_s = 3\nto_s = 5\n\n[run]\n",
+            "The study's solids are disc, tube"},
+        Bad{k_end, "[[event]]\ndo = \"move\"\nsolid = \"disc\"\nfrom_s = 3\nto_s = 5\n\n[run]\n", "event.velocity_m_s is missing"},
+        Bad{k_end, "[[event]]\ndo = \"move\"\nvelocity_m_s = [0, 0, 1]\nfrom_s = 3\nto_s = 2\n\n[run]\n", "do = \"move\" without solid"},
+        Bad{k_end, "[[event]]\ndo = \"move\"\nsolid = \"disc\"\nvelocity_m_s = [0, 0, 1]\nfrom_s = 3\nto_s = 2\n\n[run]\n",
+            "event.to_s = 2. It must be after from_s = 3"},
+        Bad{k_end,
+            "[[event]]\ndo = \"move\"\nsolid = \"disc\"\nvelocity_m_s = [0, 0, 1]\nfrom_s = 1\nto_s = 2\n"
+            "region = { above_m = 0.05 }\n\n[run]\n",
+            "event.region is given. It belongs to what is done to grains"},
+        Bad{k_end, "[[event]]\ndo = \"move\"\nsolid = \"disc\"\nvelocity_m_s = [0, 0, 90]\nfrom_s = 1\nto_s = 2\n\n[run]\n",
+            "disc moves at up to 90 m/s: grains that it meets sink into it"},
+        Bad{"velocity_m_s = [0, 0, 0.03]\nfrom_s = 0.0\nto_s = 4.0\n",
+            "removed_at_s = 1\n\n[[event]]\ndo = \"move\"\nsolid = \"tube\"\nvelocity_m_s = [0, 0, 1]\nfrom_s = 1\nto_s = 2\n",
+            "a move of tube from 1 s on. It is taken away at 1 s"},
+        Bad{k_end, "[[event]]\ndo = \"remove\"\nat_s = 1\nsolid = \"disc\"\nregion = { above_m = 0.05 }\n\n[run]\n",
+            "event.solid is given. It belongs to do = \"move\""},
+        Bad{k_end, "[[event]]\ndo = \"ramp\"\nboundary = \"top\"\nspeed_m_s = 1\nfrom_s = 1\nto_s = 2\n\n[run]\n",
+            "No boundary has an inflow or an outflow"},
         Bad{"material = \"glass\"\ndensity", "material = \"glass beads\"\ndensity", "letters, digits"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"angel\"\n\n[run]\n", "angel"},
         Bad{k_end, "[[measure]]\nname = \"x\"\nwhat = \"passed_mass\"\ngate = \"door\"\n\n[run]\n", "measure.gate = \"door\""},

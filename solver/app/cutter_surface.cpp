@@ -92,8 +92,8 @@ std::unique_ptr<liggghts::LiggghtsEngine> make_bodies(Scene& scene, const fs::pa
     if (const std::string solids = wall_surface_stl(scene.settings.solids, depth); !solids.empty()) add_wall("solids", solids);
     for (std::size_t n = 0; n < scene.settings.gates.size(); ++n) {
         const Gate& gate = scene.settings.gates[n];
-        add_wall(fmt::format("gate_{}", n + 1), wall_surface_stl({gate.closed}, depth)).travel = {Vec3(0, 0, gate.speed), gate.start,
-                                                                                                  gate.end};
+        add_wall(fmt::format("gate_{}", n + 1), wall_surface_stl({gate.closed}, depth)).travels = {
+            {Vec3(0, 0, gate.speed), gate.start, gate.end}};
     }
     scene.dem.log = folder / "log.liggghts";
     auto engine = std::make_unique<liggghts::LiggghtsEngine>(scene.dem, std::vector<coupling::ZoneMotion>{}, MPI_COMM_WORLD);

@@ -598,7 +598,7 @@ void LiggghtsEngine::Implementation::set_frozen(gsl::span<const int> ids, bool f
 double LiggghtsEngine::Implementation::walls_change_until() const {
     double last = 0.0;
     for (const coupling::WallSettings& wall : settings_.walls) {
-        if (wall.travel.velocity.norm() > 0.0) last = std::max(last, wall.travel.end);
+        if (!wall.travels.empty()) last = std::max(last, wall.travels.back().end);
         if (wall.turn.speed != 0.0) last = std::max(last, wall.turn.end);
         if (std::isfinite(wall.removed_at)) last = std::max(last, wall.removed_at);
     }

@@ -50,7 +50,7 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
       rotating_(given.rotating),
       is_soil_(given.material == coupling::k_soil),
       removed_at_(given.removed_at),
-      travel_(given.travel),
+      travels_(given.travels),
       turn_(given.turn),
       press_(given.press),
       press_speed_(press_ ? press_->largest_speed : 0.0),
@@ -59,8 +59,8 @@ SteelWall::SteelWall(const coupling::WallSettings& given, int body, const coupli
 
 WallPose SteelWall::pose(double time) const {
     WallPose pose;
-    pose.way = travel_.way(time) + pressed_;
-    pose.travel = travel_.velocity_at(time);
+    pose.way = coupling::way_until(travels_, time) + pressed_;
+    pose.travel = coupling::velocity_at(travels_, time);
     if (press_) pose.travel += press_speed_ * press_->direction;
     if (!rotating_ && turn_.speed == 0.0) return pose;
     const RotationAxis& axis = rotating_ ? rotor_.axis : turn_.axis;

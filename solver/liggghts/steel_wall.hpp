@@ -84,7 +84,7 @@ private:
     bool rotating_;
     bool is_soil_;
     double removed_at_;
-    coupling::WallTravel travel_;
+    std::vector<coupling::WallTravel> travels_;
     coupling::WallTurn turn_;
     std::optional<coupling::WallPress> press_;
     double press_speed_ = 0.0;  // along the press [m/s]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -39,12 +40,26 @@ void check_press(Mistakes& mistakes, const std::string& key, const WallSettings&
                      wall.press->direction.norm(), "It must be 1", k_correct);
 }
 
+/// Each from a time to a later one, and one after the other.
+void check_travels(Mistakes& mistakes, const std::string& key, const std::vector<WallTravel>& travels) {
+    double free_from = -std::numeric_limits<double>::infinity();
+    for (const WallTravel& travel : travels) {
+        mistakes.require(travel.velocity.allFinite() && travel.begin <= travel.end,
+                         fmt::format("{}.travel: from {} to {}", key, travel.begin, travel.end),
+                         "A wall travels from a time to a later one", k_correct);
+        mistakes.require(travel.begin >= free_from,
+                         fmt::format("{}.travel: from {} on, and the one before lasts until {}", key, travel.begin, free_from),
+                         "A wall has one velocity at a time, and its travels stand in their order", k_correct);
+        free_from = std::max(free_from, travel.end);
+    }
+}
+
 /// The surface of a wall at rest, or of one that travels or presses, may run.
 void check_motions(Mistakes& mistakes, const std::string& key, const WallSettings& wall) {
     std::vector<std::string> ways;
     if (wall.rotating) ways.emplace_back("turns with the moving zone");
     if (wall.turn.speed != 0.0) ways.emplace_back("turns by itself");
-    if (wall.travel.velocity.norm() != 0.0) ways.emplace_back("travels");
+    if (!wall.travels.empty()) ways.emplace_back("travels");
     if (wall.press) ways.emplace_back("presses");
     mistakes.require(ways.size() <= 1, fmt::format("{} {}", key, fmt::join(ways, " and ")), "A wall moves in one way",
                      "Remove one of them");
@@ -59,10 +74,7 @@ void check_walls(Mistakes& mistakes, const DemSettings& settings) {
         if (!names.insert(wall.name).second)
             mistakes.add(key + " is defined twice", "Forces and contacts are told by the wall's name", "Rename one of them");
         check_material(mistakes, settings.contact, key + ".material", wall.material);
-        const WallTravel& travel = wall.travel;
-        mistakes.require(travel.velocity.allFinite() && travel.begin <= travel.end,
-                         fmt::format("{}.travel: from {} to {}", key, travel.begin, travel.end),
-                         "A wall travels from a time to a later one", k_correct);
+        check_travels(mistakes, key, wall.travels);
         const WallTurn& turn = wall.turn;
         mistakes.require(std::isfinite(turn.speed) && turn.axis.origin.allFinite() && turn.begin <= turn.end,
                          fmt::format("{}.turn: {} rad/s from {} to {}", key, turn.speed, turn.begin, turn.end),
@@ -144,6 +156,18 @@ void check_fluid(Mistakes& mistakes, const DemSettings& settings) {
 }
 
 }  // namespace
+
+Vec3 way_until(const std::vector<WallTravel>& travels, double time) {
+    Vec3 way = Vec3::Zero();
+    for (const WallTravel& travel : travels) way += travel.way(time);
+    return way;
+}
+
+Vec3 velocity_at(const std::vector<WallTravel>& travels, double time) {
+    Vec3 velocity = Vec3::Zero();
+    for (const WallTravel& travel : travels) velocity += travel.velocity_at(time);
+    return velocity;
+}
 
 const std::array<PairPreset, 2>& pair_presets() {
     static const ContactSettings gravel;

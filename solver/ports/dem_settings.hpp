@@ -101,6 +101,11 @@ struct WallTravel {
     Vec3 velocity_at(double time) const { return time > begin && time <= end ? velocity : Vec3(Vec3::Zero()); }
 };
 
+/// Way of a wall until a time, the integral of its velocity [m]. \param travels  one after the other
+Vec3 way_until(const std::vector<WallTravel>& travels, double time);
+/// That of the travel that lasts; zero between two [m/s].
+Vec3 velocity_at(const std::vector<WallTravel>& travels, double time);
+
 /// Constant rotation of a wall about an axis of its own from one time to another; before and after it stands.
 struct WallTurn {
     RotationAxis axis;
@@ -128,7 +133,7 @@ struct WallSettings {
     std::string name;
     std::filesystem::path file;
     bool rotating = false;
-    WallTravel travel{};
+    std::vector<WallTravel> travels{};  ///< one after the other
     WallTurn turn{};
     std::optional<WallPress> press{};
     std::string material = k_steel;

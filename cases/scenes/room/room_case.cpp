@@ -85,6 +85,13 @@ FoamDictionary press_section(const RoomScene& scene, const CompressStep& compres
     return FoamDictionary().add("direction", compress.direction).add("force", compress.force).add("speed", press_speed(scene, compress));
 }
 
+FoamValue travel_value(const std::vector<coupling::WallTravel>& travels) {
+    std::vector<FoamValue> sections;
+    for (const coupling::WallTravel& travel : travels)
+        sections.emplace_back(FoamDictionary().add("velocity", travel.velocity).add("from", travel.begin).add("to", travel.end));
+    return sections.size() == 1 ? sections.front() : FoamValue::list(sections);
+}
+
 /// \param piece  of the preparation; null in the run
 FoamValue wall_list(const RoomScene& scene, const std::string& to_run, const BedPiece* piece) {
     const bool moves = piece == nullptr;
@@ -93,10 +100,7 @@ FoamValue wall_list(const RoomScene& scene, const std::string& to_run, const Bed
         const RoomSolid& solid = *one;
         FoamDictionary wall;
         wall.add("name", solid.name).add("file", FoamValue::quoted(to_run + surface_file(solid))).add("material", solid.material);
-        if (moves && solid.travel)
-            wall.add(
-                "travel",
-                FoamDictionary().add("velocity", solid.travel->velocity).add("from", solid.travel->begin).add("to", solid.travel->end));
+        if (moves && !solid.travels.empty()) wall.add("travel", travel_value(solid.travels));
         if (moves && solid.turn)
             wall.add("turn", FoamDictionary()
                                  .add("origin", solid.turn->axis.origin)

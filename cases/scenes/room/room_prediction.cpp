@@ -187,7 +187,8 @@ std::vector<std::string> models_of(const RoomScene& scene) {
     if (std::any_of(scene.pairs.begin(), scene.pairs.end(), [](const RoomPair& pair) { return pair.settings.rolling_friction > 0.0; }))
         on.push_back(fmt::format("rolling friction ({}): contact.rolling", scene.contact.rolling_law));
     for (const RoomSolid& solid : scene.solids) {
-        if (solid.travel) on.push_back(fmt::format("{} moves from {:g} to {:g} s", solid.name, solid.travel->begin, solid.travel->end));
+        for (const coupling::WallTravel& travel : solid.travels)
+            on.push_back(fmt::format("{} moves from {:g} to {:g} s", solid.name, travel.begin, travel.end));
         if (solid.turn)
             on.push_back(fmt::format("{} turns at {:g} rpm from {:g} to {:g} s", solid.name, solid.turn->speed / rpm_to_rad_s(1.0),
                                      solid.turn->begin, solid.turn->end));

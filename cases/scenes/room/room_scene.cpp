@@ -9,8 +9,9 @@
 namespace cutterflow::cases {
 
 double RoomSolid::fastest() const {
-    if (travel) return travel->velocity.norm();
-    if (!turn) return 0.0;
+    double fastest = 0.0;
+    for (const coupling::WallTravel& travel : travels) fastest = std::max(fastest, travel.velocity.norm());
+    if (!turn) return fastest;
     double farthest = 0.0;  // from the axis
     for (const Vec3& point : surface.points) farthest = std::max(farthest, (point - turn->axis.origin).cross(turn->axis.direction).norm());
     return std::abs(turn->speed) * farthest;
@@ -80,7 +81,7 @@ double RoomScene::fed_mass() const {
 
 bool RoomScene::is_as_at_first(const RoomSolid& solid, double time) const {
     const bool gone = solid.removed_at && *solid.removed_at <= time;
-    const bool moved = (solid.travel && solid.travel->begin < time) || (solid.turn && solid.turn->begin < time);
+    const bool moved = (!solid.travels.empty() && solid.travels.front().begin < time) || (solid.turn && solid.turn->begin < time);
     const bool pressed = std::any_of(preparation.begin(), preparation.end(), [&](const PrepareStep& step) {
         const auto* compress = std::get_if<CompressStep>(&step);
         return compress != nullptr && compress->solid == solid.name;

@@ -46,7 +46,7 @@ struct RoomSolid {
     geometry::TriangleSurface surface;  ///< closed, outward; where it stands at first
     bool felt_by_fluid = true;          ///< false: grains alone feel it
     std::string material;
-    std::optional<coupling::WallTravel> travel;
+    std::vector<coupling::WallTravel> travels;  ///< one after the other
     std::optional<coupling::WallTurn> turn;
     std::optional<double> removed_at;  ///< [s]; 0: it is there for the preparation alone
     std::optional<Bore> bore;

@@ -277,12 +277,32 @@ ParameterTable prepare_rows() {
 
 ParameterTable event_rows() {
     ParameterTable rows{
-        choice("event.do", {"feed", "extract", "remove", "freeze", "thaw"}, "What happens.").repeated(),
+        choice("event.do", {"feed", "extract", "remove", "freeze", "thaw", "move", "ramp"}, "What happens.").repeated(),
         text("event.grains", "What is fed.").optional().repeated(),
         time("event.at_s", "When; of remove, freeze and thaw.").optional().repeated(),
-        time("event.from_s", "When it begins; of feed and extract.").optional().repeated(),
+        time("event.from_s", "When it begins; of feed, extract, move and ramp.").optional().repeated(),
         time("event.to_s", "When it ends.").optional().repeated(),
         number("event.rate_kg_s", "kg/s", "Mass per time that is fed or extracted.").above(0.0).at_most(1e9).optional().repeated(),
+        text("event.solid", "Move: name of the solid; beside or after its own motion, and as often as wanted.").optional().repeated(),
+        Row("event.velocity_m_s", ParameterKind::numbers, "m/s", "Move: constant velocity from from_s to to_s.")
+            .of_length(3)
+            .at_least(-100.0)
+            .at_most(100.0)
+            .optional()
+            .repeated(),
+        text("event.boundary", "Ramp: boundary.name of one with an inflow or an outflow, which changes linearly to another one.")
+            .optional()
+            .repeated(),
+        number("event.speed_m_s", "m/s", "Ramp: mean speed at to_s, in the boundary's direction; then it stays.")
+            .at_least(0.0)
+            .at_most(1e3)
+            .optional()
+            .repeated(),
+        number("event.discharge_m3_s", "m3/s", "Ramp: in place of speed_m_s, the discharge.")
+            .at_least(0.0)
+            .at_most(1e6)
+            .optional()
+            .repeated(),
     };
     for (const Parameter& row : region_rows("event.region")) rows.push_back(row);
     return rows;

@@ -21,7 +21,7 @@ constexpr double k_touch = 1e-3;          // of the smaller solid's extent
 /// Where a solid has come to, from where it stands at first.
 Eigen::Isometry3d place_at(const RoomSolid& solid, double time) {
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-    if (solid.travel) place = Eigen::Translation3d(solid.travel->way(time));
+    if (!solid.travels.empty()) place = Eigen::Translation3d(coupling::way_until(solid.travels, time));
     if (solid.turn) {
         const Vec3& origin = solid.turn->axis.origin;
         place = Eigen::Translation3d(origin) * Eigen::AngleAxisd(solid.turn->angle(time), solid.turn->axis.direction) *
@@ -40,8 +40,11 @@ std::vector<double> times_between(double begin, double end, int count) {
 /// Times at which a solid that moves is looked at, as long as it is there.
 std::vector<double> looks_at(const RoomScene& scene, const RoomSolid& solid) {
     const double last = std::min(scene.run.end, solid.removed_at.value_or(scene.run.end));
-    if (solid.travel && solid.travel->begin < last)
-        return times_between(solid.travel->begin, std::min(solid.travel->end, last), k_looks_along_a_way);
+    std::vector<double> times;
+    for (const coupling::WallTravel& travel : solid.travels)
+        if (travel.begin < last)
+            for (const double time : times_between(travel.begin, std::min(travel.end, last), k_looks_along_a_way)) times.push_back(time);
+    if (!times.empty()) return times;
     if (!solid.turn || solid.turn->speed == 0.0 || solid.turn->begin >= last) return {};
     const double turn = 2.0 * k_pi / std::abs(solid.turn->speed), begin = solid.turn->begin;
     const double lasts = std::min({turn, solid.turn->end - begin, last - begin});

@@ -173,9 +173,8 @@ std::string what_was_run(const nlohmann::json& room, const nlohmann::json& resul
     if (!bed.is_null()) rows.push_back({"bed", bed_text(bed)});
     for (const nlohmann::json& solid : room.at("solids")) {
         std::string text = html::escape(solid.at("material").get<std::string>());
-        if (solid.contains("travel"))
-            text += fmt::format("; moves from {:g} to {:g} s", solid.at("travel").at("from_s").get<double>(),
-                                solid.at("travel").at("to_s").get<double>());
+        for (const nlohmann::json& travel : travels_of(solid))
+            text += fmt::format("; moves from {:g} to {:g} s", travel.at("from_s").get<double>(), travel.at("to_s").get<double>());
         if (solid.contains("turn"))
             text += fmt::format("; turns at {:.4g} rpm from {:g} to {:g} s",
                                 solid.at("turn").at("speed_rad_s").get<double>() / rpm_to_rad_s(1.0),

@@ -32,11 +32,8 @@ double lasted(const nlohmann::json& motion, double time) {
 
 /// Where a point of a solid is at a time.
 Vec3 moved(const nlohmann::json& solid, double time, const Vec3& given) {
-    const Vec3 point = solid.contains("pressed_m") ? Vec3(given + vec3_in(solid.at("pressed_m"))) : given;
-    if (solid.contains("travel")) {
-        const nlohmann::json& travel = solid.at("travel");
-        return point + vec3_in(travel.at("velocity_m_s")) * lasted(travel, time);
-    }
+    Vec3 point = solid.contains("pressed_m") ? Vec3(given + vec3_in(solid.at("pressed_m"))) : given;
+    for (const nlohmann::json& travel : travels_of(solid)) point += vec3_in(travel.at("velocity_m_s")) * lasted(travel, time);
     if (solid.contains("turn")) {
         const nlohmann::json& turn = solid.at("turn");
         return rotate_about({vec3_in(turn.at("origin_m")), vec3_in(turn.at("axis"))},
@@ -135,6 +132,12 @@ View view_of(const nlohmann::json& room, double slope) {
 }
 
 }  // namespace
+
+std::vector<nlohmann::json> travels_of(const nlohmann::json& solid) {
+    if (!solid.contains("travel")) return {};
+    const nlohmann::json& travel = solid.at("travel");
+    return travel.is_array() ? std::vector<nlohmann::json>(travel.begin(), travel.end()) : std::vector<nlohmann::json>{travel};
+}
 
 std::string room_pictures(const Page& page, const nlohmann::json& room, const MeasureSource& source) {
     const std::vector<double>& times = source.picture_times();

@@ -1,6 +1,7 @@
 #pragma once
 /// \file Pictures of a room's grains and solids.
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,9 @@
 #include "postproc/draw/page.hpp"
 
 namespace cutterflow::postproc {
+
+/// Travels of a solid of room.json; earlier versions wrote one without a list.
+std::vector<nlohmann::json> travels_of(const nlohmann::json& solid);
 
 /// At the start, in the middle and at the end of the run: from the side, and cut by the plane y = 0; markup.
 std::string room_pictures(const Page& page, const nlohmann::json& room, const MeasureSource& source);

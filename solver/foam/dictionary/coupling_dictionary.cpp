@@ -102,17 +102,28 @@ void read_contact(DictionarySection& section, const std::set<std::string>& mater
     });
 }
 
+/// One, { ... }, or several, ( { ... } { ... } ).
+void read_travels(DictionarySection& wall, std::vector<coupling::WallTravel>& travels) {
+    const auto read = [](DictionarySection& section) {
+        coupling::WallTravel travel;
+        section.read("velocity", travel.velocity, k_required);
+        section.read("from", travel.begin, k_required);
+        section.read("to", travel.end, k_required);
+        return travel;
+    };
+    if (wall.has_section("travel"))
+        read_section(wall, "travel", k_optional, [&](DictionarySection& section) { travels.push_back(read(section)); });
+    else
+        read_list(wall, "travel", travels, read);
+}
+
 coupling::WallSettings read_wall(DictionarySection& section, const std::filesystem::path& folder) {
     coupling::WallSettings wall;
     section.read("name", wall.name, k_required);
     section.read("file", wall.file, folder, k_required);
     section.read("rotating", wall.rotating, k_optional);
     section.read("material", wall.material, k_optional);
-    read_section(section, "travel", k_optional, [&](DictionarySection& travel) {
-        travel.read("velocity", wall.travel.velocity, k_required);
-        travel.read("from", wall.travel.begin, k_required);
-        travel.read("to", wall.travel.end, k_required);
-    });
+    read_travels(section, wall.travels);
     read_section(section, "turn", k_optional, [&](DictionarySection& turn) {
         turn.read("origin", wall.turn.axis.origin, k_required);
         turn.read("axis", wall.turn.axis.direction, k_required);

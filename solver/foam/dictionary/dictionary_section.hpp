@@ -60,6 +60,7 @@ public:
     std::string read_choice(const std::string& key, const std::vector<std::string>& choices, Presence presence);
 
     bool has(const std::string& key) const { return dict_.found(key, Foam::keyType::LITERAL); }
+    bool has_section(const std::string& key) const { return dict_.isDict(key, Foam::keyType::LITERAL); }
 
     /// The section of that key, or null.
     const Foam::dictionary* section(const std::string& key, Presence presence);

@@ -352,6 +352,7 @@ rock
     walls
     (
         { name tube; file "tube.stl"; material perspex; travel { velocity (0 0 0.1); from 0.5; to 2; } removedAt 3; }
+        { name gate; file "gate.stl"; travel ( { velocity (0 0 1); from 0; to 1; } { velocity (0 0 -2); from 1; to 1.5; } ); }
         { name plate; file "plate.stl"; turn { origin (0 0 1); axis (0 2 0); speed -3; from 0; to 4; } }
         { name lid; file "lid.stl"; press { direction (0 0 -2); force 8; speed 0.05; } }
     );
@@ -361,25 +362,29 @@ rock
 
 TEST(CouplingDictionary, ReadsMaterialsByNameAndWallsThatTravelAndGo) {
     const coupling::DemSettings dem = *read("dictionary_room", k_room).dem;
-    ASSERT_EQ(dem.walls.size(), 3u);
+    ASSERT_EQ(dem.walls.size(), 4u);
+    ASSERT_EQ(dem.walls[0].travels.size(), 1u);
     EXPECT_EQ(dem.walls[0].material, "perspex");
-    EXPECT_EQ(dem.walls[0].travel.velocity, Vec3(0, 0, 0.1));
-    EXPECT_EQ(dem.walls[0].travel.begin, 0.5);
-    EXPECT_EQ(dem.walls[0].travel.end, 2.0);
+    EXPECT_EQ(dem.walls[0].travels[0].velocity, Vec3(0, 0, 0.1));
+    EXPECT_EQ(dem.walls[0].travels[0].begin, 0.5);
+    EXPECT_EQ(dem.walls[0].travels[0].end, 2.0);
     EXPECT_EQ(dem.walls[0].removed_at, 3.0);
     EXPECT_FALSE(dem.walls[0].rotating);
     EXPECT_EQ(dem.walls[0].turn.speed, 0.0);
-    EXPECT_EQ(dem.walls[1].turn.axis.origin, Vec3(0, 0, 1));
-    EXPECT_EQ(dem.walls[1].turn.axis.direction, Vec3::UnitY());
-    EXPECT_EQ(dem.walls[1].turn.angle(9.0), -12.0);
-    EXPECT_FALSE(dem.walls[1].press);
-    ASSERT_TRUE(dem.walls[2].press);
-    EXPECT_EQ(dem.walls[2].press->direction, Vec3(-Vec3::UnitZ()));
-    EXPECT_EQ(dem.walls[2].press->force, 8.0);
-    EXPECT_EQ(dem.walls[2].press->largest_speed, 0.05);
-    EXPECT_EQ(dem.walls[1].turn.spin_at(9.0), Vec3(Vec3::Zero()));
-    EXPECT_EQ(dem.walls[1].material, "steel");
-    EXPECT_FALSE(std::isfinite(dem.walls[1].removed_at));
+    ASSERT_EQ(dem.walls[1].travels.size(), 2u);
+    EXPECT_EQ(dem.walls[1].travels[1].velocity, Vec3(0, 0, -2));
+    EXPECT_EQ(dem.walls[1].travels[1].begin, 1.0);
+    EXPECT_EQ(dem.walls[2].turn.axis.origin, Vec3(0, 0, 1));
+    EXPECT_EQ(dem.walls[2].turn.axis.direction, Vec3::UnitY());
+    EXPECT_EQ(dem.walls[2].turn.angle(9.0), -12.0);
+    EXPECT_FALSE(dem.walls[2].press);
+    ASSERT_TRUE(dem.walls[3].press);
+    EXPECT_EQ(dem.walls[3].press->direction, Vec3(-Vec3::UnitZ()));
+    EXPECT_EQ(dem.walls[3].press->force, 8.0);
+    EXPECT_EQ(dem.walls[3].press->largest_speed, 0.05);
+    EXPECT_EQ(dem.walls[2].turn.spin_at(9.0), Vec3(Vec3::Zero()));
+    EXPECT_EQ(dem.walls[2].material, "steel");
+    EXPECT_FALSE(std::isfinite(dem.walls[2].removed_at));
     expect_same(*dem.contact.pair_on("perspex"), {0.2, 0.8, 0.02});
     expect_same(*dem.contact.pair_on("glass"), {0.1, 0.97, 0.1});
     expect_same(*dem.contact.pair_on("steel"), {0.35, 0.97, 0.1});
@@ -450,13 +455,14 @@ TEST(CouplingDictionary, NamesTheMaterialsWithoutAPairAndPairsOfNoWall) {
     replace("frictionless (xMin xMax)", "frictionless (xMin yMax)");
     replace("name plate", "name tube");
     replace("to 2;", "to 0.4;");
+    replace("from 1;", "from 0.9;");
     const auto names = [](const char* a, const char* b) { return AllOf(HasSubstr(a), HasSubstr(b)); };
-    EXPECT_THAT(
-        mistakes_of([&] { read("dictionary_room_mistakes", text); }),
-        ::testing::UnorderedElementsAre(names("pairs.rock_perspexx is unknown", "Did you mean rock_perspex?"),
-                                        HasSubstr("pairs.rock_glass is unknown"), names("tube.material = perspex", "rock_perspex"),
-                                        names("domain.material = wood", "Add rock_wood"), HasSubstr("frictionless: yMax is no wall"),
-                                        HasSubstr("tube is defined twice"), HasSubstr("tube.travel: from 0.5 to 0.4")));
+    EXPECT_THAT(mistakes_of([&] { read("dictionary_room_mistakes", text); }),
+                ::testing::UnorderedElementsAre(
+                    names("pairs.rock_perspexx is unknown", "Did you mean rock_perspex?"), HasSubstr("pairs.rock_glass is unknown"),
+                    names("tube.material = perspex", "rock_perspex"), names("domain.material = wood", "Add rock_wood"),
+                    HasSubstr("frictionless: yMax is no wall"), HasSubstr("tube is defined twice"),
+                    HasSubstr("tube.travel: from 0.5 to 0.4"), names("gate.travel: from 0.9 on", "one velocity at a time")));
 }
 
 TEST(CouplingDictionary, NamesAMissingFileOfRockAsAMistake) {

@@ -164,7 +164,7 @@ TEST(Start, from_another_run_goes_on_as_without_a_stop) {
     std::swap(other.walls[0], other.walls[1]);
     other.walls.push_back(
         {"lid", write_stl(box.folder / "lid.stl", sheet(Vec3(-0.2, -0.2, 0.39), Vec3(0.4, 0, 0), Vec3(0, 0.4, 0), 1, 1))});
-    other.walls.back().travel = {Vec3(0, 0, 0.001), 0.1, 0.2};
+    other.walls.back().travels = {{Vec3(0, 0, 0.001), 0.1, 0.2}};
     LiggghtsEngine again(other, no_zones(), MPI_COMM_WORLD);
     again.start_from(box.folder);
     EXPECT_EQ(again.frozen(), (std::vector<int>{7, 31}));

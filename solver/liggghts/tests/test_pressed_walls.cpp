@@ -114,7 +114,7 @@ TEST(PressedWalls, checkpoints_know_how_far_a_wall_was_pressed) {
 TEST(PressedWalls, refuses_all_mistakes_at_once) {
     coupling::DemSettings settings = between_plates(true);
     settings.walls[0].press = coupling::WallPress{Vec3(0, 0, 2), 0.0, -1.0};
-    settings.walls[0].travel = {Vec3::UnitZ(), 0.0, 1.0};
+    settings.walls[0].travels = {{Vec3::UnitZ(), 0.0, 1.0}};
     try {
         LiggghtsEngine(settings, no_zones(), MPI_COMM_WORLD);
         FAIL() << "accepted";

@@ -108,7 +108,7 @@ TEST(TurningWalls, the_same_rock_on_a_resting_wall_and_on_one_that_travels_with_
     const auto fall = [](const Vec3& travel) {
         coupling::DemSettings settings = dry(block(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.0), 7), 0.3, 9.81);
         settings.walls[0].rotating = false;
-        settings.walls[0].travel = {travel, 0.0, 1.0};
+        settings.walls[0].travels = {{travel, 0.0, 1.0}};
         LiggghtsEngine engine(settings, no_zones(), MPI_COMM_WORLD);
         EXPECT_EQ(engine.insert(one_rock(Vec3(0.01, 0.02, k_radius + 1e-4), Vec3(0.3, -0.1, -0.5) + travel, 2.0 * k_radius)).size(), 1u);
         for (int k = 0; k < 60; ++k) engine.advance(1e-3, no_force);

@@ -97,7 +97,7 @@ struct Lift {
 
     Lift() {
         const auto file = write_stl(folder / "plate.stl", block(Vec3(-0.1, -0.1, -0.1), Vec3(0.1, 0.1, 0.0), 2));
-        settings.walls = {{"plate", file, false, {Vec3(0, 0, speed), begin, end}}};
+        settings.walls = {{"plate", file, false, {{Vec3(0, 0, speed), begin, end}}}};
         settings.contact.wet_restitution = false;
         settings.contact.rock_steel.restitution = 0.3;
     }
@@ -131,11 +131,26 @@ TEST(Walls, a_wall_that_travels_carries_rock_and_stops) {
     EXPECT_EQ(engine.insert(rocks), (std::vector<int>{3}));
 }
 
+// Up from 0.05 s to 0.15 s, and down again from 0.40 s to 0.50 s at a fifth of the speed, which the rock follows without a jump.
+TEST(Walls, a_wall_that_travels_twice_comes_to_the_sum_of_its_ways) {
+    Lift lift;
+    lift.settings.walls[0].travels.push_back({Vec3(0, 0, -0.2 * Lift::speed), 0.40, 0.50});
+    LiggghtsEngine engine(lift.settings, no_zones(), MPI_COMM_WORLD);
+    ASSERT_EQ(engine.insert(one_rock(Vec3(0, 0, 0.01))).size(), 1u);
+    EXPECT_EQ(engine.walls_change_until(), 0.50);
+    const double rest = Lift::follow(engine, 0.0, 0.05);
+    EXPECT_NEAR(Lift::follow(engine, 0.05, 0.40) - rest, 0.04, 1e-6) << "it has stood since 0.15 s";
+    Lift::follow(engine, 0.40, 0.47);
+    EXPECT_NEAR(engine.rocks().velocity[0].z(), -0.2 * Lift::speed, 0.01 * Lift::speed) << "contacts feel the second velocity";
+    EXPECT_NEAR(Lift::follow(engine, 0.47, 1.0) - rest, 0.04 - 0.008, 1e-7);
+    EXPECT_NEAR(engine.rocks().velocity[0].norm(), 0.0, 1e-3);
+}
+
 /// A rock at rest on a plate whose surface runs along x, like a belt; it slides, with the pair's friction, until it has the belt's speed.
 TEST(Walls, a_belt_drags_rock_along_and_its_end_face_pushes_none) {
     constexpr double speed = 0.2, friction = 0.4;
     Lift lift;
-    lift.settings.walls[0].travel = {};
+    lift.settings.walls[0].travels = {};
     lift.settings.walls[0].surface_velocity = Vec3(speed, 0.0, 0.0);
     lift.settings.contact.rock_steel.friction = friction;
     lift.settings.contact.rock_steel.rolling_friction = 10.0;  // it does not roll

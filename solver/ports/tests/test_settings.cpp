@@ -140,7 +140,7 @@ TEST(DemWalls, move_in_one_way) {
     still.file = "lid.stl";
     WallSettings rotating = still, travelling = still, turning = still, pressing = still, belt = still;
     rotating.rotating = true;
-    travelling.travel = {Vec3::UnitZ(), 0.0, 1.0};
+    travelling.travels = {{Vec3::UnitZ(), 0.0, 1.0}};
     turning.turn.speed = 1.0;
     pressing.press = WallPress{-Vec3::UnitZ(), 8.0, 0.05};
     belt.surface_velocity = Vec3::UnitX();
@@ -154,14 +154,45 @@ TEST(DemWalls, move_in_one_way) {
         return texts;
     };
     for (const WallSettings& one : {still, rotating, travelling, turning, pressing, belt}) EXPECT_EQ(of_motion(one), "");
-    rotating.travel = travelling.travel;
+    rotating.travels = travelling.travels;
     EXPECT_EQ(of_motion(rotating), "rock.walls.lid turns with the moving zone and travels;");
-    turning.travel = travelling.travel;
+    turning.travels = travelling.travels;
     turning.press = pressing.press;
     EXPECT_EQ(of_motion(turning), "rock.walls.lid turns by itself and travels and presses;");
-    rotating.travel = {};
+    rotating.travels = {};
     rotating.surface_velocity = belt.surface_velocity;
     EXPECT_EQ(of_motion(rotating), "rock.walls.lid.surfaceVelocity of a wall that turns;");
+}
+
+TEST(DemWalls, travel_several_times_one_after_the_other) {
+    const std::vector<WallTravel> travels{{Vec3(0, 0, 2), 1.0, 1.5}, {Vec3(1, 0, 0), 1.5, 2.0}, {Vec3(0, 0, -4), 3.0, 4.0}};
+    // The way is the integral of the velocity, by the midpoint rule on steps that meet all times.
+    Vec3 way = Vec3::Zero();
+    constexpr double step = 0.125;
+    for (double time = 0.0; time < 5.0; time += step) {
+        EXPECT_NEAR((way_until(travels, time) - way).norm(), 0.0, 1e-12) << time;
+        way += step * velocity_at(travels, time + 0.5 * step);
+    }
+    EXPECT_NEAR((way_until(travels, 9.0) - Vec3(0.5, 0.0, -3.0)).norm(), 0.0, 1e-12);
+    EXPECT_EQ(velocity_at(travels, 2.5), Vec3(Vec3::Zero()));
+    EXPECT_EQ(velocity_at(travels, 1.5), Vec3(0, 0, 2)) << "the end of a travel belongs to it";
+
+    DemSettings settings;
+    WallSettings wall;
+    wall.name = "gate";
+    wall.travels = travels;
+    const auto of_travel = [&] {
+        settings.walls = {wall};
+        std::string texts;
+        for (const Mistake& mistake : check_settings(settings, "x"))
+            if (mistake.what.find(".travel") != std::string::npos) texts += mistake.what + ";";
+        return texts;
+    };
+    EXPECT_EQ(of_travel(), "");
+    wall.travels[1].begin = 1.4;
+    wall.travels[2].end = 2.9;
+    EXPECT_EQ(of_travel(),
+              "rock.walls.gate.travel: from 1.4 on, and the one before lasts until 1.5;rock.walls.gate.travel: from 3 to 2.9;");
 }
 
 TEST(Contour, is_read_and_a_bad_one_named) {

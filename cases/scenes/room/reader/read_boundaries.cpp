@@ -83,7 +83,7 @@ void set_sides(RoomReading& room, BoundariesRead& read, const std::vector<coupli
 std::optional<SideFlow> with_table(RoomReading& room, const ParameterValues& values, ThroughFlow flow, const std::string& where) {
     const std::vector<double> times = values.has("boundary.flow.times_s") ? values.numbers("boundary.flow.times_s") : std::vector<double>{};
     const std::vector<double>& speeds = values.numbers("boundary.flow.speeds_m_s");
-    if (times.size() != speeds.size() || !std::is_sorted(times.begin(), times.end(), std::less_equal<>())) {
+    if (times.empty() || times.size() != speeds.size() || !std::is_sorted(times.begin(), times.end(), std::less_equal<>())) {
         room.refuse(where, fmt::format("{} times_s and {} speeds_m_s", times.size(), speeds.size()),
                     "There is a time for every speed, and times rise", "Correct them");
         return std::nullopt;

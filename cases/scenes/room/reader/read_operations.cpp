@@ -213,41 +213,48 @@ void require_ordered_preparation(RoomReading& room) {
     }
 }
 
-void read_event(RoomReading& room, const ParameterValues& values) {
+/// Keys that some events alone have.
+void refuse_keys_of_other_events(RoomReading& room, const ParameterValues& values) {
     const std::string& what = values.text("event.do");
-    const std::string where = values.where("event.do");
-    const bool lasting = what == "feed" || what == "extract";
-    if (lasting)
+    const bool of_grains = what == "feed" || what == "extract", of_parts = what == "move" || what == "ramp";
+    if (of_grains || of_parts)
         room.refuse_keys(values, {"event.at_s"}, fmt::format("do = \"{}\" lasts from from_s to to_s", what));
     else
         room.refuse_keys(values, {"event.from_s", "event.to_s", "event.rate_kg_s"}, fmt::format("do = \"{}\" happens at at_s", what));
+    if (of_parts) room.refuse_keys(values, {"event.rate_kg_s"}, "It belongs to do = \"feed\" and \"extract\"");
+    if (of_parts) room.refuse_keys(values, {"event.region"}, "It belongs to what is done to grains");
     if (what != "feed") room.refuse_keys(values, {"event.grains"}, "It belongs to do = \"feed\"");
+    if (what != "move") room.refuse_keys(values, {"event.solid", "event.velocity_m_s"}, "It belongs to do = \"move\"");
+    if (what != "ramp")
+        room.refuse_keys(values, {"event.boundary", "event.speed_m_s", "event.discharge_m3_s"}, "It belongs to do = \"ramp\"");
+}
+
+void read_event(RoomReading& room, const ParameterValues& values) {
+    const std::string& what = values.text("event.do");
+    const std::string where = values.where("event.do");
+    refuse_keys_of_other_events(room, values);
+    if (what == "move" || what == "ramp") return;  // read_moves, read_ramps
     const std::optional<Region> region = room.read_region(values, "event.region", where);
     if (!region && values.where("event.region").empty() && what != "feed")
         room.refuse(where, fmt::format("do = \"{}\" without a region", what), "It is about a part of the room", "Add region");
     if (region && what != "feed") room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
-    if (!lasting) {
+    if (what != "feed" && what != "extract") {
         const auto at = room.required(values, "event.at_s", fmt::format("do = \"{}\"", what), "event.do");
         if (at) room.require_in_run(*at, "event.at_s", values);
         if (at && region) room.scene.events.emplace_back(RegionEvent{what, *at, *region});
         return;
     }
-    const auto from = room.required(values, "event.from_s", what, "event.do"), to = room.required(values, "event.to_s", what, "event.do"),
-               rate = room.required(values, "event.rate_kg_s", what, "event.do");
-    if (from) room.require_in_run(*from, "event.from_s", values);
-    if (from && to && *from >= *to)
-        room.refuse(values.where("event.to_s"), fmt::format("event.to_s = {:g}", *to), fmt::format("It must be after from_s = {:g}", *from),
-                    "Correct one of them");
-    if (!from || !to || !rate) return;
+    const std::optional<EventSpan> span = room.event_span(values);
+    const auto rate = room.required(values, "event.rate_kg_s", what, "event.do");
     if (what == "extract") {
-        if (region) room.scene.events.emplace_back(ExtractEvent{*from, *to, *rate, *region});
+        if (span && rate && region) room.scene.events.emplace_back(ExtractEvent{span->from, span->to, *rate, *region});
         return;
     }
     const RoomGrains* grains = grains_of(room, values, "event.grains", where);
     const std::optional<Region> place = region_for_grains(room, region, "event.region", where);
-    if (grains == nullptr || !place) return;
-    if (!require_few_enough(room, *grains, *rate * (*to - *from), "feed", values.where("event.rate_kg_s"))) return;
-    room.scene.events.emplace_back(FeedEvent{grains->name, *from, *to, *rate, *place, where});
+    if (!span || !rate || grains == nullptr || !place) return;
+    if (!require_few_enough(room, *grains, *rate * (span->to - span->from), "feed", values.where("event.rate_kg_s"))) return;
+    room.scene.events.emplace_back(FeedEvent{grains->name, span->from, span->to, *rate, *place, where});
 }
 
 }  // namespace

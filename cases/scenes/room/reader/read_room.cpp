@@ -16,7 +16,9 @@ RoomScene room_scene(const ParameterValues& values, const fs::path& folder) {
     read_materials(room);
     read_all_grains(room);
     read_solids(room);
+    read_moves(room);
     read_boundaries(room);
+    read_ramps(room);
     read_pairs(room);
     read_preparation(room);
     read_measures(room);

@@ -78,7 +78,9 @@ void require_something(RoomReading& room) {
                     "Rooms are studies of grains; a flow alone is any OpenFOAM case", "Add [[grains]]");
     const bool comes = std::any_of(room.scene.events.begin(), room.scene.events.end(),
                                    [](const RoomEvent& event) { return std::holds_alternative<FeedEvent>(event); });
-    if (!room.values.tables("grains").empty() && room.values.tables("prepare").empty() && !comes && room.values.tables("event").empty())
+    const auto& events = room.values.tables("event");
+    const bool feeds = std::any_of(events.begin(), events.end(), [](const auto& event) { return event.text("event.do") == "feed"; });
+    if (!room.values.tables("grains").empty() && room.values.tables("prepare").empty() && !comes && !feeds)
         room.refuse(room.values.tables("grains").front().where("grains.name"), "No grains come into the room",
                     "They are poured before the run or fed in it", "Add [[prepare]] with do = \"pour\", or [[event]] with do = \"feed\"");
 }

@@ -9,7 +9,6 @@
 #include "cases/scenes/room/reader/room_reading.hpp"
 #include "cases/scenes/room/solid_generators.hpp"
 #include "cases/scenes/room/vec3_of.hpp"
-#include "cases/study/contact_rules.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/io/read_surface.hpp"
 #include "geometry/surface/soundness.hpp"
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double k_tolerance = 1e-9;         // [m]
-constexpr double k_deepest_overlap = 0.5;    // radii, of grains and a solid that hits them
 constexpr double k_narrowest_opening = 3.0;  // largest diameters; a narrower one is plugged by an arch
 constexpr double k_millimetre = 1e-3;        // [m]
 constexpr double k_too_large = 10.0;         // sizes of the room, above which a file is taken to be in millimetres
@@ -63,7 +61,7 @@ void read_motion(RoomReading& room, const ParameterValues& values, RoomSolid& so
         room.refuse(values.where("solid.removed_at_s"), fmt::format("solid.removed_at_s = {:g} of {}", *solid.removed_at, solid.name),
                     fmt::format("Its motion begins at {:g} s, when it is gone", begin), "Take it away later, or remove its motion");
     if (travels)
-        solid.travel = coupling::WallTravel{vec3_of(values, "solid.velocity_m_s"), begin, end};
+        solid.travels = {{vec3_of(values, "solid.velocity_m_s"), begin, end}};
     else
         read_turn(room, values, begin, end, solid);
     room.refuse_in_medium(solid, where, "moves");
@@ -193,35 +191,10 @@ void read_solid(RoomReading& room, const ParameterValues& values) {
     room.scene.solids.push_back(std::move(solid));
 }
 
-/// Grains and their contact step bear the solid's speed.
-void allow_for_impacts(RoomReading& room, const RoomSolid& solid) {
-    const double speed = solid.fastest();
-    if (speed == 0.0) return;
-    const auto& tables = room.values.tables("solid");
-    const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& one) { return one.text("solid.name") == solid.name; });
-    const std::string where = table->where(solid.travel ? "solid.velocity_m_s" : "solid.turn_rpm");
-    double& largest = room.scene.contact.max_speed;
-    if (!room.values.has("dem.max_speed_m_s"))
-        largest = std::max(largest, speed);
-    else if (largest < speed)
-        room.refuse(where, fmt::format("{} moves at up to {:.4g} m/s", solid.name, speed),
-                    fmt::format("The contact step allows for impacts at up to dem.max_speed_m_s = {:g}", largest),
-                    "Raise that, or leave it out");
-    const double overlap = impact_overlap(room.scene.contact, room.scene.densest_grain(), speed);
-    if (overlap > k_deepest_overlap)
-        room.refuse(where,
-                    fmt::format("{} moves at up to {:.4g} m/s: grains that it meets sink into it by {:.2g} of their radius", solid.name,
-                                speed, overlap),
-                    fmt::format("Grains pass through a solid when that comes to 1; up to {:g} is allowed", k_deepest_overlap),
-                    "Give the grains' material a larger modulus, or the solid less speed");
-}
-
 }  // namespace
 
 void read_solids(RoomReading& room) {
     for (const ParameterValues& solid : room.values.tables("solid")) read_solid(room, solid);
-    if (room.scene.grains.empty() || room.scene.contact.youngs_modulus <= 0.0) return;
-    for (const RoomSolid& solid : room.scene.solids) allow_for_impacts(room, solid);
 }
 
 }  // namespace cutterflow::cases

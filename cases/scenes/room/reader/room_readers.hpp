@@ -14,7 +14,9 @@ void read_all_grains(RoomReading& room);
 /// \param where  of the grains' material, in the study
 void read_elasticity(RoomReading& room, const std::string& where);
 void read_solids(RoomReading& room);
+void read_moves(RoomReading& room);
 void read_boundaries(RoomReading& room);
+void read_ramps(RoomReading& room);
 void read_pairs(RoomReading& room);
 void read_preparation(RoomReading& room);
 void read_measures(RoomReading& room);

@@ -79,6 +79,17 @@ void RoomReading::require_in_run(double at, const char* key, const ParameterValu
         refuse(table.where(key), fmt::format("{} = {:g}", key, at), fmt::format("The run ends at {:g} s", end), "Correct one of them");
 }
 
+std::optional<EventSpan> RoomReading::event_span(const ParameterValues& event) {
+    const std::string& what = event.text("event.do");
+    const auto from = required(event, "event.from_s", what, "event.do"), to = required(event, "event.to_s", what, "event.do");
+    if (from) require_in_run(*from, "event.from_s", event);
+    if (!from || !to) return std::nullopt;
+    if (*from < *to) return EventSpan{*from, *to};
+    refuse(event.where("event.to_s"), fmt::format("event.to_s = {:g}", *to), fmt::format("It must be after from_s = {:g}", *from),
+           "Correct one of them");
+    return std::nullopt;
+}
+
 bool RoomReading::has_all(const ParameterValues& table, const std::string& shape, std::initializer_list<const char*> keys,
                           const std::string& where) {
     bool complete = true;

@@ -24,6 +24,11 @@ double number_or(const ParameterValues& table, const char* key, double otherwise
 Region above(double z);
 Region below(double z);
 
+/// From when to when an event lasts [s].
+struct EventSpan {
+    double from = 0.0, to = 0.0;
+};
+
 /// A reading in progress. Its functions add a mistake when their rule is broken, with its place in the study as `where`.
 struct RoomReading {
     const ParameterValues& values;
@@ -56,6 +61,9 @@ struct RoomReading {
 
     /// A stop rule may end the run earlier, none later.
     void require_in_run(double at, const char* key, const ParameterValues& table);
+
+    /// from_s and to_s of an event.
+    std::optional<EventSpan> event_span(const ParameterValues& event);
 
     /// All that `shape` needs, or none with a mistake.
     bool has_all(const ParameterValues& table, const std::string& shape, std::initializer_list<const char*> keys, const std::string& where);
