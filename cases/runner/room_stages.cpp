@@ -93,6 +93,7 @@ std::map<std::string, std::string> inputs_with_overrides(const ParameterValues& 
 std::map<std::string, std::string> case_inputs(const RoomRequest& request, const RunDirectory& directory) {
     std::map<std::string, std::string> inputs = inputs_with_overrides(request.values, k_case, directory, false);
     if (const auto* idle = std::get_if<StopWhenIdle>(&request.scene.run.stop)) inputs["run.stop.gate"] = idle->gate;
+    if (const auto* below = std::get_if<StopWhenBelow>(&request.scene.run.stop)) inputs["run.stop.gate"] = below->gate;
     return inputs;
 }
 

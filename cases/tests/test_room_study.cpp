@@ -687,7 +687,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"stop = { settled = true }",
             "stop = { measure = \"x\", idle_s = 1 }\n\n[[measure]]\nname = \"through\"\nwhat = \"rate\"\n"
             "gate = { disc_m = [0, 0, 0.1], radius_m = 0.01 }",
-            "Measures with a gate are through"},
+            "measures with a gate are through"},
         Bad{"[[prepare]]\ndo = \"pour\"", "[[prepare]]\ndo = \"settle\"\n\n[[prepare]]\ndo = \"pour\"", "before anything is poured"},
         Bad{k_end, "[[prepare]]\ndo = \"freeze\"\nabove_m = 0.2\n\n[run]\n", "a region outside the room"},
         Bad{k_end, "[[prepare]]\ndo = \"trim\"\nabove_m = 0.1\nbelow_m = 0.2\n\n[run]\n", "A step has one region"},
@@ -757,6 +757,19 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"name = \"tube\"", "name = \"tube\"\nremoved_at_s = 4.5", "solid.removed_at_s = 4.5. The run ends at 4 s"},
         Bad{"stop = { settled = true }", "stop = { measure = \"gone\", idle_s = 1 }",
             "It names a measure with a gate, and the study has none"},
+        Bad{"stop = { settled = true }", "stop = { measure = \"gone\", below_kg_s = 1, window_s = 1 }",
+            "It names a measure with a gate, and the study has none"},
+        Bad{"stop = { settled = true }", "stop = { measure = \"angle\", below_kg_s = 1 }", "only one of below_kg_s and window_s"},
+        Bad{"stop = { settled = true }", "stop = { below_kg_s = 1, window_s = 1 }", "Give measure, and idle_s or below_kg_s"},
+        Bad{"stop = { settled = true }", "stop = { measure = \"angle\", idle_s = 1, below_kg_s = 1, window_s = 1 }",
+            "run.stop with idle_s and below_kg_s. A run has one stop rule"},
+        Bad{"stop = { settled = true }", "stop = { measure = \"angle\", below_kg_s = 1, window_s = 5 }",
+            "run.stop.window_s = 5. The run ends at 4 s"},
+        Bad{"stop = { settled = true }",
+            "stop = { measure = \"push\", below_kg_s = 1, window_s = 1 }\n\n[[measure]]\nname = \"push\"\nwhat = \"wall_force\"\n"
+            "wall = \"disc\"\n\n[[measure]]\nname = \"through\"\nwhat = \"rate\"\n"
+            "gate = { disc_m = [0, 0, 0.1], radius_m = 0.01 }",
+            "Only what passes gates is counted while the run goes on; measures with a gate are through"},
         Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},
         Bad{k_dry, "medium = \"none\"\ncell_m = 0.01\n", "Without a medium there are neither flow nor mesh"},
         Bad{k_dry, "medium = \"water\"\n", "room.cell_m is missing"},

@@ -46,6 +46,9 @@ const std::vector<JsonField> k_state_fields{{"schema", JsonKind::text, true},
                                             {"events/extracted_kg/*", JsonKind::number, false},
                                             {"stop/at_rest_since_s", JsonKind::number_or_null, false},
                                             {"stop/last_crossing_s", JsonKind::number_or_null, false},
+                                            {"stop/counted_since_s", JsonKind::number_or_null, false},
+                                            {"stop/passed/*/time_s", JsonKind::number, false},
+                                            {"stop/passed/*/mass_kg", JsonKind::number, false},
                                             {"rocks/*/id", JsonKind::whole, true},
                                             {"rocks/*/diameter_m", JsonKind::number, true},
                                             {"rocks/*/density_kg_m3", JsonKind::number, true},
@@ -162,6 +165,23 @@ std::string carry_file(int rank) {
     return fmt::format("carry.{}", rank);
 }
 
+json to_json(const StopState& stops) {
+    json passed = json::array();
+    for (const Passage& one : stops.passed) passed.push_back({{"time_s", one.time}, {"mass_kg", one.mass}});
+    return {{"at_rest_since_s", to_json(stops.at_rest_since)},
+            {"last_crossing_s", to_json(stops.last_crossing)},
+            {"counted_since_s", to_json(stops.counted_since)},
+            {"passed", passed}};
+}
+
+/// Earlier versions have no masses.
+StopState stops_of(const json& j) {
+    StopState stops{optional_of<double>(j.at("at_rest_since_s")), optional_of<double>(j.at("last_crossing_s")), {}};
+    if (j.contains("counted_since_s")) stops.counted_since = optional_of<double>(j.at("counted_since_s"));
+    for (const json& one : j.value("passed", json::array())) stops.passed.push_back({one.at("time_s"), one.at("mass_kg")});
+    return stops;
+}
+
 }  // namespace
 
 void write_state(const fs::path& folder, const RunState& state) {
@@ -170,7 +190,7 @@ void write_state(const fs::path& folder, const RunState& state) {
     j["booked"] = {{"volume_m3", state.booked.volume}, {"momentum_n_s", to_json(state.booked.momentum)}};
     if (state.account) j["account"] = to_json(*state.account);
     j["events"] = {{"done", state.operations.done}, {"extracted_kg", state.operations.extracted}};
-    j["stop"] = {{"at_rest_since_s", to_json(state.stops.at_rest_since)}, {"last_crossing_s", to_json(state.stops.last_crossing)}};
+    j["stop"] = to_json(state.stops);
     j["rocks"] = json::array();
     for (const auto& [id, rock] : state.rocks) j["rocks"].push_back(to_json(rock));
     write_file(folder / k_state_file, j.dump(1) + "\n");
@@ -190,9 +210,7 @@ RunState read_state(const fs::path& folder) {
         state.booked = {j.at("booked").at("volume_m3"), vector_of(j.at("booked").at("momentum_n_s"))};
         if (j.contains("account")) state.account = account_of(j.at("account"), file);
         if (j.contains("events")) state.operations = {j.at("events").at("done"), j.at("events").at("extracted_kg")};
-        if (j.contains("stop"))
-            state.stops = {optional_of<double>(j.at("stop").at("at_rest_since_s")),
-                           optional_of<double>(j.at("stop").at("last_crossing_s"))};
+        if (j.contains("stop")) state.stops = stops_of(j.at("stop"));
         for (const json& rock : j.at("rocks")) state.rocks[rock.at("id")] = rock_of(rock);
         return state;
     } catch (const json::exception& error) {

@@ -140,7 +140,7 @@ CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& 
     processor_start_ = processor_seconds();
     last_checkpoint_ = fluid.time();
     operations_ = BedOperations(settings.operations);
-    stops_ = StopRules(settings.at_rest, settings.idle, fluid.time());
+    stops_ = StopRules(settings.at_rest, settings.idle, settings.below, fluid.time());
 }
 
 /// The first call of a run counts: at the end of a start that could have been refused, or with the first step.
@@ -329,9 +329,9 @@ void CoupledRun::count_crossings() {
             for (const GateCrossing& crossing : crossings(settings_.gates, before_.position[q], rocks.position[p])) {
                 const std::string& gate = settings_.gates[crossing.gate].name;
                 const double time = step_start_.time + crossing.share * (fluid_.time() - step_start_.time);
-                recorder_.gate({time, gate, rocks.id[p], crossing.sense, crossing.place, rocks.velocity[p], rocks.diameter[p],
-                                sphere_mass(rocks.diameter[p], rocks.density[p])});
-                stops_.note_crossing(time, gate);
+                const double mass = sphere_mass(rocks.diameter[p], rocks.density[p]);
+                recorder_.gate({time, gate, rocks.id[p], crossing.sense, crossing.place, rocks.velocity[p], rocks.diameter[p], mass});
+                stops_.note_crossing(time, gate, crossing.sense * mass);
             }
         }
     };
@@ -484,7 +484,7 @@ bool CoupledRun::finished() const {
     const bool decided = settings_.stop && fates_ && feed_.all_in() && fates_->totals().undecided() <= settings_.stop->undecided;
     const bool settled = stops_.at_rest(time) && feed_.all_in() && operations_.all_done() && time >= dem_->walls_change_until();
     const bool known = production_ && production_->is_known();
-    return decided || known || settled || stops_.idle(time);
+    return decided || known || settled || stops_.idle(time) || stops_.below(time);
 }
 
 void CoupledRun::keep() {

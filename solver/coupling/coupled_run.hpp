@@ -53,7 +53,7 @@ public:
     void step();
 
     /// True when a stop rule holds: every feed is in and the undecided share is small enough; production is known well enough; every feed
-    /// is in, every event is over, every wall stands for good and rock is at rest; a gate is idle.
+    /// is in, every event is over, every wall stands for good and rock is at rest; a gate is idle; less than a rate passes it.
     bool finished() const;
 
     /// Takes the rock of another run's checkpoint into a run that begins. \throws UserError  when the feed brings one of its ids

@@ -32,8 +32,13 @@ void StopRules::note_rest(double time, const Restlessness& now) {
         state_.at_rest_since = time;
 }
 
-void StopRules::note_crossing(double time, const std::string& gate) {
+void StopRules::note_crossing(double time, const std::string& gate, double mass) {
     if (idle_ && idle_->gate == gate) state_.last_crossing = time;
+    if (!below_ || below_->gate != gate) return;
+    std::vector<Passage>& passed = state_.passed;
+    passed.erase(std::remove_if(passed.begin(), passed.end(), [&](const Passage& one) { return one.time < time - below_->window; }),
+                 passed.end());
+    passed.push_back({time, mass});
 }
 
 bool StopRules::at_rest(double time) const {
@@ -42,6 +47,21 @@ bool StopRules::at_rest(double time) const {
 
 bool StopRules::idle(double time) const {
     return idle_ && time - state_.last_crossing.value_or(time) >= idle_->duration - k_rounding;
+}
+
+bool StopRules::below(double time) const {
+    if (!below_ || time - state_.counted_since.value_or(time) < below_->window - k_rounding) return false;
+    double mass = 0.0;
+    for (const Passage& one : state_.passed)
+        if (one.time > time - below_->window) mass += one.mass;
+    return std::abs(mass) < below_->rate * below_->window;
+}
+
+/// A checkpoint of an earlier version has not counted: this run does from its own start on.
+void StopRules::restore(const StopState& state) {
+    const std::optional<double> start = state_.counted_since;
+    state_ = state;
+    if (!state_.counted_since) state_.counted_since = start;
 }
 
 }  // namespace cutterflow::coupling

@@ -58,7 +58,8 @@ const char* name_of(OperationKind kind) {
 }
 
 void check_bed_operations(Mistakes& mistakes, const std::vector<OperationSettings>& operations, const std::vector<GateSettings>& gates,
-                          const std::optional<AtRestSettings>& at_rest, const std::optional<IdleSettings>& idle) {
+                          const std::optional<AtRestSettings>& at_rest, const std::optional<IdleSettings>& idle,
+                          const std::optional<BelowSettings>& below) {
     for (std::size_t k = 0; k < operations.size(); ++k)
         check_operation(mistakes, fmt::format("events[{}] ({})", k, name_of(operations[k].kind)), operations[k]);
     std::set<std::string> names;
@@ -73,9 +74,18 @@ void check_bed_operations(Mistakes& mistakes, const std::vector<OperationSetting
         mistakes.positive("stop.atRest.speed", at_rest->speed);
         mistakes.not_negative("stop.atRest.hold", at_rest->hold);
     }
-    if (!idle) return;
-    mistakes.positive("stop.idle.duration", idle->duration);
-    mistakes.require(names.count(idle->gate) > 0, fmt::format("stop.idle.gate = {}", idle->gate), "It must be one of gates", k_correct);
+    const auto require_gate = [&](const char* key, const std::string& gate) {
+        mistakes.require(names.count(gate) > 0, fmt::format("{} = {}", key, gate), "It must be one of gates", k_correct);
+    };
+    if (idle) {
+        mistakes.positive("stop.idle.duration", idle->duration);
+        require_gate("stop.idle.gate", idle->gate);
+    }
+    if (below) {
+        mistakes.positive("stop.below.rate", below->rate);
+        mistakes.positive("stop.below.window", below->window);
+        require_gate("stop.below.gate", below->gate);
+    }
 }
 
 }  // namespace cutterflow::coupling

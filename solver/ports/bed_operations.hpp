@@ -49,8 +49,16 @@ struct IdleSettings {
     double duration = 0.0;  ///< [s]
 };
 
-/// Mistakes of all of these. \param gates  idle names one of them
+/// Less mass than `rate` a second crossed a gate on balance, in the mean over the last `window`.
+struct BelowSettings {
+    std::string gate;
+    double rate = 0.0;    ///< [kg/s]
+    double window = 0.0;  ///< [s]
+};
+
+/// Mistakes of all of these. \param gates  idle and below name one of them
 void check_bed_operations(Mistakes& mistakes, const std::vector<OperationSettings>& operations, const std::vector<GateSettings>& gates,
-                          const std::optional<AtRestSettings>& at_rest, const std::optional<IdleSettings>& idle);
+                          const std::optional<AtRestSettings>& at_rest, const std::optional<IdleSettings>& idle,
+                          const std::optional<BelowSettings>& below);
 
 }  // namespace cutterflow::coupling

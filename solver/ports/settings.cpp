@@ -122,6 +122,7 @@ void check_without_rock(Mistakes& mistakes, const CouplingSettings& settings) {
     refuse(!settings.gates.empty(), "section gates");
     refuse(settings.at_rest.has_value(), "stop.atRest");
     refuse(settings.idle.has_value(), "stop.idle");
+    refuse(settings.below.has_value(), "stop.below");
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ std::vector<Mistake> check_settings(const CouplingSettings& settings, const Flui
         mistakes.add("section stop without section rock", "Only rock is undecided", "Remove it or add rock");
     if (settings.stop && settings.has_rock && !settings.fates)
         mistakes.add("section stop without section fates", "Rock is undecided until it has a fate", "Add fates or remove stop");
-    check_bed_operations(mistakes, settings.operations, settings.gates, settings.at_rest, settings.idle);
+    check_bed_operations(mistakes, settings.operations, settings.gates, settings.at_rest, settings.idle, settings.below);
     if (!settings.has_rock) check_without_rock(mistakes, settings);
     if (!settings.operations.empty() && settings.fates)
         mistakes.add("section events with section fates", "Fates follow all rock of a cutter head", "Remove one of them");

@@ -189,6 +189,7 @@ struct CouplingSettings {
     std::vector<GateSettings> gates;
     std::optional<AtRestSettings> at_rest;
     std::optional<IdleSettings> idle;
+    std::optional<BelowSettings> below;
     std::vector<ClumpShape> shapes;      ///< that rock of the feed may have, as the DEM's
     std::optional<QueueSettings> queue;  ///< none: the feed's rock comes in batches
     std::optional<CalmingSettings> calming;

@@ -223,9 +223,12 @@ CaseText text_of(const FoamFile& file) {
 
 FoamDictionary stop_section(const RoomScene& scene) {
     if (std::holds_alternative<StopWhenAtRest>(scene.run.stop)) return at_rest(k_rest_energy_of_run);
-    const auto* idle = std::get_if<StopWhenIdle>(&scene.run.stop);
-    if (idle == nullptr) return {};
-    return FoamDictionary().add("idle", FoamDictionary().add("gate", idle->gate).add("duration", idle->idle));
+    if (const auto* idle = std::get_if<StopWhenIdle>(&scene.run.stop))
+        return FoamDictionary().add("idle", FoamDictionary().add("gate", idle->gate).add("duration", idle->idle));
+    if (const auto* below = std::get_if<StopWhenBelow>(&scene.run.stop))
+        return FoamDictionary().add("below",
+                                    FoamDictionary().add("gate", below->gate).add("rate", below->rate).add("window", below->window));
+    return {};
 }
 
 CaseText dry_control(double end, double longest_step, double write_interval) {

@@ -194,13 +194,19 @@ struct RoomGate {
     Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< opposite corners of a rectangle
 };
 
-/// The run ends before its end when no grain has passed a gate for a time, or when all are at rest.
+/// The run ends before its end when no grain has passed a gate for a time, when few do, or when all are at rest.
 struct StopWhenIdle {
     std::string gate;
     double idle = 0.0;  ///< [s]
 };
+/// Less than a rate passes a gate in the mean over a window.
+struct StopWhenBelow {
+    std::string gate;
+    double rate = 0.0;    ///< [kg/s]
+    double window = 0.0;  ///< [s]
+};
 struct StopWhenAtRest {};
-using RoomStop = std::variant<std::monostate, StopWhenIdle, StopWhenAtRest>;
+using RoomStop = std::variant<std::monostate, StopWhenIdle, StopWhenBelow, StopWhenAtRest>;
 
 struct RoomRun {
     double end = 0.0;                  ///< [s]

@@ -311,8 +311,15 @@ ParameterTable event_rows() {
 ParameterTable run_rows() {
     return {
         number("run.end_s", "s", "When the run ends.").at_least(k_shortest_run).at_most(k_longest_time),
-        text("run.stop.measure", "Name of a measure with a gate: the run ends when nothing has passed the gate for idle_s.").optional(),
+        text("run.stop.measure",
+             "Name of a measure with a gate: the run ends when nothing has passed the gate for idle_s, or little in window_s.")
+            .optional(),
         duration("run.stop.idle_s", "How long nothing passes.").optional(),
+        number("run.stop.below_kg_s", "kg/s", "Mean rate through the gate over the last window_s below which the run ends.")
+            .above(0.0)
+            .at_most(1e9)
+            .optional(),
+        duration("run.stop.window_s", "Over which the rate of below_kg_s is averaged; the run lasts for it at least.").optional(),
         Row("run.stop.settled", ParameterKind::boolean, "-", "End the run when the grains are at rest.").optional(),
         duration("run.write_interval_s", "Between pictures of the grains.").derived("a fiftieth of the run"),
         duration("run.checkpoint_interval_s", "Between checkpoints.").derived("a twentieth of the run"),

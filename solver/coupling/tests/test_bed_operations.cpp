@@ -458,6 +458,44 @@ TEST(StopRules, end_a_run_whose_gate_is_idle) {
     EXPECT_NEAR(bed.fluid.time(), fallen + 0.2, 2.1e-3);
 }
 
+TEST(StopRules, end_a_run_when_the_mean_rate_over_a_window_is_below_a_value) {
+    StopRules rules({}, {}, BelowSettings{"out", 0.5, 2.0}, 1.0);
+    EXPECT_FALSE(rules.below(2.9)) << "the run has not lasted for a window";
+    EXPECT_TRUE(rules.below(3.0)) << "nothing has passed";
+    for (int k = 0; k <= 40; ++k) rules.note_crossing(1.0 + 0.1 * k, "out", 0.1);  // 1 kg/s until 5 s
+    rules.note_crossing(5.0, "elsewhere", 9.0);
+    EXPECT_FALSE(rules.below(5.0));
+    EXPECT_FALSE(rules.below(5.9)) << "1.1 kg in the last two seconds";
+    EXPECT_TRUE(rules.below(6.15)) << "0.9 kg";
+    EXPECT_LE(rules.state().passed.size(), 21u) << "what is older than the window is forgotten";
+    StopRules resumed({}, {}, BelowSettings{"out", 0.5, 2.0}, 5.5);
+    resumed.restore(rules.state());
+    EXPECT_FALSE(resumed.below(5.9));
+    EXPECT_TRUE(resumed.below(6.15));
+    StopRules of_earlier_version({}, {}, BelowSettings{"out", 0.5, 2.0}, 5.5);
+    of_earlier_version.restore({{}, 5.0, {}});
+    EXPECT_FALSE(of_earlier_version.below(6.15)) << "it has counted since 5.5 s";
+    EXPECT_TRUE(of_earlier_version.below(7.5));
+    for (int k = 0; k < 20; ++k) rules.note_crossing(7.05 + 0.1 * k, "out", k % 2 == 0 ? 1.0 : -1.0);
+    EXPECT_TRUE(rules.below(9.0)) << "rock that goes to and fro is no rate";
+}
+
+TEST(StopRules, end_a_run_below_a_rate_at_the_step_at_which_the_window_has_passed) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = row_of_rock(folder, 2);
+    settings.gates.resize(1);
+    settings.gates[0].name = "under";
+    settings.gates[0].centre = Vec3(0, 0, -0.05);
+    settings.gates[0].radius = 0.5;
+    settings.gates[0].normal = Vec3(0, 0, 1);  // against the fall: the rate is negative
+    settings.below = BelowSettings{"under", 0.5 * k_mass / 0.2, 0.2};
+    Rows rows;
+    Bed bed(settings, folder, rows);
+    bed.dem.gravity = Vec3(0, 0, -9.81);
+    while (!bed.run.finished()) bed.run.step();
+    EXPECT_NEAR(bed.fluid.time(), 0.001 + std::sqrt(2.0 * 0.05 / 9.81) + 0.2, 2.1e-3);
+}
+
 TEST(BedOperations, are_refused_with_all_their_mistakes) {
     CouplingSettings settings;
     settings.has_rock = true;

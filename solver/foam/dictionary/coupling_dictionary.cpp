@@ -284,7 +284,12 @@ void read_stop(DictionarySection& section, coupling::CouplingSettings& settings)
         idle.read("gate", values.gate, k_required);
         idle.read("duration", values.duration, k_required);
     });
-    if ((settings.at_rest || settings.idle) && !section.has("undecided") && !section.has("targetHalfWidth")) return;
+    read_optional(section, "below", settings.below, [](DictionarySection& below, coupling::BelowSettings& values) {
+        below.read("gate", values.gate, k_required);
+        below.read("rate", values.rate, k_required);
+        below.read("window", values.window, k_required);
+    });
+    if ((settings.at_rest || settings.idle || settings.below) && !section.has("undecided") && !section.has("targetHalfWidth")) return;
     settings.stop.emplace();
     read_settings(section, *settings.stop);
 }

@@ -37,7 +37,7 @@ struct CouplingDictionary {
 /// fates      { contour "constant/contour.csv"; ringRadius 0.4; zBackplate 0.03; binWidth 0.03; mouth { ... } }   // optional
 /// outflow    { offset 0.015; startTime 1; }                   // optional, needs fates
 /// velocity   { startTime 1; sets ( { name a; file "constant/a.csv"; } ); }                // optional, needs a turning zone
-/// stop       { undecided 0.05; }                              // optional; needs fates, but for atRest and idle
+/// stop       { undecided 0.05; }                              // optional; needs fates, but for atRest, idle and below
 /// checkpoint { interval 0.25; keep 2; }                       // optional
 /// record     { startTime 1; endTime 2; blades 6; }            // optional, needs a turning zone
 /// replay     { recording "../flow/recording"; }               // optional, needs rock; the flow is then not solved

@@ -406,7 +406,8 @@ events
     { do remove; at 0.5; region { type sphere; centre (1 2 3); radius 0.25; } }
 );
 gates ( { name outlet; centre (0 0 0.1); normal (0 0 -1); radius 0.05; } { name slot; lower (0 0 0); upper (1 1 0); normal (0 0 1); } );
-stop { atRest { energy 1e-5; hold 0.1; } idle { gate outlet; duration 5; } }
+stop { atRest { energy 1e-5; hold 0.1; } idle { gate outlet; duration 5; }
+       below { gate slot; rate 0.05; window 2; } }
 )")
                                              .coupling;
     EXPECT_EQ(c.rock_start.filename(), "0.5");
@@ -432,6 +433,10 @@ stop { atRest { energy 1e-5; hold 0.1; } idle { gate outlet; duration 5; } }
     EXPECT_EQ(c.at_rest->hold, 0.1);
     EXPECT_EQ(c.idle->gate, "outlet");
     EXPECT_EQ(c.idle->duration, 5.0);
+    ASSERT_TRUE(c.below);
+    EXPECT_EQ(c.below->gate, "slot");
+    EXPECT_EQ(c.below->rate, 0.05);
+    EXPECT_EQ(c.below->window, 2.0);
     EXPECT_FALSE(c.stop);
 }
 

@@ -24,28 +24,49 @@ std::string gate_of(const RoomReading& room, const std::string& measure) {
     return "";
 }
 
+/// Of the stop rule's measure; empty with a mistake, or when the mistakes of the measure are told.
+std::string gate_of_stop(RoomReading& room) {
+    const std::string& measure = room.values.text("run.stop.measure");
+    if (room.wrong_measures.count(measure) > 0) return "";  // its gate was not read
+    const std::string name = gate_of(room, measure);
+    if (!name.empty()) return name;
+    std::vector<std::string> known;
+    for (const ParameterValues& table : room.values.tables("measure"))
+        if (!gate_of(room, table.text("measure.name")).empty()) known.push_back(table.text("measure.name"));
+    room.refuse(room.values.where("run.stop"), fmt::format("run.stop.measure = \"{}\"", measure),
+                known.empty() ? std::string("It names a measure with a gate, and the study has none")
+                              : fmt::format("Only what passes gates is counted while the run goes on; measures with a gate are {}",
+                                            fmt::join(known, ", ")),
+                "Correct it");
+    return "";
+}
+
 void read_stop(RoomReading& room) {
-    const bool idle = room.values.has("run.stop.measure") || room.values.has("run.stop.idle_s");
-    const bool settled = room.values.has("run.stop.settled") && room.values.boolean("run.stop.settled");
+    const auto has = [&](const char* key) { return room.values.has(std::string("run.stop.") + key); };
+    const bool idle = has("idle_s"), below = has("below_kg_s") || has("window_s"), of_gate = has("measure") || idle || below;
+    const bool settled = has("settled") && room.values.boolean("run.stop.settled");
     const std::string where = room.values.where("run.stop");
-    if (idle && settled) return room.refuse(where, "run.stop with a measure and settled", "A run has one stop rule", "Remove one of them");
+    if (of_gate && settled)
+        return room.refuse(where, "run.stop with a measure and settled", "A run has one stop rule", "Remove one of them");
     if (settled) room.scene.run.stop = StopWhenAtRest{};
-    if (!idle) return;
-    if (!room.values.has("run.stop.measure") || !room.values.has("run.stop.idle_s"))
-        return room.refuse(where, "run.stop has only one of measure and idle_s", "Nothing passes the gate of a measure for a time",
-                           "Give both");
-    const std::string name = gate_of(room, room.values.text("run.stop.measure"));
-    if (room.wrong_measures.count(room.values.text("run.stop.measure")) > 0) return;  // its gate was not read
-    if (name.empty()) {
-        std::vector<std::string> known;
-        for (const ParameterValues& table : room.values.tables("measure"))
-            if (!gate_of(room, table.text("measure.name")).empty()) known.push_back(table.text("measure.name"));
-        return room.refuse(where, fmt::format("run.stop.measure = \"{}\"", room.values.text("run.stop.measure")),
-                           known.empty() ? std::string("It names a measure with a gate, and the study has none")
-                                         : fmt::format("Measures with a gate are {}", fmt::join(known, ", ")),
-                           "Correct it");
-    }
-    room.scene.run.stop = StopWhenIdle{name, room.values.number("run.stop.idle_s")};
+    if (!of_gate) return;
+    if (idle && below)
+        room.refuse(where, "run.stop with idle_s and below_kg_s", "A run has one stop rule", "Remove one of them");
+    else if (below && !(has("below_kg_s") && has("window_s")))
+        room.refuse(where, "run.stop has only one of below_kg_s and window_s", "A rate is averaged over a time", "Give both");
+    else if (!has("measure") || (!idle && !below))
+        room.refuse(where, "run.stop has only one of measure and idle_s", "Nothing or little passes the gate of a measure for a time",
+                    "Give measure, and idle_s or below_kg_s with window_s");
+    if (below && has("window_s") && room.values.number("run.stop.window_s") > room.values.number("run.end_s"))
+        room.refuse(room.values.where("run.stop.window_s"),
+                    fmt::format("run.stop.window_s = {:g}", room.values.number("run.stop.window_s")),
+                    fmt::format("The run ends at {:g} s", room.values.number("run.end_s")), "Correct one of them");
+    if (!has("measure")) return;
+    const std::string gate = gate_of_stop(room);
+    if (gate.empty()) return;
+    if (idle) room.scene.run.stop = StopWhenIdle{gate, room.values.number("run.stop.idle_s")};
+    if (has("below_kg_s") && has("window_s"))
+        room.scene.run.stop = StopWhenBelow{gate, room.values.number("run.stop.below_kg_s"), room.values.number("run.stop.window_s")};
 }
 
 }  // namespace
