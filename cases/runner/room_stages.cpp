@@ -298,6 +298,13 @@ private:
         return last + 1;
     }
 
+    static nlohmann::json classes_json(const RoomGrains& kind) {
+        nlohmann::json classes = nlohmann::json::array();
+        for (const GrainClass& one : kind.extremes())
+            classes.push_back({{"diameter_m", one.diameter}, {"mass_share", one.mass_share}, {"density_kg_m3", one.density}});
+        return classes;
+    }
+
     static nlohmann::json turn_json(const coupling::WallTurn& turn) {
         const Vec3 &origin = turn.axis.origin, &direction = turn.axis.direction;
         return {{"origin_m", {origin.x(), origin.y(), origin.z()}},
@@ -349,8 +356,12 @@ private:
                                 {"restitution", pair.settings.restitution}});
         nlohmann::json grains = nlohmann::json::array();
         for (const RoomGrains& kind : scene_.grains) {
-            grains.push_back(
-                {{"name", kind.name}, {"density_kg_m3", kind.density}, {"smallest_m", kind.smallest()}, {"largest_m", kind.largest()}});
+            grains.push_back({{"name", kind.name},
+                              {"density_kg_m3", kind.mean_density()},
+                              {"smallest_m", kind.smallest()},
+                              {"largest_m", kind.largest()}});
+            for (const GrainClass& one : kind.extremes())
+                if (one.density != kind.density) grains.back()["classes"] = classes_json(kind);
             if (!kind.clump.empty()) grains.back()["clump"] = kind.clump.filename().string();
         }
         const Vec3 gravity = scene_.gravity();

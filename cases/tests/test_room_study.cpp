@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -241,6 +242,38 @@ TEST_F(RoomStudy, classes_have_their_shares_of_the_mass) {
         if (g.diameter < 0.003) fine += volume;
     }
     EXPECT_NEAR(fine / all, 0.25, 0.03);
+}
+
+/// Half the mass is of light grains: of the same size they are 2.5 times as many. Those of a class that says nothing have the kind's
+/// density.
+TEST_F(RoomStudy, classes_may_have_densities_of_their_own) {
+    const auto with = [&](const std::string& light) {
+        return changed("diameter_m = { uniform_by_number = [0.0038, 0.0042] }\n",
+                       "[[grains.class]]\ndiameter_m = 0.004\n[[grains.class]]\ndiameter_m = 0.004\n" + light);
+    };
+    const RoomRequest mixed = read_room_request(write(with("density_kg_m3 = 1000\n")));
+    const RoomGrains& beads = mixed.scene.grains.front();
+    const double sphere = k_pi / 6.0 * 6.4e-8;
+    EXPECT_NEAR(beads.mean_density(), 2.0 / (1.0 / 2500.0 + 1.0 / 1000.0), 1e-9);
+    EXPECT_NEAR(beads.mean_mass(), beads.mean_density() * sphere, 1e-12);
+    EXPECT_EQ(mixed.scene.densest_grain(), 2500.0);
+    std::map<double, int> grains;
+    for (const PlacedGrain& g : mixed.pieces.at(0).grains) ++grains[g.density];
+    ASSERT_EQ(grains.size(), 2u);
+    EXPECT_NEAR(grains[1000.0] / static_cast<double>(grains[2500.0]), 2.5, 0.45);  // three standard deviations of 1,270 draws
+    // The bed is as deep as one of heavy grains alone: 0.6 of the same volume is full.
+    const double depth = 0.06 * k_pi * 4e-4;
+    EXPECT_NEAR((grains[1000.0] + grains[2500.0]) * sphere, 0.6 * depth, 0.02 * depth);
+    EXPECT_NEAR(mass_of(mixed.pieces.at(0).grains), 0.6 * depth * beads.mean_density(), 1e-4);
+
+    // Light grains make the contact step shorter: the Rayleigh time goes with the root of the density.
+    const RoomRequest heavy = read_room_request(write(with("")));
+    EXPECT_NEAR(contact_step(mixed.scene, mixed.scene.contact) / contact_step(heavy.scene, heavy.scene.contact), std::sqrt(0.4), 0.15);
+    EXPECT_LT(contact_step(mixed.scene, mixed.scene.contact), contact_step(heavy.scene, heavy.scene.contact));
+    std::string given = with("density_kg_m3 = 2500\n");
+    EXPECT_EQ(bed_name(read_room_request(write(given)).scene, read_room_request(write(given)).pieces), bed_name(heavy.scene, heavy.pieces))
+        << "a density that is given changes nothing";
+    EXPECT_THAT(mistakes_of(with("density_kg_m3 = 1\n")), HasSubstr("grains.class.density_kg_m3 = 1"));
 }
 
 /// Before grains are taken out or frozen they come to rest, and so they do at the end.

@@ -73,7 +73,8 @@ double BedPiece::end() const {
 double contact_step(const RoomScene& scene, const coupling::ContactSettings& contact) {
     if (scene.grains.empty()) return 0.0;
     double step = std::numeric_limits<double>::infinity();
-    for (const RoomGrains& kind : scene.grains) step = std::min(step, contact_step(contact, kind.smallest(), kind.density));
+    for (const RoomGrains& kind : scene.grains)
+        for (const GrainClass& one : kind.extremes()) step = std::min(step, contact_step(contact, one.diameter, one.density));
     return step;
 }
 

@@ -137,13 +137,14 @@ std::string shape_of(const RoomGrains& grains) {
     return grains.clump.empty() ? std::string() : grains.name;
 }
 
-double draw_diameter(const RoomGrains& grains, std::mt19937_64& random) {
+DrawnGrain draw_grain(const RoomGrains& grains, std::mt19937_64& random) {
     if (const auto* uniform = std::get_if<UniformByNumber>(&grains.sizes))
-        return std::uniform_real_distribution<double>(uniform->smallest, uniform->largest)(random);
+        return {std::uniform_real_distribution<double>(uniform->smallest, uniform->largest)(random), grains.density};
     const auto& classes = std::get<std::vector<GrainClass>>(grains.sizes);
-    std::vector<double> numbers;  // grains per mass
-    for (const GrainClass& one : classes) numbers.push_back(one.mass_share / sphere_volume(one.diameter));
-    return classes[std::discrete_distribution<std::size_t>(numbers.begin(), numbers.end())(random)].diameter;
+    std::vector<double> numbers;  // grains per mass, times one density: the same draws whatever it is
+    for (const GrainClass& one : classes) numbers.push_back(one.mass_share / sphere_volume(one.diameter) * (grains.density / one.density));
+    const GrainClass& drawn = classes[std::discrete_distribution<std::size_t>(numbers.begin(), numbers.end())(random)];
+    return {drawn.diameter, drawn.density};
 }
 
 /// A place for a fed grain; solids that have moved by its time are left to the run, in which a grain without room waits.
@@ -162,15 +163,15 @@ void place_feed(const RoomScene& scene, const FeedEvent& feed, Places& places, i
                 std::vector<PlacedGrain>& grains) {
     const RoomGrains& kind = *scene.find_grains(feed.grains);
     double due = 0.0;
-    for (const double diameter : draw_diameters(kind, feed.rate * (feed.to - feed.from), random)) {
+    for (const auto& [diameter, density] : draw_grains(kind, feed.rate * (feed.to - feed.from), random)) {
         const double time = feed.from + due / feed.rate;
         const std::optional<Vec3> place = place_in_feed(scene, feed, places, time, kind.girth * diameter);
         if (!place)
             throw UserError(
                 {{feed.where, fmt::format("grains of {} find no place in the region of their feed at {:.3g} s", feed.grains, time),
                   "They begin in the region as a whole, clear of the solids that stand there", "Give a larger region"}});
-        grains.push_back({first_id + static_cast<int>(grains.size()), time, *place, diameter, kind.density, Vec3::Zero(), shape_of(kind)});
-        due += kind.density * sphere_volume(diameter);
+        grains.push_back({first_id + static_cast<int>(grains.size()), time, *place, diameter, density, Vec3::Zero(), shape_of(kind)});
+        due += density * sphere_volume(diameter);
     }
 }
 
@@ -184,22 +185,22 @@ public:
     /// \throws UserError  when grains find no place
     void pour(const PourStep& step) {
         const RoomGrains& grains = *scene_.find_grains(step.grains);
-        const std::vector<double> diameters =
-            step.count ? draw_diameters(grains, *step.count, random_) : draw_diameters(grains, step.mass, random_);
+        const std::vector<DrawnGrain> drawn =
+            step.count ? draw_grains(grains, *step.count, random_) : draw_grains(grains, step.mass, random_);
         const double bottom = bottom_of(step.region), top = bottom + height_of(step.region);
         const geometry::FreeSpace room(step.region, places_.solids());
         double lying = lying_in(step.region);
         std::size_t next = 0;
-        for (int batch = 0; next < diameters.size() && batch < k_most_batches; ++batch) {
+        for (int batch = 0; next < drawn.size() && batch < k_most_batches; ++batch) {
             const std::size_t before = next;
             const double level = lying > 0.0 ? room.level_of(lying) + k_bumps * grains.girth * grains.largest() : bottom;
-            const double placed = place_batch(step, grains, diameters, next, std::min(level, top), top, room);
-            if (next == before) refuse(step, diameters.size() - next, diameters.size());
+            const double placed = place_batch(step, grains, drawn, next, std::min(level, top), top, room);
+            if (next == before) refuse(step, drawn.size() - next, drawn.size());
             deposits_.emplace_back(step.region, placed / k_loose_share);
             lying += placed / k_loose_share;
             time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity_strength);
         }
-        if (next < diameters.size()) refuse(step, diameters.size() - next, diameters.size());
+        if (next < drawn.size()) refuse(step, drawn.size() - next, drawn.size());
     }
 
     std::vector<PlacedGrain> take() {
@@ -209,19 +210,19 @@ public:
 
 private:
     /// \return volume of the placed grains [m3]
-    double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<double>& diameters, std::size_t& next,
+    double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<DrawnGrain>& drawn, std::size_t& next,
                        double level, double top, const geometry::FreeSpace& room) {
         Neighbours neighbours(grains.girth * grains.largest());
         const double allowed = k_falling_share * (room.volume() - room.volume_below(level));
         double placed = 0.0;
-        for (; next < diameters.size(); ++next) {
-            const double diameter = diameters[next];
+        for (; next < drawn.size(); ++next) {
+            const auto [diameter, density] = drawn[next];
             if (placed > 0.0 && placed + sphere_volume(diameter) > allowed) break;
             const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, grains.girth * diameter);
             if (!place) break;
             neighbours.add(*place, grains.girth * diameter);
             placed += sphere_volume(diameter);
-            grains_.push_back({++last_id_, time_, *place, diameter, grains.density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
+            grains_.push_back({++last_id_, time_, *place, diameter, density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
             if (!deposits_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth * diameter);
         }
         return placed;
@@ -291,20 +292,21 @@ double free_volume(const RoomScene& scene, const Region& region) {
     return geometry::FreeSpace(region, searches_of(scene)).volume();
 }
 
-std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::mt19937_64& random) {
-    std::vector<double> diameters;
+std::vector<DrawnGrain> draw_grains(const RoomGrains& grains, double mass, std::mt19937_64& random) {
+    std::vector<DrawnGrain> all;
     for (double drawn = 0.0;;) {
-        const double diameter = draw_diameter(grains, random), weight = grains.density * sphere_volume(diameter);
-        if (drawn + 0.5 * weight > mass && !diameters.empty()) return diameters;
-        diameters.push_back(diameter);
+        const DrawnGrain grain = draw_grain(grains, random);
+        const double weight = grain.density * sphere_volume(grain.diameter);
+        if (drawn + 0.5 * weight > mass && !all.empty()) return all;
+        all.push_back(grain);
         drawn += weight;
     }
 }
 
-std::vector<double> draw_diameters(const RoomGrains& grains, std::size_t count, std::mt19937_64& random) {
-    std::vector<double> diameters(count);
-    std::generate(diameters.begin(), diameters.end(), [&] { return draw_diameter(grains, random); });
-    return diameters;
+std::vector<DrawnGrain> draw_grains(const RoomGrains& grains, std::size_t count, std::mt19937_64& random) {
+    std::vector<DrawnGrain> all(count);
+    std::generate(all.begin(), all.end(), [&] { return draw_grain(grains, random); });
+    return all;
 }
 
 std::vector<PlacedGrain> place_feeds(const RoomScene& scene, int first_id, std::mt19937_64& random) {

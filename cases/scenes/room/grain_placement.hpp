@@ -22,9 +22,15 @@ struct PlacedGrain {
     std::optional<Vec3> above{};  ///< where it begins as long as its place is taken
 };
 
-/// Diameters of grains, drawn until their mass is reached: the last one may exceed it by less than half of its own.
-std::vector<double> draw_diameters(const RoomGrains& grains, double mass, std::mt19937_64& random);
-std::vector<double> draw_diameters(const RoomGrains& grains, std::size_t count, std::mt19937_64& random);
+/// Diameter and density of a grain that has no place yet.
+struct DrawnGrain {
+    double diameter = 0.0;  ///< [m]
+    double density = 0.0;   ///< [kg/m3]
+};
+
+/// Grains, drawn until their mass is reached: the last one may exceed it by less than half of its own.
+std::vector<DrawnGrain> draw_grains(const RoomGrains& grains, double mass, std::mt19937_64& random);
+std::vector<DrawnGrain> draw_grains(const RoomGrains& grains, std::size_t count, std::mt19937_64& random);
 
 /// Pours one after the other. A pour's grains begin at random places, in batches: each fills at most a share of 0.3 of the free part of the
 /// region, above what has come down, and moves down at 1 m/s. The next batch comes when the one before it has had time to fall twice. Where

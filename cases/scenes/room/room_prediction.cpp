@@ -36,16 +36,18 @@ double mass_of(const PlacedGrain& grain) {
 /// Terminal speed of the fastest grains in the medium [m/s]; 0 where none is heavier.
 double fall_speed(const RoomScene& scene) {
     double fastest = 0.0;
-    for (const RoomGrains& kind : scene.grains) {
-        if (kind.density <= scene.medium.density || scene.gravity_strength == 0.0) continue;
+    const auto look = [&](const GrainClass& grain) {
+        if (grain.density <= scene.medium.density || scene.gravity_strength == 0.0) return;
         physics::SettlingRock falling;
-        falling.rock = {kind.largest(), scene.medium.density, scene.medium.kinematic_viscosity, 1.0, scene.closures.sphericity};
-        falling.density = kind.density;
+        falling.rock = {grain.diameter, scene.medium.density, scene.medium.kinematic_viscosity, 1.0, scene.closures.sphericity};
+        falling.density = grain.density;
         falling.gravity = scene.gravity_strength;
         falling.drag = physics::find_drag_law(scene.closures.drag);
         falling.hindrance = physics::find_hindrance_law(scene.closures.hindrance);
         fastest = std::max(fastest, physics::terminal_slip_speed(falling));
-    }
+    };
+    for (const RoomGrains& kind : scene.grains)
+        for (const GrainClass& grain : kind.extremes()) look(grain);
     return fastest;
 }
 
@@ -226,7 +228,7 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
         const auto* feed = std::get_if<FeedEvent>(&event);
         if (feed == nullptr) continue;
         const RoomGrains& kind = *scene.find_grains(feed->grains);
-        const double count = feed->mass(found.end) / (kind.density * kind.mean_volume());
+        const double count = feed->mass(found.end) / kind.mean_mass();
         found.fed += count;
         grain_time += count * std::max(0.0, found.end - 0.5 * (feed->from + std::min(feed->to, found.end)));
     }

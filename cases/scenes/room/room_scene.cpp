@@ -23,27 +23,45 @@ double ThroughFlow::largest_speed() const {
     return largest;
 }
 
+std::vector<GrainClass> RoomGrains::extremes() const {
+    if (const auto* uniform = std::get_if<UniformByNumber>(&sizes))
+        return {{uniform->smallest, 0.5, density}, {uniform->largest, 0.5, density}};
+    return std::get<std::vector<GrainClass>>(sizes);
+}
+
 double RoomGrains::smallest() const {
-    if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) return uniform->smallest;
-    const auto& classes = std::get<std::vector<GrainClass>>(sizes);
-    return std::min_element(classes.begin(), classes.end(), [](const auto& a, const auto& b) { return a.diameter < b.diameter; })->diameter;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const GrainClass& one : extremes()) smallest = std::min(smallest, one.diameter);
+    return smallest;
 }
 
 double RoomGrains::largest() const {
-    if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) return uniform->largest;
-    const auto& classes = std::get<std::vector<GrainClass>>(sizes);
-    return std::max_element(classes.begin(), classes.end(), [](const auto& a, const auto& b) { return a.diameter < b.diameter; })->diameter;
+    double largest = 0.0;
+    for (const GrainClass& one : extremes()) largest = std::max(largest, one.diameter);
+    return largest;
 }
 
-double RoomGrains::mean_volume() const {
+double RoomGrains::mean_mass() const {
     if (const auto* uniform = std::get_if<UniformByNumber>(&sizes)) {
         const double a = uniform->smallest, b = uniform->largest;
-        return k_pi / 6.0 * 0.25 * (a + b) * (a * a + b * b);  // of the mean of d^3 over [a, b]
+        return density * (k_pi / 6.0 * 0.25 * (a + b) * (a * a + b * b));  // of the mean of d^3 over [a, b]
     }
-    double grains_per_volume = 0.0;  // shares of mass are shares of volume: one density
+    double grains_per_mass = 0.0;
     for (const GrainClass& one : std::get<std::vector<GrainClass>>(sizes))
-        grains_per_volume += one.mass_share / sphere_volume(one.diameter);
-    return 1.0 / grains_per_volume;
+        grains_per_mass += one.mass_share / (one.density * sphere_volume(one.diameter));
+    return 1.0 / grains_per_mass;
+}
+
+double RoomGrains::mean_density() const {
+    const auto* classes = std::get_if<std::vector<GrainClass>>(&sizes);
+    if (classes == nullptr) return density;
+    double relative = 0.0;  // volume over that of as much mass of `density`: 1 to the bit where no class has a density of its own
+    double shares = 0.0;
+    for (const GrainClass& one : *classes) {
+        relative += one.mass_share * (density / one.density);
+        shares += one.mass_share;
+    }
+    return density * (shares / relative);
 }
 
 /// It is dry, and what the run does to solids is nothing to it.
@@ -68,7 +86,8 @@ double RoomScene::largest_grain() const {
 
 double RoomScene::densest_grain() const {
     double densest = 0.0;
-    for (const RoomGrains& kind : grains) densest = std::max(densest, kind.density);
+    for (const RoomGrains& kind : grains)
+        for (const GrainClass& one : kind.extremes()) densest = std::max(densest, one.density);
     return densest;
 }
 

@@ -114,6 +114,7 @@ struct RoomPair {
 struct GrainClass {
     double diameter = 0.0;    ///< [m]
     double mass_share = 1.0;  ///< they sum to 1
+    double density = 0.0;     ///< [kg/m3]
 };
 struct UniformByNumber {
     double smallest = 0.0, largest = 0.0;  ///< [m]
@@ -122,15 +123,18 @@ using GrainSizes = std::variant<std::vector<GrainClass>, UniformByNumber>;
 
 struct RoomGrains {
     std::string name;
-    double density = 0.0;  ///< [kg/m3]
+    double density = 0.0;  ///< of all sizes, or of classes that give none of their own [kg/m3]
     GrainSizes sizes;
     std::filesystem::path clump;  ///< file of a clump; empty: spheres
     std::string clump_text;       ///< of that file
     double girth = 1.0;           ///< diameter of the sphere around a grain over that of the sphere of its volume
 
-    double smallest() const;     ///< [m]
-    double largest() const;      ///< [m]
-    double mean_volume() const;  ///< of a grain [m3], by number
+    /// Its classes; of a range of diameters its ends.
+    std::vector<GrainClass> extremes() const;
+    double smallest() const;      ///< [m]
+    double largest() const;       ///< [m]
+    double mean_mass() const;     ///< of a grain [kg], by number
+    double mean_density() const;  ///< mass over volume of many grains [kg/m3]
 };
 
 /// Steps of the preparation, in still medium before t = 0.
@@ -256,7 +260,7 @@ struct RoomScene {
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
     double smallest_grain() const;                               ///< diameter [m]; infinity without grains
     double largest_grain() const;                                ///< diameter [m]; 0 without grains
-    double densest_grain() const;                                ///< density [kg/m3]; 0 without grains
+    double densest_grain() const;                                ///< largest density [kg/m3]; 0 without grains
     double fed_mass() const;                                     ///< that feeds give until the run's end [kg]
     double tolerance() const { return 1e-6 * size.maxCoeff(); }  ///< lengths below it are rounding [m]
     /// Whether a solid is there at a time of the run, and neither moved nor was pressed until then.

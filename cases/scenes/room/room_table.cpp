@@ -241,6 +241,11 @@ ParameterTable grain_rows() {
             .at_most(1e6)
             .by_default(1.0)
             .repeated(),
+        number("grains.class.density_kg_m3", "kg/m3", "Density of the class.")
+            .at_least(10.0)
+            .at_most(3e4)
+            .derived("grains.density_kg_m3")
+            .repeated(),
     };
 }
 

@@ -141,10 +141,13 @@ std::string gravity_text(const nlohmann::json& gravity) {
     return fmt::format("{:.4g} m/s2{}", g.norm(), tilt > 1e-6 ? fmt::format(", {:.4g} degrees from the vertical", tilt) : "");
 }
 
-/// "2500 kg/m3, 3.8 to 4.2 mm"; a clump is as large as the sphere of its volume.
+/// "2500 kg/m3, 3.8 to 4.2 mm", and classes that have densities of their own; a clump is as large as the sphere of its volume.
 std::string grains_text(const nlohmann::json& kind) {
-    const std::string text = fmt::format("{:g} kg/m3, {:.4g} to {:.4g} mm", kind.at("density_kg_m3").get<double>(),
-                                         1e3 * kind.at("smallest_m").get<double>(), 1e3 * kind.at("largest_m").get<double>());
+    std::string text = fmt::format("{:.6g} kg/m3, {:.4g} to {:.4g} mm", kind.at("density_kg_m3").get<double>(),
+                                   1e3 * kind.at("smallest_m").get<double>(), 1e3 * kind.at("largest_m").get<double>());
+    for (const nlohmann::json& one : kind.value("classes", nlohmann::json::array()))
+        text += fmt::format("; {:.3g} % of the mass of {:.4g} mm and {:g} kg/m3", 1e2 * one.at("mass_share").get<double>(),
+                            1e3 * one.at("diameter_m").get<double>(), one.at("density_kg_m3").get<double>());
     if (!kind.contains("clump")) return text;
     return fmt::format("{} (diameters of spheres of their volume); clumps of {}", text, html::escape(kind.at("clump").get<std::string>()));
 }

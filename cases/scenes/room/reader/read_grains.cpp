@@ -26,7 +26,7 @@ bool read_sizes(RoomReading& room, const ParameterValues& values, RoomGrains& gr
             "Give diameter_m, diameter_m = { uniform_by_number = [a, b] }, or [[grains.class]]", "Correct it");
         return false;
     }
-    if (one) grains.sizes = std::vector<GrainClass>{{values.number("grains.diameter_m"), 1.0}};
+    if (one) grains.sizes = std::vector<GrainClass>{{values.number("grains.diameter_m"), 1.0, grains.density}};
     if (uniform) {
         const std::vector<double>& range = values.numbers("grains.diameter_m.uniform_by_number");
         if (range[0] >= range[1]) {
@@ -42,7 +42,8 @@ bool read_sizes(RoomReading& room, const ParameterValues& values, RoomGrains& gr
     for (const ParameterValues& one_class : classes) sum += one_class.number("grains.class.mass_share");
     std::vector<GrainClass> made;
     for (const ParameterValues& one_class : classes)
-        made.push_back({one_class.number("grains.class.diameter_m"), one_class.number("grains.class.mass_share") / sum});
+        made.push_back({one_class.number("grains.class.diameter_m"), one_class.number("grains.class.mass_share") / sum,
+                        number_or(one_class, "grains.class.density_kg_m3", grains.density)});
     grains.sizes = made;
     return true;
 }

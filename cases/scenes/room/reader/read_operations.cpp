@@ -38,7 +38,7 @@ double narrowest(const Region& region) {
 
 /// Whether one pour or feed is small enough.
 bool require_few_enough(RoomReading& room, const RoomGrains& grains, double mass, const char* what, const std::string& where) {
-    const double count = std::round(mass / (grains.density * grains.mean_volume()));
+    const double count = std::round(mass / grains.mean_mass());
     if (count <= k_most_grains) return true;
     room.refuse(where, fmt::format("a {} of {:.0f} grains", what, count), fmt::format("A {} has at most {:.0f}", what, k_most_grains),
                 fmt::format("{} less, or larger grains", std::string(what) == "pour" ? "Pour" : "Feed"));
@@ -149,7 +149,8 @@ void read_pour(RoomReading& room, const ParameterValues& values, const std::opti
                            "Correct it");
     if (grains == nullptr || !region) return;
     PourStep pour{grains->name, *region, 0.0, where};
-    if (depth) pour.mass = grains->density * k_packed_share * free_volume(room.scene, lowest_of(*region, values.number("prepare.depth_m")));
+    if (depth)
+        pour.mass = grains->mean_density() * k_packed_share * free_volume(room.scene, lowest_of(*region, values.number("prepare.depth_m")));
     if (pour.mass == 0.0 && depth)
         return room.refuse(values.where("prepare.depth_m"), fmt::format("prepare.depth_m = {:g}", values.number("prepare.depth_m")),
                            "It counts from the lower end of the region, and solids take all of that",
@@ -157,13 +158,13 @@ void read_pour(RoomReading& room, const ParameterValues& values, const std::opti
     if (mass) pour.mass = values.number("prepare.mass_kg");
     if (count) {
         pour.count = static_cast<std::size_t>(values.integer("prepare.count"));
-        pour.mass = static_cast<double>(*pour.count) * grains->density * grains->mean_volume();
+        pour.mass = static_cast<double>(*pour.count) * grains->mean_mass();
     }
     if (!require_few_enough(room, *grains, pour.mass, "pour", where)) return;
     if (const double widest = grains->girth * grains->largest(); widest > narrowest(*region))
         return room.refuse(where, fmt::format("grains of up to {:.3g} m in a region of {:.3g} m", widest, narrowest(*region)),
                            "A grain begins in its region as a whole", "Pour smaller grains, or give a larger region");
-    const double bulk = pour.mass / (grains->density * k_packed_share), place = free_volume(room.scene, *region);
+    const double bulk = pour.mass / (grains->mean_density() * k_packed_share), place = free_volume(room.scene, *region);
     if (bulk > place)
         return room.refuse(where, fmt::format("poured grains fill {:.3g} m3", bulk),
                            fmt::format("Their region holds {:.3g} m3 beside the solids", place), "Pour less, or give a larger region");
