@@ -184,6 +184,21 @@ TEST_F(RoomFlow, a_laminar_room_has_no_turbulence_and_a_closed_one_a_reference_o
     EXPECT_THAT(coupling, Not(ContainsRegex("medium +none")));
 }
 
+/// Nine times as many steps of a flow that the Courant number bounds: 0.9 of a cell of 20 mm at 40 m/s, and 0.1 of one.
+TEST_F(RoomFlow, largest_courant_number_is_a_key) {
+    std::string text = std::string(k_tank) + "[[boundary]]\non = \"top\"\nname = \"jet\"\nflow = { inflow_m_s = 40 }\n" + k_free;
+    const RoomRequest shipped = request(text);
+    EXPECT_EQ(shipped.scene.run.max_courant, 0.9);
+    text.replace(text.find("end_s = 2\n"), 10, "end_s = 2\nmax_courant = 0.1\n");
+    const RoomRequest small = request(text);
+    EXPECT_THAT(file_of(small, "system/controlDict"), ContainsRegex("maxCo +0.1;"));
+    const auto step_of = [](const RoomRequest& of) { return predict(of.scene, of.pieces, of.mesh).flow_step; };
+    EXPECT_NEAR(step_of(small), 0.1 * small.mesh->smallest_cell() / 40.0, 1e-12);
+    EXPECT_LT(step_of(small), step_of(shipped));
+    text.replace(text.find("max_courant = 0.1"), 17, "max_courant = 0.0");
+    EXPECT_THAT(mistakes_of(text), HasSubstr("run.max_courant = 0"));
+}
+
 TEST_F(RoomFlow, closures_have_the_solver_s_defaults_and_go_into_the_case) {
     RoomRequest room = request(k_tank);
     EXPECT_EQ(room.scene.closures.hindrance, coupling::ClosureSettings().hindrance);

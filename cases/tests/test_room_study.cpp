@@ -804,6 +804,7 @@ INSTANTIATE_TEST_SUITE_P(
             "gate = { disc_m = [0, 0, 0.1], radius_m = 0.01 }",
             "Only what passes gates is counted while the run goes on; measures with a gate are through"},
         Bad{"stop = { settled = true }", "write_interval_s = 5", "run.write_interval_s = 5"},
+        Bad{k_end, "[run]\nmax_courant = 0.5\n", "Without a medium nothing flows"},
         Bad{k_dry, "medium = \"none\"\ncell_m = 0.01\n", "Without a medium there are neither flow nor mesh"},
         Bad{k_dry, "medium = \"water\"\n", "room.cell_m is missing"},
         Bad{k_dry, "medium = \"water\"\ncell_m = 0.01\n\n[[boundary]]\non = \"top\"\nflow = { inflow_m_s = 1 }\n",

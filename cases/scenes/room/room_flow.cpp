@@ -152,7 +152,7 @@ FoamFile control_file(const RoomScene& scene) {
         .add("endTime", scene.run.end)
         .add("deltaT", k_first_step_share * scene.run.longest_step)
         .add("adjustTimeStep", true)
-        .add("maxCo", k_room_max_courant)
+        .add("maxCo", scene.run.max_courant)
         .add("maxDeltaT", scene.run.longest_step)
         .add("writeControl", "adjustableRunTime")
         .add("writeInterval", scene.run.write_interval)

@@ -8,8 +8,6 @@
 
 namespace cutterflow::cases {
 
-inline constexpr double k_room_max_courant = 0.9;
-
 /// 0/: U, p and, with a model of turbulence, k, epsilon, nut. The medium begins at rest. p is p/rho - g.x, 0 where a boundary gives the
 /// pressure. Where something flows through a boundary, its discharge is speed times area of the part: of the medium alone where it comes
 /// in, of medium and grains where it goes out. constant/: transportProperties, turbulenceProperties, dynamicMeshDict, g. system/:

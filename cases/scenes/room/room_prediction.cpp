@@ -55,7 +55,7 @@ double fall_speed(const RoomScene& scene) {
 double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     const double cell = mesh.smallest_cell(), flow = fastest_flow(scene), grains = std::max(flow, fall_speed(scene));
     double step = scene.run.longest_step;
-    if (flow > 0.0) step = std::min(step, k_room_max_courant * cell / flow);
+    if (flow > 0.0) step = std::min(step, scene.run.max_courant * cell / flow);
     if (grains > 0.0 && !scene.grains.empty()) {
         const double width = coupling::mapping_width(scene.kernel, scene.smallest_grain(), cell);
         step = std::min(step, k_travel_share * width / grains);

@@ -217,6 +217,7 @@ struct RoomRun {
     double write_interval = 0.0;       ///< between pictures [s]
     double checkpoint_interval = 0.0;  ///< [s]
     double longest_step = 0.0;         ///< between looks at events, pictures and stop rules without a medium; at most, with one [s]
+    double max_courant = 0.0;          ///< with a medium [-]
     std::uint64_t seed = 1;            ///< of every random number
     RoomStop stop;
 };

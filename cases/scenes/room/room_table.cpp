@@ -328,6 +328,10 @@ ParameterTable run_rows() {
         Row("run.stop.settled", ParameterKind::boolean, "-", "End the run when the grains are at rest.").optional(),
         duration("run.write_interval_s", "Between pictures of the grains.").derived("a fiftieth of the run"),
         duration("run.checkpoint_interval_s", "Between checkpoints.").derived("a twentieth of the run"),
+        number("run.max_courant", "-", "Largest Courant number of the flow relative to the mesh; with a medium only.")
+            .at_least(0.01)
+            .at_most(5.0)
+            .derived("0.9 with a medium"),
         Row("run.seed", ParameterKind::integer, "-", "Seed of all random numbers; repeats differ by it.")
             .at_least(0.0)
             .at_most(1e9)

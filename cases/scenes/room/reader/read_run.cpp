@@ -14,6 +14,7 @@ namespace {
 
 constexpr double k_look_per_fall = 0.1;  // longest step over sqrt(d/g)
 constexpr double k_most_outputs = 1e4;
+constexpr double k_max_courant = 0.9;
 constexpr double k_pictures = 50.0, k_checkpoints = 20.0;
 
 /// The gate of a measure: its own, or the one that it names; empty without one.
@@ -89,6 +90,9 @@ void read_run(RoomReading& room) {
                             : std::sqrt(room.scene.smallest_grain() / room.scene.gravity_strength);
     room.scene.bed_step = number_or(room.values, "dem.longest_step_s", k_look_per_fall * fall);
     run.longest_step = std::min(room.scene.bed_step, run.write_interval);
+    run.max_courant = number_or(room.values, "run.max_courant", k_max_courant);
+    if (!room.scene.medium.present())
+        room.refuse_keys(room.values, {"run.max_courant"}, "Without a medium nothing flows (room.medium = \"none\")");
     run.seed = static_cast<std::uint64_t>(room.values.integer("run.seed"));
     read_stop(room);
 }
