@@ -24,6 +24,7 @@
 #include "geometry/base/sphere.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "meshing/room/build_room_mesh.hpp"
+#include "postproc/analysis/measures/measure_source.hpp"
 #include "postproc/pages/room/room_page.hpp"
 #include "postproc/run/run_table.hpp"
 
@@ -128,6 +129,7 @@ public:
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
             const fs::path folder = piece_folder(i);
             if (!fs::exists(folder / k_done)) {
+                require_grains_to_freeze(i);
                 write_texts(folder, bed_case(scene_, pieces_[i], start, "../../"));
                 bring_to_start(folder, std::nullopt, say_);
                 outcome.core_s +=
@@ -212,6 +214,14 @@ private:
 
     fs::path piece_folder(std::size_t piece) const { return directory_.file(fmt::format("bed/{}", piece + 1)); }
     std::string bed_start() const { return "bed/checkpoints/" + bed_; }
+
+    /// The last picture of the piece before shows the grains as this one finds them.
+    void require_grains_to_freeze(std::size_t piece) const {
+        if (piece == 0 || pieces_[piece].events.empty()) return;
+        const postproc::MeasureSource before(piece_folder(piece - 1));
+        std::vector<Mistake> mistakes = empty_freezes(pieces_[piece], before.grains(before.picture_near(std::nullopt)).position);
+        if (!mistakes.empty()) throw UserError(std::move(mistakes));
+    }
 
     /// A piece whose run went on to its end has grains that still move.
     void require_rest(std::size_t piece) const {

@@ -302,6 +302,18 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
     for (const CaseText& file : files) EXPECT_NE(file.path, "constant/rockFeed.csv");
 }
 
+TEST_F(RoomStudy, a_step_freeze_that_finds_no_grains_is_a_mistake) {
+    const std::string steps = "[[prepare]]\ndo = \"trim\"\nabove_m = 0.06\n\n[[prepare]]\ndo = \"freeze\"\nabove_m = 0.055\n\n";
+    const RoomRequest request = read_room_request(write(changed("[[prepare]]\ndo = \"settle\"\n", steps)));
+    const BedPiece& piece = request.pieces.at(1);
+    EXPECT_TRUE(empty_freezes(piece, {Vec3(0, 0, 0.04), Vec3(0, 0, 0.056)}).empty());
+    const std::vector<Mistake> mistakes = empty_freezes(piece, {Vec3(0, 0, 0.04), Vec3(0.001, 0, 0.05), Vec3(0, 0, 0.061)});
+    ASSERT_EQ(mistakes.size(), 1u) << "the highest one was taken out before";
+    EXPECT_THAT(mistakes[0].text(), ContainsRegex("room.toml:[0-9]+: do = \"freeze\" finds 0 grains"));
+    EXPECT_THAT(mistakes[0].text(), HasSubstr("those of its 2 lie from (0, 0, 0.04) to (0.001, 0, 0.05) m"));
+    EXPECT_THAT(empty_freezes(piece, {Vec3(0, 0, 0.07)}).at(0).text(), HasSubstr("the bed has none"));
+}
+
 TEST_F(RoomStudy, a_run_is_at_rest_while_its_bed_still_rings) {
     const RoomRequest request = read_room_request(write(room_template("heap")));
     EXPECT_THAT(bed_case(request.scene, request.pieces.front(), "", "../../").front().text, ContainsRegex("energy +1e-06;"));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include <fmt/format.h>
+
 #include "cases/study/contact_rules.hpp"
 #include "geometry/base/mistakes.hpp"
 
@@ -25,9 +27,9 @@ public:
             mistakes_.gather([&] { pouring_.pour(*pour); });
             open_ = poured_ = true;
         } else if (const auto* trim = std::get_if<TrimStep>(&step)) {
-            add("remove", trim->region);
+            add({"remove", 0.0, trim->region});
         } else if (const auto* freeze = std::get_if<FreezeStep>(&step)) {
-            add("freeze", freeze->region);
+            add({"freeze", 0.0, freeze->region, freeze->where});
         } else if (const auto* compress = std::get_if<CompressStep>(&step)) {
             close(k_longest_settling);
             pieces_.push_back({{}, {}, compress->longest, *compress});
@@ -43,9 +45,9 @@ public:
     }
 
 private:
-    void add(const char* what, const Region& region) {
+    void add(RegionEvent event) {
         if (poured_) close(k_longest_settling);
-        events_.push_back({what, 0.0, region});
+        events_.push_back(std::move(event));
         open_ = true;
     }
 
@@ -68,6 +70,31 @@ private:
 
 double BedPiece::end() const {
     return (grains.empty() ? 0.0 : grains.back().time) + longest;
+}
+
+std::vector<Mistake> empty_freezes(const BedPiece& piece, std::vector<Vec3> centres) {
+    std::vector<Mistake> mistakes;
+    for (const RegionEvent& event : piece.events) {
+        const auto is_in = [&](const Vec3& centre) { return is_within(event.region, centre); };
+        if (event.what == "remove") {
+            centres.erase(std::remove_if(centres.begin(), centres.end(), is_in), centres.end());
+            continue;
+        }
+        if (std::any_of(centres.begin(), centres.end(), is_in)) continue;
+        Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+        for (const Vec3& centre : centres) {
+            lower = lower.cwiseMin(centre);
+            upper = upper.cwiseMax(centre);
+        }
+        const std::string centres_text =
+            centres.empty() ? std::string("the bed has none")
+                            : fmt::format("those of its {} lie from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) m", centres.size(),
+                                          lower.x(), lower.y(), lower.z(), upper.x(), upper.y(), upper.z());
+        mistakes.push_back({event.where, "do = \"freeze\" finds 0 grains in its region",
+                            fmt::format("It freezes the grains whose centres lie in its region, and {}", centres_text),
+                            "Correct the region, or remove the step"});
+    }
+    return mistakes;
 }
 
 double contact_step(const RoomScene& scene, const coupling::ContactSettings& contact) {

@@ -5,6 +5,7 @@
 
 #include "cases/scenes/room/grain_placement.hpp"
 #include "cases/scenes/room/room_scene.hpp"
+#include "geometry/base/error.hpp"
 
 namespace cutterflow::cases {
 
@@ -22,6 +23,10 @@ struct BedPiece {
 /// rest, and so they do at the end.
 /// \throws UserError  with every pour whose grains find no place
 std::vector<BedPiece> bed_pieces(const RoomScene& scene);
+
+/// Steps `freeze` of a piece whose regions have no grains, after those before them have been done.
+/// \param centres  of the grains that are there when the piece begins [m]
+std::vector<Mistake> empty_freezes(const BedPiece& piece, std::vector<Vec3> centres);
 
 /// Time step of the contacts [s]: a share of the smaller of Rayleigh and Hertz time of the smallest grains. 0 without grains.
 /// \param contact  of the run or of the preparation

@@ -153,9 +153,10 @@ struct SettleStep {
 struct TrimStep {
     Region region;
 };
-/// Grains whose centres are in the region stay where they are.
+/// Grains whose centres are in the region stay where they are; there are some.
 struct FreezeStep {
     Region region;
+    std::string where{};  ///< in the study, for messages
 };
 /// A solid is pressed on the grains until they bear it; then it stands.
 struct CompressStep {
@@ -187,6 +188,7 @@ struct RegionEvent {
     std::string what;  ///< remove, freeze or thaw
     double at = 0.0;   ///< [s]
     Region region;
+    std::string where{};  ///< of a step of the preparation, in the study
 };
 using RoomEvent = std::variant<FeedEvent, ExtractEvent, RegionEvent>;
 

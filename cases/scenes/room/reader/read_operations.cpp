@@ -197,7 +197,7 @@ void read_step(RoomReading& room, const ParameterValues& values) {
     if (!region) return;
     room.require_in_room(*region, fmt::format("do = \"{}\"", what), where);
     if (what == "trim") room.scene.preparation.emplace_back(TrimStep{*region});
-    if (what == "freeze") room.scene.preparation.emplace_back(FreezeStep{*region});
+    if (what == "freeze") room.scene.preparation.emplace_back(FreezeStep{*region, where});
 }
 
 void require_ordered_preparation(RoomReading& room) {
