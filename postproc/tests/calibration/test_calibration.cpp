@@ -41,7 +41,7 @@ Evaluation evaluate(Box& box, double e, double mu, int repeats, std::size_t quan
 /// Targets from another pour at a friction that is no value of the grid.
 std::vector<Target> targets_at(Box& box, double mu) {
     const std::vector<double> values = box.run(mu);
-    return {{"repose", {values[0]}, 2.0 * box.scatter, 1.0},
+    return {{"slope", {values[0]}, 2.0 * box.scatter, 1.0},
             {"shear", {values[1]}, 2.0 * box.scatter, 1.0},
             {"rate", {values[2]}, 0.4 * box.scatter, 1.0}};
 }
@@ -84,9 +84,9 @@ Outcome judged(Calibration calibration) {
 
 }  // namespace
 
-TEST(Objective, is_the_sum_of_relative_errors_of_the_draw_down_test) {
+TEST(Objective, is_the_sum_of_relative_errors) {
     const ObjectiveFunction& function = *find_objective("relative_error");
-    const std::vector<Target> dry{{"rate", {20.0}, 1.0, 1.0}, {"repose", {40.0}, 1.0, 1.0}, {"shear", {60.0}, 1.0, 1.0}};
+    const std::vector<Target> dry{{"rate", {20.0}, 1.0, 1.0}, {"slope", {40.0}, 1.0, 1.0}, {"shear", {60.0}, 1.0, 1.0}};
     EXPECT_NEAR(objective_of(function, dry, {{21.0}, {38.0}, {60.6}}), 0.05 + 0.05 + 0.01, 1e-14);
     Target profile{"profile", {}, 1.0, 1.0};
     std::vector<double> model;
@@ -159,7 +159,7 @@ TEST(CalibrationFit, has_intervals_that_hold_the_truth_where_no_run_was_repeated
         Calibration calibration;
         calibration.objective = find_objective("squared_misfit");
         calibration.ranges = {{"mu", 0.1, 0.7, 0.05}};
-        calibration.targets.fitted = {{"repose", {quadratic(mu)}, 0.02, 1.0}};
+        calibration.targets.fitted = {{"slope", {quadratic(mu)}, 0.02, 1.0}};
         for (const double at : {0.1, 0.3, 0.5, 0.7})
             calibration.evaluations.push_back({Eigen::VectorXd::Constant(1, at), {{{quadratic(at) + noise(random)}}}});
         if (holds(outcome_of(calibration, true).estimate->intervals[0], mu)) ++held;

@@ -42,7 +42,7 @@ TEST_P(Cone, has_its_angle_by_silhouettes_and_by_the_cone_through_its_surface) {
 
 INSTANTIATE_TEST_SUITE_P(Heap, Cone, ::testing::Values(15.0, 25.0, 35.0));
 
-TEST(Heap, of_the_size_of_a_repose_test_still_has_an_angle) {
+TEST(Heap, of_a_dozen_grains_still_has_an_angle) {
     for (const double angle : {25.0, 30.0}) {
         const Slopes slopes = slopes_of(cone(angle, 12.0 * k_d, 3), {});
         RecordProperty(fmt::format("r2_{}", angle), fmt::format("{:.3f}", slopes.r2));

@@ -404,15 +404,15 @@ TEST_F(MeasuredRun, says_that_there_are_no_grains) {
     picture(2.0, one);
     write("heap.csv", "x_m,height_m\n0,0.03\n0.2,0.03\n");
     const char* away = R"("region": {"half_space": {"point_m": [0, 0, 1], "normal": [0, 0, 1]}})";
-    write(k_measures, fmt::format(R"([{{"name": "repose", "what": "angle", {0}}}, {{"name": "line", "what": "profile", {0}}},
+    write(k_measures, fmt::format(R"([{{"name": "slope", "what": "angle", {0}}}, {{"name": "line", "what": "profile", {0}}},
                                       {{"name": "misfit", "what": "profile_error", "against": "heap.csv", {0}}},
                                       {{"name": "floor", "what": "profile", "from_m": 0, "to_m": 0.2, {0}}},
                                       {{"name": "gone", "what": "profile_error", "against": "heap.csv", "from_m": 0, "to_m": 0.2, {0}}}])",
                                   away));
     const json results = measure_run(run_);
-    for (const char* name : {"repose", "line", "misfit", "floor", "gone"})
+    for (const char* name : {"slope", "line", "misfit", "floor", "gone"})
         EXPECT_THAT(results[name]["detail"]["reason"].get<std::string>(), HasSubstr("the picture at 2 s has no grains in the region"));
-    for (const char* name : {"repose", "line", "misfit"}) EXPECT_TRUE(results[name]["value"].is_null()) << name;
+    for (const char* name : {"slope", "line", "misfit"}) EXPECT_TRUE(results[name]["value"].is_null()) << name;
     EXPECT_EQ(results["floor"]["value"], 0.0) << "the ends are given: an empty floor";
     EXPECT_EQ(results["gone"]["value"], 1.0);
     EXPECT_NO_THROW(measure_figures(results));
