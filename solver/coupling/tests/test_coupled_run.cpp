@@ -127,6 +127,33 @@ TEST(CoupledRun, ends_when_a_closed_domain_has_water_too_much) {
     }
 }
 
+/// Lies about the flow through the boundary and the interface. What leaks out through a wall comes in through an open patch, so that both
+/// add up to nothing.
+TEST(CoupledRun, tells_of_a_wall_that_leaks_and_of_an_interface_that_does_not_close) {
+    constexpr double through = 0.1, leak = 2e-3, imbalance = 0.03, mismatch = 0.05;
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    Rig rig(case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), folder.path(), recorder, Vec3::Zero());
+    FluidLoads& loads = rig.fluid.given_loads;
+    loads.through_flow = through;
+    rig.run->step();
+    loads.boundary_flow = -leak;
+    loads.wall_flow = leak;
+    rig.run->step();
+    loads.wall_flow = 0.0;  // the same flow through the interface alone
+    loads.interface_imbalance = imbalance;
+    loads.interface_mismatch = mismatch;
+    rig.run->step();
+    ASSERT_EQ(recorder.balance_rows.size(), 3u);
+    const std::vector<BalanceRow>& rows = recorder.balance_rows;
+    EXPECT_EQ(rows[0].flow_balance_error, 0.0);
+    EXPECT_NEAR(rows[1].flow_balance_error, 2.0 * leak / through, 1e-15);
+    EXPECT_EQ(rows[1].interface_imbalance, 0.0);
+    EXPECT_NEAR(rows[2].flow_balance_error, leak / through, 1e-15);
+    EXPECT_EQ(rows[2].interface_imbalance, imbalance);
+    EXPECT_EQ(rows[2].interface_mismatch, mismatch);
+}
+
 /// A fluid whose balances all hold while its flow blows up.
 TEST(CoupledRun, ends_when_the_fluid_is_faster_than_anything_drives_it) {
     for (const double speed : {31.0, std::numeric_limits<double>::quiet_NaN()}) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/sphere.hpp"
@@ -84,6 +85,22 @@ public:
         FakeFluid::end_step(old_values, new_values, exchange);
         for (std::size_t c = 0; c < mesh.size(); ++c) void_fraction[c] = 0.5 * (1.0 + kept[c]);
     }
+};
+
+constexpr double k_shrinkage = 0.01;
+
+/// Shrinks its cells by a hundredth after the weights of rock were made for them, and keeps the promise of no array.
+class FluidThatShrinks final : public FakeFluid {
+public:
+    using FakeFluid::FakeFluid;
+    void begin_step(double travel_limit, double stop_time) override {
+        FakeFluid::begin_step(travel_limit, stop_time);
+        if (std::exchange(has_shrunk_, true)) return;
+        for (double& volume : mesh.volumes) volume *= 1.0 - k_shrinkage;
+    }
+
+private:
+    bool has_shrunk_ = false;
 };
 
 /// Stops rock at a wall at x = 0 without saying so.
@@ -178,6 +195,14 @@ TEST(WallThatLeaksMomentum, fails_the_momentum_balance) {
 
 TEST(FluidThatMakesNoRoom, fails_the_volume_balance) {
     EXPECT_GE((run_with<FluidWithoutRoom, FakeDem>().exchange.solid_volume_error), 0.1);
+}
+
+/// Weights that were normalised with other volumes lose a hundredth of the rock, and of what it hands over.
+TEST(MappingThatLosesVolume, fails_the_balances_of_deposit_and_volume) {
+    const Worst worst = run_with<FluidThatShrinks, FakeDem>();
+    EXPECT_NEAR(worst.exchange.solid_volume_error, k_shrinkage, 1e-12);
+    EXPECT_LE(worst.exchange.deposit_error, 1.1 * k_shrinkage);
+    EXPECT_GE(worst.exchange.deposit_error, 0.9 * k_shrinkage);
 }
 
 TEST(RockThatVanishes, ends_the_run) {

@@ -59,6 +59,25 @@ TEST(Duct, DischargeIsHeldAndDisplacedVolumeComesThroughTheInlet) {
     }
 }
 
+// What goes out through the wall comes in through the inlet: a sum of all flows would be 0.
+TEST(Duct, AWallThatLeaksIsNoOutflow) {
+    constexpr double speed = 0.02, leak = speed * k_length * 0.1;
+    testing::TinyCase tiny = duct("duct_leak", 0.02);
+    const std::string last = "outlet {";
+    tiny.files["0/U"].insert(tiny.files["0/U"].find(last),
+                             "z_min { type fixedValue; value uniform (0 0 " + std::to_string(-speed) + "); }\n");
+    FluidRun run(testing::build_case(tiny), false, {"outlet", {}});
+    while (run.engine().running()) {
+        run.begin();
+        run.end({}, {});
+    }
+    const coupling::FluidLoads loads = run.engine().loads();
+    EXPECT_NEAR(loads.wall_flow, leak, 1e-9 * leak);
+    EXPECT_NEAR(loads.boundary_flow, -leak, 1e-6 * leak);
+    EXPECT_NEAR(loads.outlet_flow.value(), k_discharge, 1e-12);
+    EXPECT_NEAR(loads.through_flow, k_discharge + 0.5 * leak, 1e-6 * leak);
+}
+
 // Rock that is sucked up is taken out between two steps, and fluid takes its place without a source. Fluid and rock together then pass
 // every section below with the discharge of the outlet, also in the step of the removal: the mixture's flow is the discharge, the fluid's
 // is that less the rock's. An outlet that let less through while rock is taken out would take it from the mixture.
