@@ -122,7 +122,9 @@ void KernelCoupling::restore(std::vector<Vec3> carry, const BookedExchange& book
 std::vector<int> KernelCoupling::insert(const std::vector<FeedRock>& due) {
     Rocks candidates = rocks_of(due);
     mapping_.set_time(fluid_.time());
-    mapping_.build({candidates.id, candidates.position, candidates.diameter}, present_);
+    const RockShapes shapes{candidates.id, candidates.position, candidates.diameter};
+    mapping_.build(shapes, present_);
+    mapping_.require_cells(shapes, present_);
     std::vector<FlowAtRock> flow;
     sample_with(present_, flow);
     for (const FeedRock& rock : due) {
@@ -152,6 +154,7 @@ std::vector<bool> KernelCoupling::room_for(const std::vector<FeedRock>& rocks) c
 
 void KernelCoupling::adopt_present_rock() {
     map_present_rock();
+    mapping_.require_cells(shapes(dem_.rocks().position), present_);
     std::vector<FlowAtRock> flow;
     sample_with(present_, flow);
     for (std::size_t p = 0; p < dem_.rocks().size(); ++p) {
@@ -172,6 +175,7 @@ void KernelCoupling::remove(gsl::span<const int> ids) {
     std::vector<FlowAtRock> flow;
     sample_with(present_, flow);
     for (std::size_t p = 0; p < leaving.size(); ++p) {
+        if (!flow[p].has_cells) continue;
         const double volume = sphere_volume(leaving.diameter[p]);
         booked_.volume -= volume;
         booked_.momentum -= properties_.density * volume * flow[p].velocity;
@@ -222,11 +226,16 @@ void KernelCoupling::sample_with(const Stencils& stencils, std::vector<FlowAtRoc
         for (std::size_t k = 0; k < vectors.size(); ++k) flow[p].*vectors[k].second = Eigen::Map<const Vec3>(&sums[n * p + 3 * k]);
         flow[p].void_fraction = sums[n * p + n - 1];
     }
+    for (const std::size_t p : stencils.without_cells) {
+        flow[p] = {};
+        flow[p].has_cells = false;
+    }
 }
 
 void KernelCoupling::sample() {
     if (!fluid_.feels_rock()) replace_void_fraction();
     sample_with(present_, flow_);
+    note_rock_without_cells();
     if (settings_.kernel.sampling == k_gaussian_sampling && settings_.kernel.map == k_gaussian_map) take_out_own_trace();
 }
 
@@ -243,6 +252,7 @@ void KernelCoupling::take_out_own_trace() {
     communicator_.sum(known);
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         FlowAtRock& flow = flow_[p];
+        if (!flow.has_cells) continue;
         const double* const of_rock = &known[k_known * p];
         const double volume = sphere_volume(rocks.diameter[p]), own = volume * of_rock[overlap];
         const double share = physics::own_trace_share(std::max(0.0, 1.0 - flow.void_fraction - own));
@@ -295,13 +305,15 @@ const DemStep& KernelCoupling::move() {
     struct AtRock {  // what each of the DEM's steps reads lies together
         Vec3 flow_velocity, steady;
         physics::RockInFluid rock;
+        bool has_cells;
     };
     std::vector<AtRock> at(before_.size());
     for (std::size_t p = 0; p < before_.size(); ++p) {
         const physics::RockInFluid rock = rock_in_fluid(before_, p, flow_[p]);
-        at[p] = {flow_[p].velocity, steady_force(rock, flow_[p]), rock};
+        at[p] = {flow_[p].velocity, steady_force(rock, flow_[p]), rock, flow_[p].has_cells};
     }
     const HydrodynamicForce force = [&](std::size_t p, const Vec3& velocity) -> Vec3 {
+        if (!at[p].has_cells) return Vec3::Zero();
         const Vec3 slip = at[p].flow_velocity - velocity;
         Vec3 total = drag_per_slip(at[p].rock, slip.norm()) * slip + at[p].steady;
         if (lift_ != nullptr) total += physics::lift_force(at[p].rock, slip, flow_[p].vorticity, lift_);
@@ -324,6 +336,22 @@ void KernelCoupling::require_all_rocks() const {
     if (ids == before_.id) return;
     throw CheckFailure({"", fmt::format("of {} rocks {} are there or left after a step", before_.size(), ids.size()),
                         "Rock stays in the run or leaves it through the domain's boundary", "Report this as a defect"});
+}
+
+/// Tells of the first rock without cells, and again when there were twice as many.
+void KernelCoupling::note_rock_without_cells() {
+    const Rocks& rocks = dem_.rocks();
+    for (const std::size_t p : present_.without_cells) without_cells_.insert(rocks.id[p]);
+    if (without_cells_.size() < next_without_cells_) return;
+    next_without_cells_ = 2 * without_cells_.size();
+    const std::size_t last = present_.without_cells.back();
+    const Vec3& x = rocks.position[last];
+    warnings_.push_back(
+        fmt::format("{} rock(s) so far had no cell of the mesh in reach, rock {} at ({:.6g} {:.6g} {:.6g}) m is one: until it "
+                    "has cells it moves by contacts and weight less buoyancy alone, and the fluid feels nothing of it; "
+                    "solid_volume_error of balance.csv tells its volume. Let rock.domain end inside the mesh, or make cells "
+                    "finer there",
+                    without_cells_.size(), rocks.id[last], x[0], x[1], x[2]));
 }
 
 /// \throws CheckFailure  when a cell has no room left
@@ -463,6 +491,7 @@ void KernelCoupling::check_ranges() {
     if (lift_ != nullptr) in_use.push_back(&physics::find_closure(physics::ClosureKind::lift, settings_.closures.lift));
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         const FlowAtRock& flow = flow_[index_before_[p]];
+        if (!flow.has_cells) continue;
         const double d_over_nu = rocks.diameter[p] / properties_.kinematic_viscosity;
         physics::RockNumbers numbers;
         numbers.reynolds = (flow.velocity - rocks.velocity[p]).norm() * d_over_nu;
@@ -523,6 +552,7 @@ void KernelCoupling::follow_departures() {
         volume.push_back(sphere_volume(before_.diameter[p]));
         impulse.push_back(step_.left_impulse[k]);
         velocity_change.push_back(step_.left.velocity[k] - before_.velocity[p]);
+        if (!flow_[p].has_cells) continue;
         booked_.volume -= volume.back();
         booked_.momentum -= properties_.density * volume.back() * flow_[p].velocity;
     }

@@ -22,6 +22,7 @@ struct FlowAtRock {
     double void_fraction = 1.0;             ///< [-]
     Vec3 vorticity = Vec3::Zero();          ///< [1/s], with lift only
     Vec3 stress_divergence = Vec3::Zero();  ///< div(tau) [m/s2], without viscous force only
+    bool has_cells = true;                  ///< false: no cell of the mesh is in reach, and rock and fluid feel nothing of each other
 };
 
 /// One step's exchange. Call in order: insert (when rock is due), sample, move, map, book.
@@ -40,7 +41,7 @@ public:
 
     /// Puts rock into the run at the present time; rock without a velocity gets the local fluid velocity. The void fraction is replaced
     /// with that of all rock, without a source. \return ids of `due` that found no place
-    /// \throws CheckFailure  when cells are so full of rock that no fluid is left (also of map)
+    /// \throws CheckFailure  when cells are so full of rock that no fluid is left (also of map), or when rock has no cell in reach
     std::vector<int> insert(const std::vector<FeedRock>& due) override;
 
     std::vector<bool> room_for(const std::vector<FeedRock>& rocks) const override;
@@ -71,7 +72,7 @@ public:
     /// Updates the carry from the momentum that the fluid received. MomentumBalance tells whether it did.
     ExchangeBalance book() override;
 
-    /// New warnings since the last call: closures outside their range, rock whose centre lies in steel.
+    /// New warnings since the last call: closures outside their range, rock whose centre lies in steel, rock without cells.
     std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
 
     const std::vector<FlowAtRock>& flow() const { return flow_; }
@@ -86,6 +87,7 @@ private:
     std::vector<double> spread_present_rock();
     void follow_set_of_rock();
     void replace_void_fraction();
+    void note_rock_without_cells();
     void note_fullness(const std::vector<double>& solid_fraction, double largest);
     void sample_with(const Stencils& stencils, std::vector<FlowAtRock>& flow) const;
     void take_out_own_trace();
@@ -134,6 +136,8 @@ private:
     double gross_impulse_ = 0.0;
     BookedExchange booked_;
     ExchangeBalance balance_;
+    std::set<int> without_cells_;         // ids of all rock so far that had no cells
+    std::size_t next_without_cells_ = 1;  // number of them that is told next
     std::set<std::string> warned_;
     std::vector<std::string> warnings_;
 };

@@ -60,6 +60,7 @@ void Stencils::clear() {
     deposit.clear();
     sample.clear();
     overlap.clear();
+    without_cells.clear();
 }
 
 void Stencils::resize_entries(std::size_t count) {
@@ -129,15 +130,21 @@ void Mapping::build_anew(const RockShapes& rocks, Stencils& stencils) {
     stencils.shared.sum(sums, k_sums, communicator_);
     std::vector<std::size_t> hidden;
     Outlook outlook = outlook_of(rocks, stencils, sums);
-    if (!outlook.all_are_mapped) {
+    if (outlook.mapped < stencils.size()) {
+        const std::size_t in_view = outlook.mapped;
         hidden = replace_hidden(rocks, stencils, sums);
         outlook = outlook_of(rocks, stencils, sums);
-        if (!outlook.all_are_mapped) refuse_unmapped(rocks, stencils, sums);
+        had_hidden_rock_ = had_hidden_rock_ || outlook.mapped > in_view;
+    }
+    if (outlook.mapped < stencils.size()) {
+        leave_out_unmapped(stencils, sums);
+        outlook = outlook_of(rocks, stencils, sums);
     }
     if (outlook.some_are_cramped) make_room_for_cramped(rocks, stencils, sums, hidden);
 
     stencils.overlap.assign(rocks.size(), 0.0);
     for (const std::size_t p : stencils.shared.near()) {
+        if (!is_mapped(sums, p)) continue;
         const double deposit_scale = 1.0 / sums[k_sums * p + deposit_sum], sample_scale = 1.0 / sums[k_sums * p + sample_sum];
         stencils.overlap[p] = sums[k_sums * p + overlap_sum] * deposit_scale * sample_scale;
         for (std::size_t i = stencils.first[p]; i < stencils.first[p + 1]; ++i) {
@@ -225,15 +232,27 @@ Mapping::Outlook Mapping::outlook_of(const RockShapes& rocks, const Stencils& st
     std::array<double, 2> counts{count([&](std::size_t p) { return is_mapped(sums, p); }),
                                  count([&](std::size_t p) { return is_cramped(rocks, sums, p); })};
     communicator_.sum(counts);
-    return {counts[0] == static_cast<double>(stencils.size()), counts[1] > 0.0};
+    return {static_cast<std::size_t>(counts[0]), counts[1] > 0.0};
 }
 
-/// \throws CheckFailure  that names the first rock without cells. Collective
-void Mapping::refuse_unmapped(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const {
-    std::vector<double> mapped(rocks.size(), 0.0);
+/// Takes from rock that has no cells to lie in, or none to see the flow of, what entries it has. Collective
+void Mapping::leave_out_unmapped(Stencils& stencils, std::vector<double>& sums) {
+    std::vector<double> mapped(stencils.size(), 0.0);
     for (const std::size_t p : stencils.shared.led()) mapped[p] = is_mapped(sums, p) ? 1.0 : 0.0;
     communicator_.sum(mapped);
-    const auto p = static_cast<std::size_t>(std::find(mapped.begin(), mapped.end(), 0.0) - mapped.begin());
+    std::vector<std::size_t> near;
+    for (const std::size_t p : stencils.shared.near())
+        if (mapped[p] == 0.0) near.push_back(p);
+    lay_again(
+        near, [](std::size_t, Stencils& replaced, std::vector<double>&) { replaced.first.push_back(replaced.cell.size()); }, stencils,
+        sums);
+    for (std::size_t p = 0; p < mapped.size(); ++p)
+        if (mapped[p] == 0.0) stencils.without_cells.push_back(p);
+}
+
+void Mapping::require_cells(const RockShapes& rocks, const Stencils& stencils) const {
+    if (stencils.without_cells.empty()) return;
+    const std::size_t p = stencils.without_cells.front();
     SizeField::Vicinity vicinity;
     const double width = mapping_width(kernel_, rocks.diameter[p], sizes_.around(frames_, rocks.position[p], vicinity).size);
     throw no_cell_near(rocks, p, physics::k_kernel_reach * width);
@@ -312,6 +331,7 @@ template <typename Lay>
 void Mapping::lay_again(const std::vector<std::size_t>& again, const Lay& lay, Stencils& stencils, std::vector<double>& sums) {
     Stencils replaced;
     replaced.shared = stencils.shared;
+    replaced.without_cells = stencils.without_cells;
     replaced.first.push_back(0);
     replaced.width = stencils.width;
     replaced.zone = stencils.zone;
@@ -338,7 +358,6 @@ void Mapping::lay_again(const std::vector<std::size_t>& again, const Lay& lay, S
 /// Rocks without a visible cell of water (the mesh's steel and the DEM's walls differ slightly, and the centre of a small rock can lie
 /// inside the mesh's steel) are mapped from the centre of the nearest cell, soil or not. \return those near this rank
 std::vector<std::size_t> Mapping::replace_hidden(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums) {
-    had_hidden_rock_ = true;
     std::vector<std::size_t> hidden;
     for (const std::size_t p : stencils.shared.near())
         if (!is_mapped(sums, p)) hidden.push_back(p);

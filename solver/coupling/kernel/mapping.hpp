@@ -24,7 +24,7 @@ struct RockShapes {
 };
 
 /// Weights of this rank's cells for every rock. Entries of rock p are [first[p], first[p + 1]); a rock that is not near has none.
-/// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights.
+/// Over all ranks, sum of weight * cell volume = 1 for every rock and both weights, but for rock without cells.
 struct Stencils {
     SharedRocks shared;              ///< the rocks near this rank's cells
     std::vector<double> width;       ///< sigma of each rock that is near, or the side of its group of cells [m]; 0 of others
@@ -34,6 +34,7 @@ struct Stencils {
     std::vector<double> deposit;     ///< w: from rock to fluid [1/m3]
     std::vector<double> sample;      ///< psi: from fluid to rock [1/m3]
     std::vector<double> overlap;     ///< of each rock that is near: sum of w psi V over the cells of all ranks [1/m3], as laid at first
+    std::vector<std::size_t> without_cells;  ///< rocks that have no entry on any rank, ascending; the same on every rank
     std::size_t size() const { return width.size(); }
     /// Empties the stencils but keeps their capacity.
     void clear();
@@ -57,8 +58,12 @@ public:
     /// Stencils of the rocks at their positions on the present mesh. On a mesh that never turned the last ones are stored and reused: the
     /// new positions of one step are the old ones of the next. Collective.
     /// \param stencils  overwritten; buffers are reused because allocating them would dominate the cost
-    /// \throws CheckFailure  when a rock has no cell of the whole mesh within its kernel
+    /// \throws CheckFailure  with another map than gaussian, when a rock is outside the mesh
     void build(const RockShapes& rocks, Stencils& stencils);
+
+    /// \param stencils  of these rocks on the present mesh
+    /// \throws CheckFailure  that names the first rock without cells
+    void require_cells(const RockShapes& rocks, const Stencils& stencils) const;
 
     const SizeField& sizes() const { return sizes_; }
     const Cells& cells() const { return trees_.cells(); }
@@ -82,10 +87,11 @@ private:
     void build_anew(const RockShapes& rocks, Stencils& stencils);
     bool locate(const RockShapes& rocks, std::size_t rock, Stencils& stencils);
     struct Outlook {
-        bool all_are_mapped, some_are_cramped;
+        std::size_t mapped;
+        bool some_are_cramped;
     };
     Outlook outlook_of(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
-    [[noreturn]] void refuse_unmapped(const RockShapes& rocks, const Stencils& stencils, const std::vector<double>& sums) const;
+    void leave_out_unmapped(Stencils& stencils, std::vector<double>& sums);
     void forget_vicinities(std::size_t rocks);
     void lay_kernels(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);
     void lay_in_groups(const RockShapes& rocks, Stencils& stencils, std::vector<double>& sums);

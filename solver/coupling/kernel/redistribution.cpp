@@ -32,7 +32,7 @@ public:
         std::vector<double> sums = here_;
         stencils_.shared.sum(sums, 1, communicator);
         for (const std::size_t p : stencils_.shared.near())
-            if (std::abs(sums[p] - 1.0) > k_rounding) enlarge(p, 1.0 / sums[p]);
+            if (sums[p] > 0.0 && std::abs(sums[p] - 1.0) > k_rounding) enlarge(p, 1.0 / sums[p]);  // 0: rock without cells
     }
 
 private:

@@ -199,6 +199,49 @@ TEST(Insertion, of_more_rock_than_there_is_room_for_is_refused) {
     EXPECT_THROW(rig.coupling.insert(due), CheckFailure);
 }
 
+/// Rock thrown out of the mesh through its side, and back: outside it falls with (rho_s - rho_f) / (rho_s + C_AM rho_f) g and the fluid has
+/// nothing of it, inside it is as any other.
+TEST(RockWithoutCells, moves_by_its_weight_and_is_told) {
+    constexpr double gravity = 9.81, dt = 2e-3;
+    Rig rig(box(0.1, 0.01), {}, dt);
+    rig.dem.gravity = Vec3(-gravity, 0.0, 0.0);
+    rig.coupling.insert({rock(1, Vec3(-0.05, 0, 0), 0.02), rock(2, Vec3(0.09, 0, 0), 0.02, Vec3(1.2, 0.0, 0.0))});
+    rig.dem.freeze(std::vector<int>{1});
+    const double fall = (2650.0 - k_water.density) / (2650.0 + 0.5 * k_water.density) * gravity;
+    const auto speed = [&] { return rig.dem.rocks().velocity[1].x(); };
+    int steps_outside = 0, steps_back = 0;
+    std::vector<std::string> warnings;
+    for (int n = 0; n < 400 && steps_back < 3; ++n) {
+        const double before = speed();
+        const ExchangeBalance balance = rig.step();
+        const bool had_cells = rig.coupling.flow()[1].has_cells;
+        for (const std::string& warning : rig.coupling.take_warnings()) warnings.push_back(warning);
+        if (!had_cells) {
+            ++steps_outside;
+            EXPECT_NEAR(speed() - before, -fall * rig.fluid.time_step(), 1e-12);
+        } else if (steps_outside > 0) {
+            ++steps_back;
+            EXPECT_GT(std::abs(speed() - before + fall * rig.fluid.time_step()), 1e-6);
+            EXPECT_LE(balance.solid_volume_error, 1e-12);
+        }
+        if (steps_outside > 1 && rig.dem.rocks().position[1].x() > 0.16) {
+            EXPECT_NEAR(balance.solid_volume_error, 0.5, 1e-12) << "one of two rocks of a size";
+        }
+        for (const double alpha : rig.fluid.void_fraction) ASSERT_TRUE(alpha > 0.0 && alpha <= 1.0) << alpha;
+        for (const Vec3& u : rig.fluid.velocity) ASSERT_TRUE(u.allFinite());
+    }
+    EXPECT_GT(steps_outside, 20);
+    EXPECT_EQ(steps_back, 3);
+    const auto tells = [](const std::string& w) { return w.find("1 rock(s) so far had no cell of the mesh in reach, rock 2 at") == 0; };
+    EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(), tells), 1);
+}
+
+TEST(RockWithoutCells, is_refused_when_it_comes_in) {
+    Rig rig(box(0.1, 0.01), {}, 1e-3);
+    EXPECT_THROW(rig.coupling.insert({rock(1, Vec3(0.3, 0, 0), 0.02)}), CheckFailure);
+    EXPECT_TRUE(rig.dem.rocks().id.empty());
+}
+
 TEST(Departure, returns_impulse_and_makes_no_source) {
     Rig rig(box(0.15, 0.01), {}, 2e-3);
     rig.dem.gravity = Vec3(0, 0, -9.81);

@@ -177,9 +177,21 @@ TEST_P(FromNodes, rock_that_travelled_is_mapped_as_rock_that_appeared) {
     }
 }
 
-TEST(Mapping, refuses_rock_outside_the_mesh) {
+/// The far one has no cell within its kernel; the near one has some within it, but none that it could see the flow of.
+TEST(Mapping, leaves_rock_out_that_has_no_cells) {
     Bench bench(cube(0.2, 0.01));
-    EXPECT_THROW(bench.build(one_rock(Vec3(0.5, 0, 0), 0.02)), CheckFailure);
+    TestRocks rocks = one_rock(Vec3(0.5, 0, 0), 0.02);
+    rocks.add(Vec3::Zero(), 0.02);
+    rocks.add(Vec3(0.25, 0, 0), 0.02);
+    const Stencils stencils = bench.build(rocks);
+    EXPECT_EQ(stencils.without_cells, (std::vector<std::size_t>{0, 2}));
+    EXPECT_EQ(stencils.first[1], stencils.first[0]);
+    EXPECT_GT(stencils.first[2], stencils.first[1]);
+    EXPECT_EQ(stencils.first[3], stencils.first[2]);
+    for (const double weight : stencils.deposit) EXPECT_TRUE(std::isfinite(weight));
+    for (const double weight : stencils.sample) EXPECT_TRUE(std::isfinite(weight));
+    EXPECT_FALSE(bench.mapping.had_hidden_rock());
+    EXPECT_THROW(bench.mapping.require_cells(rocks.shapes(), stencils), CheckFailure);
 }
 
 /// A box cut by a blade without thickness in the plane x = 0 below z = 0.
@@ -593,7 +605,11 @@ TEST_F(FourSlabs, sum_over_the_ranks_near_to_a_rock_as_over_all) {
 
 TEST_F(FourSlabs, know_of_every_rock_that_has_no_cell) {
     rocks.add(Vec3(0.5, 0.0, 0.0), 0.02);
-    on_each_rank([&](Mapping& mapping, Communicator&) { EXPECT_THROW(stencils_of(mapping, rocks), CheckFailure); });
+    on_each_rank([&](Mapping& mapping, Communicator&) {
+        const Stencils stencils = stencils_of(mapping, rocks);
+        EXPECT_EQ(stencils.without_cells, std::vector<std::size_t>{rocks.id.size() - 1});
+        EXPECT_THROW(mapping.require_cells(rocks.shapes(), stencils), CheckFailure);
+    });
 }
 
 TEST(Redistribution, makes_room_and_keeps_every_rocks_volume) {
