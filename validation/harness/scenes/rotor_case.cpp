@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "cases/scenes/cutter/case_builder.hpp"
-#include "cases/testing/tiny_rotor_mesh.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
@@ -13,12 +12,13 @@
 
 namespace cutterflow::validation {
 
-void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed) {
+void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed,
+                      const std::function<void(const std::filesystem::path&)>& write_mesh) {
     std::filesystem::create_directories(folder / "geometry");
     std::optional<cases::CaseInputs::Rock> rock;
     std::swap(rock, inputs.rock);
     cases::write_case(folder, inputs);
-    cases::test::write_tiny_block_mesh(folder);
+    write_mesh(folder);
     run_in_case(folder, {"blockMesh"});
     if (!rock) return;
     for (const auto& [patch, surface] :

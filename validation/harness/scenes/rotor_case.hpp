@@ -2,9 +2,11 @@
 /// \file The smallest case with a sliding interface: two lumps of steel that turn in a cylinder of water
 /// (cases/testing/tiny_rotor_mesh.hpp).
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "cases/scenes/cutter/case_inputs.hpp"
+#include "cases/testing/tiny_rotor_mesh.hpp"
 
 namespace cutterflow::validation {
 
@@ -12,7 +14,9 @@ namespace cutterflow::validation {
 /// steel; their surfaces must be put into the folder afterwards.
 /// \param inputs  as cases::test::tiny_inputs() with changes; without inputs.rock flow alone
 /// \param feed    content of constant/rockFeed.csv, with rock
-void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed);
+/// \param write_mesh  writes the system/blockMeshDict of a case, with patches as there
+void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed,
+                      const std::function<void(const std::filesystem::path&)>& write_mesh = cases::test::write_tiny_block_mesh);
 
 /// The same with a ladder at 60 degrees, beside a bank towards which the head travels at 0.1 m/s.
 /// \param inputs  with rock, whose only wall is the bank's
