@@ -113,6 +113,42 @@ TEST_P(Rotor, takes_a_batch_of_rock_without_a_blow) {
 
 INSTANTIATE_TEST_SUITE_P(Ranks, Rotor, ::testing::Values(1, 2));
 
+/// Samples of a point at rest during which a lump of steel covers it, of `samples` over the first `turned` degrees: the lumps are 45
+/// degrees long and begin at 0 and 180 degrees.
+double covered_samples(double azimuth_deg, double turned, double samples) {
+    const double from = std::clamp(azimuth_deg - 45.0, 0.0, turned), to = std::clamp(azimuth_deg, 0.0, turned);
+    return samples * (to - from) / turned;
+}
+
+TEST(FlowAlone, has_dry_samples_where_steel_covers_a_point) {
+    constexpr double k_turned = 45.0, k_radius = 0.125, k_z = -0.1;
+    cases::CaseInputs inputs = cases::test::tiny_inputs();
+    inputs.times.end = inputs.times.write_interval = inputs.checkpoint.interval = k_turned / 360.0;
+    const double still[] = {20.0, 50.0, 60.0, 75.0, 89.0, 100.0, 225.0}, turning[] = {22.0, 60.0};
+    cases::VelocitySetInput set;
+    set.name = "path";
+    const auto place = [&](double azimuth_deg) {
+        return Vec3(k_radius * std::cos(azimuth_deg * k_pi / 180.0), k_radius * std::sin(azimuth_deg * k_pi / 180.0), k_z);
+    };
+    for (const double azimuth : still) set.points.push_back({place(azimuth), false});
+    for (const double azimuth : turning) set.points.push_back({place(azimuth), true});
+    inputs.velocity_sets = {set};
+    const fs::path folder = scratch_folder("rotor_dry");
+    write_rotor_case(folder, inputs, "");
+    run_cutter_foam(folder);
+
+    const Table table = table_of(folder, "velocity/path.csv");
+    const std::vector<double>&samples = table.at("samples"), &dry = table.at("dry_samples");
+    ASSERT_EQ(dry.size(), std::size(still) + std::size(turning));
+    EXPECT_GE(samples[0], 14.0);
+    for (std::size_t i = 0; i < std::size(still); ++i) {
+        const double azimuth = std::fmod(still[i], 180.0);
+        EXPECT_NEAR(dry[i], covered_samples(azimuth, k_turned, samples[i]), 1.5) << still[i];
+    }
+    EXPECT_EQ(dry[std::size(still)], samples[0]) << "a point within a lump, which turns with it";
+    EXPECT_EQ(dry[std::size(still) + 1], 0.0) << "a point between the lumps, which turns with them";
+}
+
 /// Rock, surface and direction of an event.
 std::string what_happened(const std::string& event) {
     const std::size_t first = event.find(',');
