@@ -406,7 +406,7 @@ void require_folder(const ReplaySettings& settings, const nlohmann::json& plan) 
 
 /// Bound, interval of the run itself, hold-up, what was found and losses; empty for a batch.
 std::string fed_columns(const std::optional<postproc::FedHead>& fed) {
-    if (!fed) return ",,,,,,,";
+    if (!fed) return ",,,,,,,,";
     const Production& production = fed->production;
     const std::string interval = production.share ? fmt::format("{:.6g}", production.share->half_interval) : "";
     return fmt::format("{:.6g},{},{:.6g},{},{},{}", production.spillage_min, interval, production.held, production.is_steady ? 1 : 0,
@@ -423,13 +423,14 @@ nlohmann::json fed_json(const std::optional<postproc::FedReplays>& fed) {
             {"spilled_mixing", fed->losses.mixing},
             {"spilled_cutting", fed->losses.cutting},
             {"left_behind", fed->losses.left_behind},
+            {"left_behind_cutting", optional_json(fed->losses.left_behind_cutting)},
             {"spillage_min", fed->spillage_min}};
 }
 
 void write_results(const fs::path& folder, const ReplayResults& results) {
     std::string csv =
         "name,run,same_placement_as_run,seed,start_revolution,spillage,undecided,core_s,spillage_min,half_interval_95,hold_up_kg,"
-        "is_steady,head_is_full,spilled_mixing,spilled_cutting,left_behind\n";
+        "is_steady,head_is_full,spilled_mixing,spilled_cutting,left_behind,left_behind_cutting\n";
     for (const Replay& replay : results.replays)
         csv += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.4g},{}\n", replay.name, replay.run.string(), replay.is_pair ? 1 : 0,
                            replay.seed, replay.start_revolution, replay.spillage, replay.undecided, replay.core_s, fed_columns(replay.fed));
@@ -455,7 +456,8 @@ void write_results(const fs::path& folder, const ReplayResults& results) {
 }  // namespace
 
 std::string loss_columns(const postproc::Losses& losses) {
-    return fmt::format("{:.6g},{:.6g},{:.6g}", losses.mixing, losses.cutting, losses.left_behind);
+    const std::string never_in = losses.left_behind_cutting ? fmt::format("{:.6g}", *losses.left_behind_cutting) : "";
+    return fmt::format("{:.6g},{:.6g},{:.6g},{}", losses.mixing, losses.cutting, losses.left_behind, never_in);
 }
 
 double cost_of(const std::vector<Replay>& replays) {

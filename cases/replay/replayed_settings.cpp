@@ -42,7 +42,7 @@ std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
     std::string csv =
         "setting,placements,spillage,half_interval_95,own_half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,spilled_"
         "mixing,spilled_cutting,"
-        "left_behind,core_s,weakly_coupled\n";
+        "left_behind,left_behind_cutting,core_s,weakly_coupled\n";
     const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string(); };
     for (const ReplayedSetting& setting : settings) {
         const ReplayResults& results = setting.results;
@@ -53,7 +53,7 @@ std::string replays_csv(const std::vector<ReplayedSetting>& settings) {
             csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{},{},{}", cell(fed->own_interval), fed->spillage_min, fed->fed, fed->held,
                                fed->steady, fed->full, loss_columns(fed->losses));
         else
-            csv += ",,,,,,,,";
+            csv += ",,,,,,,,,";
         const char* weakly_coupled = estimate.corrections.count == 0 ? "" : is_weakly_coupled(estimate) ? "1" : "0";
         csv += fmt::format(",{:.6g},{}\n", cost_of(results.replays), weakly_coupled);
     }

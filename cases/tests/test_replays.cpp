@@ -85,7 +85,7 @@ TEST(SameFlow, beside_a_bank_swing_and_ladder_belong_to_the_flow) {
 TEST(Replays, of_a_sweep_are_a_table_of_its_settings) {
     ReplayedSetting fed{"45rpm", {}}, batch{"60rpm", {}};
     fed.results.estimate = postproc::estimate_spillage({0.9, 0.94}, {});
-    fed.results.fed = postproc::FedReplays{2, 1, 2, 0.85, 0.92, 11.5, 11.25, 0.012, {0.3, 0.2, 0.42}};
+    fed.results.fed = postproc::FedReplays{2, 1, 2, 0.85, 0.92, 11.5, 11.25, 0.012, {0.3, 0.2, 0.42, 0.15}};
     fed.results.replays.resize(2);
     for (Replay& replay : fed.results.replays) replay.core_s = 300.0;
     batch.results.estimate = postproc::estimate_spillage({0.97}, {{0.95, 0.96}});
@@ -93,11 +93,11 @@ TEST(Replays, of_a_sweep_are_a_table_of_its_settings) {
     EXPECT_EQ(replays_csv({fed, batch}),
               "setting,placements,spillage,half_interval_95,own_half_interval_95,spillage_min,fed_kg_s,hold_up_kg,settled,head_is_full,"
               "spilled_mixing,spilled_"
-              "cutting,left_behind,core_s,weakly_coupled\n"
+              "cutting,left_behind,left_behind_cutting,core_s,weakly_coupled\n"
               "45rpm,2,0.92," +
                   half +
-                  ",0.012,0.85,11.5,11.25,1,2,0.3,0.2,0.42,600,\n"
-                  "60rpm,1,0.96,,,,,,,,,,,0,0\n");
+                  ",0.012,0.85,11.5,11.25,1,2,0.3,0.2,0.42,0.15,600,\n"
+                  "60rpm,1,0.96,,,,,,,,,,,,0,0\n");
 }
 
 TEST(Replays, of_a_setting_that_fails_do_not_stop_the_others) {

@@ -191,6 +191,8 @@ std::vector<QuantityRule> fed_rules() {
         {"spilled_cutting_share", "spilled by cutting / fed", "-", true,
          of([](const FedHead& head) { return plain(head.losses.cutting); })},
         {"left_behind_share", "left behind / fed", "-", true, of([](const FedHead& head) { return plain(head.losses.left_behind); })},
+        {"left_behind_cutting_share", "left behind, never taken in / fed", "-", true,
+         of([](const FedHead& head) { return plain(head.losses.left_behind_cutting); })},
         {"concentration", "delivered rock in the mixture, by volume", "-", true,
          of_work([](const Dredging& work) { return work.concentration; })},
         {"mixture_density_kg_m3", "density of the mixture", "kg/m³", true,

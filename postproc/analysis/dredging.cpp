@@ -33,7 +33,17 @@ void follow_delivered(const Table& events, const Production& window, Dredging& d
     dredging.largest_delivered = largest;
 }
 
-std::optional<WaysOut> ways_out_of(const Results& results, double by_cutting, double spilled) {
+/// What is lost by cutting over what is lost from a known cause: of rock that is left behind runs of earlier programs have none. Gains of
+/// columns are net, so that one may be negative.
+void add_cause(const Losses& losses, WaysOut& ways) {
+    const double lost = losses.mixing + losses.cutting + losses.left_behind;
+    const double known = losses.left_behind_cutting ? lost : losses.mixing + losses.cutting;
+    if (!(known > 0.0) || !(lost > 0.0)) return;
+    ways.by_cutting = std::clamp((losses.cutting + losses.left_behind_cutting.value_or(0.0)) / known, 0.0, 1.0);
+    ways.cause_known = std::min(1.0, known / lost);
+}
+
+std::optional<WaysOut> ways_out_of(const Results& results) {
     const std::vector<BinSpillage>& bins = results.spillage->bins;
     double with = 0.0, against = 0.0;
     for (std::size_t i = 0; i < bins.size() && i < results.outflow.size(); ++i) {
@@ -43,8 +53,17 @@ std::optional<WaysOut> ways_out_of(const Results& results, double by_cutting, do
     }
     if (!(with + against > 0.0)) return std::nullopt;
     WaysOut ways{with / (with + against), against / (with + against), std::nullopt};
-    if (spilled > 0.0) ways.by_cutting = by_cutting / spilled;
+    add_cause(results.fed->losses, ways);
     return ways;
+}
+
+/// "31.0 % of what was spilled", and of which part where not of all.
+std::string cause_text(const WaysOut& ways) {
+    if (ways.cause_known == 1.0) return text::percent(*ways.by_cutting) + " of what was spilled";
+    return fmt::format(
+        "{} of the part of what was spilled whose cause is known, {} of it (an earlier program’s ledger lost the cause of what "
+        "is left behind),",
+        text::percent(*ways.by_cutting), text::percent(ways.cause_known));
 }
 
 bool has_spilled(const Results& results) {
@@ -57,13 +76,12 @@ bool has_spilled(const Results& results) {
 Dredging dredging_of(const Results& results, const RunData& run) {
     const Production& window = results.fed->production;
     const OperatingPoint& point = run.operating_point;
-    const Losses& losses = results.fed->losses;
     const double duration = window.to - window.from;
 
     Dredging dredging;
     dredging.layer_share = run.feed ? run.feed->left_share : 0.0;
     follow_delivered(run.rock->events, window, dredging);
-    dredging.ways_out = ways_out_of(results, losses.cutting, losses.mixing + losses.cutting + losses.left_behind);
+    dredging.ways_out = ways_out_of(results);
 
     double mass = 0.0, volume = 0.0;  // of the feed
     if (run.feed)
@@ -111,8 +129,7 @@ std::string limits_text(const Results& results) {
         "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
         "flows inwards (it fell through or was thrown out)",
         text::percent(ways->with_outflow), text::percent(ways->against_inflow));
-    if (ways->by_cutting)
-        sentence += fmt::format("; {} of what was spilled had never been taken in (lost in cutting)", text::percent(*ways->by_cutting));
+    if (ways->by_cutting) sentence += fmt::format("; {} had never been taken in (lost in cutting)", cause_text(*ways));
     if (results.mixing)
         sentence += fmt::format(". Neutral rock, well mixed, would spill {}", text::percent(results.mixing->well_mixed_spillage));
     return sentence + ".";

@@ -295,6 +295,7 @@ json dredging_json(const Dredging& dredging, const Losses& losses) {
                 {"spilled_mixing_share", losses.mixing},
                 {"spilled_cutting_share", losses.cutting},
                 {"left_behind_share", losses.left_behind},
+                {"left_behind_cutting_share", or_null(losses.left_behind_cutting)},
                 {"concentration", dredging.concentration},
                 {"mixture_density_kg_m3", dredging.mixture_density},
                 {"spill_layer_m", or_null(dredging.spill_layer)},
@@ -308,7 +309,8 @@ json dredging_json(const Dredging& dredging, const Losses& losses) {
     if (const auto& ways = dredging.ways_out)
         object["ways_out"] = {{"with_outflow_share", ways->with_outflow},
                               {"against_inflow_share", ways->against_inflow},
-                              {"by_cutting_share", or_null(ways->by_cutting)}};
+                              {"by_cutting_share", or_null(ways->by_cutting)},
+                              {"cause_known_share", ways->cause_known}};
     return object;
 }
 
@@ -418,7 +420,8 @@ std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, doubl
     const auto lost = [&](const char* column) {
         return gain_over(series.time, ledger.number(column), production->from, production->to) / production->fed;
     };
-    const Losses losses{lost("spilled_mixing_kg"), lost("spilled_cutting_kg"), lost("left_behind_kg")};
+    Losses losses{lost("spilled_mixing_kg"), lost("spilled_cutting_kg"), lost("left_behind_kg"), {}};
+    if (ledger.has(k_left_behind_cutting)) losses.left_behind_cutting = lost(k_left_behind_cutting);
     return FedHead{*production, losses, longest >= revolution};
 }
 

@@ -49,9 +49,10 @@ inline constexpr double k_most_boundary_error = 0.1;
 
 /// What was lost in the window of a production, over what was fed in it, by mass.
 struct Losses {
-    double mixing = 0.0;       ///< had been in the head's flow
-    double cutting = 0.0;      ///< never taken in
-    double left_behind = 0.0;  ///< outside and far off, taken out of the run
+    double mixing = 0.0;                          ///< had been in the head's flow
+    double cutting = 0.0;                         ///< never taken in
+    double left_behind = 0.0;                     ///< outside and far off, taken out of the run
+    std::optional<double> left_behind_cutting{};  ///< of that, never taken in; none in runs of earlier programs
 };
 
 /// A head that is fed from a cut face.
@@ -65,7 +66,8 @@ struct FedHead {
 struct WaysOut {
     double with_outflow = 0.0;         ///< last exit through a bin where the mean flow goes outwards
     double against_inflow = 0.0;       ///< through one where it goes inwards: rock falls or is thrown out
-    std::optional<double> by_cutting;  ///< never taken in: lost where it was cut, over all that was spilled in the window
+    std::optional<double> by_cutting;  ///< never taken in: lost where it was cut, over what was spilled in the window from a known cause
+    double cause_known = 1.0;          ///< of what was spilled in the window, the share with a known cause
 };
 
 /// What a head that is fed from a cut face does in the window of its production (dredging.hpp).

@@ -241,9 +241,12 @@ std::string production_table(const Results& results, const RunData& run) {
 std::string losses_table(const Results& results, const RunData& run) {
     const Dredging& dredging = *results.dredging;
     const Losses& losses = results.fed->losses;
-    std::vector<std::vector<std::string>> rows{{"spilled by mixing: had been in the head’s flow", percent(losses.mixing)},
-                                               {"spilled by cutting: lost where it was cut, never taken in", percent(losses.cutting)},
-                                               {"left behind: outside and far off, taken out of the run", percent(losses.left_behind)}};
+    std::vector<std::vector<std::string>> rows{
+        {"spilled by mixing: had been in the head’s flow", percent(losses.mixing)},
+        {"spilled by cutting: lost where it was cut, never taken in", percent(losses.cutting)},
+        {"left behind: outside and far off, taken out of the run", percent(losses.left_behind)},
+        {"of that: lost where it was cut, never taken in",
+         losses.left_behind_cutting ? percent(*losses.left_behind_cutting) : "not known: the ledger is an earlier program’s"}};
     if (dredging.layer_share > 0.0)
         rows.push_back({"of what was fed, loose rock that the swing before left", percent(dredging.layer_share)});
     if (run.operating_point.rock_share < 1.0) {

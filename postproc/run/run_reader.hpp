@@ -120,6 +120,9 @@ Table read_fates(const std::filesystem::path& run_directory);
 /// events.csv of a run or a replay, likewise.
 Table read_events(const std::filesystem::path& run_directory);
 
+/// Column of ledger.csv: of left_behind_kg, what was never taken in. Runs of earlier programs have none.
+inline constexpr const char* k_left_behind_cutting = "left_behind_cutting_kg";
+
 /// ledger.csv of a run or a replay, likewise.
 Table read_ledger(const std::filesystem::path& run_directory);
 

@@ -22,6 +22,7 @@ public:
     std::size_t rows() const { return rows_; }
     bool empty() const { return rows_ == 0; }
     const std::vector<std::string>& columns() const { return columns_; }  ///< in the file's order
+    bool has(const std::string& column) const { return numbers_.count(column) > 0 || texts_.count(column) > 0; }
     /// \throws std::out_of_range  when there is no such column (the rules make sure of the required ones)
     const std::vector<double>& number(const std::string& column) const { return numbers_.at(column); }
     const std::vector<std::string>& text(const std::string& column) const { return texts_.at(column); }

@@ -404,12 +404,13 @@ void make_fed(const SmallRun& run, double held, double stuck) {
                    "\n[bank]\nmodel = \"wall\"\n[soil]\ngrain_density_kg_m3 = 2500\nporosity = 0.2\n[[feed]]\nkind = \"cut_face\"\n");
     write_stl(run.directory / "geometry/bank.stl", {{Vec3(0.3, 0.5, -0.4), Vec3(0.3, 0.9, -0.4), Vec3(0.3, 0.9, 0.0)}});
     std::string text =
-        "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error\n";
+        "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,"
+        "left_behind_cutting_kg,error\n";
     for (int step = 1; step <= 3100; ++step) {
         const double time = 0.01 * step, fed = rate * std::max(0.0, time - begin), gone = std::max(0.0, (1.0 - stuck) * fed - held);
         const double to_and_fro = gone > 0.0 ? wave * std::cos(k_pi * time) : 0.0;
         const double delivered = std::max(0.0, 0.6 * gone + to_and_fro), spilled = gone - delivered;
-        text += fmt::format("{:.9g},{:.12g},0,{:.12g},{:.12g},{:.12g},0,0,0,0\n", time, fed, fed - gone, delivered, spilled);
+        text += fmt::format("{:.9g},{:.12g},0,{:.12g},{:.12g},{:.12g},0,0,0,0,0\n", time, fed, fed - gone, delivered, spilled);
     }
     write_text(run.directory / "postProcessing/rock/0/ledger.csv", text);
 }

@@ -75,6 +75,51 @@ TEST(Dredging, has_the_rates_of_the_swing) {
     EXPECT_NE(limits_text(full).find("it cannot take what it cuts; of the rock that left"), std::string::npos) << limits_text(full);
 }
 
+/// Writes what is spilled as 10 % within reach after mixing, 20 % within reach never taken in, 70 % left behind, of which `never_in`.
+/// \param never_in  none: as an earlier program, without the column
+void leave_behind(const fs::path& directory, std::optional<double> never_in) {
+    const fs::path file = directory / "postProcessing/rock/0/ledger.csv";
+    const Table ledger = read_ledger(directory);
+    const auto at = [&](const char* column, std::size_t row) { return ledger.number(column)[row]; };
+    std::string text =
+        fmt::format("time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg{},error\n",
+                    never_in ? ",left_behind_cutting_kg" : "");
+    for (std::size_t row = 0; row < ledger.rows(); ++row) {
+        const double spilled = at("spilled_mixing_kg", row);
+        text += fmt::format("{:.9g},{:.12g},0,{:.12g},{:.12g},{:.12g},{:.12g},0,{:.12g}{},0\n", at("time_s", row), at("fed_kg", row),
+                            at("in_head_kg", row), at("delivered_kg", row), 0.1 * spilled, 0.2 * spilled, 0.7 * spilled,
+                            never_in ? fmt::format(",{:.12g}", *never_in * 0.7 * spilled) : "");
+    }
+    write_text(file, text);
+}
+
+TEST(Dredging, knows_the_cause_of_what_was_left_behind) {
+    const fs::path directory = at_work("dredging_cause");
+    leave_behind(directory, 0.5);
+    const RunData run = read_run(directory);
+    const Results results = compute_results(run);
+    EXPECT_NEAR(results.fed->losses.left_behind, 0.7 * 0.4, 0.01);
+    EXPECT_NEAR(*results.fed->losses.left_behind_cutting, 0.35 * 0.4, 0.005);
+    EXPECT_NEAR(*results.dredging->ways_out->by_cutting, 0.2 + 0.35, 1e-9);
+    EXPECT_NEAR(results.dredging->ways_out->cause_known, 1.0, 1e-12);
+    EXPECT_NE(limits_text(results).find("; 55.0 % of what was spilled had never been taken in (lost in cutting)"), std::string::npos)
+        << limits_text(results);
+    EXPECT_NEAR(results_json(results, run).at("dredging").at("left_behind_cutting_share").get<double>(), 0.14, 0.005);
+}
+
+TEST(Dredging, says_of_what_part_an_earlier_programs_ledger_knows_the_cause) {
+    const fs::path directory = at_work("dredging_no_cause");
+    leave_behind(directory, {});
+    const RunData run = read_run(directory);
+    const Results results = compute_results(run);
+    EXPECT_FALSE(results.fed->losses.left_behind_cutting);
+    EXPECT_NEAR(*results.dredging->ways_out->by_cutting, 0.2 / 0.3, 1e-9);
+    EXPECT_NEAR(results.dredging->ways_out->cause_known, 0.3, 1e-9);
+    EXPECT_NE(limits_text(results).find("; 66.7 % of the part of what was spilled whose cause is known, 30.0 % of it"), std::string::npos)
+        << limits_text(results);
+    EXPECT_TRUE(results_json(results, run).at("dredging").at("left_behind_cutting_share").is_null());
+}
+
 TEST(Dredging, tells_no_layer_and_no_total_while_the_head_fills) {
     const RunData run = read_run(at_work("dredging_filling", 60.0, 0.2));
     const Results results = compute_results(run);

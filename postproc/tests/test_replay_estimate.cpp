@@ -130,6 +130,17 @@ TEST(FedReplays, say_how_many_have_settled_and_what_bounds_the_others) {
         EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
+TEST(FedReplays, say_what_of_the_left_behind_was_never_taken_in_where_all_know_it) {
+    FedHead known = head(20.0, 10.0, 10.0, true), unknown = known;
+    known.losses = {0.1, 0.1, 0.3, 0.12};
+    unknown.losses = {0.1, 0.1, 0.3, {}};
+    const auto text_of = [](const std::vector<FedHead>& heads) {
+        return replay_text(estimate_spillage({0.5, 0.4}, {}), fed_replays_of(heads));
+    };
+    EXPECT_NE(text_of({known, known}).find("30.0 % left behind (12.0 % never taken in)\n"), std::string::npos);
+    EXPECT_NE(text_of({known, unknown}).find("30.0 % left behind\n"), std::string::npos);
+}
+
 TEST(FedReplays, have_bounds_in_order_where_hold_up_falls) {
     const FedReplays fed = fed_replays_of({head(20.0, 12.0, 10.0, false)});
     const std::string text = replay_text(estimate_spillage({0.4}, {}), fed);

@@ -57,7 +57,8 @@ void CsvRecorder::begin() {
                    "density_kg_m3,bin");
     if (settings_.fates) {
         ledger_ = open(k_rock, "ledger.csv",
-                       "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,error");
+                       "time_s,fed_kg,owed_kg,in_head_kg,delivered_kg,spilled_mixing_kg,spilled_cutting_kg,on_bed_kg,left_behind_kg,"
+                       "left_behind_cutting_kg,error");
         fates_ = open(k_rock, "fates.csv",
                       "time_s,placed_count,placed_kg,sucked_up_count,sucked_up_kg,spilled_count,spilled_kg,in_cutter_count,in_cutter_kg,"
                       "never_entered_count,never_entered_kg");
@@ -166,9 +167,9 @@ void CsvRecorder::fates(double time, const FateTotals& totals) {
 }
 
 void CsvRecorder::ledger(double time, const RockLedger& ledger) {
-    fmt::print(ledger_, "{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.3g}\n", time, ledger.fed, ledger.owed,
-               ledger.in_head, ledger.delivered, ledger.spilled_mixing, ledger.spilled_cutting, ledger.on_bed, ledger.left_behind,
-               ledger.error());
+    fmt::print(ledger_, "{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.3g}\n", time, ledger.fed,
+               ledger.owed, ledger.in_head, ledger.delivered, ledger.spilled_mixing, ledger.spilled_cutting, ledger.on_bed,
+               ledger.left_behind(), ledger.left_behind_cutting, ledger.error());
 }
 
 void CsvRecorder::outflow(double time, gsl::span<const double> radial_velocity, gsl::span<const double> flux) {

@@ -28,7 +28,7 @@ RockEvent rock_event(EventSurface surface, EventDirection direction, const Rocks
 }
 
 double RockLedger::error() const {
-    const double known = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind;
+    const double known = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind_mixing + left_behind_cutting;
     return known == fed ? 0.0 : std::abs(fed - known) / fed;
 }
 

@@ -93,18 +93,21 @@ struct FateTotals {
 };
 
 /// Where the rock of the feed is, by mass [kg]. Each rock is in one place:
-///   fed = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind.
+///   fed = owed + in_head + delivered + spilled_mixing + spilled_cutting + on_bed + left_behind_mixing + left_behind_cutting.
+/// Spilled rock is within reach and may come back; what is left behind is lost for good.
 struct RockLedger {
     double fed = 0.0;   ///< was due so far, or there at the start
     double owed = 0.0;  ///< was due and is not in: it found no place
     double in_head = 0.0;
-    double delivered = 0.0;        ///< sucked up
-    double spilled_mixing = 0.0;   ///< outside the head, after it had been mixed into the head's flow
-    double spilled_cutting = 0.0;  ///< outside the head, thrown out where it was cut
-    double on_bed = 0.0;           ///< outside the head, never having been in it
-    double left_behind = 0.0;      ///< outside and so far off that it was taken out
+    double delivered = 0.0;            ///< sucked up
+    double spilled_mixing = 0.0;       ///< outside the head, after it had been mixed into the head's flow
+    double spilled_cutting = 0.0;      ///< outside the head, thrown out where it was cut
+    double on_bed = 0.0;               ///< outside the head, never having been in it
+    double left_behind_mixing = 0.0;   ///< outside and so far off that it was taken out, after it had been mixed in
+    double left_behind_cutting = 0.0;  ///< likewise, never mixed in
 
-    double spilled() const { return spilled_mixing + spilled_cutting + left_behind; }
+    double left_behind() const { return left_behind_mixing + left_behind_cutting; }
+    double spilled() const { return spilled_mixing + spilled_cutting + left_behind(); }
     double held() const { return owed + in_head + on_bed; }  ///< neither delivered nor spilled
     /// |fed - sum of the others| / fed; infinite where there is rock and none was fed.
     double error() const;

@@ -34,8 +34,10 @@ std::string fed_text(const FedReplays& fed) {
     if (fed.own_interval)
         text += fmt::format("each        +- {:.1f} points (95 %) at most, by batches of a replay's own revolutions\n",
                             100.0 * *fed.own_interval);
-    text += fmt::format("lost        {:.1f} % after mixing, {:.1f} % where it was cut, {:.1f} % left behind\n", 100.0 * fed.losses.mixing,
-                        100.0 * fed.losses.cutting, 100.0 * fed.losses.left_behind);
+    const std::optional<double>& never_in = fed.losses.left_behind_cutting;
+    text += fmt::format("lost        {:.1f} % after mixing, {:.1f} % where it was cut, {:.1f} % left behind{}\n", 100.0 * fed.losses.mixing,
+                        100.0 * fed.losses.cutting, 100.0 * fed.losses.left_behind,
+                        never_in ? fmt::format(" ({:.1f} % never taken in)", 100.0 * *never_in) : "");
     if (fed.full > 0) text += fmt::format("full        the head cannot take what it cuts in {} of {} replays\n", fed.full, fed.count);
     return text;
 }
@@ -78,6 +80,8 @@ FedReplays fed_replays_of(const std::vector<FedHead>& heads) {
     FedReplays fed;
     fed.count = heads.size();
     const double share = 1.0 / static_cast<double>(heads.size());
+    std::optional<double>& never_in = fed.losses.left_behind_cutting;
+    never_in = 0.0;
     for (const FedHead& head : heads) {
         fed.steady += head.production.is_steady ? 1 : 0;
         fed.full += head.is_full ? 1 : 0;
@@ -89,6 +93,10 @@ FedReplays fed_replays_of(const std::vector<FedHead>& heads) {
         fed.losses.mixing += share * head.losses.mixing;
         fed.losses.cutting += share * head.losses.cutting;
         fed.losses.left_behind += share * head.losses.left_behind;
+        if (never_in && head.losses.left_behind_cutting)
+            *never_in += share * *head.losses.left_behind_cutting;
+        else
+            never_in.reset();
     }
     return fed;
 }

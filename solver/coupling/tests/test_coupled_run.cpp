@@ -365,12 +365,39 @@ TEST(Ledger, closes_at_every_step_of_a_feed_with_every_way_out) {
     EXPECT_NEAR(end.fed, 40.0 * one, 1e-10);
     EXPECT_GE(end.owed, 0.5 * one);
     EXPECT_GE(end.delivered, 0.5 * one);
-    EXPECT_GE(end.left_behind, 0.5 * one);
+    EXPECT_GE(end.left_behind(), 0.5 * one);
     const double followed = end.in_head + end.spilled_mixing + end.spilled_cutting + end.on_bed;
     EXPECT_GE(mass_of(rig.dem.rocks()), followed - 1e-12) << "what is done with leaves with the next packet";
     EXPECT_EQ(
         std::count_if(recorder.events.begin(), recorder.events.end(), [](const RockEvent& e) { return e.surface == EventSurface::feed; }),
         std::lround(40.0 - end.owed / one));
+}
+
+TEST(Ledger, keeps_the_cause_of_what_is_left_behind) {
+    const TemporaryFolder folder;
+    MemoryRecorder recorder;
+    // The flow goes along -y: rock 1 leaves from where it was cut, rocks 2 and 3 through the head.
+    CouplingSettings settings =
+        case_settings(folder, "1,0,0,-0.17,-0.02,0.02,2650\n2,0,0.08,0.15,-0.02,0.02,2650\n3,0,-0.1,0.13,-0.02,0.02,2650\n");
+    settings.queue = QueueSettings{0.01, 0.05, 0.1};
+    settings.fates->cutting = CuttingSettings{0.1, Vec3(0, -1, 0), 0.25};
+    settings.checkpoint = CheckpointSettings{0.04, 2};
+    Rig rig(settings, folder.path(), recorder, Vec3(0, -1.5, 0));
+    while (rig.fluid.time() < 0.6) rig.run->step();
+    const double one = sphere_mass(0.02, 2650.0);
+    const RockLedger& end = recorder.ledgers.back();
+    EXPECT_NEAR(end.left_behind_cutting, one, 1e-12);
+    EXPECT_NEAR(end.left_behind_mixing, 2.0 * one, 1e-12);
+    for (const RockLedger& ledger : recorder.ledgers) EXPECT_LE(ledger.error(), 1e-12);
+
+    MemoryRecorder after;
+    Rig resumed(settings, folder.path(), after, Vec3(0, -1.5, 0));
+    const std::filesystem::path checkpoint = newest_checkpoint(folder.path());
+    resumed.fluid.restart_at(read_state(checkpoint).time);
+    resumed.run->resume(checkpoint);
+    resumed.run->step();
+    EXPECT_NEAR(after.ledgers.back().left_behind_cutting, one, 1e-12);
+    EXPECT_NEAR(after.ledgers.back().left_behind_mixing, 2.0 * one, 1e-12);
 }
 
 /// Takes one rock more out than it is told to.

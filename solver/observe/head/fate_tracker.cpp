@@ -33,7 +33,7 @@ Fate TrackedRock::fate() const {
 
 RockPlace TrackedRock::place() const {
     if (sucked_up) return RockPlace::delivered;
-    if (left_behind) return RockPlace::left_behind;
+    if (left_behind) return mixed ? RockPlace::left_behind_mixing : RockPlace::left_behind_cutting;
     if (inside) return RockPlace::in_head;
     if (!was_inside) return RockPlace::on_bed;
     return mixed ? RockPlace::spilled_mixing : RockPlace::spilled_cutting;
@@ -48,8 +48,8 @@ RockLedger ledger_of(const std::map<int, TrackedRock>& rocks, const Rocks& prese
     ledger.fed = fed;
     ledger.owed = owed;
     const auto add = [&](RockPlace place, double mass) {
-        double* const columns[] = {&ledger.in_head,         &ledger.delivered, &ledger.spilled_mixing,
-                                   &ledger.spilled_cutting, &ledger.on_bed,    &ledger.left_behind};
+        double* const columns[] = {&ledger.in_head, &ledger.delivered,          &ledger.spilled_mixing,     &ledger.spilled_cutting,
+                                   &ledger.on_bed,  &ledger.left_behind_mixing, &ledger.left_behind_cutting};
         *columns[static_cast<std::size_t>(place)] += mass;
     };
     for (const auto& [id, rock] : rocks)

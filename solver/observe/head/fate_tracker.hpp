@@ -14,7 +14,7 @@
 namespace cutterflow::coupling {
 
 /// Columns of RockLedger that a placed rock may stand in.
-enum class RockPlace { in_head, delivered, spilled_mixing, spilled_cutting, on_bed, left_behind };
+enum class RockPlace { in_head, delivered, spilled_mixing, spilled_cutting, on_bed, left_behind_mixing, left_behind_cutting };
 
 /// State of one placed rock. Plain numbers: a checkpoint writes it out.
 struct TrackedRock {
@@ -45,7 +45,8 @@ RockLedger ledger_of(const std::map<int, TrackedRock>& rocks, const Rocks& prese
 /// where it passes that distance, interpolated linearly within the step. A rock that starts within the volume counts as having been in it.
 ///
 /// Rock of a batch that is in the volume is mixed. Rock from a cut face starts just within the contour: it is mixed once it has come
-/// `hysteresis` diameters deeper than it started; if it leaves without, it was spilled by cutting.
+/// `hysteresis` diameters deeper than it started; if it leaves without, it was spilled by cutting. Rock that is left behind keeps its
+/// cause.
 class FateTracker {
 public:
     FateTracker(const FateSettings& settings, geometry::Contour contour);

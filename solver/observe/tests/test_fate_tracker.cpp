@@ -222,13 +222,13 @@ TEST(CutRock, that_is_far_off_or_behind_is_left_behind_for_good) {
     CutRock far;
     EXPECT_EQ(far.at(Vec3(0, 0.60, -0.08)), RockPlace::spilled_cutting);
     EXPECT_TRUE(far.tracker.finished().empty());
-    EXPECT_EQ(far.at(Vec3(0, 0.80, -0.08)), RockPlace::left_behind);
+    EXPECT_EQ(far.at(Vec3(0, 0.80, -0.08)), RockPlace::left_behind_cutting) << "it keeps its cause";
     EXPECT_EQ(far.tracker.finished(), std::vector<int>{1});
-    EXPECT_EQ(far.at(Vec3(0, 0.30, -0.08)), RockPlace::left_behind);
     CutRock behind;
     EXPECT_EQ(behind.at(Vec3(0, 0, -0.08)), RockPlace::in_head);
     EXPECT_EQ(behind.at(Vec3(0, -0.59, -0.08)), RockPlace::spilled_mixing) << "its way led through the head";
-    EXPECT_EQ(behind.at(Vec3(0, -0.61, -0.08)), RockPlace::left_behind);
+    EXPECT_EQ(behind.at(Vec3(0, -0.61, -0.08)), RockPlace::left_behind_mixing);
+    EXPECT_EQ(behind.at(Vec3(0, -0.30, -0.08)), RockPlace::left_behind_mixing) << "final";
 }
 
 TEST(Ledger, has_every_rock_in_one_place) {
