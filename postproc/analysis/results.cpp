@@ -119,6 +119,16 @@ RotorLoads loads_of_replay(const RunData& run, double end_time) {
     return rotor;
 }
 
+/// In the window of its production where a head is fed all the time, else from the first rock on.
+LastExits exits_of_run(const Results& results, const RunData& run) {
+    const auto between = [&](double from, double to, double supplied) {
+        return last_exits_of(run.rock->events, run.bins, run.operating_point, from, to, supplied);
+    };
+    if (results.fed) return between(results.fed->production.from, results.fed->production.to, results.fed->production.fed);
+    const Fates& fates = results.spillage->fates;
+    return between(results.spillage->feed_start, fates.time, fates.placed.mass);
+}
+
 Delivery compute_delivery(const OperatingPoint& point, const std::optional<Spillage>& spillage) {
     Delivery delivery;
     delivery.pipe_velocity = point.discharge / (k_pi * point.mouth_radius * point.mouth_radius);
@@ -331,6 +341,29 @@ json spillage_json(const Spillage& spillage, const std::vector<BinOutflow>& outf
     return object;
 }
 
+json exits_json(const LastExits& exits) {
+    json object{{"window_start_s", exits.from}, {"window_end_s", exits.to}, {"supplied_kg", exits.supplied}, {"bins", json::array()}};
+    for (const BinSpillage& bin : exits.bins) {
+        object["bins"].push_back(amount_json(bin.spilled));
+        object["bins"].back()["name"] = bin.bin.name;
+    }
+    constexpr double width = 360.0 / k_last_exit_sectors;
+    object["sectors"] = json::array();
+    for (std::size_t s = 0; s < exits.sectors.size(); ++s) {
+        object["sectors"].push_back(amount_json(exits.sectors[s]));
+        object["sectors"].back()["azimuth_from_deg"] = width * static_cast<double>(s);
+        object["sectors"].back()["azimuth_to_deg"] = width * static_cast<double>(s + 1);
+    }
+    object["quarters"] = nullptr;
+    if (const auto& quarters = exits.quarters)
+        object["quarters"] = {{"bank_azimuth_deg", quarters->bank_at_90 ? 90 : 270},
+                              {"bank_side", amount_json(quarters->bank_side)},
+                              {"top", amount_json(quarters->top)},
+                              {"trailing_side", amount_json(quarters->trailing_side)},
+                              {"bottom", amount_json(quarters->bottom)}};
+    return object;
+}
+
 json rock_json(const Results& results) {
     const Fates& fates = results.spillage->fates;
     return {{"requested", results.rock_requested},
@@ -447,6 +480,7 @@ Results compute_results(const RunData& run) {
         results.fed = fed_head_of(run.rock->ledger, run.operating_point.revolution_s(), blade_period(run));
     results.rotor = run.flow ? loads_of_replay(run, results.end_time) : loads_of_run(run, results);
     results.delivery = compute_delivery(run.operating_point, results.spillage);
+    if (results.spillage) results.exits = exits_of_run(results, run);
     if (results.fed) results.dredging = dredging_of(results, run);
     results.scale = compute_scale(run);
     results.conservation = worst_balance(run.balance, results.spillage && !run.flow);
@@ -461,6 +495,7 @@ json results_json(const Results& results, const RunData& run) {
     document["warnings"] = run.warnings;
     document["rock"] = results.spillage ? rock_json(results) : json(nullptr);
     document["spillage"] = results.spillage ? spillage_json(*results.spillage, results.outflow) : json(nullptr);
+    document["exits"] = results.exits ? exits_json(*results.exits) : json(nullptr);
     document["outflow"] = results.outflow.empty() ? json(nullptr) : outflow_json(results.outflow);
     document["conservation"] = {{"solid_volume_max_error", or_null(results.conservation.solid_volume)},
                                 {"momentum_max_error", or_null(results.conservation.momentum)},

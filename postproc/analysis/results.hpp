@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/base/statistics/production.hpp"
+#include "postproc/analysis/exits/last_exits.hpp"
 #include "postproc/analysis/spillage.hpp"
 #include "postproc/analysis/time_average.hpp"
 #include "postproc/run/run_reader.hpp"
@@ -133,6 +134,7 @@ struct Results {
     std::optional<Mixing> mixing;      ///< of the outflow
     std::optional<FedHead> fed;        ///< of a head that is fed all the time, once it has run long enough
     std::optional<Dredging> dredging;  ///< of the same
+    std::optional<LastExits> exits;    ///< in the window of the production, else since the first rock; none without rock
     RotorLoads rotor;
     Delivery delivery;
     ScaleNumbers scale;

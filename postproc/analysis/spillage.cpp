@@ -46,23 +46,6 @@ std::size_t last_agreed_row(const Table& fates, const Table& events, bool finish
     return *agreed;
 }
 
-std::vector<BinSpillage> bin_spilled_rock(const std::map<int, RockHistory>& rocks, const std::vector<geometry::AxialBin>& bins) {
-    std::vector<BinSpillage> result;
-    for (const geometry::AxialBin& bin : bins) result.push_back({bin, {}});
-    for (const auto& [id, rock] : rocks) {
-        if (!rock.outside || rock.sucked_up) continue;
-        const auto found =
-            std::find_if(result.begin(), result.end(), [&](const BinSpillage& b) { return b.bin.name == rock.last_exit_bin; });
-        if (found == result.end()) {
-            throw CheckFailure({"postProcessing/rock/events.csv", fmt::format("rock {} left through bin \"{}\"", id, rock.last_exit_bin),
-                                "The bins are those of report.bin_width_m and the head's contour", "Keep the bin width of the run"});
-        }
-        ++found->spilled.count;
-        found->spilled.mass += rock.mass;
-    }
-    return result;
-}
-
 void require_same_mass(const std::vector<BinSpillage>& bins, const Fates& fates) {
     double mass = 0.0;
     for (const BinSpillage& bin : bins) mass += bin.spilled.mass;
@@ -133,6 +116,23 @@ SpillageRatios ratios_of(const Fates& fates) {
     return ratios;
 }
 
+std::vector<BinSpillage> bin_spilled_rock(const std::map<int, RockHistory>& rocks, const std::vector<geometry::AxialBin>& bins) {
+    std::vector<BinSpillage> result;
+    for (const geometry::AxialBin& bin : bins) result.push_back({bin, {}});
+    for (const auto& [id, rock] : rocks) {
+        if (!rock.is_spilled()) continue;
+        const auto found =
+            std::find_if(result.begin(), result.end(), [&](const BinSpillage& b) { return b.bin.name == rock.last_exit_bin; });
+        if (found == result.end()) {
+            throw CheckFailure({"postProcessing/rock/events.csv", fmt::format("rock {} left through bin \"{}\"", id, rock.last_exit_bin),
+                                "The bins are those of report.bin_width_m and the head's contour", "Keep the bin width of the run"});
+        }
+        ++found->spilled.count;
+        found->spilled.mass += rock.mass;
+    }
+    return result;
+}
+
 void RockHistories::advance(const Table& events, double time) {
     while (next_ < events.rows() && events.number("time_s")[next_] <= with_tolerance(time)) take(events, next_++);
 }
@@ -144,18 +144,22 @@ void RockHistories::take(const Table& events, std::size_t row) {
     rock.mass = rock.volume * events.number("density_kg_m3")[row];
     const std::string& surface = events.text("surface")[row];
     const bool out = events.text("direction")[row] == "out";
-    const bool was_spilled = rock.outside && !rock.sucked_up;
+    const bool was_spilled = rock.is_spilled();
     if (surface == "feed" && !feed_start_) feed_start_ = events.number("time_s")[row];
     if (surface == "head") {
         rock.outside = out;
-        if (out) rock.last_exit_bin = events.text("bin")[row];
-        if (out && !rock.first_exit_azimuth) rock.first_exit_azimuth = events.number("azimuth_rad")[row];
+        if (out) {
+            rock.last_exit_bin = events.text("bin")[row];
+            rock.last_exit_time = events.number("time_s")[row];
+            rock.last_exit_azimuth = events.number("azimuth_rad")[row];
+            if (!rock.first_exit_azimuth) rock.first_exit_azimuth = rock.last_exit_azimuth;
+        }
     }
     if (surface == "mouth" && !out && !rock.sucked_up) {
         rock.sucked_up = true;
         ++sucked_up_;
     }
-    spilled_ += static_cast<int>(rock.outside && !rock.sucked_up) - static_cast<int>(was_spilled);
+    spilled_ += static_cast<int>(rock.is_spilled()) - static_cast<int>(was_spilled);
 }
 
 Spillage evaluate_spillage(const Table& fates, const Table& events, const std::vector<geometry::AxialBin>& bins, double revolution,

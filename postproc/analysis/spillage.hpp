@@ -43,7 +43,9 @@ struct RockHistory {
     bool sucked_up = false;  ///< final
     bool outside = false;    ///< its last crossing of the head's boundary led out
     std::string last_exit_bin;
-    std::optional<double> first_exit_azimuth;  ///< [rad], in [0, 2 pi), 0 lowest; of the first crossing that led out
+    double last_exit_time = 0.0, last_exit_azimuth = 0.0;  ///< [s], [rad] as below; of a rock that left the head
+    std::optional<double> first_exit_azimuth;              ///< [rad], in [0, 2 pi), 0 lowest; of the first crossing that led out
+    bool is_spilled() const { return outside && !sucked_up; }
 };
 
 /// Reads events in time order and keeps what is known of each rock.
@@ -69,6 +71,9 @@ struct BinSpillage {
     geometry::AxialBin bin;
     RockAmount spilled;
 };
+
+/// Spilled rock by the bin of its last exit; all bins. \throws CheckFailure  when rock left through a bin that is none of `bins`
+std::vector<BinSpillage> bin_spilled_rock(const std::map<int, RockHistory>& rocks, const std::vector<geometry::AxialBin>& bins);
 
 /// Ratios when a given time has passed since the first rock came in.
 struct RatiosAt {

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t k_points = 500;  ///< of a curve over time; more cannot be seen
 constexpr double k_bins_per_revolution = 100.0;
-constexpr int k_sectors = 24;
 constexpr double k_gap = std::numeric_limits<double>::quiet_NaN();  ///< breaks a curve
 constexpr int k_wide = 1116;                                        ///< as wide as the page, so that letters have their size
 
@@ -177,7 +176,12 @@ Figure outcome(const Spillage& spillage) {
             ""};
 }
 
-/// Spilled share of the placed mass per bin (with rock) and radial outflow on the upper axis, in the bins' order along the axis.
+/// What shares of spilled rock are over.
+const char* supplied_text(const Results& results) {
+    return results.fed ? "what was fed in the window" : "the placed mass";
+}
+
+/// Spilled share of the supplied mass per bin (with rock) and radial outflow on the upper axis, in the bins' order along the axis.
 Figure bins(const Results& results) {
     Plot plot;
     plot.name = "bins";
@@ -189,15 +193,15 @@ Figure bins(const Results& results) {
     outflow.mark_size = 6.0;
     outflow.upper_axis = true;
     double largest_share = 0.0, lowest = 0.0, highest = 0.0;
-    const std::size_t count = results.outflow.empty() ? results.spillage->bins.size() : results.outflow.size();
+    const std::size_t count = results.outflow.empty() ? results.exits->bins.size() : results.outflow.size();
     for (std::size_t i = 0; i < count; ++i) {
         const double y = -static_cast<double>(i);
-        const std::string& name = results.outflow.empty() ? results.spillage->bins[i].bin.name : results.outflow[i].bin.name;
+        const std::string& name = results.outflow.empty() ? results.exits->bins[i].bin.name : results.outflow[i].bin.name;
         plot.y.ticks.push_back({y, tic_text(name)});
-        if (results.spillage && results.spillage->fates.placed.mass > 0.0) {
-            const double share = 100.0 * results.spillage->bins[i].spilled.mass / results.spillage->fates.placed.mass;
+        if (results.exits && results.exits->supplied > 0.0) {
+            const double share = 100.0 * results.exits->bins[i].spilled.mass / results.exits->supplied;
             largest_share = std::max(largest_share, share);
-            plot.bars.push_back({0.0, share, y, 0.72, palette::spilled, fmt::format("{:.2f} % of the placed mass", share)});
+            plot.bars.push_back({0.0, share, y, 0.72, palette::spilled, fmt::format("{:.2f} % of {}", share, supplied_text(results))});
         }
         if (!results.outflow.empty() && results.outflow[i].radial_velocity) {
             const TimeAverage& velocity = *results.outflow[i].radial_velocity;
@@ -221,7 +225,7 @@ Figure bins(const Results& results) {
     plot.x.zero_line = true;
     plot.x.visible = !plot.bars.empty();
     if (plot.x.visible) {
-        plot.x.title = "bars: spilled, % of the placed mass";
+        plot.x.title = fmt::format("bars: spilled, % of {}", supplied_text(results));
         plot.x.colour = palette::spilled;
         // Negative shares have no meaning; the axis has room for them because both zeros stand at one place.
         const double step = round_step(range.high_1);
@@ -246,14 +250,14 @@ Figure bins(const Results& results) {
             ""};
 }
 
-/// Spilled share of the placed mass against the radial velocity, a point a bin, that of the bin below the ring in front.
+/// Spilled share of the supplied mass against the radial velocity, a point a bin, that of the bin below the ring in front.
 Figure top_bin(const Results& results) {
     Plot plot;
     plot.name = "top_bin";
     plot.tips = Tips::at_point;
     plot.x.title = "mean radial velocity, m/s (outwards positive)";
     plot.x.tip = {".3f", " m/s"};
-    plot.y.title = "spilled there, % of the placed mass";
+    plot.y.title = fmt::format("spilled there, % of {}", supplied_text(results));
     plot.y.tip = {".2f", " %"};
     Series others{"other bins", palette::outflow, {}, {}}, top{"bin below the ring", palette::spilled, {}, {}};
     others.mark = Mark::ring;
@@ -264,7 +268,7 @@ Figure top_bin(const Results& results) {
         const BinOutflow& flow = results.outflow[i];
         if (!flow.radial_velocity) continue;
         const double velocity = flow.radial_velocity->mean, error = flow.radial_velocity->standard_error.value_or(0.0);
-        const double share = 100.0 * results.spillage->bins[i].spilled.mass / results.spillage->fates.placed.mass;
+        const double share = 100.0 * results.exits->bins[i].spilled.mass / results.exits->supplied;
         Series& series = flow.bin.z_max == 0.0 ? top : others;
         series.x.push_back(velocity);
         series.y.push_back(share);
@@ -347,20 +351,29 @@ std::optional<std::pair<double, double>> bank_sector(const RunData& run) {
     const double top = lowest - point.standing_out + point.cut_height;
     const double reach = (head.ring_radius() + point.standing_out) * c;
     const double up_to = reach > 0.0 ? std::acos(std::clamp(-top / reach, -1.0, 1.0)) : k_pi;
-    const bool at_90 = (point.swing_direction == "under_cut") == (point.rotor_direction == "right_handed");
-    return at_90 ? std::pair(0.0, up_to) : std::pair(-up_to, 0.0);
+    return bank_is_at_90(point).value_or(false) ? std::pair(0.0, up_to) : std::pair(-up_to, 0.0);
 }
 
-/// Rocks by azimuth of their first exit, in sectors of 15 degrees, seen from the hub, lowest side down.
-Figure first_exit(const std::vector<double>& azimuths, const std::optional<std::pair<double, double>>& bank) {
-    std::array<int, k_sectors> counts{};
-    for (const double azimuth : azimuths) {
-        const double turn = azimuth / (2.0 * k_pi) - std::floor(azimuth / (2.0 * k_pi));
-        ++counts[std::min(static_cast<std::size_t>(turn * k_sectors), counts.size() - 1)];
-    }
-    const double largest = std::max(1, *std::max_element(counts.begin(), counts.end()));
+/// Shares of the mass that left, by quarter of the azimuth; empty without a swing direction.
+std::string quarters_text(const LastExits& exits) {
+    if (!exits.quarters) return "";
+    const ExitQuarters& quarters = *exits.quarters;
+    const double mass = quarters.bank_side.mass + quarters.top.mass + quarters.trailing_side.mass + quarters.bottom.mass;
+    const auto share = [&](const RockAmount& amount) { return text::percent(amount.mass / mass); };
+    return fmt::format(
+        " By quarters of 90°: {} on the side of the bank, to which the head swings (about {}°), {} at the top, {} on the trailing side, {} "
+        "at the bottom.",
+        share(quarters.bank_side), quarters.bank_at_90 ? 90 : 270, share(quarters.top), share(quarters.trailing_side),
+        share(quarters.bottom));
+}
+
+/// Mass by azimuth of the last exit, seen from the hub, lowest side down.
+Figure last_exit(const LastExits& exits, const std::optional<std::pair<double, double>>& bank, bool in_window) {
+    constexpr std::size_t count = k_last_exit_sectors, steps_of_arc = 13;
+    double largest = 0.0;
+    for (const RockAmount& sector : exits.sectors) largest = std::max(largest, sector.mass);
     Plot plot;
-    plot.name = "first_exit";
+    plot.name = "last_exit";
     plot.width = 430;
     plot.height = 420;
     plot.tips = Tips::at_point;
@@ -378,16 +391,18 @@ Figure first_exit(const std::vector<double>& azimuths, const std::optional<std::
     };
     Polygon sectors{palette::spilled, {}, {}};
     Series middles{"", palette::spilled, {}, {}};
-    for (int k = 0; k < k_sectors; ++k) {
-        const int count = counts[static_cast<std::size_t>(k)];
-        const double radius = count / largest;
+    const auto azimuth_at = [](std::size_t sector, double share) { return 2.0 * k_pi * (static_cast<double>(sector) + share) / count; };
+    for (std::size_t k = 0; k < count; ++k) {
+        const RockAmount& sector = exits.sectors[k];
+        const double radius = sector.mass / largest;
         if (k > 0) add(sectors, k_gap, 0.0);
         add(sectors, 0.0, 0.0);
-        for (int step = 0; step <= 6; ++step) add(sectors, radius, 2.0 * k_pi * (k + (0.5 + step) / 7.0) / k_sectors);
+        for (std::size_t step = 0; step < steps_of_arc; ++step)
+            add(sectors, radius, azimuth_at(k, (0.5 + static_cast<double>(step)) / steps_of_arc));
         add(sectors, 0.0, 0.0);
-        add(middles, 0.5 * std::max(radius, 0.3), 2.0 * k_pi * (k + 0.5) / k_sectors);
-        middles.point_names.push_back(
-            fmt::format("{} to {}°: {} rock{}", k * 360 / k_sectors, (k + 1) * 360 / k_sectors, count, count == 1 ? "" : "s"));
+        add(middles, 0.5 * std::max(radius, 0.3), azimuth_at(k, 0.5));
+        middles.point_names.push_back(fmt::format("{} to {}°: {:.3g} kg, {} rock{}", k * 360 / count, (k + 1) * 360 / count, sector.mass,
+                                                  sector.count, sector.count == 1 ? "" : "s"));
     }
     plot.polygons.push_back(sectors);
     if (bank) {
@@ -402,7 +417,7 @@ Figure first_exit(const std::vector<double>& azimuths, const std::optional<std::
     for (const double ring : {0.5, 1.0}) {
         plot.circles.push_back({ring, "#c3cad1"});
         plot.texts.push_back(
-            {fmt::format("{:g}", ring * largest), ring * std::sin(0.65) + 0.06, ring * std::cos(0.65) + 0.04, palette::faint, 11.0});
+            {fmt::format("{:.3g} kg", ring * largest), ring * std::sin(0.65) + 0.06, ring * std::cos(0.65) + 0.04, palette::faint, 11.0});
     }
     const std::array<std::pair<double, const char*>, 4> marks{
         {{0.0, "0° lowest"}, {90.0, "90°"}, {180.0, "180° highest"}, {270.0, "270°"}}};
@@ -412,9 +427,10 @@ Figure first_exit(const std::vector<double>& azimuths, const std::optional<std::
     }
     return {
         plot,
-        std::string("Number of rocks by the azimuth at which they first left the head (sectors of 15°, sucked up rock left out). Seen from "
-                    "the hub, the lowest side down.") +
-            (bank ? " Brown: where the bank stands beside the ring, up to its top." : ""),
+        fmt::format("Mass of rock by the azimuth at which it left the head for the last time{} (sectors of 30°, rock that came back or was "
+                    "sucked up left out). Seen from the hub, the lowest side down.",
+                    in_window ? ", in the window of the production" : "") +
+            quarters_text(exits) + (bank ? " Brown: where the bank stands beside the ring, up to its top." : ""),
         "rose"};
 }
 
@@ -493,6 +509,10 @@ Figure cost_shares(const Cost& cost) {
     return {plot, cost_legend(cost) + "Share of the time steps’ wall time by part of the solver (slowest rank).", ""};
 }
 
+bool has_exits(const LastExits& exits) {
+    return std::any_of(exits.sectors.begin(), exits.sectors.end(), [](const RockAmount& sector) { return sector.count > 0; });
+}
+
 bool has_outflow(const Results& results) {
     return std::any_of(results.outflow.begin(), results.outflow.end(),
                        [](const BinOutflow& bin) { return bin.radial_velocity.has_value(); });
@@ -508,10 +528,11 @@ std::vector<PlacedFigure> report_figures(const Results& results, const RunData& 
     const bool is_batch = rock && !run.operating_point.fed_by_cutting;  // a head that is fed all the time has a production
     if (is_batch) add(Place::answer, outcome(*rock));
     if (rock || !results.outflow.empty()) add(Place::figures, bins(results));
-    if (rock && has_outflow(results) && rock->fates.placed.mass > 0.0) add(Place::figures, top_bin(results));
+    if (rock && has_outflow(results) && results.exits->supplied > 0.0) add(Place::figures, top_bin(results));
     for (const auto& plane : {axial_plane(run), plane_under_ring(run)})
         if (plane) add(Place::figures, *plane);
-    if (rock && !rock->first_exit_azimuths.empty()) add(Place::figures, first_exit(rock->first_exit_azimuths, bank_sector(run)));
+    if (results.exits && has_exits(*results.exits))
+        add(Place::figures, last_exit(*results.exits, bank_sector(run), results.fed.has_value()));
     if (rock) add(Place::figures, fates_over_time(run.rock->fates, *rock, revolution));
     if (is_batch) add(Place::figures, ratio_over_time(run.rock->fates, *rock, revolution));
     const bool is_coupled = rock && !run.flow;

@@ -401,15 +401,15 @@ std::string series_table(const Spillage& spillage) {
 
 std::string bins_table(const Results& results) {
     std::vector<std::vector<std::string>> rows;
-    const std::size_t count = results.spillage ? results.spillage->bins.size() : results.outflow.size();
+    const std::size_t count = results.exits ? results.exits->bins.size() : results.outflow.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const geometry::AxialBin& bin = results.spillage ? results.spillage->bins[i].bin : results.outflow[i].bin;
+        const geometry::AxialBin& bin = results.exits ? results.exits->bins[i].bin : results.outflow[i].bin;
         const std::string range =
             std::isfinite(bin.z_min) ? fmt::format("{:.3f} to {:.3f}", bin.z_min, bin.z_max) : fmt::format("below {:.3f}", bin.z_max);
         std::vector<std::string> row{bin_text(bin.name), range};
-        if (results.spillage) {
-            row.push_back(fmt::format("{}", results.spillage->bins[i].spilled.count));
-            row.push_back(fmt::format("{:.4g}", results.spillage->bins[i].spilled.mass));
+        if (results.exits) {
+            row.push_back(fmt::format("{}", results.exits->bins[i].spilled.count));
+            row.push_back(fmt::format("{:.4g}", results.exits->bins[i].spilled.mass));
         }
         row.push_back(results.outflow.empty() ? k_dash : number(results.outflow[i].radial_velocity, ""));
         rows.push_back(row);
@@ -422,7 +422,10 @@ std::string bins_table(const Results& results) {
 
 std::string rock_section(const Results& results, const RunData& run) {
     std::string content = fmt::format("<div class=\"tables\"><div><h3>By axial bin{}</h3>{}</div><div>",
-                                      results.spillage ? " (of the last exit)" : "", bins_table(results));
+                                      results.fed        ? " (of the last exit, in the window of the production)"
+                                      : results.spillage ? " (of the last exit)"
+                                                         : "",
+                                      bins_table(results));
     if (results.spillage) {
         // Of a head that is fed all the time a ratio says nothing without the hold-up of its window.
         if (!run.operating_point.fed_by_cutting)

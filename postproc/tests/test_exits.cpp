@@ -1,6 +1,8 @@
 // Where spilled rock left the head.
+#include "postproc/analysis/exits/last_exits.hpp"
 #include "postproc/analysis/replays/exits.hpp"
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -65,6 +67,56 @@ TEST(Exits, are_told_as_means_with_the_smallest_and_the_largest) {
     EXPECT_THAT(csv, HasSubstr("azimuth_deg,315-360,0.5,0,1\n"));
     EXPECT_EQ(exits_text(mean_exits(two)),
               "exits       70 % at 0-30mm, 30 % at gap of what is spilled; 100 % of the rocks from azimuth 225 to 45 deg (0 lowest)\n");
+}
+
+double mass_over_small(const RockAmount& amount) {
+    return amount.mass / testing::small_rock_mass();
+}
+
+RunData small_run(const std::string& name) {
+    const SmallRun run(name);
+    run.write();
+    return read_run(run.directory);
+}
+
+// Rock 1 left at 6 degrees, 2 at 96, 3 at 186 and after it had come back at 11, 9 of eight times the mass at 281; 6 was sucked up.
+TEST(LastExits, are_masses_by_azimuth_and_by_the_sides_of_the_swing) {
+    const RunData run = small_run("last_exits");
+    OperatingPoint point = run.operating_point;
+    const auto exits = [&] { return last_exits_of(run.rock->events, run.bins, point, 1.0, 2.0, 1.0); };
+    const LastExits over_cut = exits();
+    for (std::size_t s = 0; s < k_last_exit_sectors; ++s) {
+        const double expected = s == 0 ? 2.0 : s == 3 ? 1.0 : s == 9 ? 8.0 : 0.0;
+        EXPECT_NEAR(mass_over_small(over_cut.sectors[s]), expected, 1e-6) << s;
+    }
+    EXPECT_EQ(over_cut.sectors[0].count, 2);
+    ASSERT_TRUE(over_cut.quarters);
+    EXPECT_FALSE(over_cut.quarters->bank_at_90) << "over-cut of a right-handed rotor: blades beside the bank go down";
+    EXPECT_NEAR(mass_over_small(over_cut.quarters->bank_side), 8.0, 1e-6);
+    EXPECT_NEAR(mass_over_small(over_cut.quarters->trailing_side), 1.0, 1e-6);
+    EXPECT_NEAR(mass_over_small(over_cut.quarters->bottom), 2.0, 1e-6);
+    EXPECT_EQ(over_cut.quarters->top.count, 0);
+    point.swing_direction = "under_cut";
+    EXPECT_NEAR(mass_over_small(exits().quarters->bank_side), 1.0, 1e-6);
+    point.rotor_direction = "left_handed";
+    EXPECT_NEAR(mass_over_small(exits().quarters->bank_side), 8.0, 1e-6);
+    point.swing_direction = "";
+    EXPECT_FALSE(exits().quarters);
+}
+
+TEST(LastExits, are_of_their_window_as_its_end_finds_the_rock) {
+    const RunData run = small_run("last_exits_window");
+    const auto by_bin = [&](double from, double to) {
+        std::map<std::string, double> masses;
+        for (const BinSpillage& bin : last_exits_of(run.rock->events, run.bins, run.operating_point, from, to, 1.0).bins)
+            if (bin.spilled.count > 0) masses[bin.bin.name] = std::round(mass_over_small(bin.spilled));
+        return masses;
+    };
+    using Masses = std::map<std::string, double>;
+    EXPECT_EQ(by_bin(1.0, 2.0), (Masses{{"gap", 2.0}, {"0-30mm", 1.0}, {"60-90mm", 8.0}}));
+    EXPECT_EQ(by_bin(1.28, 1.35), (Masses{{"gap", 1.0}})) << "rock 3 is outside, rocks 1 and 2 left before";
+    EXPECT_EQ(by_bin(1.28, 1.68), (Masses{{"60-90mm", 8.0}})) << "rock 3 came back, rock 6 too";
+    EXPECT_EQ(by_bin(1.45, 1.55), (Masses{{"below_hub", 1.0}})) << "rock 6 has not come back yet";
 }
 
 }  // namespace

@@ -184,8 +184,33 @@ TEST(ReportFigures, are_those_that_a_run_with_rock_has_numbers_for) {
     testing::write_velocity_planes(run.directory, [](double r, double) { return Vec3(r, 2.0 * r, 0.1); });
     std::vector<std::string> names;
     for (const PlacedFigure& item : figures_of_run(run.directory)) names.push_back(item.figure.plot.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"outcome", "bins", "top_bin", "plane_axial", "plane_under_ring", "first_exit", "fates",
+    EXPECT_EQ(names, (std::vector<std::string>{"outcome", "bins", "top_bin", "plane_axial", "plane_under_ring", "last_exit", "fates",
                                                "ratio", "torque", "balance", "cost"}));
+}
+
+// Rock 9, of eight times the others' mass, left at 281 degrees: on the bank's side of an over-cut.
+TEST(ReportFigures, rose_and_results_have_the_mass_by_azimuth_of_the_last_exit) {
+    SmallRun run("figures_rose");
+    run.write();
+    const std::vector<PlacedFigure> figures = figures_of_run(run.directory);
+    const auto found =
+        std::find_if(figures.begin(), figures.end(), [](const PlacedFigure& item) { return item.figure.plot.name == "last_exit"; });
+    ASSERT_NE(found, figures.end());
+    const std::vector<std::string>& sectors = found->figure.plot.series.back().point_names;
+    ASSERT_EQ(sectors.size(), 12u);
+    EXPECT_EQ(sectors[0], "0 to 30°: 0.0222 kg, 2 rocks");
+    EXPECT_EQ(sectors[9], "270 to 300°: 0.0888 kg, 1 rock");
+    EXPECT_TRUE(
+        contains(found->figure.caption,
+                 "72.7 % on the side of the bank, to which the head swings (about 270°), 0.0 % at the top, 9.1 % on the trailing side"))
+        << found->figure.caption;
+    const auto exits = nlohmann::json::parse(read_text(write_report(run.directory).results_file)).at("exits");
+    EXPECT_NEAR(exits.at("sectors").at(9).at("mass_kg").get<double>(), 8.0 * testing::small_rock_mass(), 1e-6);
+    EXPECT_EQ(exits.at("sectors").at(9).at("azimuth_from_deg").get<double>(), 270.0);
+    EXPECT_NEAR(exits.at("quarters").at("bank_side").at("mass_kg").get<double>(), 8.0 * testing::small_rock_mass(), 1e-6);
+    EXPECT_EQ(exits.at("bins").at(0).at("name"), "gap");
+    EXPECT_EQ(exits.at("bins").at(0).at("count"), 2);
+    EXPECT_NEAR(exits.at("window_end_s").get<double>(), 2.0, 1e-9);
 }
 
 TEST(ReportFigures, of_flow_alone_show_no_rock) {
