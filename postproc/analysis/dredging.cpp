@@ -43,13 +43,16 @@ void add_cause(const Losses& losses, WaysOut& ways) {
     ways.cause_known = std::min(1.0, known / lost);
 }
 
+/// By the mean flux through the bin's part of the head's boundary, which counts what crosses a tapering contour along the axis too; in runs
+/// of earlier programs by the mean radial velocity.
 std::optional<WaysOut> ways_out_of(const Results& results) {
-    const std::vector<BinSpillage>& bins = results.spillage->bins;
+    const std::vector<BinSpillage>& bins = results.exits->bins;
     double with = 0.0, against = 0.0;
     for (std::size_t i = 0; i < bins.size() && i < results.outflow.size(); ++i) {
-        const std::optional<TimeAverage>& velocity = results.outflow[i].radial_velocity;
-        if (!velocity) return std::nullopt;
-        (velocity->mean > 0.0 ? with : against) += bins[i].spilled.mass;
+        const BinOutflow& bin = results.outflow[i];
+        const std::optional<TimeAverage>& flow = bin.flux ? bin.flux : bin.radial_velocity;
+        if (!flow) return std::nullopt;
+        (flow->mean > 0.0 ? with : against) += bins[i].spilled.mass;
     }
     if (!(with + against > 0.0)) return std::nullopt;
     WaysOut ways{with / (with + against), against / (with + against), std::nullopt};
@@ -67,7 +70,7 @@ std::string cause_text(const WaysOut& ways) {
 }
 
 bool has_spilled(const Results& results) {
-    const std::vector<BinSpillage>& bins = results.spillage->bins;
+    const std::vector<BinSpillage>& bins = results.exits->bins;
     return std::any_of(bins.begin(), bins.end(), [](const BinSpillage& bin) { return bin.spilled.mass > 0.0; });
 }
 
@@ -124,7 +127,7 @@ std::string limits_text(const Results& results) {
     if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts";
     if (!ways && !has_spilled(results)) return sentence + (results.fed->is_full ? "." : "nothing was spilled.");
     if (results.fed->is_full) sentence += "; ";
-    if (!ways) return sentence + "which way rock leaves is not known, for want of mean velocities on the head's contour.";
+    if (!ways) return sentence + "which way rock leaves is not known, for want of the mean flow through the head's contour.";
     sentence += fmt::format(
         "of the rock that left the head outside the mouth {} went where the water flows outwards (outflow), {} where it "
         "flows inwards (it fell through or was thrown out)",

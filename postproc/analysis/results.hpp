@@ -63,7 +63,7 @@ struct FedHead {
     bool is_full = false;  ///< for a revolution more was owed than 5 % of what a blade passing cuts: the head cannot take what it cuts
 };
 
-/// Ways out of a head that is fed from a cut face, as shares of what left it outside the mouth, by mass.
+/// Ways out of a head that is fed from a cut face, as shares of what left it outside the mouth in the window of its production, by mass.
 struct WaysOut {
     double with_outflow = 0.0;         ///< last exit through a bin where the mean flow goes outwards
     double against_inflow = 0.0;       ///< through one where it goes inwards: rock falls or is thrown out

@@ -397,6 +397,13 @@ void SmallRun::write() const {
     write_tables("0", 0.0, end_time);
 }
 
+void add_events(const fs::path& directory, const std::vector<Event>& events) {
+    const fs::path file = directory / "postProcessing/rock/0/events.csv";
+    std::string rows = read_text(file);
+    for (const Event& event : events) rows += event_line(event, -0.01);
+    write_text(file, rows);
+}
+
 void make_fed(const SmallRun& run, double held, double stuck) {
     constexpr double rate = 10.0, begin = 1.0, wave = 0.1;  // [kg/s], [s], [kg]
     write_text(run.directory / "study.resolved.toml",

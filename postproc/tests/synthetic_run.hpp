@@ -45,6 +45,9 @@ struct SmallRun {
     void write_tables(const std::string& start_folder, double from, double to) const;
 };
 
+/// Adds rows to events.csv of a run that was written, behind those that are there.
+void add_events(const std::filesystem::path& directory, const std::vector<Event>& events);
+
 /// Makes the small run one that is fed 10 kg/s from a cut face from 1 s to 31 s: `held` kg stay in the head, and of what goes on 60 % are
 /// delivered and the rest is spilled, with a wave of 2 s in both. Of what is fed, the share `stuck` stays in the head for good.
 void make_fed(const SmallRun& run, double held, double stuck = 0.0);
