@@ -221,7 +221,8 @@ std::vector<QuantityRule> fed_rules() {
         {"head_is_full", "head is full (1: yes)", "-", true, of([](const FedHead& head) { return plain(head.is_full ? 1.0 : 0.0); })}};
 }
 
-std::vector<QuantityRule> load_rules(bool with_rock) {
+/// \param of_batch  the runs have a batch of rock: heads that are fed all the time have an energy per volume of soil in their window
+std::vector<QuantityRule> load_rules(bool with_rock, bool of_batch) {
     std::vector<QuantityRule> rules{{"torque_flow_mean_n_m", "mean torque of the flow", "N m", false,
                                      [](const ComparedRun& r) { return of_average(r.results.rotor.torque_flow); }}};
     if (with_rock)
@@ -229,7 +230,7 @@ std::vector<QuantityRule> load_rules(bool with_rock) {
                          [](const ComparedRun& r) { return of_average(r.results.rotor.torque_rock); }});
     rules.push_back(
         {"power_mean_w", "mean power of the drive", "W", false, [](const ComparedRun& r) { return of_average(r.results.rotor.power); }});
-    if (with_rock)
+    if (of_batch)
         rules.push_back({"energy_per_volume_j_m3", "energy per delivered volume of rock (cutting excluded)", "J/m³", true,
                          [](const ComparedRun& r) { return energy_per_volume(r.results); }});
     return rules;
@@ -268,15 +269,17 @@ std::vector<QuantityRule> outflow_rules(const std::vector<ComparedRun>& runs) {
     return rules;
 }
 
-std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs) {
+/// By the bin of the last exit: of a batch over what was placed, of heads that are fed all the time over what was fed in the window.
+std::vector<QuantityRule> spilled_rules(const std::vector<ComparedRun>& runs, bool fed) {
     std::vector<QuantityRule> rules;
     for (const std::string& name : common_bins(
-             runs, [](const ComparedRun& r) -> const auto& { return r.results.spillage->bins; })) {
-        rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / placed, {}", text::bin_text(name)), "-", true,
-                         [=](const ComparedRun& r) {
-                             const Spillage& spillage = *r.results.spillage;
-                             if (!(spillage.fates.placed.mass > 0.0)) return Estimate{};
-                             return plain(find_bin(spillage.bins, name)->spilled.mass / spillage.fates.placed.mass);
+             runs, [](const ComparedRun& r) -> const auto& { return r.results.exits->bins; })) {
+        rules.push_back({bin_key("spilled", name, "share"), fmt::format("spilled / {}, {}", fed ? "fed" : "placed", text::bin_text(name)),
+                         "-", true, [=](const ComparedRun& r) {
+                             const LastExits& exits = *r.results.exits;
+                             const bool has_window = !fed || r.results.fed;
+                             if (!has_window || !(exits.supplied > 0.0)) return Estimate{};
+                             return plain(find_bin(exits.bins, name)->spilled.mass / exits.supplied);
                          }});
     }
     return rules;
@@ -334,10 +337,11 @@ std::vector<QuantityRule> rules_of(const Comparison& comparison) {
         std::all_of(comparison.runs.begin(), comparison.runs.end(), [](const ComparedRun& r) { return r.results.spillage.has_value(); });
     std::vector<QuantityRule> rules = operating_rules();
     const auto append = [&](std::vector<QuantityRule> more) { rules.insert(rules.end(), more.begin(), more.end()); };
-    if (with_rock) append(scope_of(comparison).fed_by_cutting ? fed_rules() : rock_rules(comparison));
-    append(load_rules(with_rock));
+    const bool fed = scope_of(comparison).fed_by_cutting;
+    if (with_rock) append(fed ? fed_rules() : rock_rules(comparison));
+    append(load_rules(with_rock, with_rock && !fed));
     append(outflow_rules(comparison.runs));
-    if (with_rock) append(spilled_rules(comparison.runs));
+    if (with_rock) append(spilled_rules(comparison.runs, fed));
     if (scope_of(comparison).replays != Replays::none) append(recorded_flow_rules());
     append(cost_rules());
     return rules;

@@ -321,6 +321,11 @@ Plot bins_plot(const Comparison& comparison, const std::string& what, const std:
     return plot;
 }
 
+/// What shares of spilled rock are over.
+const char* supplied_text(const Comparison& comparison) {
+    return scope_of(comparison).fed_by_cutting ? "what was fed in the window" : "the placed mass";
+}
+
 /// Share of the placed rock from which on a band of the head counts as open to rock.
 constexpr double k_open_to_rock = 0.01;
 
@@ -340,7 +345,8 @@ std::string top_bin(const Comparison& comparison) {
 }
 
 Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Quantity& outflow) {
-    Plot plot = share_plot("top_bin", "mean radial velocity in the top bin, m/s", "spilled there, % of the placed mass");
+    Plot plot = share_plot("top_bin", "mean radial velocity in the top bin, m/s",
+                           fmt::format("spilled there, % of {}", supplied_text(comparison)));
     plot.x.tip = {".3f", " m/s"};
     double highest = 1.0;  // [%]; where nothing is spilled the axis still shows what a little would be
     double slowest = 0.0, fastest = 0.0;
@@ -443,7 +449,7 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
                         text::bin_text(top), onset_band_text())));
     }
     figures.push_back(with_legend_that_fits(
-        bins_plot(comparison, "spilled", "share", 100.0, "spilled, % of the placed mass", {".2f", " %"}),
+        bins_plot(comparison, "spilled", "share", 100.0, fmt::format("spilled, % of {}", supplied_text(comparison)), {".2f", " %"}),
         "Spilled mass by the axial bin of the last exit (distance below the ring; “gap” lies between ring and backplate)."));
     return figures;
 }

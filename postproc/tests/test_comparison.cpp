@@ -75,6 +75,7 @@ fs::path fed(const std::string& name, double stuck, double length_ratio) {
     run.length_ratio = length_ratio;
     run.write();
     testing::make_fed(run, 5.0, stuck);
+    testing::add_events(run.directory, {{10.0, 101, "head", "out", "gap"}, {11.0, 102, "head", "out", "gap"}});
     return run.directory;
 }
 
@@ -102,7 +103,17 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     EXPECT_NEAR(*difference.estimate.half_width, std::hypot(*production.settings[0].half_width, *production.settings[1].half_width), 1e-12);
     EXPECT_EQ(difference.verdict, ComparisonVerdict::differs);
     EXPECT_THAT(comparison_text(comparison), HasSubstr("[0.3"));
-    for (const Quantity& quantity : comparison.quantities) EXPECT_NE(quantity.key, "ratio_at_equal_time");
+    for (const Quantity& quantity : comparison.quantities) {
+        EXPECT_NE(quantity.key, "ratio_at_equal_time");
+        EXPECT_NE(quantity.key, "energy_per_volume_j_m3") << "it is over the whole time, start-up included";
+    }
+    // Two rocks in the window, over what was fed in it: not the four of the start, and not over what was placed.
+    const Quantity& gap = quantity_of(comparison, "spilled_gap_share");
+    EXPECT_EQ(gap.name, "spilled / fed, gap");
+    EXPECT_NEAR(*gap.settings[0].value, 2.0 * testing::small_rock_mass() / comparison.runs[0].results.fed->production.fed, 1e-9);
+    EXPECT_EQ(*quantity_of(comparison, "spilled_0-30mm_share").settings[0].value, 0.0);
+    for (const Figure& figure : comparison_figures(comparison))
+        if (figure.plot.name == "spilled") EXPECT_EQ(figure.plot.x.title, "spilled, % of what was fed in the window");
 }
 
 fs::path swinging(const std::string& name, double swing_m_min) {
