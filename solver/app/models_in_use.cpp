@@ -44,9 +44,7 @@ std::vector<coupling::ModelNote> flow_models(const foam::FoamFluidEngine& fluid,
     notes.push_back({"turbulence: " + fluid.turbulence_model(), "constant/turbulenceProperties selects it"});
     for (const coupling::ZoneMotion& zone : fluid.moving_zones())
         notes.push_back({fmt::format("sliding mesh: {} at {:.6g} rad/s", zone.name, zone.speed), "constant/dynamicMeshDict turns it"});
-    if (soil)
-        notes.push_back({fmt::format("soil: {}, permeability {:.3g} m2", soil->surface.string(), soil->permeability),
-                         "section soil; water is at rest in it"});
+    if (soil) notes.push_back(coupling::soil_model(*soil));
     return notes;
 }
 

@@ -86,4 +86,11 @@ const CouplingMethod& coupling_method(const CouplingSettings& settings) {
     return *method;
 }
 
+ModelNote soil_model(const SoilSettings& soil) {
+    const double speed = soil.velocity.norm();
+    return {fmt::format("soil: {}, permeability {:.3g} m2", soil.surface.string(), soil.permeability),
+            speed > 0.0 ? fmt::format("section soil; water in it moves with it, at {:.3g} m/s", speed)
+                        : std::string("section soil; water is at rest in it")};
+}
+
 }  // namespace cutterflow::coupling

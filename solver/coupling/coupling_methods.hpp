@@ -24,4 +24,7 @@ struct CouplingMethod {
 /// The first method of the table that the settings mean.
 const CouplingMethod& coupling_method(const CouplingSettings& settings);
 
+/// Water in soil has the soil's velocity.
+ModelNote soil_model(const SoilSettings& soil);
+
 }  // namespace cutterflow::coupling

@@ -681,6 +681,11 @@ TEST(CouplingMethods, tell_their_models_and_without_a_medium_have_none) {
     EXPECT_EQ(models_of(settings), "");
 }
 
+TEST(CouplingMethods, tell_whether_water_in_soil_rests_or_moves_with_it) {
+    EXPECT_EQ(soil_model({"bank.stl", 0.0, Vec3::Zero()}).why, "section soil; water is at rest in it");
+    EXPECT_EQ(soil_model({"bank.stl", 0.0, Vec3(0, -0.03, 0.04)}).why, "section soil; water in it moves with it, at 0.05 m/s");
+}
+
 /// Rock without a medium: three rocks on their ways, one of which comes in between two pictures.
 struct DryRig {
     DryRig(const TemporaryFolder& folder, RunRecorder& recorder, double start) : fluid({start, 0.1, 0.025}, 2e-3) {
