@@ -48,7 +48,8 @@ struct Mixing {
 /// A larger balance error leaves the outflow in doubt.
 inline constexpr double k_most_boundary_error = 0.1;
 
-/// What was lost in the window of a production, over what was fed in it, by mass.
+/// What was lost in the window of a production, over what was fed in it, by mass: gains of the ledger's columns. Mixing and cutting are
+/// within reach of the head, and may come back.
 struct Losses {
     double mixing = 0.0;                          ///< had been in the head's flow
     double cutting = 0.0;                         ///< never taken in

@@ -145,8 +145,9 @@ std::string fed_answers(const FedHead& head) {
                      production.is_steady ? percent(production.undelivered) + interval
                                           : fmt::format("{} to {}", percent(production.spillage_min), percent(production.spillage_max)),
                      production.is_steady ? "what the head holds changed by less than 5 % of what was fed"
-                                          : "bounds: what the head holds still changes, and may yet be delivered or spilled");
-    blocks += answer(palette::in_cutter, "Hold-up: owed, in the head or on the bed", fmt::format("{} kg", number(production.held)),
+                                          : "bounds: what the head holds still changes, and may yet be delivered or spilled; the lower one "
+                                            "is not strict, for rock within reach counts as spilled and may come back");
+    blocks += answer(palette::in_cutter, "Hold-up: owed or in the head", fmt::format("{} kg", number(production.held)),
                      fmt::format("changed by {} of what was fed", percent(production.held_change / production.fed)));
     return blocks + answer(palette::ink, "Head", head.is_full ? "full" : "not full",
                            head.is_full ? "for a revolution more rock waited for a place than 5 % of what a blade cuts in passing"
@@ -242,9 +243,9 @@ std::string losses_table(const Results& results, const RunData& run) {
     const Dredging& dredging = *results.dredging;
     const Losses& losses = results.fed->losses;
     std::vector<std::vector<std::string>> rows{
-        {"spilled by mixing: had been in the head’s flow", percent(losses.mixing)},
-        {"spilled by cutting: lost where it was cut, never taken in", percent(losses.cutting)},
-        {"left behind: outside and far off, taken out of the run", percent(losses.left_behind)},
+        {"outside, within reach: spilled by mixing, had been in the head’s flow", percent(losses.mixing)},
+        {"outside, within reach: spilled by cutting, never taken in", percent(losses.cutting)},
+        {"left behind: outside and far off, taken out of the run, lost for good", percent(losses.left_behind)},
         {"of that: lost where it was cut, never taken in",
          losses.left_behind_cutting ? percent(*losses.left_behind_cutting) : "not known: the ledger is an earlier program’s"}};
     if (dredging.layer_share > 0.0)

@@ -102,7 +102,7 @@ struct RockLedger {
     double delivered = 0.0;            ///< sucked up
     double spilled_mixing = 0.0;       ///< outside the head, after it had been mixed into the head's flow
     double spilled_cutting = 0.0;      ///< outside the head, thrown out where it was cut
-    double on_bed = 0.0;               ///< outside the head, never having been in it
+    double on_bed = 0.0;               ///< outside the head, never having been in it; rock from a cut face starts inside
     double left_behind_mixing = 0.0;   ///< outside and so far off that it was taken out, after it had been mixed in
     double left_behind_cutting = 0.0;  ///< likewise, never mixed in
 

@@ -5,11 +5,11 @@
 
 namespace cutterflow {
 
-/// What a run did up to each time, by mass [kg]: all but held-up rock grows only.
+/// What a run did up to each time, by mass [kg]. Held-up rock may fall, spilled rock too: what is within reach of the head may come back.
 struct ProductionSeries {
     std::vector<double> time;  ///< [s], increasing
     std::vector<double> fed, delivered, spilled;
-    std::vector<double> held;  ///< neither delivered nor spilled: owed, in the head, on the bed
+    std::vector<double> held;  ///< neither delivered nor spilled: owed or in the head
 };
 
 /// Share of a series' beginning that MSER-5 drops: of means over 5 values each, the d first, where
@@ -46,7 +46,7 @@ struct Production {
     std::optional<BatchMeans> share;                   ///< delivered over fed, P
     bool is_steady = false;                            ///< hold-up changed by less than 5 % of what was fed
     double undelivered = 0.0;                          ///< 1 - delivered/fed: the spillage when is_steady
-    double spillage_min = 0.0, spillage_max = 0.0;     ///< spilled/fed and undelivered, the less one first
+    double spillage_min = 0.0, spillage_max = 0.0;     ///< spilled/fed and undelivered, the less one first; not strict
 };
 
 /// Start-up ends once the means of hold-up over two successive windows of max(1 revolution, 1.5 s) differ by less than 10 %, but not before
