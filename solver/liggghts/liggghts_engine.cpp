@@ -38,6 +38,7 @@
 #include "solver/liggghts/rock_grid.hpp"
 #include "solver/liggghts/rock_motion.hpp"
 #include "solver/liggghts/steel_wall.hpp"
+#include "solver/liggghts/wall_work_state.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::liggghts {
@@ -141,6 +142,7 @@ public:
     void set_frozen(gsl::span<const int> ids, bool frozen);
     double walls_change_until() const;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force);
+    std::vector<coupling::WallWork> wall_work() const;
     std::vector<double> zone_angles() const {
         if (!has_rotor_) return {};
         return {rotor_.angle(time_)};
@@ -174,6 +176,7 @@ private:
     Vec3 pressed(std::size_t body) const;
     nlohmann::json read_state_file(const std::filesystem::path& folder) const;
     void read_rocks(const std::filesystem::path& folder, const nlohmann::json& state);
+    void adopt_work(const std::filesystem::path& folder);
     void adopt_wall_contacts(const std::vector<std::string>& names_before);
     std::vector<Vec3> sum(std::vector<Vec3> values) const;
     void store_contact_forces();
@@ -199,6 +202,7 @@ private:
     std::vector<int> frozen_;             // ids
     double contact_torque_ = 0.0;         // on rotating steel, of the contact forces that are stored; this rank's share [N m]
     std::vector<Vec3> forces_on_bodies_;  // likewise [N]
+    std::vector<double> work_since_;      // of each wall [s]
     double largest_radius_ = 0.0;
     bool set_up_needed_ = true;
 };
@@ -223,6 +227,9 @@ LiggghtsEngine::Implementation::Implementation(const coupling::DemSettings& sett
     Expects(moving.size() <= 1);
     forces_on_bodies_ = context_.tally.force_on_body;
     for (const coupling::WallSettings& wall : settings_.walls) walls_.emplace_back(wall, static_cast<int>(walls_.size()), rotor_);
+    work_since_.resize(walls_.size());
+    for (std::size_t body = 0; body < walls_.size(); ++body)
+        if (!walls_[body].is_soil()) context_.work[body].resize(walls_[body].surface().triangles().size());
     MPI_Comm_dup(communicator, &communicator_);
     register_contact_models();
     start_liggghts();
@@ -656,6 +663,24 @@ coupling::DemStep LiggghtsEngine::Implementation::advance(double duration, const
     return done;
 }
 
+std::vector<coupling::WallWork> LiggghtsEngine::Implementation::wall_work() const {
+    std::vector<coupling::WallWork> works;
+    for (std::size_t body = 0; body < walls_.size(); ++body) {
+        if (walls_[body].is_soil()) continue;
+        coupling::WallWork work{settings_.walls[body].name, work_since_[body], {}, {}, {}};
+        for (const Triangle& triangle : walls_[body].surface().triangles())
+            work.triangles.push_back({triangle[0], triangle[1], triangle[2]});
+        for (const TriangleWork& of_triangle : context_.work[body]) {
+            work.impact.push_back(of_triangle.impact);
+            work.sliding.push_back(of_triangle.sliding);
+        }
+        for (std::vector<double>* values : {&work.impact, &work.sliding})
+            MPI_Allreduce(MPI_IN_PLACE, values->data(), static_cast<int>(values->size()), MPI_DOUBLE, MPI_SUM, communicator_);
+        works.push_back(std::move(work));
+    }
+    return works;
+}
+
 /// LIGGGHTS drops a rock outside its box, or at no position, without a word.
 void LiggghtsEngine::Implementation::require_all_rocks(const std::vector<int>& before) const {
     if (rocks_.id != before) {
@@ -677,6 +702,7 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
     set_up_needed_ = true;  // rocks have changed ranks
     const double torque = sum(contact_torque_);
     const std::vector<Vec3> forces = sum(forces_on_bodies_);
+    const std::vector<coupling::WallWork> works = wall_work();
     nlohmann::json bodies = nlohmann::json::array();
     const std::vector<std::string> names = body_names();
     for (std::size_t body = 0; body < names.size(); ++body)
@@ -691,6 +717,7 @@ void LiggghtsEngine::Implementation::write_checkpoint(const std::filesystem::pat
                              {k_walls, bodies}};
         if (context_.has_clumps) state[k_clumps] = clump_state(settings_.shapes, bodies_);
         write_file(folder / names::dem_state, state.dump(2) + "\n");
+        write_wall_work(folder, works);
     }
     MPI_Barrier(communicator_);
 }
@@ -795,6 +822,21 @@ void LiggghtsEngine::Implementation::read_checkpoint(const std::filesystem::path
     const nlohmann::json state = read_state_file(folder);
     time_ = state.at("time_s");
     read_rocks(folder, state);
+    adopt_work(folder);
+}
+
+/// The first rank has all that was done so far.
+void LiggghtsEngine::Implementation::adopt_work(const std::filesystem::path& folder) {
+    std::vector<coupling::WallWork> works = wall_work();
+    read_wall_work(folder, time_, works);
+    auto work = works.begin();
+    for (std::size_t body = 0; body < walls_.size(); ++body) {
+        if (walls_[body].is_soil()) continue;
+        work_since_[body] = work->since;
+        for (std::size_t t = 0; t < work->triangles.size(); ++t)
+            context_.work[body][t] = is_first_rank() ? TriangleWork{work->impact[t], work->sliding[t]} : TriangleWork{};
+        ++work;
+    }
 }
 
 void LiggghtsEngine::Implementation::start_from(const std::filesystem::path& folder) {
@@ -846,6 +888,9 @@ double LiggghtsEngine::walls_change_until() const {
 }
 coupling::DemStep LiggghtsEngine::advance(double duration, const coupling::HydrodynamicForce& force) {
     return implementation_->advance(duration, force);
+}
+std::vector<coupling::WallWork> LiggghtsEngine::wall_work() const {
+    return implementation_->wall_work();
 }
 std::vector<double> LiggghtsEngine::zone_angles() const {
     return implementation_->zone_angles();

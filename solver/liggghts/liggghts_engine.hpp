@@ -30,6 +30,7 @@ public:
     void thaw(gsl::span<const int> ids) override;
     double walls_change_until() const override;
     coupling::DemStep advance(double duration, const coupling::HydrodynamicForce& force) override;
+    std::vector<coupling::WallWork> wall_work() const override;
     std::vector<double> zone_angles() const override;
     void write_checkpoint(const std::filesystem::path& folder) override;
     void read_checkpoint(const std::filesystem::path& folder) override;

@@ -24,21 +24,20 @@ bool plane_is_beyond(const Triangle& triangle, const Vec3& point, double distanc
 
 std::vector<SteelPoint> reached_points(const std::vector<Triangle>& triangles, const Vec3& centre, double radius) {
     std::vector<SteelPoint> reached;
-    std::vector<const Triangle*> owners;
-    for (const Triangle& triangle : triangles) {
+    for (std::size_t number = 0; number < triangles.size(); ++number) {
+        const Triangle& triangle = triangles[number];
         if (plane_is_beyond(triangle, centre, radius)) continue;
         const Vec3 place = nearest_point(triangle, centre);
         const double distance = (centre - place).norm();
         if (distance >= radius) continue;
-        reached.push_back({place, distance});
-        owners.push_back(&triangle);
+        reached.push_back({place, distance, number});
     }
     std::vector<SteelPoint> minima;
     for (const SteelPoint& point : reached) {
         bool is_minimum = true;
         for (std::size_t k = 0; k < reached.size() && is_minimum; ++k)
             is_minimum = reached[k].distance >= point.distance ||
-                         (nearest_point(*owners[k], point.place) - point.place).norm() > k_same_point_in_radii * radius;
+                         (nearest_point(triangles[reached[k].triangle], point.place) - point.place).norm() > k_same_point_in_radii * radius;
         if (is_minimum) minima.push_back(point);
     }
     return minima;
@@ -76,13 +75,13 @@ void SteelWall::press(const Vec3& force, double step) {
     pressed_ += step * press_speed_ * press_->direction;
 }
 
-const std::vector<Triangle>& SteelWall::near(Neighbourhood& last, const Vec3& centre, double radius) const {
+const NearTriangles& SteelWall::near(Neighbourhood& last, const Vec3& centre, double radius) const {
     const double allowed = last.reach - radius;
     if (allowed < 0.0 || (centre - last.centre).squaredNorm() > allowed * allowed) {
         const double reach = (1.0 + k_skin_in_radii) * radius;
         last = {centre, reach, surface_.near(centre, reach)};
     }
-    return last.triangles;
+    return last.found;
 }
 
 void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallContacts& contacts) {
@@ -93,10 +92,12 @@ void SteelWall::find_touches(const LAMMPS_NS::Atom& atom, double time, WallConta
     for (std::size_t rock = 0; rock < count; ++rock) {
         const Vec3 position(atom.x[rock]), centre = now.into_frame(position);
         const double radius = atom.radius[rock];
-        for (const SteelPoint& point : reached_points(near(neighbourhoods_[rock], centre, radius), centre, radius)) {
+        const NearTriangles& found = near(neighbourhoods_[rock], centre, radius);
+        for (const SteelPoint& point : reached_points(found.triangles, centre, radius)) {
             WallTouch touch;
             touch.rock = static_cast<int>(rock);
             touch.body = body_;
+            touch.triangle = found.numbers[point.triangle];
             touch.rotating = rotating_;
             touch.wall_spin = now.spin;
             touch.normal = now.turn * (centre - point.place).normalized();

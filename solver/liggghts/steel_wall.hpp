@@ -32,6 +32,7 @@ struct WallPose {
 struct SteelPoint {
     Vec3 place = Vec3::Zero();  ///< [m]
     double distance = 0.0;      ///< from the sphere's centre [m]
+    std::size_t triangle = 0;   ///< its place among the triangles that were searched
 };
 
 /// Where triangles are nearest to a sphere's centre and within its radius: of each triangle its nearest point, unless another triangle has
@@ -74,10 +75,10 @@ private:
     struct Neighbourhood {
         Vec3 centre = Vec3::Zero();
         double reach = 0.0;
-        std::vector<Triangle> triangles;
+        NearTriangles found;
     };
 
-    const std::vector<Triangle>& near(Neighbourhood& last, const Vec3& centre, double radius) const;
+    const NearTriangles& near(Neighbourhood& last, const Vec3& centre, double radius) const;
 
     WallSurface surface_;
     int body_;

@@ -123,9 +123,12 @@ WallSurface::WallSurface(std::vector<Triangle> triangles)
     }
 }
 
-std::vector<Triangle> WallSurface::near(const Vec3& point, double distance) const {
-    std::vector<Triangle> found;
-    tree_.each_within(point, distance, [&](std::int32_t, const coupling::SteelTriangle& t, double) { found.push_back({t.a, t.b, t.c}); });
+NearTriangles WallSurface::near(const Vec3& point, double distance) const {
+    NearTriangles found;
+    tree_.each_within(point, distance, [&](std::int32_t number, const coupling::SteelTriangle& t, double) {
+        found.triangles.push_back({t.a, t.b, t.c});
+        found.numbers.push_back(tree_.given(number));
+    });
     return found;
 }
 

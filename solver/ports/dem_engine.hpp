@@ -10,6 +10,7 @@
 #include <gsl/span>
 
 #include "geometry/base/vec3.hpp"
+#include "solver/ports/fluid_engine.hpp"
 
 namespace cutterflow::coupling {
 
@@ -80,6 +81,15 @@ struct WallForce {
     Vec3 pressed = Vec3::Zero();  ///< way [m] that it was pressed from its place, at the call's end
 };
 
+/// What rock has done to the triangles of a wall, in the order of the wall's file.
+struct WallWork {
+    std::string wall;                      ///< a name of the settings
+    double since = 0.0;                    ///< from then on it is counted [s]
+    std::vector<SteelTriangle> triangles;  ///< where the file has them [m]
+    std::vector<double> impact;            ///< work of rock that comes closer, against the normal force [J]
+    std::vector<double> sliding;           ///< work of friction [J]
+};
+
 /// What one call of advance did.
 struct DemStep {
     std::vector<Vec3>
@@ -125,6 +135,9 @@ public:
 
     /// Advances by `duration` [s] in a whole number of equal steps, at most largest_time_step() long; the rotor turns along.
     virtual DemStep advance(double duration, const HydrodynamicForce& force) = 0;
+
+    /// Of every wall given as STL that is not soil, summed over all ranks.
+    virtual std::vector<WallWork> wall_work() const { return {}; }
 
     /// Angle [rad] that the walls of each moving zone have turned since time 0, as the rock meets them.
     virtual std::vector<double> zone_angles() const = 0;

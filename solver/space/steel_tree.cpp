@@ -22,6 +22,7 @@ const Vec3 k_ray_direction = Vec3(0.6471, 0.7624, 1e-3).normalized();
 struct SteelTree::Item {
     Vec3 lower, upper, middle;
     Triangle triangle;
+    std::int32_t given;
 };
 
 SteelTree::SteelTree(gsl::span<const SteelTriangle> triangles) {
@@ -33,9 +34,11 @@ SteelTree::SteelTree(gsl::span<const SteelTriangle> triangles) {
         item.upper = t.a.cwiseMax(t.b).cwiseMax(t.c);
         item.middle = 0.5 * (item.lower + item.upper);
         item.triangle = {t.a, t.b - t.a, t.c - t.a};
+        item.given = static_cast<std::int32_t>(items.size());
         items.push_back(item);
     }
     triangles_.reserve(items.size());
+    given_.reserve(items.size());
     if (!items.empty()) build(items, 0, items.size());
 }
 
@@ -59,7 +62,10 @@ void SteelTree::build(std::vector<Item>& items, std::size_t begin, std::size_t e
     if (end - begin <= k_leaf_size || !(extent > 0.0)) {
         nodes_[self].first = static_cast<std::int32_t>(triangles_.size());
         nodes_[self].count = static_cast<std::int32_t>(end - begin);
-        for (std::size_t i = begin; i < end; ++i) triangles_.push_back(items[i].triangle);
+        for (std::size_t i = begin; i < end; ++i) {
+            triangles_.push_back(items[i].triangle);
+            given_.push_back(items[i].given);
+        }
         return;
     }
     // Halves of equal count: the triangles are faces of a mesh, alike in size and spread, where the surface-area rule gains little.

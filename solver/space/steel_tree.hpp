@@ -40,6 +40,9 @@ public:
     /// Distance [m] from a point to the nearest triangle, or `limit` when none is nearer.
     double distance(const Vec3& point, double limit) const;
 
+    /// Place of the triangle of a number, as each_within gives it, among those that the tree was made of.
+    std::int32_t given(std::int32_t triangle) const { return given_[static_cast<std::size_t>(triangle)]; }
+
     /// Calls `each(number, triangle, squared distance)` for every triangle nearer to a point than `limit` [m].
     void each_within(const Vec3& point, double limit, const std::function<void(std::int32_t, const SteelTriangle&, double)>& each) const;
 
@@ -63,6 +66,7 @@ private:
 
     std::vector<Node> nodes_;
     std::vector<Triangle> triangles_;
+    std::vector<std::int32_t> given_;  // of each triangle
 };
 
 }  // namespace cutterflow::coupling

@@ -56,6 +56,7 @@ ContactContext::ContactContext(const coupling::DemSettings& settings, const coup
       steel(elastic_pair(settings.contact.youngs_modulus, settings.contact.poisson_rock, settings.contact.poisson_steel)),
       half_gap(0.5 * settings.contact_gap) {
     tally.force_on_body.assign(rock_on_body.size(), Vec3::Zero());
+    work.resize(rock_on_body.size());
     for (const coupling::ClumpShape& clump_shape : settings.shapes)
         spheres_per_rock = std::max(spheres_per_rock, static_cast<int>(clump_shape.clump.balls.size()));
     if (settings.law != coupling::ContactLaw::linear) return;

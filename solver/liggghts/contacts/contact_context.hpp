@@ -44,6 +44,18 @@ struct ContactTally {
     }
 };
 
+/// Work of rock on one triangle of a wall, both relative to the wall as it moves:
+///
+///   impact   int F_n max(0, -u_n) dt,   sliding   -int F_t . u_t dt
+///
+/// The first is what rock spends on coming closer: of an impact on its own 1/2 m* u_n^2 at the first touch, m* with added mass, and
+/// where a rock meets several triangles at once, or a clump does with several of its spheres, the parts of that energy. The second is
+/// what friction takes, and springs that a contact loses with its area.
+struct TriangleWork {
+    double impact = 0.0;   ///< [J]
+    double sliding = 0.0;  ///< [J]
+};
+
 class WallContacts;
 
 /// What the law needs to know of a pair of materials.
@@ -76,6 +88,7 @@ struct ContactContext {
     WallContacts* wall_contacts = nullptr;
     double time = 0.0;  ///< at which forces are evaluated [s]
     ContactTally tally;
+    std::vector<std::vector<TriangleWork>> work;  ///< by body and triangle, since time 0, this rank's share; none of soil and planes
 
     ContactContext(const coupling::DemSettings& settings, const coupling::ZoneMotion& rotor);
 

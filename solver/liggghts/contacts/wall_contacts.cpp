@@ -138,6 +138,17 @@ Rolling WallContacts::rolling_of(const WallTouch& touch) const {
     return {of_rock - of_wall, 0.5 * touch.normal.dot(of_rock + of_wall), inertia, resolved_roll_damping(inertia, lammps_->update->dt)};
 }
 
+/// See TriangleWork. \param force  of the whole contact, before its weight [N]
+void WallContacts::add_work(const Weighted& weighted, const Contact& contact, const Vec3& force, double time_step) {
+    const WallTouch& touch = *weighted.touch;
+    std::vector<TriangleWork>& work = context_.work[static_cast<std::size_t>(touch.body)];
+    if (touch.triangle < 0 || work.empty()) return;
+    TriangleWork& of_triangle = work[static_cast<std::size_t>(touch.triangle)];
+    const double duration = weighted.weight * time_step;
+    of_triangle.impact += duration * std::max(0.0, contact.normal.dot(force)) * std::max(0.0, -contact.normal_speed);
+    of_triangle.sliding -= duration * force.dot(contact.slip_velocity);
+}
+
 /// \param begins  whether rock and body first touch here \param roll  null when nothing resists rolling
 void WallContacts::apply(const Weighted& weighted, bool begins, WallContactRecord& record, RollMemory* roll) {
     const LAMMPS_NS::Atom& atom = *lammps_->atom;
@@ -168,6 +179,7 @@ void WallContacts::apply(const Weighted& weighted, bool begins, WallContactRecor
     const bool setting_up = lammps_->update->setupflag != 0;
     const double time_step = setting_up ? 0.0 : lammps_->update->dt;
     const Vec3 whole = context_.force(contact, time_step, record.slip), force = weighted.weight * whole;
+    add_work(weighted, contact, whole, time_step);
     Vec3 torque = arm.cross(force);
     if (roll)
         torque +=

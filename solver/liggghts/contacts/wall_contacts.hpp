@@ -11,6 +11,7 @@ namespace cutterflow::liggghts {
 struct WallTouch {
     int rock = 0;  ///< LIGGGHTS' number on this rank
     int body = 0;
+    int triangle = -1;                  ///< its place in the wall's file; -1: a plane
     bool rotating = false;              ///< with the rotor, whose torque it adds to
     Vec3 normal = Vec3::Zero();         ///< unit, from the touched point to the rock's centre
     double overlap = 0.0;               ///< [m]
@@ -63,6 +64,7 @@ private:
 
     void merge(const Touches& touches);
     void apply_merged();
+    void add_work(const Weighted& weighted, const Contact& contact, const Vec3& force, double time_step);
     void apply(const Weighted& contact, bool begins, WallContactRecord& record, RollMemory* roll);
     WallContactRecord begin(const WallTouch& touch, const WallContactRecord* known) const;
     Rolling rolling_of(const WallTouch& touch) const;

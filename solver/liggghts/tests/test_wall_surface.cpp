@@ -72,7 +72,12 @@ TEST(WallSurface, triangles_near_a_point_are_those_that_a_test_of_each_finds) {
         const Vec3 point(coordinate(random), coordinate(random), coordinate(random));
         const auto is_near = [&](const Triangle& triangle) { return (nearest_point(triangle, point) - point).norm() < 0.05; };
         const auto expected = static_cast<std::size_t>(std::count_if(box.begin(), box.end(), is_near));
-        EXPECT_EQ(surface.near(point, 0.05).size(), expected);
+        const NearTriangles near = surface.near(point, 0.05);
+        EXPECT_EQ(near.triangles.size(), expected);
+        ASSERT_EQ(near.numbers.size(), expected);
+        for (std::size_t n = 0; n < expected; ++n)
+            for (int corner = 0; corner < 3; ++corner)
+                EXPECT_NEAR((near.triangles[n][corner] - box[near.numbers[n]][corner]).norm(), 0.0, 1e-15);
         found += expected;
     }
     EXPECT_GT(found, 500u);
