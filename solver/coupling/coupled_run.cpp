@@ -461,6 +461,7 @@ void CoupledRun::record_picture() {
         picture.orientation = rocks.orientation;
     }
     recorder_.picture(picture);
+    recorder_.wall_work(fluid_.time(), dem_->wall_work());
     last_picture_ = fluid_.time();
 }
 

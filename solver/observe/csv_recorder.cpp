@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -23,6 +24,43 @@ std::string time_name(double time) {
 
 std::string optional_number(const std::optional<double>& value) {
     return value ? fmt::format("{:.9g}", *value) : std::string();
+}
+
+double area_of(const SteelTriangle& triangle) {
+    return 0.5 * (triangle.b - triangle.a).cross(triangle.c - triangle.a).norm();
+}
+
+/// A wall's triangles with the work on each over its area, as VTK XML polygons.
+std::string vtp_of(const WallWork& work) {
+    const std::size_t n = work.triangles.size();
+    std::string text = fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n"
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n<Points>\n",
+        3 * n, n);
+    const auto array = [&](const char* type, const char* name, int components, const auto& value_of) {
+        text += fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", type, name, components);
+        for (std::size_t t = 0; t < n; ++t) text += value_of(t);
+        text += "</DataArray>\n";
+    };
+    const auto per_area = [&](const char* name, const std::vector<double>& of_triangle) {
+        array("Float64", name, 1, [&](std::size_t t) {
+            const double area = area_of(work.triangles[t]);
+            return fmt::format("{:.9g}\n", area > 0.0 ? of_triangle[t] / area : 0.0);
+        });
+    };
+    array("Float64", "Points", 3, [&](std::size_t t) {
+        std::string corners;
+        for (const Vec3& p : {work.triangles[t].a, work.triangles[t].b, work.triangles[t].c})
+            corners += fmt::format("{:.9g} {:.9g} {:.9g}\n", p.x(), p.y(), p.z());
+        return corners;
+    });
+    text += "</Points>\n<Polys>\n";
+    array("Int64", "connectivity", 1, [](std::size_t t) { return fmt::format("{} {} {}\n", 3 * t, 3 * t + 1, 3 * t + 2); });
+    array("Int64", "offsets", 1, [](std::size_t t) { return fmt::format("{}\n", 3 * t + 3); });
+    text += "</Polys>\n<CellData>\n";
+    per_area("impact_j_m2", work.impact);
+    per_area("sliding_j_m2", work.sliding);
+    return text + "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
 }  // namespace
@@ -69,6 +107,7 @@ void CsvRecorder::begin() {
     account_ = open(k_rock, "account.csv", whereabouts);
     contacts_ = open(k_rock, "contacts.csv", "time_s,contacts,overlap_ratio_max");
     walls_ = open(k_rock, "walls.csv", "time_s,wall,force_x_n,force_y_n,force_z_n,pressed_x_m,pressed_y_m,pressed_z_m");
+    wall_work_ = open(k_rock, "wall_work.csv", "time_s,wall,impact_j,sliding_j,since_s");
     if (!settings_.gates.empty())
         gates_ = open(k_rock, "gates.csv", "time_s,gate,id,direction,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,diameter_m,mass_kg");
     if (std::any_of(settings_.operations.begin(), settings_.operations.end(),
@@ -259,6 +298,15 @@ void CsvRecorder::write_series() const {
     write_file(root_ / k_rock / "rocks.pvd", text + "</Collection>\n</VTKFile>\n");
 }
 
+void CsvRecorder::wall_work(double time, gsl::span<const WallWork> works) {
+    const auto sum = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); };
+    for (const WallWork& work : works) {
+        fmt::print(wall_work_, "{:.9g},{},{:.9g},{:.9g},{:.9g}\n", time, work.wall, sum(work.impact), sum(work.sliding), work.since);
+        write_file(root_ / k_rock / fmt::format("wall_work_{}.vtp", work.wall), vtp_of(work));
+    }
+    wall_work_.flush();
+}
+
 void CsvRecorder::outcomes(gsl::span<const RockOutcome> outcomes) {
     std::string text = "id,fate,last_exit_bin,first_exit_time_s,first_exit_azimuth_rad,x_m,y_m,z_m,diameter_m,density_kg_m3\n";
     for (const RockOutcome& rock : outcomes)
@@ -303,7 +351,7 @@ void CsvRecorder::warning(double time, const std::string& text) {
 
 void CsvRecorder::flush() {
     for (std::ofstream* stream : {&events_, &rejected_, &account_, &gates_, &extractions_, &contacts_, &walls_, &fates_, &ledger_,
-                                  &outflow_, &flux_, &loads_, &balance_, &cost_}) {
+                                  &outflow_, &flux_, &loads_, &balance_, &cost_, &wall_work_}) {
         stream->flush();
         require_written(*stream, root_);
     }

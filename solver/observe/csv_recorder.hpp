@@ -36,6 +36,7 @@ public:
     void balance(const BalanceRow& row) override;
     void cost(const CostRow& row) override;
     void picture(const RockPicture& picture) override;
+    void wall_work(double time, gsl::span<const WallWork> works) override;
     void outcomes(gsl::span<const RockOutcome> outcomes) override;
     void velocity(const VelocitySets& sets, double time) override;
     void finished(const RunCost& cost) override;
@@ -54,7 +55,7 @@ private:
     double start_time_;
     std::string start_;
     std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, flux_, loads_, balance_,
-        cost_, warnings_;
+        cost_, wall_work_, warnings_;
     std::map<double, std::string> pictures_;  // files of the rock series by time
     std::vector<ModelNote> models_;
     std::map<std::string, std::string> versions_;

@@ -210,6 +210,8 @@ public:
     virtual void balance(const BalanceRow& row) = 0;
     virtual void cost(const CostRow& row) = 0;
     virtual void picture(const RockPicture& picture) = 0;
+    /// Work of rock on walls so far.
+    virtual void wall_work(double time, gsl::span<const WallWork> works) = 0;
     /// Rewrites the table of outcomes.
     virtual void outcomes(gsl::span<const RockOutcome> outcomes) = 0;
     /// Rewrites the tables of averaged velocities. \param time  up to which they go [s]
@@ -240,6 +242,7 @@ public:
     void balance(const BalanceRow&) override {}
     void cost(const CostRow&) override {}
     void picture(const RockPicture&) override {}
+    void wall_work(double, gsl::span<const WallWork>) override {}
     void outcomes(gsl::span<const RockOutcome>) override {}
     void velocity(const VelocitySets&, double) override {}
     void finished(const RunCost&) override {}

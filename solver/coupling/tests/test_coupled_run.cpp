@@ -1238,5 +1238,34 @@ TEST(CsvRecorder, writes_the_files_of_the_contract) {
     while (std::getline(rows, row)) EXPECT_EQ(commas(row), commas(header));
 }
 
+// A triangle of 0.02 m2 and one without area.
+TEST(CsvRecorder, writes_the_work_of_rock_on_walls_at_every_picture) {
+    const TemporaryFolder folder;
+    const CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    const SteelTriangle triangle{Vec3(0, 0, 0), Vec3(0.2, 0, 0), Vec3(0, 0.2, 0)}, line{Vec3(0, 0, 0), Vec3(0.2, 0, 0), Vec3(0.1, 0, 0)};
+    {
+        CsvRecorder recorder(folder.path(), settings, 0.0);
+        Rig rig(settings, folder.path(), recorder, Vec3(0, 0, 1.0));
+        rig.fluid.writes_fields = true;
+        for (int n = 1; n <= 3; ++n) {
+            rig.dem.works = {{"head", 0.001, {triangle, line}, {0.5 * n, 0.25}, {0.1 * n, 0.0}}, {"plate", 0.0, {line}, {0.0}, {0.0}}};
+            rig.run->step();
+        }
+        rig.run->finish();
+    }
+    const auto root = folder.path() / "postProcessing/rock";
+    EXPECT_EQ(text_of(root / "0/wall_work.csv"),
+              "time_s,wall,impact_j,sliding_j,since_s\n"
+              "0.004,head,0.75,0.1,0.001\n0.004,plate,0,0,0\n"
+              "0.008,head,1.25,0.2,0.001\n0.008,plate,0,0,0\n"
+              "0.012,head,1.75,0.3,0.001\n0.012,plate,0,0,0\n");
+    const std::string surface = text_of(root / "wall_work_head.vtp");
+    for (const char* part : {"NumberOfPolys=\"2\"", "Name=\"impact_j_m2\" NumberOfComponents=\"1\" format=\"ascii\">\n75\n0\n</DataArray>",
+                             "Name=\"sliding_j_m2\" NumberOfComponents=\"1\" format=\"ascii\">\n15\n0\n</DataArray>",
+                             "\n0 0 0\n0.2 0 0\n0 0.2 0\n", "\n0 1 2\n3 4 5\n", "\n3\n6\n"})
+        EXPECT_NE(surface.find(part), std::string::npos) << part << '\n' << surface;
+    EXPECT_TRUE(std::filesystem::exists(root / "wall_work_plate.vtp"));
+}
+
 }  // namespace
 }  // namespace cutterflow::coupling

@@ -195,6 +195,7 @@ public:
         return step;
     }
 
+    std::vector<WallWork> wall_work() const override { return works; }
     std::vector<int> frozen() const override { return frozen_; }
     void freeze(gsl::span<const int> ids) override {
         thaw(ids);
@@ -242,6 +243,7 @@ public:
     std::function<bool(const Vec3& position)> leaves;
     double angle_error = 0.0;
     double walls_change = 0.0;
+    std::vector<WallWork> works;
 
 private:
     bool is_frozen(int id) const { return std::binary_search(frozen_.begin(), frozen_.end(), id); }
