@@ -6,6 +6,7 @@
 #include "geometry/base/axis_frame.hpp"
 #include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
+#include "postproc/analysis/steel/steel_work.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -513,6 +514,7 @@ json results_json(const Results& results, const RunData& run) {
                           {"balance_error", results.mixing ? or_null(results.mixing->balance_error) : json(nullptr)}};
     document["production"] = results.fed ? fed_json(*results.fed, *results.dredging) : json(nullptr);
     document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
+    document["steel_work"] = steel_work_json(steel_work_of(results, run));
     document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},

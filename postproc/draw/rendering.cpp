@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/base/axis_frame.hpp"
+#include "postproc/draw/painted_surface.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -185,9 +186,14 @@ Colour composite(const Layer& solids, const Layer& soil, const Layer& ghosts, co
     return colour;
 }
 
-void draw_surface(Layer& layer, const TriangleSurface& surface, const Colour& colour) {
+/// \param colours  of the triangles
+void draw_surface(Layer& layer, const TriangleSurface& surface, const std::vector<Colour>& colours) {
     const std::vector<std::array<Vec3, 3>> normals = corner_normals(surface);
-    for (std::size_t i = 0; i < surface.size(); ++i) layer.draw(surface[i], normals[i], colour);
+    for (std::size_t i = 0; i < surface.size(); ++i) layer.draw(surface[i], normals[i], colours[i]);
+}
+
+void draw_surface(Layer& layer, const TriangleSurface& surface, const Colour& colour) {
+    draw_surface(layer, surface, std::vector<Colour>(surface.size(), colour));
 }
 
 TriangleSurface turned(TriangleSurface surface, double angle) {
@@ -210,11 +216,15 @@ Vec3 View::project(const Vec3& point) const {
 }
 
 Image render(const HeadScene& scene, const View& view) {
+    return render_painted(scene, std::vector<Colour>(scene.steel.size(), k_steel), view);
+}
+
+Image render_painted(const HeadScene& scene, const std::vector<Colour>& colours, const View& view) {
     View fine = view;
     fine.width *= k_supersampling;
     fine.height *= k_supersampling;
     Layer solids(fine), soil(fine), ghosts(fine);
-    draw_surface(solids, turned(scene.steel, scene.steel_angle), k_steel);
+    draw_surface(solids, turned(scene.steel, scene.steel_angle), colours);
     for (const Sphere& rock : scene.rocks) solids.draw(rock);
     draw_surface(soil, scene.soil, k_soil);
     draw_surface(ghosts, scene.ghosts, k_ghost);

@@ -8,6 +8,7 @@
 
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/head/head_names.hpp"
+#include "postproc/draw/painted_surface.hpp"
 #include "postproc/draw/palette.hpp"
 #include "postproc/draw/rendering.hpp"
 
@@ -138,6 +139,17 @@ std::string draw_head_from_hub(const RunData& run, const Page& page, const std::
     scene.soil.clear();    // before it, below the hub
     const View view = axial_view(run);
     return picture(view, run, "Cutter head from the hub with rock coloured by fate", page.address(render(scene, view), name));
+}
+
+std::string draw_painted_head(const RunData& run, const TriangleSurface& steel, const std::vector<Colour>& colours, const Page& page,
+                              const std::string& name) {
+    HeadScene scene;
+    scene.steel = steel;
+    const auto draw = [&](const View& view, const char* from) {
+        const std::string address = page.address(render_painted(scene, colours, view), fmt::format("{}_{}", name, from));
+        return picture(view, run, fmt::format("Cutter head from the {}, coloured by the work of rock on its steel", from), address);
+    };
+    return draw(side_view(run, 1.0), "side") + draw(axial_view(run), "hub");
 }
 
 }  // namespace cutterflow::postproc

@@ -1,8 +1,10 @@
 #pragma once
 /// \file Pictures of the head with its rock coloured by fate.
 #include <string>
+#include <vector>
 
 #include "postproc/draw/page.hpp"
+#include "postproc/draw/triangle_surface.hpp"
 #include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::postproc {
@@ -22,5 +24,9 @@ HeadPicture draw_head_from_side(const RunData& run, Page& page, const std::strin
 
 /// The same as an <svg> element, from the hub along the axis, lowest side down and without backplate and pipe.
 std::string draw_head_from_hub(const RunData& run, const Page& page, const std::string& name);
+
+/// The steel of the head alone, from the side and from the hub, as an <svg> element each. \param colours  of its triangles
+std::string draw_painted_head(const RunData& run, const TriangleSurface& steel, const std::vector<Colour>& colours, const Page& page,
+                              const std::string& name);
 
 }  // namespace cutterflow::postproc

@@ -7,6 +7,7 @@
 #include "postproc/draw/page.hpp"
 #include "postproc/pages/own_document.hpp"
 #include "postproc/pages/report_page.hpp"
+#include "postproc/pages/steel/steel_section.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -14,7 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 PageFigures draw_figures(const Results& results, const RunData& run, Page& page) {
-    PageFigures figures{{}, draw_head_from_side(run, page, "head_side"), draw_head_from_hub(run, page, "head_axial"), ""};
+    PageFigures figures{{},
+                        draw_head_from_side(run, page, "head_side"),
+                        draw_head_from_hub(run, page, "head_axial"),
+                        steel_section(results, run, page),
+                        ""};
     if (!gnuplot_is_installed()) {
         figures.note =
             "Plots are missing: the program gnuplot was not found. Install it (Debian: apt-get install gnuplot-nox) and make the "

@@ -590,7 +590,7 @@ void write_report_page(const Page& page, const Results& results, const RunData& 
     body += unfinished_notice(results, run.flow.has_value()) + html::notices(run.warnings);
     body += answer_section(results, run, figures);
     if (!figures.note.empty()) body += fmt::format("<p class=\"notice\">{}</p>\n", escape(figures.note));
-    body += figure_section(results, run, figures) + rock_section(results, run) + operation_section(results, run);
+    body += figure_section(results, run, figures) + rock_section(results, run) + figures.steel + operation_section(results, run);
     body += cost_section(results, run, figures) + mesh_section(run) + model_section(run);
     body += version_section(results_json(results, run).at("versions"));
     page.write(title, body, fmt::format("The same numbers for programs: results.json ({}).", k_results_schema));

@@ -14,7 +14,8 @@ struct PageFigures {
     std::map<Place, std::string> plots;  ///< drawn
     HeadPicture head;
     std::string head_from_hub;
-    std::string note;  ///< why plots are missing; empty when none are
+    std::string steel;  ///< the section of what rock does to the steel; may be empty
+    std::string note;   ///< why plots are missing; empty when none are
 };
 
 void write_report_page(const Page& page, const Results& results, const RunData& run, const PageFigures& figures);

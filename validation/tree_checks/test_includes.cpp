@@ -87,6 +87,7 @@ const std::vector<Layer> k_layers = {
     {"postproc/analysis/", {k_base, k_axial_bins, k_head_names, "postproc/run/", "postproc/draw/", "postproc/analysis/"}},
     {"postproc/analysis/calibration/", {k_base, "postproc/analysis/calibration/"}},
     {"postproc/analysis/measures/", {k_base, "postproc/run/", "postproc/analysis/time_average.hpp", "postproc/analysis/measures/"}},
+    {"postproc/analysis/steel/", {k_base, k_axial_bins, k_head_names, "postproc/run/", "postproc/draw/", "postproc/analysis/"}},
     {"postproc/pages/", {k_base, k_head_names, "postproc/"}},
     {"postproc/pages/free_surface/", {k_base, "postproc/run/", "postproc/draw/", "postproc/analysis/", "postproc/pages/"}},
     {"postproc/pages/measures/", {k_base, "postproc/analysis/measures/", "postproc/draw/", "postproc/pages/measures/"}},

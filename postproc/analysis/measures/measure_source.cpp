@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
 #include "postproc/run/run_reader.hpp"
+#include "postproc/run/vtp_arrays.hpp"
 
 namespace cutterflow::postproc {
 
@@ -24,20 +26,13 @@ constexpr const char* k_run_again = "Run it again with this version";
 
 /// Numbers of an ascii data array of a .vtp file.
 std::vector<double> array_of(const std::string& text, const std::string& name, const fs::path& file) {
-    const std::size_t named = text.find("Name=\"" + name + "\"");
-    const std::size_t start = named == std::string::npos ? named : text.find('>', named);
-    if (start == std::string::npos)
+    std::optional<std::vector<double>> numbers = vtp_array(text, name);
+    if (!numbers)
         throw UserError({{file.string(), fmt::format("the picture has no {}", name),
                           "A picture of grains has places, diameters, densities "
                           "and velocities",
                           k_run_again}});
-    std::vector<double> numbers;
-    const char* at = text.c_str() + start + 1;
-    for (char* end = nullptr;; at = end) {
-        const double number = std::strtod(at, &end);
-        if (end == at) return numbers;
-        numbers.push_back(number);
-    }
+    return std::move(*numbers);
 }
 
 Table joined_with(const fs::path& run, const std::string& what, const std::string& file, const TableRules& rules) {
