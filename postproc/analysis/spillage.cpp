@@ -162,6 +162,16 @@ void RockHistories::take(const Table& events, std::size_t row) {
     spilled_ += static_cast<int>(rock.is_spilled()) - static_cast<int>(was_spilled);
 }
 
+std::string top_bin(const std::vector<geometry::AxialBin>& bins, const std::function<double(const std::string&)>& share_through) {
+    std::string at_ring;
+    for (const geometry::AxialBin& bin : bins) {
+        if (bin.z_max > 0.0) continue;
+        if (at_ring.empty()) at_ring = bin.name;
+        if (share_through(bin.name) >= k_open_to_rock) return bin.name;
+    }
+    return at_ring;
+}
+
 Spillage evaluate_spillage(const Table& fates, const Table& events, const std::vector<geometry::AxialBin>& bins, double revolution,
                            bool finished) {
     Spillage result;

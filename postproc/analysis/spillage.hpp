@@ -1,5 +1,6 @@
 #pragma once
 /// \file Spillage: fates, ratios with their bounds, axial bins of the last exit.
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -74,6 +75,14 @@ struct BinSpillage {
 
 /// Spilled rock by the bin of its last exit; all bins. \throws CheckFailure  when rock left through a bin that is none of `bins`
 std::vector<BinSpillage> bin_spilled_rock(const std::map<int, RockHistory>& rocks, const std::vector<geometry::AxialBin>& bins);
+
+/// Share of the placed rock from which on a bin counts as open to rock.
+inline constexpr double k_open_to_rock = 0.01;
+
+/// Name of the uppermost bin below the ring plane through which k_open_to_rock or more of the rock left; where there is none, of the bin at
+/// the ring plane. A ring's own steel closes the bins that it reaches over, so that this is the first below its underside.
+/// \param share_through  of the placed rock, through the bin of a name
+std::string top_bin(const std::vector<geometry::AxialBin>& bins, const std::function<double(const std::string&)>& share_through);
 
 /// Ratios when a given time has passed since the first rock came in.
 struct RatiosAt {

@@ -326,22 +326,14 @@ const char* supplied_text(const Comparison& comparison) {
     return scope_of(comparison).fed_by_cutting ? "what was fed in the window" : "the placed mass";
 }
 
-/// Share of the placed rock from which on a band of the head counts as open to rock.
-constexpr double k_open_to_rock = 0.01;
-
-/// The uppermost band below the ring plane through which a hundredth or more of the rock left any head; where there is none, the band at
-/// the ring plane. A ring's own steel closes the bands that it reaches over.
-std::string top_bin(const Comparison& comparison) {
-    std::string at_ring;
-    for (const geometry::AxialBin& bin : comparison.runs.front().run.bins) {
-        if (bin.z_max > 0.0) continue;
-        if (at_ring.empty()) at_ring = bin.name;
-        const Quantity* spilled = find_quantity(comparison, bin_key("spilled", bin.name, "share"));
-        if (!spilled) continue;
-        for (const Estimate& share : spilled->settings)
-            if (share.value.value_or(0.0) >= k_open_to_rock) return bin.name;
-    }
-    return at_ring;
+/// Of all heads: a bin counts through which enough of the rock left any of them.
+std::string top_bin_of(const Comparison& comparison) {
+    return top_bin(comparison.runs.front().run.bins, [&](const std::string& bin) {
+        double largest = 0.0;
+        if (const Quantity* spilled = find_quantity(comparison, bin_key("spilled", bin, "share")))
+            for (const Estimate& share : spilled->settings) largest = std::max(largest, share.value.value_or(0.0));
+        return largest;
+    });
 }
 
 Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Quantity& outflow) {
@@ -437,7 +429,7 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
                                                 shares + ", against the flow number (discharge Q, rotor speed ω, ring radius R)" + bars));
     }
     for (const Against& against : other_trends(comparison)) add_trend(against, false);
-    const std::string top = top_bin(comparison);
+    const std::string top = top_bin_of(comparison);
     const Quantity *spilled = find_quantity(comparison, bin_key("spilled", top, "share")),
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));
     if (spilled && outflow) {

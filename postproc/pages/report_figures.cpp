@@ -250,8 +250,17 @@ Figure bins(const Results& results) {
             ""};
 }
 
-/// Spilled share of the supplied mass against the radial velocity, a point a bin, that of the bin below the ring in front.
-Figure top_bin(const Results& results) {
+std::string top_bin_of(const LastExits& exits) {
+    std::vector<geometry::AxialBin> bins;
+    for (const BinSpillage& item : exits.bins) bins.push_back(item.bin);
+    return top_bin(bins, [&](const std::string& name) {
+        const auto of_bin = [&](const BinSpillage& item) { return item.bin.name == name; };
+        return std::find_if(exits.bins.begin(), exits.bins.end(), of_bin)->spilled.mass / exits.supplied;
+    });
+}
+
+/// Spilled share of the supplied mass against the radial velocity, a point a bin, that of the top bin in front.
+Figure top_bin_figure(const Results& results) {
     Plot plot;
     plot.name = "top_bin";
     plot.tips = Tips::at_point;
@@ -259,17 +268,18 @@ Figure top_bin(const Results& results) {
     plot.x.tip = {".3f", " m/s"};
     plot.y.title = fmt::format("spilled there, % of {}", supplied_text(results));
     plot.y.tip = {".2f", " %"};
-    Series others{"other bins", palette::outflow, {}, {}}, top{"bin below the ring", palette::spilled, {}, {}};
+    Series others{"other bins", palette::outflow, {}, {}}, top{"top bin", palette::spilled, {}, {}};
     others.mark = Mark::ring;
     top.mark = Mark::disc;
     top.mark_size = 11.0;
+    const std::string name_of_top = top_bin_of(*results.exits);
     double slowest = 0.0, fastest = 0.0, highest = 1.0;
     for (std::size_t i = 0; i < results.outflow.size(); ++i) {
         const BinOutflow& flow = results.outflow[i];
         if (!flow.radial_velocity) continue;
         const double velocity = flow.radial_velocity->mean, error = flow.radial_velocity->standard_error.value_or(0.0);
         const double share = 100.0 * results.exits->bins[i].spilled.mass / results.exits->supplied;
-        Series& series = flow.bin.z_max == 0.0 ? top : others;
+        Series& series = flow.bin.name == name_of_top ? top : others;
         series.x.push_back(velocity);
         series.y.push_back(share);
         series.x_low.push_back(velocity - error);
@@ -284,8 +294,10 @@ Figure top_bin(const Results& results) {
     plot.y.to = highest;
     plot.series = {others, top};
     return {plot,
-            "Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error by batch "
-            "means). " +
+            fmt::format("Rock that left the head for the last time in a bin, against the radial velocity there (whiskers: standard error "
+                        "by batch means). The top bin, {}, is the uppermost below the ring plane through which a hundredth or more of the "
+                        "rock left: the ring’s own steel closes what it reaches over. ",
+                        text::bin_text(name_of_top)) +
                 onset_band_text(),
             ""};
 }
@@ -528,7 +540,7 @@ std::vector<PlacedFigure> report_figures(const Results& results, const RunData& 
     const bool is_batch = rock && !run.operating_point.fed_by_cutting;  // a head that is fed all the time has a production
     if (is_batch) add(Place::answer, outcome(*rock));
     if (rock || !results.outflow.empty()) add(Place::figures, bins(results));
-    if (rock && has_outflow(results) && results.exits->supplied > 0.0) add(Place::figures, top_bin(results));
+    if (rock && has_outflow(results) && results.exits->supplied > 0.0) add(Place::figures, top_bin_figure(results));
     for (const auto& plane : {axial_plane(run), plane_under_ring(run)})
         if (plane) add(Place::figures, *plane);
     if (results.exits && has_exits(*results.exits))

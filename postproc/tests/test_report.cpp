@@ -272,6 +272,24 @@ TEST(TopBinPlot, puts_spilled_shares_against_outflow_and_shades_the_references_o
     EXPECT_TRUE(contains(page, "It is the reference’s band, not a result of this program."));
 }
 
+/// A ring's steel closes the bins that it reaches over.
+TEST(TopBinPlot, marks_the_first_bin_through_which_rock_leaves) {
+    SmallRun run("report_thick_ring");
+    for (testing::Event& event : run.events)
+        if (event.id == 3 && event.direction == "out") event.bin = "gap";
+    run.write();
+    for (const PlacedFigure& item : figures_of_run(run.directory)) {
+        if (item.figure.plot.name != "top_bin") continue;
+        const Series& top = item.figure.plot.series.back();
+        EXPECT_EQ(top.point_names, std::vector<std::string>{"60–90 mm"});
+        EXPECT_NEAR(top.x.at(0), 0.0, 1e-6);
+        EXPECT_NEAR(top.y.at(0), 50.0, 1e-3);
+        EXPECT_TRUE(contains(item.figure.caption, "60–90 mm"));
+        return;
+    }
+    FAIL() << "no such figure";
+}
+
 TEST(PublishReport, writes_a_page_without_scripts_with_its_pictures_beside_it) {
     SmallRun run("report_still");
     run.write();
