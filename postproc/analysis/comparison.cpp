@@ -436,9 +436,12 @@ ComparisonVerdict verdict_of(const Estimate& difference, bool of_rock) {
 
 constexpr double k_same_operating_point = 0.005;
 
+bool is_near(double value, double wanted) {
+    return std::abs(value - wanted) <= k_same_operating_point * wanted;
+}
+
 bool is_at(const OperatingPoint& run, const MeasuredPoint& test) {
-    const auto near = [](double value, double wanted) { return std::abs(value - wanted) <= k_same_operating_point * wanted; };
-    return near(run.speed_rpm, test.speed_rpm) && (!test.discharge || near(run.discharge, *test.discharge));
+    return is_near(run.speed_rpm, test.speed_rpm) && has_discharge_of(run, test);
 }
 
 /// Setting less test.
@@ -563,6 +566,10 @@ void add_measured(Comparison& comparison, const std::vector<std::filesystem::pat
     if (!files.empty() && !comparison.runs.empty() && !find_quantity(comparison, "ratio"))
         mistakes.add({"", "measured points beside runs without rock", "They are spillage and production", "Compare runs with rock"});
     mistakes.refuse();
+}
+
+bool has_discharge_of(const OperatingPoint& run, const MeasuredPoint& test) {
+    return !test.discharge || is_near(run.discharge, *test.discharge);
 }
 
 std::vector<MeasuredDifference> measured_differences(const Comparison& comparison) {

@@ -92,6 +92,9 @@ struct MeasuredDifference {
 /// \throws UserError  when a file has mistakes, or the runs have no rock (all at once)
 void add_measured(Comparison& comparison, const std::vector<std::filesystem::path>& files);
 
+/// Whether a test was made at a run's discharge, within 0.5 %; one that does not tell its own stands beside all.
+bool has_discharge_of(const OperatingPoint& run, const MeasuredPoint& test);
+
 /// Every test with every setting whose speed, and discharge where the test has one, is within 0.5 % of it.
 std::vector<MeasuredDifference> measured_differences(const Comparison& comparison);
 

@@ -227,54 +227,88 @@ double hypothesis(double outflow, double speed, double fall_through) {
     return 1.0 - (1.0 - outflow) * std::exp(-fall_through * fall_through / (speed * speed));
 }
 
-/// The speed n_0 [rpm] with which the hypothesis is nearest to the computed spillage, by least squares.
-double fitted_fall_through(const std::vector<double>& speeds, const std::vector<double>& outflow, const std::vector<double>& spillage) {
-    const auto error = [&](double fall_through) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < speeds.size(); ++i) sum += std::pow(hypothesis(outflow[i], speeds[i], fall_through) - spillage[i], 2);
-        return sum;
-    };
-    constexpr int bits = 24;  // of the double's 53: the minimum of a parabola is not known better
-    return boost::math::tools::brent_find_minima(error, 0.0, 10.0 * speeds.back(), bits).first;
+/// S_out at the speeds of a series, linear between them.
+struct OutflowLine {
+    std::vector<double> speeds, shares;
+    bool reaches(double speed) const { return speed >= speeds.front() && speed <= speeds.back(); }
+    double at(double speed) const { return between(speeds, shares, speed); }
+};
+
+OutflowLine outflow_line(const Comparison& comparison, const SpeedSeries& series, const Quantity& mixed) {
+    OutflowLine line;
+    const Quantity& speed = *find_quantity(comparison, "speed_rpm");
+    for (const std::size_t i : series.settings) {
+        if (!mixed.settings[i].value) continue;
+        line.speeds.push_back(*speed.settings[i].value);
+        line.shares.push_back(*mixed.settings[i].value);
+    }
+    return line;
 }
 
-/// Beside what heads that are fed all the time spill: what neutral rock would, from each run's own outflow, and a hypothesis of what falls
-/// through at low speed, fitted to the runs themselves.
-void add_outflow_lines(Plot& plot, const Comparison& comparison) {
+/// A test's spillage.
+std::optional<double> measured_spillage(const MeasuredPoint& point) {
+    if (point.spillage) return point.spillage->value;
+    return point.production ? std::optional<double>(1.0 - point.production->value) : std::nullopt;
+}
+
+/// The speed n_0 [rpm] with which the hypothesis is nearest to the tests of a series' discharge and speeds, by least squares; none with
+/// fewer than two of them: a curve of one parameter goes through any one point.
+std::optional<double> measured_fall_through(const Comparison& comparison, const SpeedSeries& series, const OutflowLine& outflow) {
+    const OperatingPoint& point = comparison.runs[comparison.settings[series.settings.front()].runs.front()].run.operating_point;
+    std::vector<std::pair<double, double>> tests;  // speed, spillage
+    for (const MeasuredSeries& measured : comparison.measured)
+        for (const MeasuredPoint& test : measured.points)
+            if (const auto spillage = measured_spillage(test); spillage && outflow.reaches(test.speed_rpm) && has_discharge_of(point, test))
+                tests.emplace_back(test.speed_rpm, *spillage);
+    if (tests.size() < 2) return std::nullopt;
+    const auto error = [&](double fall_through) {
+        double sum = 0.0;
+        for (const auto& [speed, spillage] : tests) sum += std::pow(hypothesis(outflow.at(speed), speed, fall_through) - spillage, 2);
+        return sum;
+    };
+    // Far above all speeds everything falls through and the error is flat: the minimum is looked for between the best of some and its
+    // neighbours.
+    constexpr int places = 300, bits = 24;  // bits of the double's 53: the minimum of a parabola is not known better
+    const double step = 3.0 * outflow.speeds.back() / places;
+    int best = 0;
+    for (int k = 1; k <= places; ++k)
+        if (error(k * step) < error(best * step)) best = k;
+    return boost::math::tools::brent_find_minima(error, std::max(0, best - 1) * step, (best + 1) * step, bits).first;
+}
+
+Series hypothesis_line(const OutflowLine& outflow, double fall_through, const std::string& of) {
     constexpr int points = 60;
-    const Quantity *mixed = find_quantity(comparison, "well_mixed_spillage"), *spilled = find_quantity(comparison, "ratio"),
-                   *speed = find_quantity(comparison, "speed_rpm");
-    if (!mixed) return;
-    for (const SpeedSeries& series : speed_series(comparison)) {
-        std::vector<double> speeds, outflow, computed_at, of_computed, computed;
-        for (const std::size_t i : series.settings) {
-            if (!mixed->settings[i].value) continue;
-            speeds.push_back(*speed->settings[i].value);
-            outflow.push_back(*mixed->settings[i].value);
-            if (!spilled->settings[i].value) continue;
-            computed_at.push_back(speeds.back());
-            of_computed.push_back(outflow.back());
-            computed.push_back(*spilled->settings[i].value);
-        }
-        if (speeds.size() < 2) continue;
-        const std::string of = series.what.empty() ? "" : ", " + series.what;
-        Series line{"S_out: neutral rock" + of, palette::outflow, speeds, {}};
-        line.line_width = 1.4;
-        for (const double share : outflow) line.y.push_back(k_percent * share);
-        plot.series.push_back(line);
-        if (computed.size() < 3) continue;
-        const double fall_through = fitted_fall_through(computed_at, of_computed, computed);
-        Series dashed{
-            fmt::format("hypothesis: outflow and fall-through, n₀ = {:.3g} rpm fitted{}", fall_through, of), palette::faint, {}, {}};
-        dashed.line_width = 1.4;
-        dashed.dashed = true;
-        for (int k = 0; k <= points; ++k) {
-            const double at = speeds.front() + (speeds.back() - speeds.front()) * k / points;
-            dashed.x.push_back(at);
-            dashed.y.push_back(k_percent * hypothesis(between(speeds, outflow, at), at, fall_through));
-        }
-        plot.series.push_back(dashed);
+    Series dashed{fmt::format("hypothesis, n₀ = {:.3g} rpm from the measured points{}", fall_through, of), palette::faint, {}, {}};
+    dashed.line_width = 1.4;
+    dashed.dashed = true;
+    for (int k = 0; k <= points; ++k) {
+        const double speed = outflow.speeds.front() + (outflow.speeds.back() - outflow.speeds.front()) * k / points;
+        dashed.x.push_back(speed);
+        dashed.y.push_back(k_percent * hypothesis(outflow.at(speed), speed, fall_through));
     }
+    return dashed;
+}
+
+/// Beside what heads that are fed all the time spill: what neutral rock would, from each run's own outflow, and, where there are tests to
+/// fit it to, a hypothesis of what falls through at low speed. \return whether there is such a hypothesis
+bool add_outflow_lines(Plot& plot, const Comparison& comparison) {
+    const Quantity* mixed = find_quantity(comparison, "well_mixed_spillage");
+    if (!mixed) return false;
+    bool has_hypothesis = false;
+    for (const SpeedSeries& series : speed_series(comparison)) {
+        const OutflowLine outflow = outflow_line(comparison, series, *mixed);
+        if (outflow.speeds.size() < 2) continue;
+        const std::string of = series.what.empty() ? "" : ", " + series.what;
+        Series line{"S_out: neutral rock" + of, palette::outflow, outflow.speeds, {}};
+        line.line_width = 1.4;
+        for (const double share : outflow.shares) line.y.push_back(k_percent * share);
+        plot.series.push_back(line);
+        const std::optional<double> fall_through = measured_fall_through(comparison, series, outflow);
+        if (!fall_through) continue;
+        plot.series.push_back(hypothesis_line(outflow, *fall_through, of));
+        has_hypothesis = true;
+    }
+    return has_hypothesis;
 }
 
 std::vector<std::string> bins_of(const Comparison& comparison, const std::string& what, const std::string& unit) {
@@ -400,16 +434,15 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
     const auto add_trend = [&](const Against& against, bool with_measured) {
         Plot plot = trend_plot(comparison, against);
         if (with_measured) add_measured_points(plot, comparison);
-        const bool with_lines = with_measured && fed;
-        if (with_lines) add_outflow_lines(plot, comparison);
+        const bool with_lines = with_measured && fed, with_hypothesis = with_lines && add_outflow_lines(plot, comparison);
         figures.push_back(with_legend_that_fits(
             plot,
             shares + ", against " + against.what + bars +
                 (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "") +
-                (with_lines
-                     ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow. Dashed, a hypothesis and no "
-                       "result: 1 − (1 − S<sub>out</sub>) exp(−(n<sub>0</sub>/n)²), rock that falls through between two blades "
-                       "below the speed n<sub>0</sub>, which is fitted to these runs."
+                (with_lines ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow." : "") +
+                (with_hypothesis
+                     ? " Dashed, a hypothesis and no result: 1 − (1 − S<sub>out</sub>) exp(−(n<sub>0</sub>/n)²), rock that falls through "
+                       "between two blades below the speed n<sub>0</sub>, which is fitted to the measured points and not to the runs."
                      : "")));
         if (drawn_delivery)
             figures.push_back(

@@ -356,6 +356,39 @@ TEST(Measured, points_of_another_discharge_are_not_compared) {
     EXPECT_LE(differences.size(), 2u);
 }
 
+/// What the figure against the speed draws dashed.
+std::vector<Series> dashed_lines(const Comparison& comparison) {
+    std::vector<Series> dashed;
+    for (const Figure& figure : comparison_figures(comparison))
+        for (const Series& series : figure.plot.series)
+            if (figure.plot.name == "speed" && series.dashed) dashed.push_back(series);
+    return dashed;
+}
+
+// Of the runs 40 % are spilled at every speed; the tests fall through below 30 rpm.
+TEST(Measured, points_and_not_the_runs_are_what_the_hypothesis_of_fall_through_is_fitted_to) {
+    const std::vector<fs::path> runs{of_sweep("fall_a", 20.0, 0.0), of_sweep("fall_b", 40.0, 0.0), of_sweep("fall_c", 80.0, 0.0)};
+    Comparison comparison = compare_runs(runs);
+    EXPECT_TRUE(dashed_lines(comparison).empty()) << "a curve fitted to the runs beside it cannot disagree with them";
+    const double outflow = *quantity_of(comparison, "well_mixed_spillage").settings[0].value,
+                 discharge = comparison.runs[0].run.operating_point.discharge;
+    const auto spillage = [&](double speed) { return 1.0 - (1.0 - outflow) * std::exp(-900.0 / (speed * speed)); };
+    std::string text = "speed_rpm,discharge_m3_s,production\n";
+    for (const double speed : {25.0, 50.0, 75.0}) text += fmt::format("{},{},{}\n", speed, discharge, 1.0 - spillage(speed));
+    text += fmt::format("200,{},0.9\n50,{},0.01\n", discharge, 2.0 * discharge);  // beyond the runs' speeds; of another discharge
+    add_measured(comparison, {measured_file("fall", text)});
+    const std::vector<Series> dashed = dashed_lines(comparison);
+    ASSERT_EQ(dashed.size(), 1u);
+    EXPECT_THAT(dashed[0].name, HasSubstr("n₀ = 30 rpm from the measured points"));
+    EXPECT_EQ(dashed[0].x.front(), 20.0);
+    EXPECT_NEAR(dashed[0].y.front(), 100.0 * spillage(20.0), 0.01);
+    EXPECT_NEAR(dashed[0].y.back(), 100.0 * spillage(80.0), 0.01);
+
+    Comparison with_one = compare_runs(runs);
+    add_measured(with_one, {measured_file("one", "speed_rpm,spillage\n50,0.5\n")});
+    EXPECT_TRUE(dashed_lines(with_one).empty()) << "one parameter goes through any one point";
+}
+
 TEST(Measured, files_name_every_mistake) {
     const auto wrong = measured_file("wrong", "speed_rpm,spillage,production_error\n0,35,0.1\n60,0.3,-0.1\n");
     try {
