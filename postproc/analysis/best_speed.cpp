@@ -10,7 +10,8 @@
 namespace cutterflow::postproc {
 namespace {
 
-constexpr const char *k_production = "production", *k_spillage = "ratio", *k_speed = "speed_rpm";
+constexpr const char *k_production = "production", *k_spillage = "ratio", *k_speed = "speed_rpm", *k_swing = "swing_speed_m_min",
+                     *k_delivered = "delivered_in_situ_m3_h";
 
 double speed_of(const Comparison& comparison, std::size_t setting) {
     return find_quantity(comparison, k_speed)->settings[setting].value.value_or(0.0);
@@ -39,6 +40,31 @@ std::size_t highest(const Comparison& comparison, const SpeedSeries& series) {
     return static_cast<std::size_t>(std::max_element(series.settings.begin(), series.settings.end(), less) - series.settings.begin());
 }
 
+const Estimate& delivered_of(const Comparison& comparison, std::size_t setting) {
+    return find_quantity(comparison, k_delivered)->settings[setting];
+}
+
+double swing_of(const Comparison& comparison, std::size_t setting) {
+    return find_quantity(comparison, k_swing)->settings[setting].value.value_or(0.0);
+}
+
+/// \pre all deliver a known amount
+std::size_t most_delivered(const Comparison& comparison, const std::vector<std::size_t>& settings) {
+    const auto less = [&](std::size_t a, std::size_t b) { return *delivered_of(comparison, a).value < *delivered_of(comparison, b).value; };
+    return *std::max_element(settings.begin(), settings.end(), less);
+}
+
+/// Whether no setting turns, or none swings, slower or faster.
+bool is_at_edge(const Comparison& comparison, const std::vector<std::size_t>& settings, std::size_t setting) {
+    const auto is_end = [&](auto value) {
+        const auto [low, high] = std::minmax_element(
+            settings.begin(), settings.end(), [&](std::size_t a, std::size_t b) { return value(comparison, a) < value(comparison, b); });
+        const double own = value(comparison, setting);
+        return own == value(comparison, *low) || own == value(comparison, *high);
+    };
+    return is_end(speed_of) || is_end(swing_of);
+}
+
 bool all_known(const Comparison& comparison, const SpeedSeries& series) {
     return std::all_of(series.settings.begin(), series.settings.end(), [&](std::size_t setting) { return is_known(comparison, setting); });
 }
@@ -60,7 +86,7 @@ std::string sentence(const Comparison& comparison, const SpeedSeries& series) {
 }  // namespace
 
 std::vector<SpeedSeries> speed_series(const Comparison& comparison) {
-    const std::vector<std::string> rest = told_apart(comparison, k_rotor_speed_key);
+    const std::vector<std::string> rest = told_apart(comparison, {k_rotor_speed_key});
     std::map<std::string, SpeedSeries> by_rest;
     for (std::size_t setting = 0; setting < rest.size(); ++setting) by_rest[rest[setting]].settings.push_back(setting);
     std::vector<SpeedSeries> all;
@@ -82,6 +108,33 @@ std::optional<std::size_t> best_speed(const Comparison& comparison, const SpeedS
     for (const std::size_t neighbour : {top - 1, top + 1})
         if (!is_above(best, production_of(comparison, series.settings[neighbour]))) return std::nullopt;
     return series.settings[top];
+}
+
+std::optional<std::size_t> best_point(const Comparison& comparison, const std::vector<std::size_t>& settings) {
+    if (settings.empty() || !std::all_of(settings.begin(), settings.end(), [&](std::size_t i) { return is_known(comparison, i); }))
+        return std::nullopt;
+    const std::size_t best = most_delivered(comparison, settings);
+    for (const std::size_t other : settings)
+        if (other != best && !is_above(delivered_of(comparison, best), delivered_of(comparison, other))) return std::nullopt;
+    return best;
+}
+
+std::string best_point_text(const Comparison& comparison, const std::vector<std::size_t>& settings) {
+    const auto words = [&](std::size_t i) {
+        return fmt::format("{:g} rpm with a swing of {:g} m/min", speed_of(comparison, i), swing_of(comparison, i));
+    };
+    if (const auto best = best_point(comparison, settings))
+        return fmt::format("Of these points {} delivers most: its 95 % interval is apart from all others{}.", words(*best),
+                           is_at_edge(comparison, settings, *best) ? ", but it lies at the edge of what was run" : "");
+    const std::string none = "No best point within the error: ";
+    if (!std::all_of(settings.begin(), settings.end(), [&](std::size_t i) { return is_known(comparison, i); }))
+        return none + "delivery is not steady, or has no interval, at every point.";
+    const std::size_t top = most_delivered(comparison, settings);
+    const auto overlapping = std::count_if(settings.begin(), settings.end(), [&](std::size_t other) {
+        return other != top && !is_above(delivered_of(comparison, top), delivered_of(comparison, other));
+    });
+    return none + fmt::format("the 95 % interval{} of {} other point{} overlap{} that of the largest value.", overlapping == 1 ? "" : "s",
+                              overlapping, overlapping == 1 ? "" : "s", overlapping == 1 ? "s" : "");
 }
 
 std::vector<std::string> best_speed_text(const Comparison& comparison) {

@@ -1,5 +1,6 @@
 #pragma once
-/// \file Whether runs at several speeds tell which one delivers most.
+/// \file Whether runs at several speeds of rotor and swing tell which one delivers most.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,13 @@ std::optional<std::size_t> best_speed(const Comparison& comparison, const SpeedS
 /// A sentence for every series of three speeds and more: the best speed, or that no optimum was found within the error, and why. Empty for
 /// runs that are not fed all the time.
 std::vector<std::string> best_speed_text(const Comparison& comparison);
+
+/// The setting that delivers most soil in situ per hour, when all of them are steady and have an interval and its own is apart from those
+/// of all others; none otherwise.
+std::optional<std::size_t> best_point(const Comparison& comparison, const std::vector<std::size_t>& settings);
+
+/// A sentence on settings at several speeds of rotor and swing: the best of them and whether it lies at the edge of what was run, or that
+/// none is best within the error, and why.
+std::string best_point_text(const Comparison& comparison, const std::vector<std::size_t>& settings);
 
 }  // namespace cutterflow::postproc

@@ -54,10 +54,10 @@ std::map<std::string, std::vector<std::string>> chosen_keys(const Comparison& co
     return keys;
 }
 
-std::vector<std::string> told_apart(const Comparison& comparison, const std::string& along) {
+std::vector<std::string> told_apart(const Comparison& comparison, const std::set<std::string>& along) {
     std::vector<std::pair<std::string, std::vector<std::string>>> keys;
     for (const auto& [key, values] : chosen_keys(comparison))
-        if (key != along) keys.emplace_back(key, values);
+        if (along.count(key) == 0) keys.emplace_back(key, values);
     std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return rank_of(a.first) < rank_of(b.first); });
     std::vector<std::string> texts(comparison.settings.size());
     for (const auto& [key, values] : keys) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file What somebody chose differently between the settings of a comparison, and how settings and curves are called by it.
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ std::map<std::string, std::vector<std::string>> chosen_keys(const Comparison& co
 
 /// Each setting in words, as "model_cutter.stl, 45 rpm, suction.mouth_azimuth_deg = 90": equal where the chosen keys are equal, apart where
 /// they are not. A key is named only where it tells settings apart that the keys before it do not; cutter, speed, discharge and swing come
-/// first. \param along  a key that is left out, because a curve runs along it; empty: none
-std::vector<std::string> told_apart(const Comparison& comparison, const std::string& along = "");
+/// first. \param along  keys that are left out, because a curve or a map runs along them
+std::vector<std::string> told_apart(const Comparison& comparison, const std::set<std::string>& along = {});
 
 /// Calls settings of one sweep, whose studies have long names, by what they differ in; others keep their labels.
 void call_by_choice(Comparison& comparison);

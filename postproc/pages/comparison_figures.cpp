@@ -12,6 +12,7 @@
 #include "postproc/analysis/best_speed.hpp"
 #include "postproc/analysis/choices.hpp"
 #include "postproc/analysis/text.hpp"
+#include "postproc/pages/delivered_map.hpp"
 #include "postproc/pages/onset_band.hpp"
 
 namespace cutterflow::postproc {
@@ -125,7 +126,7 @@ std::vector<std::size_t> members(const std::vector<std::string>& groups, const s
 
 /// Whether a curve along a key would join two settings of different values.
 bool joins_settings(const Comparison& comparison, const Quantity& of_key) {
-    const std::vector<std::string> groups = told_apart(comparison, of_key.key);
+    const std::vector<std::string> groups = told_apart(comparison, {of_key.key});
     for (const std::string& group : std::set<std::string>(groups.begin(), groups.end())) {
         const std::vector<std::size_t> joined = members(groups, group, of_key);
         if (joined.size() > 1 && of_key.settings[joined.front()].value < of_key.settings[joined.back()].value) return true;
@@ -145,7 +146,7 @@ struct Drawn {
 /// where one quantity is drawn.
 void add_trends(Plot& plot, const Comparison& comparison, const Against& against, const std::vector<Drawn>& quantities) {
     constexpr Mark marks[] = {Mark::disc, Mark::diamond, Mark::square, Mark::triangle};
-    const std::vector<std::string> groups = told_apart(comparison, against.key);
+    const std::vector<std::string> groups = told_apart(comparison, {against.key});
     std::size_t count = 0;
     for (const std::string& group : std::set<std::string>(groups.begin(), groups.end())) {
         for (const Drawn& drawn : quantities) {
@@ -462,6 +463,7 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
                                                 shares + ", against the flow number (discharge Q, rotor speed ω, ring radius R)" + bars));
     }
     for (const Against& against : other_trends(comparison)) add_trend(against, false);
+    for (const Figure& map : delivered_maps(comparison)) figures.push_back(map);
     const std::string top = top_bin_of(comparison);
     const Quantity *spilled = find_quantity(comparison, bin_key("spilled", top, "share")),
                    *outflow = find_quantity(comparison, bin_key("outflow", top, "m_s"));

@@ -146,12 +146,12 @@ TEST(Comparison, of_fed_heads_is_drawn_against_the_swing_speed) {
 }
 
 /// A fed head of a sweep, its mouth elsewhere.
-fs::path of_sweep(const std::string& name, double rpm, double mouth_azimuth_deg) {
+fs::path of_sweep(const std::string& name, double rpm, double mouth_azimuth_deg, double stuck = 0.0) {
     SmallRun run(name);
     run.study_name = fmt::format("heads: {:g}rpm_mouth_azimuth_deg_{:g}", rpm, mouth_azimuth_deg);
     run.speed_rpm = rpm;
     run.write();
-    testing::make_fed(run, 5.0, 0.0);
+    testing::make_fed(run, 5.0, stuck);
     std::string study = testing::read_text(run.directory / names::resolved_study);
     const std::string key = "mouth_azimuth_deg = 0";
     study.replace(study.find(key), key.size(), fmt::format("mouth_azimuth_deg = {:g}", mouth_azimuth_deg));
@@ -176,6 +176,75 @@ TEST(Comparison, joins_settings_of_a_sweep_that_differ_in_one_key_alone) {
     EXPECT_THAT(speed["production, suction.mouth_azimuth_deg = 90"], ::testing::ElementsAre(45.0));
     EXPECT_THAT(mouth["production, 45 rpm"], ::testing::ElementsAre(0.0, 45.0, 90.0));
     EXPECT_THAT(mouth["production, 60 rpm"], ::testing::ElementsAre(0.0));
+}
+
+/// A fed head at a speed of rotor and swing. \param stuck  of what is fed: less is delivered
+fs::path at_point(const std::string& name, double rpm, double swing_m_min, double stuck, double mouth_azimuth_deg = 0.0) {
+    const fs::path directory = of_sweep(name, rpm, mouth_azimuth_deg, stuck);
+    std::string study = testing::read_text(directory / names::resolved_study);
+    const std::string section = "[swing]\n";
+    study.insert(study.find(section) + section.size(), fmt::format("speed_m_min = {}\n", swing_m_min));
+    testing::write_text(directory / names::resolved_study, study);
+    return directory;
+}
+
+std::vector<Figure> maps_of(const std::vector<fs::path>& runs) {
+    std::vector<Figure> maps;
+    for (const Figure& figure : comparison_figures(compare_runs(runs)))
+        if (figure.plot.name.rfind("delivered_map", 0) == 0) maps.push_back(figure);
+    return maps;
+}
+
+TEST(DeliveredMap, has_a_cell_for_every_setting_and_none_where_nothing_was_run) {
+    const std::vector<Figure> maps =
+        maps_of({at_point("map_a", 30.0, 4.0, 0.045), at_point("map_b", 60.0, 4.0, 0.045), at_point("map_c", 30.0, 8.0, 0.045),
+                 at_point("map_d", 60.0, 8.0, 0.0), at_point("map_e", 120.0, 10.0, 0.045)});
+    ASSERT_EQ(maps.size(), 1u);
+    const Plot& plot = maps[0].plot;
+    ASSERT_EQ(plot.bars.size(), 5u) << "of nine places";
+    const Bar& best = plot.bars[3];  // half-way to 30 and 120 rpm, to 4 and 10 m/min
+    EXPECT_EQ(best.from, 45.0);
+    EXPECT_EQ(best.to, 90.0);
+    EXPECT_NEAR(best.at, 7.5, 1e-12);
+    EXPECT_NEAR(best.thickness, 3.0, 1e-12);
+    EXPECT_THAT(best.tip, ::testing::MatchesRegex("60 rpm, 8 m/min: 10\\.[789][0-9]* ± 0\\.[0-9]+ m³/h"));
+    EXPECT_EQ(best.colour, palette::field[4]) << "the largest value is the darkest";
+    EXPECT_EQ(plot.bars[4].from, 90.0);
+    EXPECT_EQ(plot.bars[4].to, 150.0);
+    EXPECT_NEAR(*plot.y.to, 11.0, 1e-12);
+    EXPECT_THAT(maps[0].caption,
+                HasSubstr("Of these points 60 rpm with a swing of 8 m/min delivers most: its 95 % interval is apart from all "
+                          "others."));
+}
+
+TEST(DeliveredMap, names_no_best_point_where_intervals_overlap) {
+    const std::vector<Figure> maps = maps_of({at_point("even_a", 30.0, 4.0, 0.045), at_point("even_b", 60.0, 4.0, 0.001),
+                                              at_point("even_c", 30.0, 8.0, 0.045), at_point("even_d", 60.0, 8.0, 0.0)});
+    ASSERT_EQ(maps.size(), 1u);
+    EXPECT_THAT(maps[0].caption,
+                HasSubstr("No best point within the error: the 95 % interval of 1 other point overlaps that of the largest "
+                          "value."));
+    EXPECT_THAT(maps_of({at_point("fill_a", 30.0, 4.0, 0.2), at_point("fill_b", 60.0, 4.0, 0.2), at_point("fill_c", 30.0, 8.0, 0.0),
+                         at_point("fill_d", 60.0, 8.0, 0.2)})
+                    .at(0)
+                    .caption,
+                HasSubstr("delivery is not steady"));
+}
+
+TEST(DeliveredMap, says_that_the_best_point_is_at_the_edge) {
+    EXPECT_THAT(maps_of({at_point("edge_a", 30.0, 4.0, 0.045), at_point("edge_b", 60.0, 4.0, 0.045), at_point("edge_c", 30.0, 8.0, 0.045),
+                         at_point("edge_d", 60.0, 8.0, 0.0)})
+                    .at(0)
+                    .caption,
+                HasSubstr("apart from all others, but it lies at the edge of what was run"));
+}
+
+TEST(DeliveredMap, joins_no_settings_that_differ_in_anything_else) {
+    EXPECT_TRUE(maps_of({at_point("other_a", 30.0, 4.0, 0.0), at_point("other_b", 60.0, 4.0, 0.0), at_point("other_c", 30.0, 8.0, 0.0),
+                         at_point("other_d", 60.0, 8.0, 0.0, 90.0)})
+                    .empty());
+    EXPECT_TRUE(maps_of({swinging("alone_2", 2.0), swinging("alone_4", 4.0), swinging("alone_6", 6.0), swinging("alone_8", 8.0)}).empty())
+        << "one speed of the rotor";
 }
 
 TEST(Comparison, names_a_key_only_where_it_tells_settings_apart) {
