@@ -113,6 +113,30 @@ TEST(StudyBank, warns_of_a_swing_that_no_blade_and_no_pump_keeps_up_with) {
     EXPECT_TRUE(has(fast, "of suction.discharge_m3_s by volume"));
 }
 
+// The model cutter, ring radius 0.4 m, tips at 0.43 m, at 1:4: 60 rpm, 6 m/min and a mouth of 0.1 m radius are 30 rpm, 12 m/min and 6.4
+// m/s.
+TEST(StudyBank, warns_in_one_line_of_all_that_lies_outside_of_usual_practice) {
+    const auto warnings = [](double ratio, const std::string& bank) {
+        ParameterValues values = values_of("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n" + bank);
+        values.set("scale.length_ratio", ratio);
+        values.set("suction.discharge_m3_s", 0.1);
+        values.set("suction.mouth_radius_m", 0.1);
+        values.set("rotor.speed_rpm", 60.0);
+        const Study study = make_study(resolve_study(values, head_size(model_head())), "/tmp");
+        return texts(practice_warnings(study, head_size(model_head())));
+    };
+    EXPECT_TRUE(warnings(4.0, "cut_height_m = 0.45\nstep_m = 0.4\n").empty());
+    const std::vector<std::string> odd = warnings(4.0, "cut_height_m = 0.3\nstep_m = 0.6\n");
+    ASSERT_EQ(odd.size(), 1u);
+    EXPECT_TRUE(has(odd, "step 2.4 m (0.5 to 2), cut height 0.375 ring diameters (0.5 to 1.2)"));
+    const std::vector<std::string> unscaled = warnings(1.0, "cut_height_m = 0.45\nstep_m = 0.4\n");
+    ASSERT_EQ(unscaled.size(), 1u);
+    for (const char* part : {"ring diameter 0.8 m", "rotor speed 60 rpm", "swing speed 6 m/min", "Check scale.length_ratio"})
+        EXPECT_TRUE(has(unscaled, part)) << unscaled[0];
+    const Study without = study_of("");
+    EXPECT_TRUE(practice_warnings(without, head_size(model_head())).empty()) << "no head at work";
+}
+
 TEST(StudyBank, stands_on_the_side_where_rock_is_fed) {
     for (const char* swing : {"over_cut", "under_cut"})
         for (const char* rotor : {"right_handed", "left_handed"}) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/at_work/usual_ranges.hpp"
 #include "geometry/base/sphere.hpp"
 #include "postproc/analysis/text.hpp"
 
@@ -118,6 +119,29 @@ Dredging dredging_of(const Results& results, const RunData& run) {
     if (results.rotor.power) dredging.energy = results.rotor.power->mean / *dredging.delivered_in_situ;
     if (dredging.cutting_power) dredging.cutting_energy = *dredging.cutting_power / *dredging.delivered_in_situ;
     return dredging;
+}
+
+std::vector<std::string> outside_usual_practice(const Results& results, const RunData& run) {
+    const OperatingPoint& point = run.operating_point;
+    if (!point.has_bank && !point.fed_by_cutting) return {};
+    const double diameter = 2.0 * run.contour.ring_radius(),
+                 tip = *std::max_element(run.contour.radius().begin(), run.contour.radius().end());
+    std::map<std::string, double> values{{at_work::k_ring_diameter, diameter},
+                                         {at_work::k_rotor_speed, point.speed_rpm},
+                                         {at_work::k_tip_speed, point.angular_speed() * tip},
+                                         {at_work::k_ladder, point.inclination_deg},
+                                         {at_work::k_mouth_speed, results.delivery.pipe_velocity}};
+    const auto add_given = [&](const char* key, double value) {
+        if (value > 0.0) values[key] = value;
+    };
+    add_given(at_work::k_swing_speed, 60.0 * point.swing_speed);
+    add_given(at_work::k_step, point.step);
+    add_given(at_work::k_cut_height, point.cut_height / diameter);
+    if (results.fed && results.fed->production.is_steady) {
+        values[at_work::k_spillage] = 100.0 * results.fed->production.undelivered;
+        if (results.dredging) add_given(at_work::k_mixture_density, results.dredging->mixture_density);
+    }
+    return outside_usual_ranges(values, point.length_ratio);
 }
 
 std::string limits_text(const Results& results) {

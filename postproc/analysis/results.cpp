@@ -515,6 +515,7 @@ json results_json(const Results& results, const RunData& run) {
     document["production"] = results.fed ? fed_json(*results.fed, *results.dredging) : json(nullptr);
     document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
     document["steel_work"] = steel_work_json(steel_work_of(results, run));
+    document["outside_usual_practice"] = outside_usual_practice(results, run);
     document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},

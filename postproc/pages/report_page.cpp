@@ -5,6 +5,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/statistics/developed_flow.hpp"
 #include "postproc/analysis/dredging.hpp"
@@ -362,8 +363,19 @@ std::string answers(const Results& results, const RunData& run) {
            losses_table(results, run);
 }
 
+/// What an engineer would find unusual about a head at work; nothing where there is nothing.
+std::string practice_text(const Results& results, const RunData& run) {
+    const std::vector<std::string> outside = outside_usual_practice(results, run);
+    if (outside.empty()) return "";
+    return fmt::format(
+        "<p>Outside of usual practice, in the prototype {:g} times as long, with the usual range in brackets: {}. The numbers hold for "
+        "what "
+        "was computed all the same.</p>\n",
+        run.operating_point.length_ratio, escape(fmt::format("{}", fmt::join(outside, ", "))));
+}
+
 std::string answer_section(const Results& results, const RunData& run, const PageFigures& figures) {
-    return answers(results, run) + plots_at(figures, Place::answer) +
+    return answers(results, run) + practice_text(results, run) + plots_at(figures, Place::answer) +
            fmt::format("<p class=\"scope\">{}</p>\n", escape(scope_sentence(scope_of(run)))) + trust_list(results, run);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "postproc/analysis/best_speed.hpp"
@@ -202,6 +203,24 @@ TEST(Dredging, follows_delivered_rock_from_cut_to_mouth) {
     const Dredging work = dredging_of(results, run);
     EXPECT_NEAR(*work.residence_time, (2.0 + 8.0 * 3.0) / 9.0, 1e-9);
     EXPECT_EQ(*work.largest_delivered, 0.04);
+}
+
+// Ring radius 0.4 m, 60 rpm, 0.12 m3/s through a mouth of 0.1 m radius; 40 % are spilled.
+TEST(UsualPractice, is_that_of_the_prototype_and_leaves_out_what_is_not_steady) {
+    const auto outside = [](const fs::path& directory) {
+        const RunData run = read_run(directory);
+        const Results results = compute_results(run);
+        EXPECT_EQ(results_json(results, run).at("outside_usual_practice"), outside_usual_practice(results, run));
+        return fmt::format("{}", fmt::join(outside_usual_practice(results, run), ", "));
+    };
+    const std::string as_is = outside(at_work("practice_1", 60.0));
+    EXPECT_NE(as_is.find("ring diameter 0.8 m (1.5 to 3.5), rotor speed 60 rpm (20 to 40)"), std::string::npos) << as_is;
+    EXPECT_EQ(as_is.find("spillage"), std::string::npos) << "40 % are usual";
+    EXPECT_NE(outside(at_work("practice_2", 60.0, 0.049)).find("mixture density"), std::string::npos);
+    EXPECT_EQ(outside(at_work("practice_3", 60.0, 0.2)).find("mixture density"), std::string::npos) << "the head still fills";
+    testing::SmallRun batch("practice_batch");
+    batch.write();
+    EXPECT_EQ(outside(batch.directory), "") << "no head at work";
 }
 
 /// Three speeds; production is 0.6 times what does not stay in the head. \param stuck  shares that stay at each speed

@@ -62,8 +62,9 @@ PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& h
 
 std::vector<Mistake> head_warnings(const ParameterValues& resolved, const PlacedStudy& placed, const geometry::Head& head) {
     std::vector<Mistake> warnings = study_warnings(resolved, placed.size);
-    for (const std::vector<Mistake>& more : {carrying_warnings(placed.study, head), blade_warnings(placed.study, head),
-                                             swing_warnings(resolved, placed.study, placed.size, placed.contour)})
+    for (const std::vector<Mistake>& more :
+         {carrying_warnings(placed.study, head), blade_warnings(placed.study, head),
+          swing_warnings(resolved, placed.study, placed.size, placed.contour), practice_warnings(placed.study, placed.size)})
         warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;
 }

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cases/scenes/cutter/case_builder.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
+#include "geometry/base/at_work/usual_ranges.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/cgal/solid_search.hpp"
@@ -301,6 +303,26 @@ std::vector<Mistake> swing_warnings(const ParameterValues& resolved, const Study
                          100.0 * share, 100.0 * k_most_solids),
              "Swing more slowly, or cut less: what is not taken in is spilled"});
     return warnings;
+}
+
+std::vector<Mistake> practice_warnings(const Study& study, const HeadSize& size) {
+    if (!study.bank) return {};
+    const double omega = std::abs(study.rotation_speed), mouth = study.suction.mouth_radius, diameter = 2.0 * size.ring_radius;
+    const std::vector<std::string> outside =
+        outside_usual_ranges({{at_work::k_ring_diameter, diameter},
+                              {at_work::k_rotor_speed, 30.0 * omega / k_pi},
+                              {at_work::k_tip_speed, omega * size.tip_radius},
+                              {at_work::k_swing_speed, 60.0 * study.bank->swing_speed},
+                              {at_work::k_step, study.bank->step},
+                              {at_work::k_cut_height, study.bank->cut_height / diameter},
+                              {at_work::k_ladder, study.inclination * 180.0 / k_pi},
+                              {at_work::k_mouth_speed, study.suction.discharge / (k_pi * mouth * mouth)}},
+                             study.length_ratio);
+    if (outside.empty()) return {};
+    return {{"", fmt::format("outside of usual practice: {}", fmt::join(outside, ", ")),
+             fmt::format("Values of the prototype, {:g} times as long (scale.length_ratio), by Froude's law; usual ranges in brackets",
+                         study.length_ratio),
+             "Check scale.length_ratio, and that the point is meant"}};
 }
 
 std::string bank_text(const Study& study, const geometry::Contour& contour) {

@@ -51,6 +51,9 @@ CutFigures scaled(const CutFigures& figures, double length_ratio);
 std::vector<Mistake> swing_warnings(const ParameterValues& resolved, const Study& study, const HeadSize& size,
                                     const geometry::Contour& contour);
 
+/// What of a head at work lies outside of usual practice (geometry/base/at_work): one warning with all of it, none without a bank.
+std::vector<Mistake> practice_warnings(const Study& study, const HeadSize& size);
+
 /// Lines for the user, and the same for `check --json`; empty and null without a bank.
 std::string bank_text(const Study& study, const geometry::Contour& contour);
 nlohmann::json bank_json(const Study& study, const geometry::Contour& contour);
