@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "geometry/base/axis_frame.hpp"
 
@@ -64,8 +66,11 @@ void mark(std::array<bool, k_rays>& met, const Eigen::Vector2d& a, const Eigen::
     }
 }
 
-double coverage_at(const TriangleSurface& surface, double z, double inner_radius) {
-    std::array<bool, k_rays> met{};
+using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+
+/// Lines in which the plane at z cuts the surface.
+std::vector<Segment> section_at(const TriangleSurface& surface, double z) {
+    std::vector<Segment> section;
     for (const Triangle& triangle : surface.triangles) {
         std::vector<Eigen::Vector2d> ends;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -74,9 +79,33 @@ double coverage_at(const TriangleSurface& surface, double z, double inner_radius
             const double t = (z - a.z()) / (b.z() - a.z());
             ends.emplace_back((a + t * (b - a)).head<2>());
         }
-        if (ends.size() == 2) mark(met, ends[0], ends[1], inner_radius);
+        if (ends.size() == 2) section.emplace_back(ends[0], ends[1]);
     }
+    return section;
+}
+
+double coverage_of(const std::vector<Segment>& section, double inner_radius) {
+    std::array<bool, k_rays> met{};
+    for (const auto& [a, b] : section) mark(met, a, b, inner_radius);
     return static_cast<double>(std::count(met.begin(), met.end(), true)) / k_rays;
+}
+
+/// Smallest distance of a segment from the axis.
+double distance_from_axis(const Segment& segment) {
+    const Eigen::Vector2d along = segment.second - segment.first;
+    const double t = along.squaredNorm() > 0.0 ? std::clamp(-segment.first.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+    return (segment.first + t * along).norm();
+}
+
+double depth_of(const std::vector<Segment>& section, double inner_radius) {
+    double outermost = inner_radius, innermost = std::numeric_limits<double>::infinity();
+    for (const Segment& segment : section) {
+        const double farthest = std::max(segment.first.norm(), segment.second.norm());
+        if (farthest <= inner_radius) continue;
+        outermost = std::max(outermost, farthest);
+        innermost = std::min(innermost, std::max(inner_radius, distance_from_axis(segment)));
+    }
+    return std::max(0.0, outermost - innermost);
 }
 
 }  // namespace
@@ -97,7 +126,9 @@ std::vector<BladeSlice> blade_profile(const TriangleSurface& surface, const Revo
     for (int i = 0; i < slices; ++i) {
         const Thrust& thrust = thrusts[static_cast<std::size_t>(i)];
         const double angle = thrust.around > 0.0 ? std::atan(carrying_sense * thrust.axial / thrust.around) : 0.0;
-        profile.push_back({middle_of(i), angle, coverage_at(surface, middle_of(i), k_inner_share * contour_at(contour, middle_of(i)))});
+        const double inner_radius = k_inner_share * contour_at(contour, middle_of(i));
+        const std::vector<Segment> section = section_at(surface, middle_of(i));
+        profile.push_back({middle_of(i), angle, coverage_of(section, inner_radius), depth_of(section, inner_radius)});
     }
     return profile;
 }

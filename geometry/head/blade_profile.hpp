@@ -13,6 +13,7 @@ struct BladeSlice {
     double z = 0.0;         ///< of its middle [m]
     double angle = 0.0;     ///< beta between the blades' faces and the axis [rad]: positive when they carry towards the ring
     double coverage = 0.0;  ///< share of the azimuths that meet steel outside half the contour's radius; 1 in ring and hub
+    double depth = 0.0;     ///< w: along the radius, from the outermost steel in to the innermost outside half the contour's radius [m]
 };
 
 /// Slices of equal thickness from the head's lowest point to the ring plane.

@@ -64,7 +64,8 @@ json defects_json(const SoundnessReport& report) {
 json blades_json(const std::vector<BladeSlice>& blades) {
     json slices = json::array();
     for (const BladeSlice& slice : blades)
-        slices.push_back({{"z_m", slice.z}, {"angle_deg", slice.angle * k_degrees}, {"coverage", slice.coverage}});
+        slices.push_back(
+            {{"z_m", slice.z}, {"angle_deg", slice.angle * k_degrees}, {"coverage", slice.coverage}, {"depth_m", slice.depth}});
     return slices;
 }
 
@@ -105,9 +106,11 @@ double middle_angle(const std::vector<BladeSlice>& blades) {
 
 std::string blades_text(const std::vector<BladeSlice>& blades) {
     if (blades.empty()) return "";
-    std::string text = "blades by depth below the ring: angle with the axis, share of the circumference that they close\n";
+    std::string text =
+        "blades by depth below the ring: angle with the axis, share of the circumference that they close, their depth along the radius\n";
     for (auto slice = blades.rbegin(); slice != blades.rend(); ++slice)
-        text += fmt::format("  {:>8.4g} m  {:>5.1f} deg  {:>5.1f} %\n", -slice->z, slice->angle * k_degrees, 100.0 * slice->coverage);
+        text += fmt::format("  {:>8.4g} m  {:>5.1f} deg  {:>5.1f} %  {:>8.4g} m\n", -slice->z, slice->angle * k_degrees,
+                            100.0 * slice->coverage, slice->depth);
     const double middle = middle_angle(blades) * k_degrees;
     return text + fmt::format("rock slides towards the ring on most of the rising blades where the ladder is flatter than {:.0f} degrees\n",
                               std::max(0.0, middle));

@@ -82,6 +82,7 @@ TEST(BladeProfile, finds_angle_and_coverage_of_helicoids) {
                 for (const BladeSlice& slice : blade_profile(surface, k_drum, 1.0, 8)) {
                     EXPECT_NEAR(slice.angle, std::atan(mean_slope(inner, turn)), 0.01) << turn << " " << inner;
                     EXPECT_NEAR(slice.coverage, 5.0 * width / (2.0 * k_pi), 5.0 / 720.0) << width;
+                    EXPECT_NEAR(slice.depth, k_outer - inner, 1e-3) << inner;
                 }
             }
 }
@@ -103,6 +104,7 @@ TEST(BladeProfile, does_not_count_shaft_and_hub_and_shows_a_ring_as_closed) {
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_NEAR(with[i].angle, without[i].angle, 1e-12);
         EXPECT_EQ(with[i].coverage, without[i].coverage);
+        EXPECT_EQ(with[i].depth, without[i].depth);
     }
     EXPECT_EQ(with[7].coverage, 1.0);
     EXPECT_EQ(share_flatter_than(with, 80.0 * k_pi / 180.0), 1.0);

@@ -74,15 +74,6 @@ Estimate share_of(const Production& production) {
     return estimate;
 }
 
-/// u_t / (Q / (pi R^2)); none without the settling speed.
-std::optional<double> settling_number(const ComparedRun& compared) {
-    const std::optional<double>& settling = compared.results.scale.settling_ratio;
-    if (!settling) return std::nullopt;
-    const double radius = compared.run.contour.ring_radius();
-    const OperatingPoint& point = compared.run.operating_point;
-    return *settling * point.angular_speed() * radius / (point.discharge / (k_pi * radius * radius));
-}
-
 using Evaluate = std::function<Estimate(const ComparedRun&)>;
 
 struct QuantityRule {
@@ -172,6 +163,9 @@ std::vector<QuantityRule> fed_rules() {
     const auto of_work = [](const Number& number) -> Evaluate {
         return [=](const ComparedRun& r) { return r.results.dredging ? plain(number(*r.results.dredging)) : Estimate{}; };
     };
+    const auto of_scale = [](std::optional<double> ScaleNumbers::*member) -> Evaluate {
+        return [=](const ComparedRun& r) { return plain(r.results.scale.*member); };
+    };
     const auto of_point = [](double OperatingPoint::*member) -> Evaluate {
         return [=](const ComparedRun& r) {
             const double value = r.run.operating_point.*member;
@@ -183,8 +177,15 @@ std::vector<QuantityRule> fed_rules() {
         {"step_m", "step", "m", false, of_point(&OperatingPoint::step)},
         {"pipe_velocity_m_s", "speed in the suction mouth", "m/s", false,
          [](const ComparedRun& r) { return plain(r.results.delivery.pipe_velocity); }},
-        {"settling_number", "settling number u_t / (Q / (π R²))", "-", false,
-         [](const ComparedRun& r) { return plain(settling_number(r)); }},
+        {"settling_number", "settling number u_t / (Q / (π R²))", "-", false, of_scale(&ScaleNumbers::settling_number)},
+        {"fall_through", "fall-through number F = u_t cos λ 2π / (z ω w)", "-", false, of_scale(&ScaleNumbers::fall_through)},
+        {"swing_over_rotor_speed", "swing speed over the rotor's, v_h / (ω R)", "-", false, of_scale(&ScaleNumbers::swing_ratio)},
+        {"bite_over_blade_depth", "bite of a blade over its depth, f_z / w", "-", false, of_scale(&ScaleNumbers::bite_ratio)},
+        {"cut_over_discharge", "soil cut over discharge, Q_c / Q", "-", false, of_scale(&ScaleNumbers::cut_ratio)},
+        {"blade_angle_less_ladder_deg", "blades' angle less the ladder's, β − λ", "°", false,
+         of_scale(&ScaleNumbers::blade_angle_less_ladder)},
+        {"friction_rock", "friction μ of rock on rock", "-", false, of_scale(&ScaleNumbers::friction_rock)},
+        {"friction_steel", "friction μ of rock on steel", "-", false, of_scale(&ScaleNumbers::friction_steel)},
         {"cut_in_situ_m3_h", "cut, soil in situ", "m³/h", true,
          of_work([](const Dredging& work) { return work.cut_in_situ ? std::optional<double>(3600.0 * *work.cut_in_situ) : std::nullopt; })},
         {"spilled_mixing_share", "spilled by mixing / fed", "-", true, of([](const FedHead& head) { return plain(head.losses.mixing); })},

@@ -143,28 +143,6 @@ Delivery compute_delivery(const OperatingPoint& point, const std::optional<Spill
     return delivery;
 }
 
-ScaleNumbers compute_scale(const RunData& run) {
-    const double radius = run.contour.ring_radius();
-    const double omega = run.operating_point.angular_speed();
-    ScaleNumbers scale;
-    scale.flow_number = run.operating_point.discharge / (omega * radius * radius * radius);
-    scale.froude = omega * omega * radius / k_gravity;
-    if (!run.feed || run.feed->classes.empty()) return scale;
-    double mass = 0.0, diameter = 0.0, settling = 0.0;
-    bool every_speed_known = true;
-    for (const RockClass& rock : run.feed->classes) {
-        const double share = rock.count * rock.density * rock.diameter * rock.diameter * rock.diameter;
-        mass += share;
-        diameter += share * rock.diameter;
-        settling += share * rock.settling_velocity.value_or(0.0);
-        every_speed_known = every_speed_known && rock.settling_velocity.has_value();
-    }
-    if (!(mass > 0.0)) return scale;
-    scale.size_ratio = diameter / mass / radius;
-    if (every_speed_known) scale.settling_ratio = settling / mass / (omega * radius);
-    return scale;
-}
-
 std::optional<double> largest_magnitude(const std::vector<double>& values) {
     std::optional<double> largest;
     for (const double value : values) {
@@ -424,6 +402,21 @@ json rotor_json(const Results& results, const RunData& run) {
     return object;
 }
 
+json scale_json(const ScaleNumbers& scale) {
+    return {{"flow_number", scale.flow_number},
+            {"froude", scale.froude},
+            {"settling_ratio", or_null(scale.settling_ratio)},
+            {"size_ratio", or_null(scale.size_ratio)},
+            {"settling_number", or_null(scale.settling_number)},
+            {"fall_through", or_null(scale.fall_through)},
+            {"swing_over_rotor_speed", or_null(scale.swing_ratio)},
+            {"bite_over_blade_depth", or_null(scale.bite_ratio)},
+            {"cut_over_discharge", or_null(scale.cut_ratio)},
+            {"blade_angle_less_ladder_deg", or_null(scale.blade_angle_less_ladder)},
+            {"friction_rock", or_null(scale.friction_rock)},
+            {"friction_steel", or_null(scale.friction_steel)}};
+}
+
 json recorded_flow_json(const RecordedFlow& flow) {
     return {{"run", flow.run.string()}, {"start_s", flow.start}, {"end_s", flow.end}, {"change", or_null(flow.change)}};
 }
@@ -483,7 +476,7 @@ Results compute_results(const RunData& run) {
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.spillage) results.exits = exits_of_run(results, run);
     if (results.fed) results.dredging = dredging_of(results, run);
-    results.scale = compute_scale(run);
+    results.scale = scale_numbers_of(run, results.dredging ? results.dredging->cut_in_situ : std::nullopt);
     results.conservation = worst_balance(run.balance, results.spillage && !run.flow);
     const double before_rock = run.flow ? results.spillage->feed_start / run.operating_point.revolution_s() : 0.0;
     results.cost = sum_cost(run, results.end_time, results.rotor.revolutions - before_rock);
@@ -520,10 +513,7 @@ json results_json(const Results& results, const RunData& run) {
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},
                              {"mixture_density_kg_m3", or_null(results.delivery.mixture_density)}};
-    document["scale"] = {{"flow_number", results.scale.flow_number},
-                         {"froude", results.scale.froude},
-                         {"settling_ratio", or_null(results.scale.settling_ratio)},
-                         {"size_ratio", or_null(results.scale.size_ratio)}};
+    document["scale"] = scale_json(results.scale);
     document["cost"] = cost_json(results.cost);
     document["models"] = run.cost_summary.value("models", json::array());
     document["not_modelled"] = not_modelled_json(run);

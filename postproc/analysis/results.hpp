@@ -9,6 +9,7 @@
 
 #include "geometry/base/statistics/production.hpp"
 #include "postproc/analysis/exits/last_exits.hpp"
+#include "postproc/analysis/scale/scale_numbers.hpp"
 #include "postproc/analysis/spillage.hpp"
 #include "postproc/analysis/time_average.hpp"
 #include "postproc/run/run_reader.hpp"
@@ -16,7 +17,6 @@
 namespace cutterflow::postproc {
 
 inline constexpr const char* k_results_schema = "cutterflow.results/1";
-inline constexpr double k_gravity = 9.81;  ///< [m/s2]
 
 /// Radial velocity just outside the head, averaged over azimuth and over the averaging window; positive outwards [m/s].
 struct BinOutflow {
@@ -95,14 +95,6 @@ struct Delivery {
     double pipe_velocity = 0.0;             ///< Q / (pi r_mouth^2) [m/s]
     std::optional<double> concentration;    ///< volume of sucked up rock / (Q * time since the first rock)
     std::optional<double> mixture_density;  ///< rho_f (1 - c) + rho_rock c [kg/m3]
-};
-
-/// Dimensionless numbers of the run; R ring radius, omega rotor speed, d and u_t mean diameter and settling velocity by mass.
-struct ScaleNumbers {
-    double flow_number = 0.0;              ///< Q / (omega R^3)
-    double froude = 0.0;                   ///< omega^2 R / g
-    std::optional<double> settling_ratio;  ///< u_t / (omega R)
-    std::optional<double> size_ratio;      ///< d / R
 };
 
 /// Largest magnitude over all steps, relative. Absent where a run without rock has none.

@@ -52,9 +52,24 @@ std::string quantities_table(const Comparison& comparison) {
 }
 
 std::string differences_table(const Comparison& comparison) {
-    static const std::set<std::string> given{
-        "speed_rpm", "discharge_m3_s",         "swing_speed_m_min", "flow_number",           "cells",
-        "placed",    "revolutions_since_feed", "undecided",         "core_s_per_revolution", "flow_balance_max_error"};
+    static const std::set<std::string> given{"speed_rpm",
+                                             "discharge_m3_s",
+                                             "swing_speed_m_min",
+                                             "flow_number",
+                                             "cells",
+                                             "settling_number",
+                                             "fall_through",
+                                             "swing_over_rotor_speed",
+                                             "bite_over_blade_depth",
+                                             "cut_over_discharge",
+                                             "blade_angle_less_ladder_deg",
+                                             "friction_rock",
+                                             "friction_steel",
+                                             "placed",
+                                             "revolutions_since_feed",
+                                             "undecided",
+                                             "core_s_per_revolution",
+                                             "flow_balance_max_error"};
     std::vector<std::string> header{"quantity"};
     for (std::size_t i = 1; i < comparison.settings.size(); ++i) header.push_back(fmt::format("{} − 1", i + 1));
     std::vector<std::vector<std::string>> rows;
@@ -136,6 +151,13 @@ constexpr PointColumn k_point_columns[] = {{"speed_rpm", "rpm", 1.0, -0.5},
                                            {"energy_in_situ_j_m3", "MJ per delivered m³", 1e-6, 1.0},
                                            {"flow_number", "θ", 1.0, 0.0},
                                            {"settling_number", "S<sub>t</sub>", 1.0, 0.0},
+                                           {"fall_through", "F", 1.0, 0.0},
+                                           {"swing_over_rotor_speed", "v<sub>h</sub>/(ωR)", 1.0, 0.0},
+                                           {"bite_over_blade_depth", "f<sub>z</sub>/w", 1.0, 0.0},
+                                           {"cut_over_discharge", "Q<sub>c</sub>/Q, %", 100.0, 0.0},
+                                           {"blade_angle_less_ladder_deg", "β − λ, °", 1.0, 0.0},
+                                           {"friction_rock", "μ rock on rock", 1.0, 0.0},
+                                           {"friction_steel", "μ rock on steel", 1.0, 0.0},
                                            {"well_mixed_spillage", "S<sub>mix</sub>, %", 100.0, 0.0},
                                            {"head_is_full", "full", 1.0, 0.0}};
 
@@ -175,8 +197,11 @@ std::string points_section(const Comparison& comparison) {
     if (same && ratio != 1.0)
         content += fmt::format("<h3>Prototype, {:g} times as long, by Froude’s law</h3>", ratio) + points_table(comparison, ratio);
     content +=
-        "<p>θ = Q/(ωR³); S<sub>t</sub> = u<sub>t</sub>/(Q/(πR²)); S<sub>mix</sub>: spillage of neutral, well-mixed rock. Torque of cutting "
-        "only where soil.specific_energy_mj_m3 is given; it is the same energy per volume in the prototype.</p>";
+        "<p>θ = Q/(ωR³); S<sub>t</sub> = u<sub>t</sub>/(Q/(πR²)); F = u<sub>t</sub> cos λ 2π/(zωw), λ the ladder’s inclination, z blades "
+        "of depth w; "
+        "f<sub>z</sub> = 2πv<sub>h</sub>/(ωz); Q<sub>c</sub> the soil cut; β the blades’ angle with the axis; S<sub>mix</sub>: spillage of "
+        "neutral, well-mixed rock. Torque of cutting only where soil.specific_energy_mj_m3 is given; it is the same energy per volume in "
+        "the prototype.</p>";
     return html::section("The operating points", content);
 }
 

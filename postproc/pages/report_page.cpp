@@ -467,6 +467,22 @@ std::vector<std::string> scaled_row(const std::string& name, const std::string& 
     return row;
 }
 
+/// Those that are known, of rock, blades, swing and friction.
+void add_numbers_at_work(std::vector<std::vector<std::string>>& rows, const ScaleNumbers& scale) {
+    const auto add = [&](const char* name, const std::optional<double>& value, const char* unit = "") {
+        if (value) rows.push_back({name, number(value, unit)});
+    };
+    add("settling number S<sub>t</sub> = u<sub>t</sub> / (Q / (π R²))", scale.settling_number);
+    add("fall-through number F = u<sub>t</sub> cos λ 2π / (z ω w); above 1 rock falls between two blades", scale.fall_through);
+    add("swing over rotor speed v<sub>h</sub> / (ω R)", scale.swing_ratio);
+    add("bite over blade depth f<sub>z</sub> / w, f<sub>z</sub> = 2π v<sub>h</sub> / (ω z)", scale.bite_ratio);
+    add("soil cut over discharge Q<sub>c</sub> / Q", scale.cut_ratio);
+    add("blades’ angle less the ladder’s β − λ; below 0 rock slides to the hub on most of a rising blade", scale.blade_angle_less_ladder,
+        "°");
+    add("friction μ of rock on rock", scale.friction_rock);
+    add("friction μ of rock on steel", scale.friction_steel);
+}
+
 std::string operation_section(const Results& results, const RunData& run) {
     const OperatingPoint& point = run.operating_point;
     const double ratio = point.length_ratio;
@@ -503,7 +519,7 @@ std::string operation_section(const Results& results, const RunData& run) {
     std::string balance = number(boundary_error, "", 2);
     if (boundary_error.value_or(0.0) > k_most_boundary_error)
         balance = fmt::format("<span class=\"failed\">{}: do not trust q</span>", balance);
-    const std::vector<std::vector<std::string>> numbers{
+    std::vector<std::vector<std::string>> numbers{
         {"flow number Q / (ω R³)", number(results.scale.flow_number)},
         {"outflow over discharge q = Q<sub>out</sub> / Q", number(of_mixing(&Mixing::outflow_over_discharge), "")},
         {"spillage of neutral, well-mixed rock, q / (1 + q)", number(of_mixing(&Mixing::well_mixed_spillage), "")},
@@ -511,10 +527,13 @@ std::string operation_section(const Results& results, const RunData& run) {
         {"Froude number ω² R / g", number(results.scale.froude)},
         {"settling ratio u<sub>t</sub> / (ω R)", number(results.scale.settling_ratio)},
         {"size ratio d / R", number(results.scale.size_ratio)}};
+    add_numbers_at_work(numbers, results.scale);
     std::string content = "<div class=\"tables\"><div><h3>Quantities</h3>" + html::table(header, rows, true) +
                           "</div><div><h3>Scale numbers</h3>" + html::table({}, numbers, true);
     content += "<h3>Layout</h3>" + html::table({}, layout, true);
-    content += "<p>R ring radius, ω rotor speed, u<sub>t</sub> settling velocity and d diameter of the rock (mean by mass). ";
+    content +=
+        "<p>R ring radius, ω rotor speed, u<sub>t</sub> settling velocity and d diameter of the rock (mean by mass), λ inclination of the "
+        "ladder, z number, w depth and β angle with the axis of the blades. ";
     if (results.spillage) content += "Delivered concentration: volume of sucked up rock over the mixture discharged since the first rock. ";
     content += fmt::format("Torques and power: {}.</p>", over_revolutions(results.rotor));
     return html::section("Operating point and scale", content + "</div></div>");

@@ -29,6 +29,9 @@ constexpr const char* k_rerun = "Repeat the run with this version of Cutterflow"
 const std::vector<JsonField> k_geometry_fields{{"file", JsonKind::text},
                                                {"head/ring_radius_m", JsonKind::number, true},
                                                {"head/blades", JsonKind::whole},
+                                               {"head/blade_slices/*/coverage", JsonKind::number},
+                                               {"head/blade_slices/*/angle_deg", JsonKind::number},
+                                               {"head/blade_slices/*/depth_m", JsonKind::number},
                                                {"surface", JsonKind::object}};
 const std::vector<JsonField> k_feed_fields{{"feeds/*/requested", JsonKind::whole, true},
                                            {"feeds/*/rejected", JsonKind::whole, true},

@@ -156,6 +156,37 @@ TEST(Dredging, says_of_what_part_an_earlier_programs_ledger_knows_the_cause) {
     EXPECT_TRUE(results_json(results, run).at("dredging").at("left_behind_cutting_share").is_null());
 }
 
+// Six blades of 0.1 to 0.05 m depth below a ring that closes the circumference; rock settles at 1.036 m/s, the ladder is at 45 degrees.
+TEST(ScaleNumbers, of_a_head_at_work_follow_their_definitions) {
+    const fs::path directory = at_work("numbers");
+    write_text(directory / "study.resolved.toml",
+               read_text(directory / "study.resolved.toml") + "\n[rock]\nfriction_rock = 0.5\nfriction_steel = 0.35\n");
+    nlohmann::json geometry = nlohmann::json::parse(read_text(directory / "geometry/geometry.json"));
+    const auto slice = [](double angle, double coverage, double depth) {
+        return nlohmann::json{{"z_m", 0.0}, {"angle_deg", angle}, {"coverage", coverage}, {"depth_m", depth}};
+    };
+    geometry["head"]["blade_slices"] = {slice(8.0, 0.3, 0.05), slice(36.0, 0.2, 0.1), slice(30.0, 0.2, 0.075), slice(80.0, 1.0, 0.3)};
+    write_text(directory / "geometry/geometry.json", geometry.dump());
+    const RunData run = read_run(directory);
+    const Results results = compute_results(run);
+    const nlohmann::json scale = results_json(results, run).at("scale");
+    const auto number = [&](const char* key) { return scale.at(key).get<double>(); };
+    EXPECT_NEAR(number("settling_number"), 1.036 / (0.12 / (k_pi * 0.16)), 1e-9);
+    EXPECT_NEAR(number("fall_through"), 1.036 * std::sqrt(0.5) / 6.0 / 0.075, 1e-9);
+    EXPECT_NEAR(number("swing_over_rotor_speed"), k_swing / (2.0 * k_pi * 0.4), 1e-9);
+    EXPECT_NEAR(number("bite_over_blade_depth"), k_swing / 6.0 / 0.075, 1e-9);
+    EXPECT_NEAR(number("cut_over_discharge"), 0.005 / 0.12, 1e-6);
+    EXPECT_NEAR(number("blade_angle_less_ladder_deg"), 30.0 - 45.0, 1e-9);
+    EXPECT_EQ(number("friction_rock"), 0.5);
+    EXPECT_EQ(number("friction_steel"), 0.35);
+    const Comparison comparison = compare_runs({directory, at_work("numbers_of_an_earlier_program", 30.0)});
+    const Quantity& fall_through = *find_quantity(comparison, "fall_through");
+    EXPECT_NEAR(*fall_through.settings[0].value, number("fall_through"), 1e-12);
+    EXPECT_FALSE(fall_through.settings[1].value) << "its geometry.json tells nothing of the blades";
+    EXPECT_NEAR(*find_quantity(comparison, "settling_number")->settings[1].value, number("settling_number"), 1e-9);
+    EXPECT_NEAR(*find_quantity(comparison, "swing_over_rotor_speed")->settings[1].value, 2.0 * number("swing_over_rotor_speed"), 1e-9);
+}
+
 TEST(Dredging, tells_no_layer_and_no_total_while_the_head_fills) {
     const RunData run = read_run(at_work("dredging_filling", 60.0, 0.2));
     const Results results = compute_results(run);
