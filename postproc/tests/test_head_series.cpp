@@ -44,6 +44,27 @@ TEST(HeadSeries, is_not_made_for_a_run_that_wrote_nothing_to_go_with_it) {
     EXPECT_FALSE(fs::exists(run.directory / "report/head"));
 }
 
+TEST(HeadSeries, has_soil_and_feed_beside_the_head) {
+    SmallRun run("head_surroundings");
+    run.write();
+    testing::make_fed(run, 5.0);
+    testing::write_text(run.directory / "postProcessing/rock/vtk/rocks_1.25.vtp", "");
+    write_report(run.directory);
+    const fs::path folder = run.directory / "report/head";
+    const std::string bank = testing::read_text(folder / "bank.vtp"), feed = testing::read_text(folder / "feed.vtp");
+    EXPECT_NE(bank.find("NumberOfPoints=\"3\" NumberOfVerts=\"0\" NumberOfPolys=\"1\""), std::string::npos) << "one triangle";
+    EXPECT_NE(feed.find("NumberOfPoints=\"9\" NumberOfVerts=\"9\""), std::string::npos) << "nine rocks came in";
+    for (const char* array : {"\"id\"", "\"time\"", "\"diameter\""}) EXPECT_NE(feed.find(array), std::string::npos) << array;
+
+    SmallRun flow("head_alone");
+    flow.with_rock = false;
+    flow.write();
+    fs::create_directories(flow.directory / "0.5");
+    write_report(flow.directory);
+    EXPECT_TRUE(fs::exists(flow.directory / "report/head/head.pvd"));
+    for (const char* file : {"bank.vtp", "feed.vtp"}) EXPECT_FALSE(fs::exists(flow.directory / "report/head" / file)) << file;
+}
+
 /// A square of n x n cells, two triangles each.
 TriangleSurface square(int n) {
     TriangleSurface surface;

@@ -1,13 +1,15 @@
-"""Opens a run with VTK as ParaView does: fields (.foam), rock (.pvd) and the turning head (.pvd), and asks that they agree in time and place.
+"""Opens a run with VTK as ParaView does: fields (.foam), rock (.pvd), the turning head (.pvd), soil and feed (.vtp), and asks that they agree
+in time and place.
 
 usage: open_with_vtk.py RUN_DIRECTORY; exit codes: 0 they agree, 1 they do not, 77 VTK's Python package is not there
 """
+import csv
 import pathlib
 import sys
 import xml.etree.ElementTree as ElementTree
 
 try:
-    from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
+    from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader, vtkSTLReader
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
     from vtkmodules.vtkCommonDataModel import vtkStaticPointLocator
 except ImportError as missing:
@@ -95,11 +97,46 @@ def check_rock(rock, mesh_bounds, time):
         expect(inside, f"t = {time}: a rock lies outside the mesh")
 
 
+def feed_of_events(run):
+    """Rows of the rock that came in."""
+    rows = []
+    for file in sorted(run.glob("postProcessing/rock/*/events.csv")):
+        with open(file, newline="") as text:
+            rows += [row for row in csv.DictReader(text) if row["surface"] == "feed"]
+    return rows
+
+
+def check_feed(run):
+    rows, feed = feed_of_events(run), poly_data(run / "report/head/feed.vtp")
+    expect(feed.GetNumberOfPoints() == len(rows) > 0 and feed.GetNumberOfVerts() == len(rows),
+           f"{feed.GetNumberOfPoints()} points of the feed, {len(rows)} rocks came in")
+    arrays = {name: feed.GetPointData().GetArray(name) for name in ("id", "time", "diameter")}
+    expect(all(arrays.values()), "the feed lacks an array")
+    for i, row in enumerate(rows[:feed.GetNumberOfPoints()]):
+        distance = max(abs(feed.GetPoint(i)[k] - float(row[name])) for k, name in enumerate(("x_m", "y_m", "z_m")))
+        expect(distance < 1e-6, f"rock {row['id']} came in {distance:.2g} m from its point of the feed")
+        expect(arrays["id"].GetValue(i) == int(row["id"]), f"point {i} of the feed is not rock {row['id']}")
+
+
+def check_bank(run):
+    """The soil's file and that of the report are one surface."""
+    given, shown = vtkSTLReader(), poly_data(run / "report/head/bank.vtp")
+    given.SetFileName(str(run / "geometry/bank.stl"))
+    given.Update()
+    soil = given.GetOutput()
+    expect(soil.GetNumberOfPolys() > 0 and shown.GetNumberOfPolys() == soil.GetNumberOfPolys(), "the soil lacks triangles")
+    size = max(soil.GetBounds()[2 * k + 1] - soil.GetBounds()[2 * k] for k in range(3))
+    off = max(abs(a - b) for a, b in zip(soil.GetBounds(), shown.GetBounds()))
+    expect(off < 1e-4 * size, f"the soil is {off:.2g} m off its place")
+
+
 def main():
     run = pathlib.Path(sys.argv[1])
     rocks, heads = series(run / "postProcessing/rock/rocks.pvd"), series(run / "report/head/head.pvd")
     reader, times = open_fields(run)
     expect(len(rocks) >= 2, "fewer than two pictures of the rock")
+    check_feed(run)
+    check_bank(run)
     for name, known in (("field", times), ("head", list(heads))):
         missing = [time for time in rocks if not any(abs(time - other) <= 1e-6 * max(1.0, time) for other in known)]
         expect(not missing, f"times of the rock without a {name}: {missing}")
@@ -117,7 +154,7 @@ def main():
     expect(len(set(moved)) == len(moved), "the head does not turn")
     for text in dict.fromkeys(failures):
         print(text)
-    print(f"{len(rocks)} times of fields, rock and head opened, {seen} rocks")
+    print(f"{len(rocks)} times of fields, rock and head opened, {seen} rocks, soil and feed")
     sys.exit(1 if failures else 0)
 
 

@@ -13,6 +13,7 @@
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
+#include "geometry/io/write_stl.hpp"
 #include "postproc/draw/head/head_series.hpp"
 #include "validation/harness/largest.hpp"
 #include "validation/harness/scenes/box_case.hpp"
@@ -82,9 +83,10 @@ TEST_P(Rotor, conserves_volume_momentum_and_flow_with_rock_between_its_blades) {
     double placed = 0.0;
     for (const char* fate : {"sucked_up_count", "spilled_count", "in_cutter_count", "never_entered_count"}) placed += fates.at(fate).back();
     EXPECT_EQ(placed, k_rocks);
-    // test_paraview opens this run; surfaceMeshExtract wrote text where a run has a binary file.
+    // test_paraview opens this run, with soil beside it that nobody felt; surfaceMeshExtract wrote text where a run has a binary file.
     run_in_case(folder, {"surfaceConvert", names::cutter_surface, "geometry/binary.stlb"});
     fs::rename(folder / "geometry/binary.stlb", folder / names::cutter_surface);
+    geometry::write_stl(bank_beside_rotor(cases::test::tiny_inputs().contour).soil(k_reach_beside_rotor), folder / names::bank_surface);
     postproc::write_head_series(folder);
     fmt::print("rotor on {} rank(s): {} steps, solid volume error {:.1e}, momentum error {:.1e}, flow balance {:.1e} of Q, spilled {}\n",
                GetParam(), time.size(), largest(balance.at("solid_volume_error")), largest(balance.at("momentum_error")), flow_balance,

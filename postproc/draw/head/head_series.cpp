@@ -13,7 +13,7 @@
 #include "geometry/head/head_names.hpp"
 #include "postproc/draw/image.hpp"
 #include "postproc/draw/indexed_surface.hpp"
-#include "postproc/run/run_table.hpp"
+#include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::postproc {
 namespace {
@@ -53,7 +53,24 @@ std::string data_array(const std::string& attributes, const std::vector<Number>&
     return fmt::format("<DataArray {} format=\"binary\">{}</DataArray>\n", attributes, base64(bytes));
 }
 
-std::string vtp_text(const IndexedSurface& surface, double angle) {
+/// A file of VTK's poly data. \param counts  attributes of its one piece \param content  of the piece
+std::string poly_data(const std::string& counts, const std::string& content) {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n"
+        "<PolyData>\n<Piece {} NumberOfLines=\"0\" NumberOfStrips=\"0\">\n{}</Piece>\n</PolyData>\n</VTKFile>\n",
+        counts, content);
+}
+
+std::string points_text(const std::vector<float>& points) {
+    return "<Points>\n" + data_array("type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"", points) + "</Points>\n";
+}
+
+std::string cells_text(const char* kind, const std::vector<std::int32_t>& corners, const std::vector<std::int32_t>& ends) {
+    return fmt::format("<{0}>\n{1}{2}</{0}>\n", kind, data_array("type=\"Int32\" Name=\"connectivity\"", corners),
+                       data_array("type=\"Int32\" Name=\"offsets\"", ends));
+}
+
+std::string surface_text(const IndexedSurface& surface, double angle) {
     std::vector<float> points;
     for (std::size_t i = 0; i < surface.points.size(); ++i) {
         const Vec3 at = rotate_about({}, angle, surface.point(i));
@@ -64,14 +81,36 @@ std::string vtp_text(const IndexedSurface& surface, double angle) {
         for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::int32_t>(corner));
         ends.push_back(static_cast<std::int32_t>(corners.size()));
     }
-    return fmt::format(
-               "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n"
-               "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-               "NumberOfPolys=\"{}\">\n",
-               surface.points.size(), surface.triangles.size()) +
-           "<Points>\n" + data_array("type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"", points) + "</Points>\n<Polys>\n" +
-           data_array("type=\"Int32\" Name=\"connectivity\"", corners) + data_array("type=\"Int32\" Name=\"offsets\"", ends) +
-           "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    return poly_data(
+        fmt::format("NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfPolys=\"{}\"", surface.points.size(), surface.triangles.size()),
+        points_text(points) + cells_text("Polys", corners, ends));
+}
+
+/// Where rock came in, a point each. \param events  of the run
+std::string feed_text(const Table& events) {
+    std::vector<float> points, times, diameters;
+    std::vector<std::int32_t> ids, corners, ends;
+    for (std::size_t row = 0; row < events.rows(); ++row) {
+        if (events.text("surface")[row] != "feed") continue;
+        corners.push_back(static_cast<std::int32_t>(corners.size()));
+        ends.push_back(static_cast<std::int32_t>(corners.size()));
+        for (const char* column : {"x_m", "y_m", "z_m"}) points.push_back(static_cast<float>(events.number(column)[row]));
+        ids.push_back(static_cast<std::int32_t>(events.number("id")[row]));
+        times.push_back(static_cast<float>(events.number("time_s")[row]));
+        diameters.push_back(static_cast<float>(events.number("diameter_m")[row]));
+    }
+    return poly_data(fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfPolys=\"0\"", corners.size()),
+                     "<PointData>\n" + data_array("type=\"Int32\" Name=\"id\"", ids) + data_array("type=\"Float32\" Name=\"time\"", times) +
+                         data_array("type=\"Float32\" Name=\"diameter\"", diameters) + "</PointData>\n" + points_text(points) +
+                         cells_text("Verts", corners, ends));
+}
+
+/// Soil and feed, which do not turn.
+void write_surroundings(const fs::path& run_directory, const fs::path& folder) {
+    if (fs::exists(run_directory / names::bank_surface))
+        write_file(folder / "bank.vtp", surface_text(index_surface(read_binary_stl(run_directory / names::bank_surface)), 0.0));
+    const Table events = read_events(run_directory);
+    if (!events.empty()) write_file(folder / "feed.vtp", feed_text(events));
 }
 
 /// [rad/s], signed.
@@ -90,10 +129,11 @@ void write_head_series(const fs::path& run_directory) {
     const double speed = rotor_speed(run_directory);
     const fs::path folder = run_directory / k_folder;
     fs::remove_all(folder);
+    write_surroundings(run_directory, folder);
     std::string series;
     for (const auto& [time, name] : times) {
         const std::string file = fmt::format("head_{}.vtp", name);
-        write_file(folder / file, vtp_text(head, speed * time));
+        write_file(folder / file, surface_text(head, speed * time));
         series += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", name, file);
     }
     write_file(folder / "head.pvd", "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + series +

@@ -7,10 +7,14 @@
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/write_stl.hpp"
-#include "geometry/soil/bank.hpp"
 #include "validation/harness/scenes/box_case.hpp"
 
 namespace cutterflow::validation {
+namespace {
+
+constexpr double k_inclination = k_pi / 3.0;  // of the axis beside a bank
+
+}  // namespace
 
 void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed,
                       const std::function<void(const std::filesystem::path&)>& write_mesh) {
@@ -33,10 +37,19 @@ void write_rotor_case(const std::filesystem::path& folder, cases::CaseInputs inp
     write_file(folder / names::rock_feed, feed);
 }
 
+geometry::Bank bank_beside_rotor(const geometry::Contour& contour) {
+    geometry::BankParameters parameters;
+    parameters.inclination = k_inclination;
+    parameters.cut_height = 0.12;
+    parameters.step = 0.06;
+    parameters.pick_length = 0.01;
+    parameters.clearance = 0.005;
+    return {contour, parameters};
+}
+
 void write_rotor_beside_bank(const std::filesystem::path& folder, cases::CaseInputs inputs, const std::string& feed) {
-    constexpr double inclination = k_pi / 3.0, reach = 0.45;
     inputs.discharge = 0.1;
-    inputs.gravity = cases::gravity_of(inclination);
+    inputs.gravity = cases::gravity_of(k_inclination);
     inputs.hauling = Vec3(0.0, -0.1, 0.0);
     inputs.bank = true;
     inputs.fates.mouth.centre = Vec3(0.0, 0.0, 0.03);  // of the outlet ring in the top, which is the mouth
@@ -44,15 +57,9 @@ void write_rotor_beside_bank(const std::filesystem::path& folder, cases::CaseInp
     inputs.fates.mouth.depth = 0.055;
     inputs.rock->walls = {cases::bank_wall(inputs.hauling)};
     write_rotor_case(folder, inputs, feed);
-    geometry::BankParameters parameters;
-    parameters.inclination = inclination;
-    parameters.cut_height = 0.12;
-    parameters.step = 0.06;
-    parameters.pick_length = 0.01;
-    parameters.clearance = 0.005;
-    const geometry::Bank bank(inputs.contour, parameters);
-    geometry::write_stl(bank.soil(reach), folder / names::bank_surface);
-    geometry::write_stl(bank.wall({reach, 1e-4, 0.05}), folder / cases::bank_wall().file);
+    const geometry::Bank bank = bank_beside_rotor(inputs.contour);
+    geometry::write_stl(bank.soil(k_reach_beside_rotor), folder / names::bank_surface);
+    geometry::write_stl(bank.wall({k_reach_beside_rotor, 1e-4, 0.05}), folder / cases::bank_wall().file);
 }
 
 }  // namespace cutterflow::validation
