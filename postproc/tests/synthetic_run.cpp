@@ -422,6 +422,13 @@ void make_fed(const SmallRun& run, double held, double stuck) {
     write_text(run.directory / "postProcessing/rock/0/ledger.csv", text);
 }
 
+void set_swing_speed(const fs::path& directory, double m_min) {
+    std::string study = read_text(directory / "study.resolved.toml");
+    const std::string section = "[swing]\n";
+    study.insert(study.find(section) + section.size(), fmt::format("speed_m_min = {}\n", m_min));
+    write_text(directory / "study.resolved.toml", study);
+}
+
 void write_velocity_planes(const fs::path& directory, PlaneFlow flow) {
     const auto table = [&](int columns, int rows, const std::function<Vec3(int, int)>& place) {
         std::string text =

@@ -52,6 +52,9 @@ void add_events(const std::filesystem::path& directory, const std::vector<Event>
 /// delivered and the rest is spilled, with a wave of 2 s in both. Of what is fed, the share `stuck` stays in the head for good.
 void make_fed(const SmallRun& run, double held, double stuck = 0.0);
 
+/// Gives the study of a run its swing's speed.
+void set_swing_speed(const std::filesystem::path& directory, double m_min);
+
 /// Mass of a 20 mm rock of the small run [kg].
 double small_rock_mass();
 

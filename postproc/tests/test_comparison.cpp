@@ -118,10 +118,7 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
 
 fs::path swinging(const std::string& name, double swing_m_min) {
     const fs::path directory = fed(name, 0.0, 1.0);
-    std::string study = testing::read_text(directory / "study.resolved.toml");
-    const std::string section = "[swing]\n";
-    study.insert(study.find(section) + section.size(), fmt::format("speed_m_min = {}\n", swing_m_min));
-    testing::write_text(directory / "study.resolved.toml", study);
+    testing::set_swing_speed(directory, swing_m_min);
     return directory;
 }
 
@@ -181,10 +178,7 @@ TEST(Comparison, joins_settings_of_a_sweep_that_differ_in_one_key_alone) {
 /// A fed head at a speed of rotor and swing. \param stuck  of what is fed: less is delivered
 fs::path at_point(const std::string& name, double rpm, double swing_m_min, double stuck, double mouth_azimuth_deg = 0.0) {
     const fs::path directory = of_sweep(name, rpm, mouth_azimuth_deg, stuck);
-    std::string study = testing::read_text(directory / names::resolved_study);
-    const std::string section = "[swing]\n";
-    study.insert(study.find(section) + section.size(), fmt::format("speed_m_min = {}\n", swing_m_min));
-    testing::write_text(directory / names::resolved_study, study);
+    testing::set_swing_speed(directory, swing_m_min);
     return directory;
 }
 

@@ -32,14 +32,14 @@ constexpr const char* k_not_drawn = R"js(
 constexpr const char* k_colours_of_heads = R"js(Math.min(...[...document.querySelectorAll('.live canvas')].map((view) =>
   new Set(new Uint32Array(view.getContext('2d').getImageData(0, 0, view.width, view.height).data.buffer)).size)))js";
 
-/// Text that does not fit: wider than its element, outside the window, or (in a plot) outside its plot.
+/// Text that does not fit: wider than its element, outside the window, or (in a plot) outside its plot. Wide tables scroll.
 constexpr const char* k_clipped_text = R"js((() => {
   const clipped = [], width = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > width) clipped.push('the page is wider than the window');
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
     const element = node.parentElement, range = document.createRange();
-    if (!node.textContent.trim() || ['SCRIPT', 'STYLE'].includes(element.tagName)) continue;
+    if (!node.textContent.trim() || ['SCRIPT', 'STYLE'].includes(element.tagName) || element.closest('.scroll')) continue;
     range.selectNodeContents(node);
     const box = range.getBoundingClientRect();
     if (box.width === 0 || getComputedStyle(element).visibility === 'hidden') continue;
@@ -116,6 +116,48 @@ TEST_F(Pages, a_report_of_flow_alone_with_an_evil_name_is_drawn_and_fits) {
     const fs::path page = write_report(run.directory).page_file;
     expect_sound_page(browser, page, figures_of_run(run.directory), 1);
     EXPECT_EQ(browser.evaluate("document.querySelector('h1').textContent"), k_evil);
+}
+
+/// The small run fed from a cut face, beside its bank, as a model at 1:4. \return its directory
+fs::path fed_head(const std::string& name, double speed_rpm, double swing_m_min) {
+    testing::SmallRun run(name);
+    run.length_ratio = 4.0;
+    run.speed_rpm = speed_rpm;
+    run.write();
+    testing::make_fed(run, 5.0);
+    testing::set_swing_speed(run.directory, swing_m_min);
+    return run.directory;
+}
+
+/// Text of the page's tables.
+std::string tables_of(Chromium& browser) {
+    return browser.evaluate("[...document.querySelectorAll('table')].map((table) => table.innerText).join('\\n')").get<std::string>();
+}
+
+TEST_F(Pages, a_report_of_a_fed_head_beside_its_bank_is_drawn_and_fits) {
+    const fs::path directory = fed_head("page_fed", 60.0, 6.0);
+    Chromium browser;
+    expect_sound_page(browser, write_report(directory).page_file, figures_of_run(directory), 1);
+    const std::string tables = tables_of(browser);
+    for (const char* part : {"steady production", "prototype, 4 times as long", "delivered, soil in situ", "left behind"})
+        EXPECT_NE(tables.find(part), std::string::npos) << part;
+    const std::string text = browser.evaluate("document.body.innerText").get<std::string>();
+    for (const char* part : {"Brown: the soil that the head swings into", "What limits:", "Outside of usual practice"})
+        EXPECT_NE(text.find(part), std::string::npos) << part;
+    EXPECT_EQ(text.find("spilled / (spilled + sucked up)"), std::string::npos) << "a ratio without its hold-up";
+}
+
+TEST_F(Pages, a_comparison_of_fed_heads_is_drawn_with_its_map_and_fits) {
+    std::vector<fs::path> runs;
+    for (const double speed : {40.0, 60.0})
+        for (const double swing : {4.0, 8.0}) runs.push_back(fed_head(fmt::format("page_fed_{:g}_{:g}", speed, swing), speed, swing));
+    const fs::path folder = testing::fresh_directory("page_fed_comparison") / "page";
+    const Comparison comparison = compare_runs(runs);
+    Chromium browser;
+    expect_sound_page(browser, write_comparison(comparison, folder), comparison_figures(comparison), 4);
+    const std::string text = browser.evaluate("document.body.innerText").get<std::string>();
+    for (const char* part : {"No best point within the error", "Prototype, 4 times as long"})
+        EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
 TEST_F(Pages, a_comparison_with_evil_names_is_drawn_and_fits) {
