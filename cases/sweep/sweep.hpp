@@ -16,7 +16,7 @@ struct SweepAxes {
     std::vector<double> discharges;    ///< [m3/s]
     std::vector<std::string> designs;  ///< surfaces of cutters
     RepeatRange repeats = 1;
-    std::vector<KeyAxis> keys{};  ///< other keys of the study; files are relative to it
+    std::vector<KeyAxis> keys{};  ///< other keys of the study
 };
 
 struct SweepPoint {

@@ -132,12 +132,13 @@ TEST_F(Sweep, has_points_that_find_the_soil_of_the_study) {
     EXPECT_TRUE(fs::equivalent(named_file(points({{30}, {}, {}, 1}).at(0), "bank.file"), folder_ / "soil.stl"));
 }
 
-TEST_F(Sweep, varies_the_points_of_measurement_whose_files_are_relative_to_the_study) {
+TEST_F(Sweep, varies_the_points_of_measurement) {
     for (const char* file : {"near.csv", "far.csv"})
         write_file(folder_ / file,
                    "name,r_m,theta_deg,z_m,frame,u_radial_m_s,u_tangential_m_s,u_axial_m_s\np,0.6,0,-0.1,still,0.1,0.2,0.3\n");
     SweepAxes axes;
-    axes.keys = key_axes(study_table(), {"report.adv_points=near.csv,far.csv"}, "params");
+    axes.keys =
+        key_axes(study_table(), {"report.adv_points=" + (folder_ / "near.csv").string() + "," + (folder_ / "far.csv").string()}, "params");
     const std::vector<SweepPoint> all = points(axes);
     ASSERT_EQ(all.size(), 2u);
     EXPECT_TRUE(fs::equivalent(named_file(all[0], "report.adv_points"), folder_ / "near.csv"));
