@@ -28,7 +28,7 @@ struct EnergyOfWall {
 
 /// Of the cutter's steel beside one axial bin, in all the time of the map.
 struct EnergyOfBin {
-    geometry::AxialBin bin;  ///< `gap` has the ring, which reaches upwards from z = 0
+    geometry::AxialBin bin;  ///< `gap` is above the ring plane
     double area = 0.0;       ///< of steel [m2]
     SteelEnergy energy;      ///< [J]
 };

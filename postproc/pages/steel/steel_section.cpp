@@ -82,7 +82,7 @@ std::string bin_table(const SteelWork& work) {
         if (bin.area == 0.0) continue;
         const double area_time = bin.area * work.map_duration();
         const auto share = [](double part, double whole) { return whole > 0.0 ? text::percent(part / whole) : std::string(text::k_dash); };
-        rows.push_back({bin.bin.name == "gap" ? "ring, above its underside" : text::bin_text(bin.bin.name), number(bin.area),
+        rows.push_back({bin.bin.name == "gap" ? "above the ring’s top face" : text::bin_text(bin.bin.name), number(bin.area),
                         share(bin.energy.impact, all.impact), share(bin.energy.sliding, all.sliding),
                         number(ratio(bin.energy.impact, area_time)), number(ratio(bin.energy.sliding, area_time))});
     }

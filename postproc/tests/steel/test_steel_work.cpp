@@ -127,7 +127,7 @@ TEST(SteelWork, is_on_the_page_with_its_scaling_and_what_it_is_not) {
     write_map(run);
     const std::string page = testing::read_text(write_report(run.directory).page_file);
     for (const char* part : {"What rock does to the steel", "energy times 256 (length⁴), per area times 16 (length²)", "no load on a pick",
-                             "not how much of it is lost", "ring, above its underside", "6 W/m² and more",
+                             "not how much of it is lost", "above the ring’s top face", "6 W/m² and more",
                              "Cutter head from the hub, coloured by the work of rock on its steel", "backplate"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
 }
