@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/base/sphere.hpp"
 #include "solver/physics/contact.hpp"
+#include "solver/physics/impact_mass.hpp"
 
 namespace cutterflow::cases {
 
@@ -13,6 +15,16 @@ double contact_step(const coupling::ContactSettings& contact, double diameter, d
     const physics::Impact impact{0.5 * sphere_mass(diameter, density), 0.25 * diameter, 0.5 * modulus, contact.max_speed};
     const double rayleigh = physics::rayleigh_time(0.5 * diameter, density, contact.youngs_modulus, contact.poisson_rock);
     return contact.time_step_fraction * std::min(rayleigh, physics::hertz_time(impact));
+}
+
+double contact_step(const coupling::ContactSettings& contact, const geometry::UnitClump& clump, double diameter, double density) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const geometry::Ball& ball : clump.balls) {
+        const double of_ball = 2.0 * ball.radius * diameter, moment = density * std::pow(diameter, 5) * clump.moments.minCoeff();
+        const double mass = physics::impact_mass(sphere_mass(diameter, density), diameter * ball.centre.norm(), moment);
+        shortest = std::min(shortest, contact_step(contact, of_ball, mass / sphere_volume(of_ball)));
+    }
+    return shortest;
 }
 
 double impact_overlap(const coupling::ContactSettings& contact, double inertia_density, double speed) {

@@ -7,6 +7,7 @@
 #include "atom.h"
 
 #include "geometry/base/sphere.hpp"
+#include "solver/physics/impact_mass.hpp"
 
 namespace cutterflow::liggghts {
 
@@ -114,14 +115,13 @@ void RigidBodies::update_spin(RigidBody& body) const {
     body.state.angular_velocity = turn * Vec3((turn.conjugate() * body.angular_momentum).cwiseQuotient(body.moments));
 }
 
-/// A sphere of radius R at the distance s from the centre of mass is as inert to a push through its centre as a mass of at least
-/// 1/(1/M + s^2/I_min). The rules for spheres hold with that mass and the sphere's radius.
+/// The rules for spheres hold with the least mass that a push through a sphere's centre meets, and the sphere's radius.
 double RigidBodies::shortest_time(const RigidBody& body) const {
     const geometry::UnitClump& clump = shapes_[static_cast<std::size_t>(body.state.shape)].clump;
     double shortest = std::numeric_limits<double>::infinity();
     for (const geometry::Ball& ball : clump.balls) {
         const double radius = body.state.diameter * ball.radius, arm = body.state.diameter * ball.centre.norm();
-        const double mass = 1.0 / (1.0 / body.mass + arm * arm / body.moments.minCoeff());
+        const double mass = physics::impact_mass(body.mass, arm, body.moments.minCoeff());
         shortest = std::min(shortest, context_.shortest_contact_time(radius, mass, mass / sphere_volume(2.0 * radius)));
     }
     return shortest;

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "cases/scenes/rock/shapes_section.hpp"
 #include "cases/scenes/room/room_flow.hpp"
+#include "cases/study/shape_file.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -131,21 +133,16 @@ FoamDictionary domain_section(const RoomScene& scene, bool lid) {
     return domain;
 }
 
-std::string clump_file(const RoomGrains& grains) {
-    return "constant/shapes/" + grains.name + ".clump";
+/// Kinds of grains that are clumps; each has its shape's name.
+std::vector<std::string> shape_names(const RoomScene& scene) {
+    std::vector<std::string> names;
+    for (const RoomGrains& grains : scene.grains)
+        if (!grains.clump.empty()) names.push_back(grains.name);
+    return names;
 }
 
-/// Empty when all grains are spheres.
-FoamDictionary shapes_section(const RoomScene& scene) {
-    FoamDictionary shapes;
-    for (const RoomGrains& grains : scene.grains)
-        if (!grains.clump.empty()) shapes.add(grains.name, FoamDictionary().add("file", FoamValue::quoted(clump_file(grains))));
-    return shapes;
-}
-
-void add_clump_files(const RoomScene& scene, std::vector<CaseText>& files) {
-    for (const RoomGrains& grains : scene.grains)
-        if (!grains.clump.empty()) files.push_back({clump_file(grains), grains.clump_text});
+void add_shape_files(const RoomScene& scene, std::vector<CaseText>& files) {
+    for (const std::string& name : shape_names(scene)) files.push_back({path_of_shape(name), scene.find_grains(name)->clump_text});
 }
 
 /// Of a preparation. A grain that moves as fast as k_rest_speed allows while it is slowed down lacks 1 % of its weight to balance.
@@ -166,7 +163,7 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
                               .add("retryInterval", k_retry)
                               .add("reach", 0.0));
     if (!moves && scene.gravity_strength > 0.0) rock.add("calming", calming_section(scene));
-    if (const FoamDictionary shapes = shapes_section(scene); !shapes.empty()) rock.add("shapes", shapes);
+    if (const FoamDictionary shapes = shapes_section(shape_names(scene)); !shapes.empty()) rock.add("shapes", shapes);
     return rock.add("contact", contact_section(scene, moves))
         .add("walls", wall_list(scene, to_run, piece))
         .add("domain", domain_section(scene, !moves));
@@ -263,7 +260,7 @@ std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, co
                                 text_of(gravity_file(scene.upright_gravity())),
                                 dry_control(piece.end(), std::min(scene.bed_step, k_bed_pictures), k_bed_pictures)};
     if (!piece.grains.empty()) files.push_back({names::rock_feed, grain_feed_csv(piece.grains)});
-    add_clump_files(scene, files);
+    add_shape_files(scene, files);
     return files;
 }
 
@@ -285,7 +282,7 @@ std::vector<CaseText> grain_files(const RoomScene& scene, const std::string& sta
     coupling.add("checkpoint", checkpoint_section(scene.run.checkpoint_interval));
     std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling)};
     if (!fed.empty()) files.push_back({names::rock_feed, grain_feed_csv(fed)});
-    add_clump_files(scene, files);
+    add_shape_files(scene, files);
     return files;
 }
 

@@ -1,17 +1,11 @@
 /// \file Tables [[grains]].
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include "cases/scenes/room/reader/room_readers.hpp"
 #include "cases/scenes/room/reader/room_reading.hpp"
-#include "geometry/base/file_content.hpp"
-#include "geometry/clump/clump_file.hpp"
-#include "geometry/clump/unit_clump.hpp"
+#include "cases/study/shape_file.hpp"
 
 namespace cutterflow::cases {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -65,17 +59,13 @@ void read_grains(RoomReading& room, const ParameterValues& values) {
         room.refuse(values.where("grains.material"), fmt::format("grains.material = \"{}\"", material),
                     fmt::format("All grains of a room have one material, here {}", room.scene.grain_material), "Use it for all");
     }
-    if (values.has("grains.shape")) {
-        grains.clump = room.folder / values.text("grains.shape");
-        if (!fs::exists(grains.clump))
-            room.refuse(values.where("grains.shape"), fmt::format("{} does not exist", grains.clump.string()),
-                        "grains.shape names the file of a clump", "Check the path");
-        else
-            room.mistakes.gather([&] {
-                grains.girth = 2.0 * geometry::unit_clump(geometry::read_clump(grains.clump)).reach();
-                grains.clump_text = read_file(grains.clump);
-            });
-    }
+    if (values.has("grains.shape"))
+        room.mistakes.gather([&] {
+            ShapeFile shape = read_shape_file(values, "grains.shape", grains.name, room.folder);
+            grains.girth = shape.girth();
+            grains.clump = std::move(shape.file);
+            grains.clump_text = std::move(shape.text);
+        });
     if (read_sizes(room, values, grains)) room.scene.grains.push_back(std::move(grains));
 }
 
