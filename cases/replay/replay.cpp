@@ -21,6 +21,7 @@
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/feed_keys.hpp"
 #include "cases/study/study.hpp"
+#include "cases/study/study_shapes.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -74,15 +75,25 @@ RecordedRun open_run(const fs::path& run) {
     mistakes.refuse();
     // A file that was changed by hand may lack keys.
     values = resolve_study(values, head.size);
+    const fs::path folder = fs::absolute(run).lexically_normal();
+    const std::map<std::string, std::string> shapes = shape_names(values);
+    move_shapes(values, [&](const std::string& path) { return (folder / path_of_shape(shapes.at(path))).string(); });
     const nlohmann::json manifest = read_json_document(directory.file(names::manifest), {{"stages", JsonKind::object, true}},
                                                        "Start again in another directory with -o");
-    return {fs::absolute(run).lexically_normal(), std::move(values), postproc::input_files(manifest), std::move(head),
+    return {folder, std::move(values), postproc::input_files(manifest), std::move(head),
             geometry::welded(geometry::read_surface(directory.file(names::cutter_surface)))};
 }
 
 /// The study of a run, with every key.
 std::string study_of(const RecordedRun& run) {
     return plain_toml(study_table(), run.values);
+}
+
+/// What tells a study from a changed one: its keys and its shapes.
+std::string hash_of(const RecordedRun& run) {
+    std::string text = study_of(run);
+    for (const auto& [key, hash] : shape_hashes(run.values, run.folder)) text += hash;
+    return sha256(text);
 }
 
 /// \throws UserError  with every run of water alone
@@ -187,11 +198,14 @@ void describe_replay(const RecordedRun& run, const ParameterValues& values, cons
                "# Every key of the study as it was replayed. Written by cutterflow: change the study, not this file.\n\n" +
                    commented_toml(study_table(), &values));
     write_file(folder / names::feed_report, feed_json(feeds, study));
+    nlohmann::json files = nlohmann::json::array();
+    for (const auto& [name, hash] : shape_hashes(values, run.folder)) files.push_back({{"input", name}, {"sha256", hash}});
     nlohmann::json replay{{"schema", postproc::k_replay_schema},
                           {"run", run.folder.string()},
                           {"flow_start_s", recording.start},
                           {"flow_end_s", recording.end},
-                          {"flow_change", optional_json(recording.change)}};
+                          {"flow_change", optional_json(recording.change)},
+                          {"files", files}};
     if (fed_until) replay[k_fed_until] = *fed_until;
     write_file(folder / names::replay, replay.dump(2) + "\n");
 }
@@ -356,7 +370,7 @@ nlohmann::json plan_of(const ReplaySettings& settings, const std::vector<Recorde
     nlohmann::json plan;
     for (const RecordedRun& run : runs) {
         plan["runs"].push_back(run.folder.string());
-        plan["studies_sha256"].push_back(sha256(study_of(run)));
+        plan["studies_sha256"].push_back(hash_of(run));
         plan["recordings_sha256"].push_back(sha256_of_file(run.folder / names::recording / coupling::k_recording_summary));
     }
     if (!settings.study.empty()) plan["runs"].push_back(fs::absolute(settings.study).lexically_normal().string());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cases/scenes/cutter/study_case.hpp"
+#include "cases/study/study_shapes.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
 
@@ -91,7 +92,10 @@ std::vector<Mistake> check_same_flow(const ReplayedFlow& flow, const ParameterVa
 
 ParameterValues read_rock_study(const ReplayedFlow& flow, const fs::path& file) {
     ParameterValues values = read_parameters(rock_study_table(flow.values), file);
+    const fs::path folder = fs::absolute(file).parent_path();
+    move_shapes(values, [&](const std::string& path) { return (folder / path).lexically_normal().string(); });
     Mistakes mistakes(file.string());
+    mistakes.gather([&] { read_shapes(values, folder); });
     mistakes.add(check_same_flow(flow, values, file));
     mistakes.require(!values.tables("feed").empty(), "no [[feed]]", "A replay places a study's rock", "Add a [[feed]]");
     for (const Parameter& parameter : study_table())

@@ -22,6 +22,7 @@
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
+#include "cases/study/study_shapes.hpp"
 #include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/json_document.hpp"
@@ -121,6 +122,8 @@ std::map<std::string, std::string> stage_inputs(const ParameterValues& values, c
             inputs[parameter.key] = toml_text(*values.find(parameter.key));
     for (const std::string& section : repeated_sections(study_table(), "")) add_table_inputs(values, section, section, stage, inputs);
     if (stage == k_geometry_stage) inputs["cutter.file"] = sha256_of_file(study_folder / values.text("cutter.file"));
+    if (stage == k_case_stage)
+        for (const auto& [name, hash] : shape_hashes(values, study_folder)) inputs[name] = hash;
     if (stage == k_case_stage && values.has("bank.file")) inputs["bank.file"] = sha256_of_file(study_folder / values.text("bank.file"));
     if (stage == k_case_stage && values.has("report.adv_points"))
         inputs["report.adv_points"] = adv_places_hash(study_folder / values.text("report.adv_points"));

@@ -95,11 +95,13 @@ RockCost rock_cost(const Study& study, const coupling::ContactSettings& contact,
         const std::vector<double> counts = rocks_at_work(feed, study);
         for (std::size_t i = 0; i < counts.size(); ++i) {
             const FeedClass& rock = feed.classes[i];
-            const double step = contact_step(contact, rock.diameter, rock.density);
+            const double step = rock.shape ? contact_step(contact, rock.shape->clump, rock.diameter, rock.density)
+                                           : contact_step(contact, rock.diameter, rock.density);
             cost.contact_step = cost.contact_step > 0.0 ? std::min(cost.contact_step, step) : step;
             const double width = coupling::mapping_width(study.kernel, rock.diameter, cell) / cell;
             cost.mapped_seconds += counts[i] * k_seconds_per_mapped_cell * width * width * width;
-            cost.contact_seconds += counts[i] * k_seconds_per_contact_step;
+            const auto spheres = static_cast<double>(rock.shape ? rock.shape->clump.balls.size() : 1);
+            cost.contact_seconds += counts[i] * spheres * k_seconds_per_contact_step;
         }
     }
     return cost;

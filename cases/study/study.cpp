@@ -11,6 +11,7 @@
 #include "cases/study/feed_keys.hpp"
 #include "cases/study/size_law.hpp"
 #include "cases/study/study_section.hpp"
+#include "cases/study/study_shapes.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -198,14 +199,17 @@ void take_cut_face(const ParameterValues& feed, double end_time, double grain_de
             request.classes.push_back({diameter, grain_density, 1.0});
 }
 
-/// \param end_time  of the run [s] \param grain_density  of the soil [kg/m3]
-FeedRequest make_feed(const ParameterValues& feed, double period, double end_time, double grain_density) {
+/// \param end_time  of the run [s] \param grain_density  of the soil [kg/m3] \param shapes  of the study, by their paths
+FeedRequest make_feed(const ParameterValues& feed, double period, double end_time, double grain_density,
+                      const std::map<std::string, ShapeFile>& shapes) {
     FeedRequest request;
     request.start = feed.number("feed.start_revolution") * period;
     request.seed = feed.integer("feed.seed");
-    for (const ParameterValues& rock : feed.tables("feed.class"))
+    for (const ParameterValues& rock : feed.tables("feed.class")) {
         request.classes.push_back(
             {rock.number("feed.class.diameter_m"), rock.number("feed.class.density_kg_m3"), rock.number("feed.class.mass_share")});
+        if (rock.has("feed.class.shape")) request.classes.back().shape = shapes.at(rock.text("feed.class.shape"));
+    }
     if (is_cut_face(feed))
         take_cut_face(feed, end_time, grain_density, request);
     else
@@ -532,6 +536,15 @@ double Study::bank_side() const {
 bool Study::is_fed_by_cutting() const {
     return std::any_of(feeds.begin(), feeds.end(), [](const FeedRequest& feed) { return feed.kind == FeedKind::cut_face; });
 }
+std::vector<ShapeFile> Study::shapes() const {
+    std::map<std::string, ShapeFile> shapes;
+    for (const FeedRequest& feed : feeds)
+        for (const FeedClass& rock : feed.classes)
+            if (rock.shape) shapes.emplace(rock.shape->name, *rock.shape);
+    std::vector<ShapeFile> all;
+    for (const auto& named : shapes) all.push_back(named.second);
+    return all;
+}
 AxialCylinder Study::water(const HeadSize& head) const {
     const double bottom = -head.depth - tank.bed_clearance;
     return {tank.radius, bottom, bottom + tank.height};
@@ -651,8 +664,9 @@ Study make_study(const ParameterValues& resolved, const std::filesystem::path& f
         study.report.adv_probe = {number("report.adv_probe_diameter_m"), number("report.adv_probe_length_m"),
                                   number("report.adv_position_error_m")};
     }
+    const std::map<std::string, ShapeFile> shapes = read_shapes(resolved, folder);
     for (const ParameterValues& feed : resolved.tables("feed"))
-        study.feeds.push_back(make_feed(feed, study.period(), study.end_time(), study.bank ? study.bank->grain_density : 0.0));
+        study.feeds.push_back(make_feed(feed, study.period(), study.end_time(), study.bank ? study.bank->grain_density : 0.0, shapes));
     return study;
 }
 
@@ -731,9 +745,28 @@ void warn_of_cut_rock(const ParameterValues& resolved, const ParameterValues& fe
         "Raise it, or take the interval from repeats or replays");
 }
 
+/// Of rock that may block the way through the head.
+void warn_of_large_rock(const ParameterValues& resolved, const Study& study, const HeadSize& head, Rules& rules) {
+    const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
+    const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
+    const char* place = passage < mouth ? "between the blades" : "the suction mouth";
+    const std::string rule = fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place);
+    for (std::size_t f = 0; f < study.feeds.size(); ++f) {
+        const ParameterValues& feed = resolved.tables("feed")[f];
+        if (has_size_law(feed))
+            rules.require(feed.number("feed.size_max_m") <= passage / 3.0, feed, "feed.size_max_m", rule, "Check the diameter");
+        for (std::size_t c = 0; c < feed.tables("feed.class").size(); ++c) {
+            const FeedClass& rock = study.feeds[f].classes[c];
+            const std::string reach = rock.shape ? fmt::format("; with its shape this rock is {:.4g} m long", rock.extent()) : "";
+            rules.require(rock.extent() <= passage / 3.0, feed.tables("feed.class")[c], "feed.class.diameter_m", rule + reach,
+                          "Check the diameter");
+        }
+    }
+}
+
 }  // namespace
 
-std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head) {
+std::vector<Mistake> study_warnings(const ParameterValues& resolved, const Study& study, const HeadSize& head) {
     Rules rules(resolved);
     const auto& feeds = resolved.tables("feed");
     for (const ParameterValues& feed : feeds)
@@ -741,16 +774,7 @@ std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadS
     for (const Mistake& warning : hindrance_warnings(resolved, std::any_of(feeds.begin(), feeds.end(), is_dense))) rules.add(warning);
     warn_of_wide_kernels(resolved, rules);
     warn_of_young_flow(resolved, rules);
-    const double mouth = 2.0 * resolved.number("suction.mouth_radius_m");
-    const double passage = head.passage ? std::min(mouth, *head.passage) : mouth;
-    const char* place = passage < mouth ? "between the blades" : "the suction mouth";
-    const std::string rule = fmt::format("Rock larger than a third of the smallest passage ({:.4g} m, {}) may block it", passage, place);
-    for (const ParameterValues& feed : resolved.tables("feed")) {
-        for (const ParameterValues& rock : feed.tables("feed.class"))
-            rules.require(rock.number("feed.class.diameter_m") <= passage / 3.0, rock, "feed.class.diameter_m", rule, "Check the diameter");
-        if (has_size_law(feed))
-            rules.require(feed.number("feed.size_max_m") <= passage / 3.0, feed, "feed.size_max_m", rule, "Check the diameter");
-    }
+    warn_of_large_rock(resolved, study, head, rules);
     const double speed = rpm_to_rad_s(resolved.number("rotor.speed_rpm")) * head.tip_radius;
     // Hertz' largest overlap goes with E^(-2/5).
     const double softness = needed_youngs_modulus(resolved, head) / resolved.number("rock.youngs_modulus_pa");

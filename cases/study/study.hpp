@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/study/shape_file.hpp"
 #include "geometry/base/axial_cylinder.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -37,9 +38,13 @@ struct HeadSize {
 
 /// One size of rock in a feed.
 struct FeedClass {
-    double diameter = 0.0;    ///< [m]
-    double density = 0.0;     ///< [kg/m3]
-    double mass_share = 0.0;  ///< of the feed, > 0; shares are relative to their sum
+    double diameter = 0.0;             ///< of the sphere of its volume [m]
+    double density = 0.0;              ///< [kg/m3]
+    double mass_share = 0.0;           ///< of the feed, > 0; shares are relative to their sum
+    std::optional<ShapeFile> shape{};  ///< none: a sphere
+
+    /// Diameter of the sphere around it [m].
+    double extent() const { return shape ? shape->girth() * diameter : diameter; }
 };
 
 enum class FeedKind {
@@ -128,6 +133,7 @@ struct Study {
     double development_end() const;
     double bank_side() const;  ///< 1 with the bank at azimuth 90 degrees, -1 at -90
     bool is_fed_by_cutting() const;
+    std::vector<ShapeFile> shapes() const;  ///< of all classes of rock, each once
     AxialCylinder water(const HeadSize& head) const;
 };
 
@@ -153,14 +159,15 @@ ParameterValues read_study(const std::filesystem::path& file);
 /// The values with every derived default written out, for a head of that size.
 ParameterValues resolve_study(const ParameterValues& values, const HeadSize& head);
 
-/// Typed study from resolved values. \param folder  to which the cutter's path is relative: the study file's
+/// Typed study from resolved values. \param folder  to which paths are relative: the study file's
+/// \throws UserError  when a shape cannot be read
 Study make_study(const ParameterValues& resolved, const std::filesystem::path& folder);
 
 /// Rules across keys that a resolved study breaks; each names its keys and, where the file gives them, their lines.
 std::vector<Mistake> check_study(const ParameterValues& resolved, const HeadSize& head);
 
-/// What is allowed and yet deserves a look.
-std::vector<Mistake> study_warnings(const ParameterValues& resolved, const HeadSize& head);
+/// What is allowed and yet deserves a look. \param study  made from the values
+std::vector<Mistake> study_warnings(const ParameterValues& resolved, const Study& study, const HeadSize& head);
 
 /// Azimuth [deg] of the side on which the bank stands: where the blades move up (under_cut) or down (over_cut).
 /// Azimuth 0 is lowest and positive by the right hand about the axis from hub to ring, so that a right-handed rotor's blades rise at 90

@@ -343,7 +343,8 @@ ParameterTable feed_rows() {
             .at_least(0.0)
             .by_default(std::int64_t{1}),
         number(k_case_stage, "feed.spacing_diameters", "-",
-               "Distance between neighbouring rocks of a batch, centre to centre, over the largest diameter.")
+               "Distance between neighbouring rocks of a batch, centre to centre, over the largest diameter, of clumps that of the sphere "
+               "around them.")
             .at_least(1.01)
             .at_most(20.0)
             .by_default(1.5),
@@ -368,7 +369,8 @@ ParameterTable feed_rows() {
             .by_default(0.0),
         length(k_case_stage, "feed.depth_to_m", k_largest_length, "Lower end of the wedge, below the ring plane.")
             .derived("the head's lowest point"),
-        number(k_case_stage, "feed.class.diameter_m", "m", "Diameter of the rocks of this class; less than the head's.")
+        number(k_case_stage, "feed.class.diameter_m", "m",
+               "Diameter of the rocks of this class, of a clump that of the sphere of its volume; less than the head's.")
             .at_least(1e-5)
             .at_most(10.0),
         number(k_case_stage, "feed.class.density_kg_m3", "kg/m3", "Density of the rock.")
@@ -379,6 +381,8 @@ ParameterTable feed_rows() {
             .at_least(1e-6)
             .at_most(1e6)
             .by_default(1.0),
+        row(k_case_stage, "feed.class.shape", ParameterKind::path, "-", "File of a clump, which these rocks are. Not for a size_law.")
+            .derived("spheres"),
     };
 }
 

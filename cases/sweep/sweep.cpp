@@ -19,6 +19,7 @@
 #include "cases/scenes/cutter/checked_study.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/study/study.hpp"
+#include "cases/study/study_shapes.hpp"
 #include "cases/sweep/slurm.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
@@ -507,8 +508,9 @@ std::vector<SweepPoint> sweep_points(const fs::path& study, const SweepAxes& axe
             vary_release(values, repeat, static_cast<double>(combination.repeat) / (axes.repeats.count * head.symmetry.blade_count));
             const ParameterValues placed_here = values;
             values.set("cutter.file", from_studies(cutter, folder));
-            for (const std::string& key : other_files(values))
-                values.set(key, from_studies(study.parent_path() / values.text(key), folder));
+            const auto beside_study = [&](const std::string& path) { return from_studies(study.parent_path() / path, folder); };
+            for (const std::string& key : other_files(values)) values.set(key, beside_study(values.text(key)));
+            move_shapes(values, beside_study);
             const std::string text = commented_toml(study_table(), &values);
             parse_parameters(study_table(), text, name);  // bounds of what the axes set
             points.push_back({name, text, cutter.lexically_normal().string() + shape_of(values, axes.keys),

@@ -333,6 +333,34 @@ TEST_F(RecordedRuns, take_no_rock_beside_soil_of_another_file) {
     EXPECT_THAT(refusal(settings({recorded}, folder_ / "rock.toml")), AllOf(HasSubstr("soil.stl"), HasSubstr("without such a file")));
 }
 
+std::string peanut(double apart) {
+    return fmt::format(
+        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n[[sphere]]\nx_m = {}\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n", apart);
+}
+
+// The file that the run's study named may be gone.
+TEST_F(RecordedRuns, of_clumps_replay_the_shapes_of_the_run) {
+    const fs::path recorded = run("a", study_text() + "shape = \"gone/peanut.clump\"\n");
+    write_file(recorded / "constant/shapes/peanut.clump", peanut(1.0));
+    ASSERT_EQ(refusal(settings({recorded})), "not refused");
+    const fs::path folder = folder_ / "replays/pair_1";
+    EXPECT_EQ(read_file(folder / "constant/shapes/peanut.clump"), peanut(1.0));
+    EXPECT_THAT(read_file(folder / names::rock_feed), HasSubstr(",peanut\n"));
+    EXPECT_THAT(read_file(folder / names::coupling_properties), HasSubstr("constant/shapes/peanut.clump"));
+    EXPECT_THAT(read_file(folder / names::replay), AllOf(HasSubstr("feed[1].class[1].shape"), HasSubstr(sha256(peanut(1.0)))));
+}
+
+TEST_F(RecordedRuns, replay_clumps_of_another_study_and_tell_when_they_change) {
+    const fs::path recorded = run("a", study_text()), rock = folder_ / "rock.toml";
+    write_file(rock, "[[feed]]\ncount = 10\n[[feed.class]]\ndiameter_m = 0.01\nshape = \"peanut.clump\"\n");
+    EXPECT_THAT(refusal(settings({recorded}, rock)), HasSubstr("There is no file " + (folder_ / "peanut.clump").string()));
+    write_file(folder_ / "peanut.clump", peanut(1.0));
+    ASSERT_EQ(refusal(settings({recorded}, rock)), "not refused");
+    EXPECT_EQ(read_file(folder_ / "replays/replay_001/constant/shapes/peanut.clump"), peanut(1.0));
+    write_file(folder_ / "peanut.clump", peanut(1.2));
+    EXPECT_THAT(refusal(settings({recorded}, rock)), HasSubstr("has changed since the folder's replays were begun"));
+}
+
 // A finished replay is not made again, so that rock of both studies would count as one sample.
 TEST_F(RecordedRuns, are_not_gone_on_with_by_rock_that_has_changed) {
     const fs::path recorded = run("a", study_text()), rock = folder_ / "rock.toml";

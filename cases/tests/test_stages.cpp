@@ -128,8 +128,8 @@ TEST(StageInputs, hold_every_key_of_the_study_once_and_in_the_stage_that_its_row
         if (parameter.key == "report.adv_points") continue;  // counts by the content of its file
         const bool of_class = parameter.key.rfind("feed.class.", 0) == 0, of_feed = parameter.key.rfind("feed.", 0) == 0;
         ParameterValues& place = of_class ? rock : of_feed ? feed : values;
-        const bool is_surface = parameter.key == "cutter.file" || parameter.key == "bank.file";  // count by their content
-        place.set(parameter.key, is_surface ? surface : std::string("given"));
+        const bool is_file = parameter.kind == ParameterKind::path;  // counts by its content
+        place.set(parameter.key, is_file ? surface : std::string("given"));
         const std::string name = parameter.key.substr(parameter.key.rfind('.') + 1);
         stage_of[of_class ? "feed[1].class[1]." + name : of_feed ? "feed[1]." + name : parameter.key] = parameter.stage;
     }

@@ -53,6 +53,11 @@ protected:
     fs::path file_;
 };
 
+std::vector<Mistake> warnings_of(const std::string& text, const HeadSize& head = k_model) {
+    const ParameterValues resolved = resolve_study(parse(text), head);
+    return study_warnings(resolved, make_study(resolved, "/tmp"), head);
+}
+
 bool any_contains(const std::vector<Mistake>& mistakes, const std::string& part) {
     for (const Mistake& mistake : mistakes)
         if (mistake.text().find(part) != std::string::npos) return true;
@@ -284,9 +289,7 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
     const ParameterValues given = resolve_study(parse(minimal("[rock]\nyoungs_modulus_pa = 1e7\n")), k_model);
     EXPECT_EQ(given.number("rock.youngs_modulus_pa"), 1e7);
     const std::string feed = "[[feed]]\ncount = 5\n[[feed.class]]\ndiameter_m = 0.02\n";
-    const auto warnings = [&](const std::string& rock) {
-        return study_warnings(resolve_study(parse(minimal(rock + feed)), k_model), k_model);
-    };
+    const auto warnings = [&](const std::string& rock) { return warnings_of(minimal(rock + feed)); };
     EXPECT_FALSE(any_contains(warnings(""), "overlaps steel"));
     // Overlap goes with E^(-2/5).
     const std::string share = fmt::format("overlaps steel by {:.0f} %", 5.0 * std::pow(modulus / 1e7, 0.4));
@@ -295,12 +298,10 @@ TEST(Study, default_stiffness_keeps_the_overlap_at_tip_speed) {
 
 TEST(Study, warns_of_floating_soil_and_of_runs_too_short_for_an_interval) {
     const auto warnings = [](const std::string& keys) {
-        return study_warnings(
-            resolve_study(parse(minimal("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[[feed]]\nkind = \"cut_face\"\nsize_law = "
-                                        "\"log_normal\"\nsize_d50_m = 0.02\nsize_spread = 0.5\nsize_min_m = 0.01\nsize_max_m = 0.03\n" +
-                                        keys)),
-                          k_model),
-            k_model);
+        return warnings_of(
+            minimal("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[[feed]]\nkind = \"cut_face\"\nsize_law = "
+                    "\"log_normal\"\nsize_d50_m = 0.02\nsize_spread = 0.5\nsize_min_m = 0.01\nsize_max_m = 0.03\n" +
+                    keys));
     };
     // A revolution takes a second: 3 s of start-up and 8 batches of one after the first revolution.
     EXPECT_TRUE(any_contains(warnings("[run]\nflow_revolutions = 1\nmax_revolutions = 11.9\n"),
@@ -432,7 +433,7 @@ TEST(Study, refuses_sizes_out_of_proportion_to_the_head) {
 }
 
 TEST(Study, warns_of_rock_that_meets_a_flow_which_remembers_its_start) {
-    const auto warnings = [](const std::string& text) { return study_warnings(resolve_study(parse(text), k_model), k_model); };
+    const auto warnings = [](const std::string& text) { return warnings_of(text); };
     const char* warning = "start_revolution = 5.5. For some 6 revolutions the flow remembers the frozen rotor";
     EXPECT_TRUE(any_contains(warnings(with_feed("count = 3\n") + "[run]\nflow_revolutions = 5.5\n"), warning));
     EXPECT_TRUE(any_contains(warnings(with_feed("count = 3\nstart_revolution = 5.5\n")), warning));
@@ -456,19 +457,19 @@ TEST(Study, develops_the_flow_in_longer_steps_until_a_revolution_before_it_is_lo
 
 TEST(Study, warns_of_rock_larger_than_a_third_of_the_passage) {
     const auto warnings = [](const std::string& diameter) {
-        return study_warnings(resolve_study(parse(with_feed("count = 3\n", "diameter_m = " + diameter + "\n")), k_model), k_model);
+        return warnings_of(with_feed("count = 3\n", "diameter_m = " + diameter + "\n"));
     };
     EXPECT_TRUE(any_contains(warnings("0.07"), "third of the smallest passage (0.2 m, the suction mouth)"));
     EXPECT_FALSE(any_contains(warnings("0.066"), "third of the smallest passage"));
     HeadSize narrow = k_model;
     narrow.passage = 0.15;
-    const ParameterValues resolved = resolve_study(parse(with_feed("count = 3\n", "diameter_m = 0.055\n")), narrow);
-    EXPECT_TRUE(any_contains(study_warnings(resolved, narrow), "third of the smallest passage (0.15 m, between the blades)"));
+    EXPECT_TRUE(any_contains(warnings_of(with_feed("count = 3\n", "diameter_m = 0.055\n"), narrow),
+                             "third of the smallest passage (0.15 m, between the blades)"));
 }
 
 TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
     const auto warnings = [](const std::string& keys, const std::string& diameter) {
-        return study_warnings(resolve_study(parse(keys + with_feed("count = 3\n", "diameter_m = " + diameter + "\n")), k_model), k_model);
+        return warnings_of(keys + with_feed("count = 3\n", "diameter_m = " + diameter + "\n"));
     };
     // mouth radius 0.1 m, gap 0.03 m
     const std::string shell = "[kernel]\nsampling = \"quadratic\"\n";
@@ -483,8 +484,7 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
 
 TEST(Study, warns_of_a_drag_that_counts_other_rock_twice_or_not_at_all) {
     const auto warnings = [](const std::string& closures, const std::string& feed) {
-        return study_warnings(
-            resolve_study(parse(with_feed(feed + "count = 3\n", "diameter_m = 0.004\n") + "[closures]\n" + closures), k_model), k_model);
+        return warnings_of(with_feed(feed + "count = 3\n", "diameter_m = 0.004\n") + "[closures]\n" + closures);
     };
     EXPECT_TRUE(warnings("", "").empty());
     EXPECT_TRUE(any_contains(warnings("drag_modifier = 3\n", ""), "counts it twice"));

@@ -81,6 +81,17 @@ constexpr const char* k_runs = R"([ "$1" = run ] || exit 0; echo "  run: 50 %, h
 
 }  // namespace
 
+TEST_F(Sweep, names_the_files_of_its_studies_from_where_they_lie) {
+    write_file(
+        folder_ / "peanut.clump",
+        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n[[sphere]]\nx_m = 1.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n");
+    write_file(folder_ / "study.toml", read_file(folder_ / "study.toml") + "shape = \"peanut.clump\"\n");
+    for (const SweepPoint& point : points({{30, 60}, {}, {}, 1})) {
+        EXPECT_THAT(point.text, HasSubstr("file = \"../../a.stl\""));
+        EXPECT_THAT(point.text, HasSubstr("shape = \"../../peanut.clump\""));
+    }
+}
+
 TEST_F(Sweep, has_a_point_for_every_combination_and_pairs_repeats) {
     const std::vector<SweepPoint> all = points({{30, 60}, {0.1}, {(folder_ / "a.stl").string(), (folder_ / "b.stl").string()}, 2});
     ASSERT_EQ(all.size(), 8u);

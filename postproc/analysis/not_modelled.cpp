@@ -31,7 +31,7 @@ std::vector<NotModelled> not_modelled(const Scope& scope) {
          "(bank.pick_length_m), without a bank it does"},
         {"lift and rock spin forces",
          "no rotation lift and no fluid torque on rock; shear lift only with closures.lift, whose source is valid for grains"},
-        {"rock shape and breakage", "rocks are spheres that do not break; sizes are those of the feed"},
+        {"rock shape and breakage", "rocks are spheres or rigid clumps of them that do not break; sizes are those of the feed"},
         {"unresolved wakes", "rock is a smoothed body force on the flow; the wake of a single rock is only in the drag law"},
         {"pump and pipeline", "the discharge is imposed; it does not drop when the mixture becomes heavier"},
     };

@@ -40,7 +40,8 @@ const std::vector<JsonField> k_feed_fields{{"feeds/*/requested", JsonKind::whole
                                            {"feeds/*/classes/*/diameter_m", JsonKind::number, true},
                                            {"feeds/*/classes/*/density_kg_m3", JsonKind::number, true},
                                            {"feeds/*/classes/*/count", JsonKind::number, true},
-                                           {"feeds/*/classes/*/settling_velocity_m_s", JsonKind::number_or_null}};
+                                           {"feeds/*/classes/*/settling_velocity_m_s", JsonKind::number_or_null},
+                                           {"feeds/*/classes/*/shape", JsonKind::text}};
 const std::vector<JsonField> k_mesh_fields{
     {"cells", JsonKind::whole}, {"gates/*/name", JsonKind::text}, {"gates/*/passed", JsonKind::truth}};
 const std::vector<JsonField> k_manifest_fields{{"stages", JsonKind::object}, {"versions", JsonKind::object}};
@@ -172,6 +173,10 @@ std::optional<FeedSummary> read_feed(const fs::path& file) {
             const json speed = item.value("settling_velocity_m_s", json());
             if (!speed.is_null()) rock_class.settling_velocity = speed;
             summary.classes.push_back(rock_class);
+            if (const std::string shape = item.value("shape", ""); !shape.empty())
+                summary.reasons.push_back(
+                    fmt::format("Rock of {:.3g} mm is clumps of {}: the diameter is that of the sphere of their volume.",
+                                1e3 * rock_class.diameter, shape));
             const double of_class = rock_class.count * sphere_mass(rock_class.diameter, rock_class.density);
             mass += of_class;
             if (feed.value("left_by_swing_before", false)) left += of_class;
@@ -303,8 +308,9 @@ void read_cost(RunData& run) {
     run.warnings = first_warnings(solver_warnings(run.directory));
 }
 
-void read_setting(RunData& run, const StudyReader& study) {
-    StudySetting setting = study_setting(read_file(run.directory / names::resolved_study), input_files(run.manifest));
+/// \param files  that the run was made from, by their content
+void read_setting(RunData& run, const StudyReader& study, const std::map<std::string, std::string>& files) {
+    StudySetting setting = study_setting(read_file(run.directory / names::resolved_study), files);
     run.setting = std::move(setting.values);
     run.release = std::move(setting.release);
     run.seed = study.seed();
@@ -339,7 +345,7 @@ RunData read_computed_run(const fs::path& directory) {
                 std::max(1, geometry.at("head").value("blades", 1)),
                 read_adv_probe(study)};
     run.prediction = read_json(directory / names::prediction, k_prediction_fields);
-    read_setting(run, study);
+    read_setting(run, study, input_files(run.manifest));
     std::vector<std::string> bin_names;
     for (const geometry::AxialBin& bin : run.bins) bin_names.push_back(bin.name);
     bin_names.insert(bin_names.begin(), "time_s");
@@ -362,7 +368,9 @@ const std::vector<JsonField> k_replay_fields{{"schema", JsonKind::text, true},
                                              {"run", JsonKind::text, true},
                                              {"flow_start_s", JsonKind::number, true},
                                              {"flow_end_s", JsonKind::number, true},
-                                             {"flow_change", JsonKind::number_or_null, true}};
+                                             {"flow_change", JsonKind::number_or_null, true},
+                                             {"files/*/input", JsonKind::text},
+                                             {"files/*/sha256", JsonKind::text}};
 
 /// The run that recorded the flow of a replay.
 /// \throws UserError  when it is gone, or has recorded another flow since
@@ -383,6 +391,16 @@ RecordedFlow read_recorded_flow(const fs::path& directory) {
         throw UserError({{file.string(), fmt::format("the flow that {} holds is not the one that was replayed", flow.run.string()),
                           "A replay belongs to one recorded flow", "Replay the rock again in a new folder"}});
     return flow;
+}
+
+/// The files of the run that recorded the flow, with those of the replay's own rock: earlier programs wrote none.
+std::map<std::string, std::string> files_of_replay(const fs::path& directory, const json& manifest) {
+    std::map<std::string, std::string> files;
+    for (const auto& [input, hash] : input_files(manifest))
+        if (input.rfind("feed[", 0) != 0) files[input] = hash;
+    const json replay = read_json_document(directory / names::replay, k_replay_fields, k_replay_again);
+    for (const json& file : replay.value("files", json::array())) files[file.value("input", "")] = file.value("sha256", "");
+    return files;
 }
 
 void require_same_operation(const OperatingPoint& replay, const OperatingPoint& flow, const fs::path& directory) {
@@ -413,7 +431,7 @@ RunData read_replay(const fs::path& directory) {
     run.feed = read_feed(directory / names::feed_report);
     run.rock = read_rock(directory);
     run.prediction = {};
-    read_setting(run, study);
+    read_setting(run, study, files_of_replay(directory, run.manifest));
     run.setting["recorded flow, revolutions"] = fmt::format("{:.9g}", flow.end / point.revolution_s());
     read_cost(run);
     if (!run.rock || run.cost.empty())

@@ -147,7 +147,7 @@ void check_study_file(const fs::path& folder, const std::string& file) {
     const geometry::Contour contour = cases::head_contour(*inspection.head, study.suction.gap);
     if (study.report.adv_points) cases::require_adv_points(study, size, inspection.head->surface, std::nullopt);
     const auto feeds = cases::place_feeds(study, coarse_scene(study, size, contour, inspection.head->surface));
-    cases::study_warnings(resolved, size);
+    cases::study_warnings(resolved, study, size);
     cases::carrying_warnings(study, *inspection.head);
     cases::feed_lines(feeds);
     cases::feed_json(feeds, study);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cases/scenes/cutter/flow_dictionaries.hpp"
+#include "cases/scenes/rock/shapes_section.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
@@ -55,9 +56,12 @@ meshing::FoamDictionary contact_section(const coupling::ContactSettings& contact
 }
 
 meshing::FoamDictionary rock_section(const coupling::CouplingSettings& settings, const coupling::DemSettings& dem) {
+    std::vector<std::string> shapes;
+    for (const coupling::ClumpShape& shape : dem.shapes) shapes.push_back(shape.name);
     meshing::FoamDictionary rock;
     rock.add("feed", file_name(settings.rock_feed));
     if (settings.queue) rock.add("queue", section_of(*settings.queue));
+    if (!shapes.empty()) rock.add("shapes", shapes_section(shapes));
     return rock.add("contact", contact_section(dem.contact)).add("walls", wall_list(dem.walls)).add("domain", domain_section(dem.domain));
 }
 
@@ -119,6 +123,17 @@ std::vector<FoamFile> case_files(const CaseInputs& inputs) {
     files.push_back(decompose_file(inputs.ranks));
     files.push_back({names::coupling_properties, "dictionary", coupling_dictionary(inputs)});
     return files;
+}
+
+/// \return files relative to the folder
+std::vector<fs::path> write_shapes(const fs::path& folder, const CaseInputs& inputs) {
+    if (!inputs.rock) return {};
+    std::vector<fs::path> written;
+    for (const ShapeFile& shape : inputs.rock->shapes) {
+        written.emplace_back(path_of_shape(shape.name));
+        write_file(folder / written.back(), shape.text);
+    }
+    return written;
 }
 
 void copy_surface(const fs::path& run_directory, const WallSource& surface) {
@@ -187,6 +202,7 @@ std::vector<fs::path> write_case(const fs::path& run_directory, const CaseInputs
         write_file(run_directory / sample_file(set), sample_points_csv(set));
         written.emplace_back(sample_file(set));
     }
+    for (const fs::path& shape : write_shapes(run_directory, inputs)) written.push_back(shape);
     if (inputs.rock) {
         for (const WallSource& surface : wall_sources()) {
             copy_surface(run_directory, surface);
@@ -206,6 +222,7 @@ void write_replay_case(const fs::path& folder, const CaseInputs& inputs) {
     files.push_back({names::coupling_properties, "dictionary", coupling_dictionary(inputs)});
     for (const FoamFile& file : files) meshing::write_foam_file(folder / file.path, file.foam_class, file.contents);
     write_file(folder / names::contour_for_solver, contour_csv(inputs.contour));
+    write_shapes(folder, inputs);
 }
 
 }  // namespace cutterflow::cases

@@ -130,6 +130,7 @@ coupling::DemSettings dem_settings(const CaseInputs& inputs) {
     dem.fluid = inputs.fluid;
     dem.added_mass = inputs.closures.added_mass;
     dem.gravity = inputs.gravity;
+    for (const ShapeFile& shape : inputs.rock->shapes) dem.shapes.push_back({shape.name, shape.clump});
     return dem;
 }
 

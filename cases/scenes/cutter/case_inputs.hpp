@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cases/scenes/flow/flow_files.hpp"
+#include "cases/study/shape_file.hpp"
 #include "geometry/base/axial_cylinder.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -70,6 +71,7 @@ struct CaseInputs {
         coupling::ContactSettings contact;
         std::vector<coupling::WallSettings> walls;  ///< files relative to the run directory
         double density = 2650.0;                    ///< [kg/m3], the heaviest of the feed
+        std::vector<ShapeFile> shapes{};            ///< of rock that is no sphere
     };
     std::optional<Rock> rock;                      ///< none: pure flow
     std::optional<coupling::QueueSettings> queue;  ///< of rock that comes all the time; none: batches

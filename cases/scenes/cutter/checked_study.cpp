@@ -7,6 +7,7 @@
 #include "cases/scenes/cutter/study_bank.hpp"
 #include "cases/scenes/cutter/study_case.hpp"
 #include "cases/scenes/cutter/velocity_points.hpp"
+#include "cases/study/study_shapes.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/parameters/parameter_reading.hpp"
@@ -22,6 +23,7 @@ struct ReadStudy {
     ParameterValues values;
     bool complete = false;  ///< no value is wrong or missing
     bool rules_hold = false;
+    bool shapes_are_sound = false;
 };
 
 /// What can be read of a study; mistakes of its text, rules and files are added.
@@ -34,6 +36,7 @@ ReadStudy read_with_mistakes(const fs::path& file, Mistakes& mistakes) {
     read.rules_hold = broken.empty();
     for (const char* key : k_files)
         if (const auto missing = missing_file(read.values, key, file.parent_path())) mistakes.add(*missing);
+    read.shapes_are_sound = mistakes.gather([&] { read_shapes(read.values, file.parent_path()); });
     return read;
 }
 
@@ -61,7 +64,7 @@ PlacedStudy place_study(const ParameterValues& resolved, const geometry::Head& h
 }
 
 std::vector<Mistake> head_warnings(const ParameterValues& resolved, const PlacedStudy& placed, const geometry::Head& head) {
-    std::vector<Mistake> warnings = study_warnings(resolved, placed.size);
+    std::vector<Mistake> warnings = study_warnings(resolved, placed.study, placed.size);
     for (const std::vector<Mistake>& more :
          {carrying_warnings(placed.study, head), blade_warnings(placed.study, head),
           swing_warnings(resolved, placed.study, placed.size, placed.contour), practice_warnings(placed.study, placed.size)})
@@ -88,7 +91,7 @@ CheckedStudy read_checked_study(const fs::path& file) {
         ParameterValues resolved = resolve_study(read.values, size);
         const std::vector<Mistake> broken = check_study(resolved, size);
         mistakes.add(broken);
-        if (!broken.empty() || !read.complete || !has_sizes(resolved, folder)) return;
+        if (!broken.empty() || !read.complete || !read.shapes_are_sound || !has_sizes(resolved, folder)) return;
         PlacedStudy placed = place_study(resolved, *inspection.head, folder, read.rules_hold);
         study = CheckedStudy{std::move(resolved), std::move(inspection), std::move(placed)};
     });

@@ -62,8 +62,8 @@ class StartPlaces {
 public:
     StartPlaces(const CutRequest& request, const CuttingHead& head)
         : head_(head), cutter_(head.cutter), sense_(head.rotation_speed > 0.0 ? 1.0 : -1.0) {
-        double smallest = request.classes.front().diameter;
-        for (const FeedClass& rock : request.classes) smallest = std::min(smallest, rock.diameter);
+        double smallest = request.classes.front().extent();
+        for (const FeedClass& rock : request.classes) smallest = std::min(smallest, rock.extent());
         const double depth = head.contour.z_ring() - head.contour.z_hub();
         const int heights = std::clamp(static_cast<int>(k_heights_per_diameter * depth / smallest), 4, k_most_heights);
         spacing_ = depth / heights;
@@ -71,11 +71,11 @@ public:
         for (int h = 0; h < heights; ++h) {
             const double z = head.contour.z_hub() + (h + 0.5) * spacing_;
             const auto faces = geometry::steel_intervals(cutter_, head.contour, z, sense_);
-            for (std::size_t c = 0; c < request.classes.size(); ++c) add(z, faces, request.classes[c].diameter, starts_[c]);
+            for (std::size_t c = 0; c < request.classes.size(); ++c) add(z, faces, request.classes[c].extent(), starts_[c]);
         }
         for (std::size_t c = 0; c < starts_.size(); ++c)
             if (starts_[c].empty())
-                throw UserError({{"", fmt::format("rock of {:.4g} m has no room ahead of any blade", request.classes[c].diameter),
+                throw UserError({{"", fmt::format("rock of {:.4g} m has no room ahead of any blade", request.classes[c].extent()),
                                   "Rock from a cut face starts within the contour, ahead of a blade's leading face",
                                   "Make the rock smaller, or check the cutter"}});
     }

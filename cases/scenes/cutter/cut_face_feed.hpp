@@ -49,7 +49,7 @@ double cut_mass_rate(const geometry::CutFace& face, double swing_speed, double g
 /// The seed draws which passing a rock comes with. Its place has its surface 0.05 d within the contour, ahead of the steel by 0.05 d or
 /// more, at a height where a leading face exists: rock of patches where the ring or the hub closes the circumference goes in as far within
 /// the nearest such height as it was cut beyond it. For rock that finds its place taken there are more, by whole diameters farther inwards,
-/// to half the contour's radius or to where the blade ends.
+/// to half the contour's radius or to where the blade ends. d is the diameter of the sphere around a rock, whatever its orientation.
 /// \throws UserError  when no blade has a leading face with room for a rock of some class, or the rocks are too many
 CutSchedule cut_face_schedule(const CutRequest& request, const CuttingHead& head);
 

@@ -31,10 +31,10 @@ double mass_of(const FeedClass& rock) {
     return sphere_mass(rock.diameter, rock.density);
 }
 
-double largest_diameter(const FeedRequest& request) {
+double largest_extent(const FeedRequest& request) {
     return std::max_element(request.classes.begin(), request.classes.end(),
-                            [](const FeedClass& a, const FeedClass& b) { return a.diameter < b.diameter; })
-        ->diameter;
+                            [](const FeedClass& a, const FeedClass& b) { return a.extent() < b.extent(); })
+        ->extent();
 }
 
 /// Whole numbers that add up to `total` in the proportion of `weights`: the largest remainders are rounded up.
@@ -66,7 +66,7 @@ std::vector<std::size_t> shuffled_classes(const std::vector<std::size_t>& counts
 }
 
 geometry::RockBatch batch_of(const FeedRequest& request, std::size_t count) {
-    const double diameter = largest_diameter(request);
+    const double diameter = largest_extent(request);
     geometry::RockBatch batch;
     batch.count = count;
     batch.diameter = diameter;
@@ -137,6 +137,13 @@ std::vector<PlacedFeed> place_swing(const FeedRequest& request, const Study& stu
     return feeds;
 }
 
+bool has_shapes(const std::vector<PlacedFeed>& feeds) {
+    return std::any_of(feeds.begin(), feeds.end(), [](const PlacedFeed& feed) {
+        const std::vector<FeedClass>& classes = feed.request.classes;
+        return std::any_of(classes.begin(), classes.end(), [](const FeedClass& rock) { return rock.shape.has_value(); });
+    });
+}
+
 }  // namespace
 
 PlacedRock placed_rock(const CutRock& rock, double angular_velocity) {
@@ -203,8 +210,9 @@ std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene) 
 std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds) {
     // Batches, which start with the water, and a cut face are not in one study.
     const bool of_cut_face = !feeds.empty() && feeds.front().request.kind == FeedKind::cut_face;
+    const bool shaped = has_shapes(feeds);
     std::string text = "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3";
-    text += of_cut_face ? ",vx_m_s,vy_m_s,vz_m_s,place\n" : "\n";
+    text += fmt::format("{}{}\n", of_cut_face ? ",vx_m_s,vy_m_s,vz_m_s,place" : "", shaped ? ",shape" : "");
     std::size_t id = 0;
     for (const PlacedFeed& feed : feeds)
         for (const PlacedRock& rock : feed.rocks) {
@@ -215,6 +223,7 @@ std::string rock_feed_csv(const std::vector<PlacedFeed>& feeds) {
                 text += fmt::format("{},{},{},{},{},{},{}", id, rock.time, position.x(), position.y(), position.z(), rock_class.diameter,
                                     rock_class.density);
                 if (of_cut_face) text += fmt::format(",{},{},{},{}", velocity->x(), velocity->y(), velocity->z(), i);
+                if (shaped) text += "," + (rock_class.shape ? rock_class.shape->name : std::string());
                 text += "\n";
             }
         }
@@ -232,6 +241,7 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
                                {"density_kg_m3", rock.density},
                                {"count", count},
                                {"settling_velocity_m_s", settling_speed(study, rock)}});
+            if (rock.shape) classes.back()["shape"] = rock.shape->file.filename().string();
         }
         list.push_back({{"requested", feed.requested},
                         {"placed", feed.rocks.size()},
@@ -246,7 +256,9 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
 
 double settling_speed(const Study& study, const FeedClass& rock) {
     physics::SettlingRock settling;
-    settling.rock = {rock.diameter, study.fluid.density, study.fluid.kinematic_viscosity, 1.0, study.closures.sphericity};
+    const double general = study.closures.sphericity;
+    const double sphericity = rock.shape ? rock.shape->clump.sphericity.value_or(general) : general;
+    settling.rock = {rock.diameter, study.fluid.density, study.fluid.kinematic_viscosity, 1.0, sphericity};
     settling.density = rock.density;
     settling.drag = physics::find_drag_law(study.closures.drag);
     settling.hindrance = physics::find_hindrance_law(study.closures.hindrance);

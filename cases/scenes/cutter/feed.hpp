@@ -51,7 +51,7 @@ struct FeedScene {
 FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::Contour& head, const geometry::TriangleSurface& cutter);
 
 /// Places every feed of a study, the cutter turned to its angle at the release. A feed of several classes is placed on the lattice of its
-/// largest; which place gets which class is drawn with the feed's seed.
+/// largest; which place gets which class is drawn with the feed's seed. Clumps have room for any orientation.
 /// \throws UserError  with every feed whose region has no free place at all
 std::vector<PlacedFeed> place_feeds(const Study& study, const FeedScene& scene);
 

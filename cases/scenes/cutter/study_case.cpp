@@ -34,6 +34,7 @@ CaseInputs::Rock rock_of(const Study& study) {
     CaseInputs::Rock rock;
     for (const FeedRequest& feed : study.feeds)
         for (const FeedClass& rock_class : feed.classes) rock.density = std::max(rock.density, rock_class.density);
+    rock.shapes = study.shapes();
     rock.contact = study.contact;
     rock.walls = standard_walls();
     if (study.bank && study.bank->adds_picks()) rock.walls.push_back(pick_wall());
