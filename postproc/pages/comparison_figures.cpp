@@ -372,8 +372,8 @@ std::string top_bin_of(const Comparison& comparison) {
 }
 
 Plot top_bin_plot(const Comparison& comparison, const Quantity& spilled, const Quantity& outflow) {
-    Plot plot = share_plot("top_bin", "mean radial velocity in the top bin, m/s",
-                           fmt::format("spilled there, % of {}", supplied_text(comparison)));
+    Plot plot =
+        share_plot("top_bin", "mean radial velocity in the top bin, m/s", fmt::format("spilled there, % of {}", supplied_text(comparison)));
     plot.x.tip = {".3f", " m/s"};
     double highest = 1.0;  // [%]; where nothing is spilled the axis still shows what a little would be
     double slowest = 0.0, fastest = 0.0;

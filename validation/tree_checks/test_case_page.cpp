@@ -23,8 +23,8 @@ std::set<std::string> matches(const std::string& text, const std::regex& pattern
 TEST(CasePage, lists_the_keys_and_sections_that_the_reader_knows) {
     const std::string reader = content("solver/foam/dictionary/coupling_dictionary.cpp");
     const std::regex read_key(
-        "\\b(?:read|read_choice|section|sections|read_section|read_optional|read_tabled|read_list|read_sides)\\((?:file, |section, "
-        ")?\"(\\w+)\"");
+        "\\b(?:read|read_choice|section|sections|read_section|read_optional|read_tabled|read_list|read_sides)\\((?:file, |section, |"
+        "wall, )?\"(\\w+)\"");
     std::set<std::string> known = matches(reader, read_key);
     for (const std::string& section : matches(content("solver/ports/settings.hpp"), std::regex("\\bvisit\\(\"(\\w+)\"")))
         known.insert(section);

@@ -51,8 +51,8 @@ TEST(Heap, of_a_dozen_grains_still_has_an_angle) {
     }
 }
 
-/// What the measured angles of repose of docs/results/heaps.md are off by their measure alone: discs of 10 and of 14 diameters' radius.
-TEST(Heap, of_a_repose_test_is_measured_too_low_by_what_is_published) {
+/// What the measured angles of docs/results/heaps.md are off by their measure alone: discs of 10 and of 14 diameters' radius.
+TEST(Heap, of_few_grains_is_measured_too_low_by_what_is_published) {
     for (const double radius : {10.0, 14.0})
         for (const double angle : {20.8, 29.2}) {
             double silhouettes = 0.0, cones = 0.0;

@@ -101,7 +101,7 @@ TEST(WallWork, of_a_hit_on_two_faces_at_once_is_their_share_of_the_energy) {
 
 TEST(WallWork, of_a_wall_that_comes_is_that_of_a_rock_that_comes) {
     Anvil anvil;
-    anvil.settings.walls[0].travel = {Vec3(0, 0, 1.5), 0.0, 0.01};
+    anvil.settings.walls[0].travels = {{Vec3(0, 0, 1.5), 0.0, 0.01}};
     const coupling::WallWork work = anvil.after(one_rock(Vec3(0.03, 0.02, 0.0101)), 0.008);
     const double energy = 0.5 * moved_mass() * 1.5 * 1.5;
     EXPECT_NEAR(total(work.impact), energy, 0.015 * energy);

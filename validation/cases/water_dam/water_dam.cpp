@@ -77,7 +77,7 @@ std::vector<coupling::WallSettings> walls_of(const Trial& trial, const std::file
     const Gate gate = gate_of(trial);
     const std::filesystem::path file = std::filesystem::absolute(folder / "gate.stl");
     write_file(file, wall_surface_stl({gate.closed}, k_cylinder_length));
-    return {{"gate", file, false, {Vec3(0, 0, gate.speed), gate.start, gate.end}}};
+    return {{"gate", file, false, {{Vec3(0, 0, gate.speed), gate.start, gate.end}}}};
 }
 
 Outcome follow(const Trial& trial, const std::filesystem::path& folder) {
