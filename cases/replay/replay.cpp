@@ -520,11 +520,13 @@ ReplayResults run_replays(const ReplaySettings& settings, const std::function<vo
     fs::create_directories(settings.folder);
     const FolderLock lock(settings.folder);
     require_folder(settings, plan);  // another call may have worked there since
-    write_file(settings.folder / k_plan, plan.dump(2) + "\n");
+    const auto write_plan = [&] { write_file(settings.folder / k_plan, plan.dump(2) + "\n"); };
+    if (!holds_replays(settings.folder)) write_plan();
 
     ReplayResults results;
     Replays replays(settings, runs);
     results.replays = replays.take_all();
+    write_plan();  // an earlier program's says less; now its replays were held against their flow
     if (replays.unfed() > 0)
         say(
             fmt::format("warning: {} of these replays are an earlier program's, whose feed ended up to the passing of a blade before them: "

@@ -384,7 +384,7 @@ TEST_F(RoomRuns, a_bed_that_is_not_at_rest_or_lost_grains_is_refused) {
     EXPECT_NE(call({"run", "open.toml", "-o", "open"}, 4).find("left the room. A bed has all grains that are poured"), std::string::npos);
     write_file(folder_ / "loose.toml", room + pour + "[[prepare]]\ndo = \"freeze\"\nabove_m = 0.07\n" + rest);
     const std::string said = call({"run", "loose.toml", "-o", "loose"}, 2);
-    EXPECT_NE(said.find("loose.toml:11: do = \"freeze\" finds 0 grains in its region"), std::string::npos) << said;
+    EXPECT_NE(said.find("loose.toml:13: do = \"freeze\" finds 0 grains in its region"), std::string::npos) << said;
     EXPECT_NE(said.find("those of its 60 lie from"), std::string::npos) << said;
 }
 

@@ -358,7 +358,7 @@ Plot bins_plot(const Comparison& comparison, const std::string& what, const std:
 
 /// What shares of spilled rock are over.
 const char* supplied_text(const Comparison& comparison) {
-    return scope_of(comparison).fed_by_cutting ? "what was fed in the window" : "the placed mass";
+    return scope_of(comparison).fed_by_cutting ? "the fed mass" : "the placed mass";
 }
 
 /// Of all heads: a bin counts through which enough of the rock left any of them.

@@ -178,7 +178,7 @@ Figure outcome(const Spillage& spillage) {
 
 /// What shares of spilled rock are over.
 const char* supplied_text(const Results& results) {
-    return results.fed ? "what was fed in the window" : "the placed mass";
+    return results.fed ? "the fed mass" : "the placed mass";
 }
 
 /// Spilled share of the supplied mass per bin (with rock) and radial outflow on the upper axis, in the bins' order along the axis.

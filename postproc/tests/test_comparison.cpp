@@ -113,7 +113,7 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     EXPECT_NEAR(*gap.settings[0].value, 2.0 * testing::small_rock_mass() / comparison.runs[0].results.fed->production.fed, 1e-9);
     EXPECT_EQ(*quantity_of(comparison, "spilled_0-30mm_share").settings[0].value, 0.0);
     for (const Figure& figure : comparison_figures(comparison))
-        if (figure.plot.name == "spilled") EXPECT_EQ(figure.plot.x.title, "spilled, % of what was fed in the window");
+        if (figure.plot.name == "spilled") EXPECT_EQ(figure.plot.x.title, "spilled, % of the fed mass");
 }
 
 fs::path swinging(const std::string& name, double swing_m_min) {
