@@ -4,9 +4,12 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "cases/scenes/cutter/case_builder.hpp"
@@ -17,6 +20,7 @@
 #include "geometry/base/run_files.hpp"
 #include "geometry/base/sphere.hpp"
 #include "geometry/cgal/solid_search.hpp"
+#include "geometry/clump/clump.hpp"
 #include "geometry/head/head_names.hpp"
 #include "geometry/io/write_stl.hpp"
 #include "geometry/soil/bank.hpp"
@@ -87,7 +91,8 @@ struct CutFaceRun {
     bool with_rock = true;
     double lost_share = 0.0;  ///< of the schedule: a lie
     Vec3 hauling = Vec3::Zero();
-    double checkpoint_interval = 1.0;  ///< [s]
+    double checkpoint_interval = 1.0;            ///< [s]
+    std::optional<cases::ShapeFile> shape = {};  ///< of the rock; none: spheres
 };
 
 cases::PlacedFeed feed_of(const CutFaceRun& run, const geometry::Bank& bank, const geometry::Contour& head,
@@ -98,7 +103,7 @@ cases::PlacedFeed feed_of(const CutFaceRun& run, const geometry::Bank& bank, con
     cut.begin = k_begin;
     cut.end = run.end;
     cut.seed = 1;
-    cut.classes = {{k_diameter, k_grain_density, 1.0}};
+    cut.classes = {{k_diameter, k_grain_density, 1.0, run.shape}};
     cases::PlacedFeed feed;
     feed.request.kind = cases::FeedKind::cut_face;
     feed.request.classes = cut.classes;
@@ -131,6 +136,7 @@ void write_run(const fs::path& folder, const CutFaceRun& run) {
     if (run.with_rock) {
         inputs.rock.emplace();
         inputs.rock->density = k_grain_density;
+        if (run.shape) inputs.rock->shapes = {*run.shape};
         inputs.rock->walls = {cases::bank_wall(run.hauling)};
         inputs.queue = coupling::QueueSettings{0.005, 0.5 * k_period, k_reach};
         inputs.fates.cutting = coupling::CuttingSettings{0.75 * k_outer_radius, Vec3(0.0, -1.0, 0.0), 1.5 * k_outer_radius};
@@ -280,6 +286,66 @@ double largest_with_rock(const Table& balance, const char* column) {
     for (std::size_t i = 0; i < balance.at("time_s").size(); ++i)
         if (balance.at("time_s")[i] >= k_begin) most = larger(most, std::abs(balance.at(column)[i]));
     return most;
+}
+
+/// Three spheres in a row, half as thick as long.
+cases::ShapeFile three_in_a_row() {
+    std::string text;
+    geometry::Clump clump;
+    for (const double x : {-1.0, 0.0, 1.0}) {
+        clump.balls.push_back({Vec3(x, 0.0, 0.0), 1.0});
+        text += fmt::format("[[sphere]]\nx_m = {}\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n", x);
+    }
+    return {"row", "row.clump", text, geometry::unit_clump(clump)};
+}
+
+/// Ids of the rows of a table that have `word` in the column of that number; of all rows without one.
+std::set<std::string> ids_of(const fs::path& table, std::size_t id, std::size_t column = 0, const std::string& word = {}) {
+    std::set<std::string> ids;
+    std::istringstream lines(read_file(table));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        std::vector<std::string> fields;
+        std::istringstream row(line);
+        for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
+        if (word.empty() || fields.at(column) == word) ids.insert(fields.at(id));
+    }
+    return ids;
+}
+
+/// Coupling, events, ledger and fates see one body, which has the volume of its sphere.
+TEST(CutFace, of_clumps_is_fed_and_counted_as_bodies) {
+    CutFaceRun run{k_begin + 0.3 * k_period};
+    run.shape = three_in_a_row();
+    const fs::path folder = scratch_folder("cut_face_clumps");
+    write_run(folder, run);
+    run_cutter_foam(folder, 1);
+
+    const Table ledger = table_of(folder, "rock/ledger.csv"), balance = table_of(folder, "balance/balance.csv");
+    EXPECT_LE(largest(ledger.at("error")), 1e-9);
+    const double one = sphere_mass(k_diameter, k_grain_density), fed = ledger.at("fed_kg").back();
+    const std::set<std::string> scheduled = ids_of(folder / names::rock_feed, 0);
+    EXPECT_NEAR(fed, static_cast<double>(scheduled.size()) * one, 1e-6 * fed) << "a clump weighs what its sphere does";
+    const std::set<std::string> placed = ids_of(folder / "postProcessing/rock/0/events.csv", 1, 2, "feed");
+    ASSERT_GT(placed.size(), 5u);
+    EXPECT_NEAR(static_cast<double>(placed.size()) * one + ledger.at("owed_kg").back(), fed, 1e-6 * fed);
+    EXPECT_LE(placed.size(), scheduled.size());
+    EXPECT_EQ(table_of(folder, "rock/fates.csv").at("placed_count").back(), static_cast<double>(placed.size()));
+    const double gone = (ledger.at("delivered_kg").back() + ledger.at("left_behind_kg").back()) / one;
+    EXPECT_NEAR(balance.at("rocks").back(), static_cast<double>(placed.size()) - gone, 1e-6);
+    EXPECT_LE(largest(balance.at("solid_volume_error")), 1e-12);
+    EXPECT_LE(largest_with_rock(balance, "momentum_error"), 1e-5);
+
+    const geometry::SolidSearch cutter(steel());
+    for (const Start& start : starts_of(folder)) {
+        const Vec3 in_rotor = Eigen::AngleAxisd(-start.angle, Vec3::UnitZ()) * start.position;
+        EXPECT_GE(cutter.nearest(in_rotor).distance, 0.5 * run.shape->girth() * k_diameter) << "whatever its orientation";
+    }
+    EXPECT_THAT(read_file(folder / "postProcessing/rock/shapes.json"), ::testing::HasSubstr("\"row\""));
+    fmt::print("{} clumps of {} in, ledger off by {:.1e}, momentum by {:.1e}, overlap {:.3f} of a sphere's radius\n", placed.size(),
+               scheduled.size(), largest(ledger.at("error")), largest_with_rock(balance, "momentum_error"),
+               largest(balance.at("overlap_ratio_max")));
 }
 
 CutFaceRun head_that_travels() {
