@@ -74,16 +74,6 @@ geometry::TriangleSurface steel() {
     return surface;
 }
 
-geometry::Bank bank(const geometry::Contour& head) {
-    geometry::BankParameters parameters;
-    parameters.inclination = k_inclination;
-    parameters.cut_height = 0.12;
-    parameters.step = 0.06;
-    parameters.pick_length = 0.01;
-    parameters.clearance = 0.005;
-    return {head, parameters};
-}
-
 /// A run of the rotor beside its bank. Its water is gone from the outlet ring in the top, which is the mouth.
 struct CutFaceRun {
     double end = 0.0;            ///< [s]
@@ -130,7 +120,7 @@ void write_run(const fs::path& folder, const CutFaceRun& run) {
     inputs.fates.mouth.centre = Vec3(0.0, 0.0, 0.03);
     inputs.fates.mouth.radius = 0.32;
     inputs.fates.mouth.depth = 0.055;
-    const geometry::Bank soil = bank(head);
+    const geometry::Bank soil = validation::bank_beside_rotor(head);
     const geometry::TriangleSurface cutter = steel();
     std::string feed;
     if (run.with_rock) {
@@ -206,7 +196,7 @@ double range_of(const Table& table, const char* column, double from) {
 TEST(CutFace, feeds_three_revolutions_beside_its_bank) {
     const CutFaceRun run{k_begin + 3.0 * k_period};
     const geometry::Contour head = cases::test::tiny_inputs().contour;
-    const geometry::Bank soil = bank(head);
+    const geometry::Bank soil = validation::bank_beside_rotor(head);
     const fs::path folder = scratch_folder("cut_face");
     write_run(folder, run);
     run_cutter_foam(folder, 1);
@@ -258,7 +248,7 @@ TEST(CutFace, feeds_three_revolutions_beside_its_bank) {
 TEST(CutFace, finds_a_schedule_that_loses_a_twentieth) {
     CutFaceRun run{k_begin + 0.5 * k_period};
     run.lost_share = 0.05;
-    const geometry::Bank soil = bank(cases::test::tiny_inputs().contour);
+    const geometry::Bank soil = validation::bank_beside_rotor(cases::test::tiny_inputs().contour);
     const fs::path folder = scratch_folder("cut_face_lying");
     write_run(folder, run);
     run_cutter_foam(folder, 1);
