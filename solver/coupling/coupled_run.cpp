@@ -100,7 +100,13 @@ std::vector<std::size_t> all_of(const Rocks& rocks) {
 
 CoupledRun::CoupledRun(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine* dem,
                        Communicator& communicator, RunRecorder& recorder, const fs::path& case_folder)
-    : settings_(settings), fluid_(fluid), dem_(dem), communicator_(communicator), recorder_(recorder), case_folder_(case_folder) {
+    : settings_(settings),
+      fluid_(fluid),
+      dem_(dem),
+      communicator_(communicator),
+      recorder_(recorder),
+      case_folder_(case_folder),
+      last_picture_(fluid.time()) {
     Mistakes mistakes;
     mistakes.add(check_settings(settings, properties, names::coupling_properties));
     if (settings.fates || settings.outflow)

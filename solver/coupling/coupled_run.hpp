@@ -33,7 +33,7 @@ namespace cutterflow::coupling {
 ///   remove_finished_rock, act_on_bed, insert_due_rock   rock that is sucked up or left behind goes, events act, rock of the feed comes in;
 ///                     the void fraction is replaced without a source
 ///   sample_flow       u, alpha, Du/Dt at every rock with psi(x(t)) on the mesh at t
-///   begin_fluid_step  the fluid picks dt (rock travels <= 0.25 min(sigma, dx)) and moves the mesh
+///   begin_fluid_step  the fluid picks dt (rock travels a quarter of its kernel at most) and moves the mesh
 ///   move_rock         (rho_s + C_AM rho_f) V dv/dt = D(v)(u - v) + (1 + C_AM) rho_f V Du/Dt + weight - buoyancy + contacts, every DEM step
 ///   map_rock          alpha from w(x(t)) and w(x(t + dt)), both on the mesh at t + dt; momentum exchange with w(x(t + dt))
 ///   end_fluid_step    momentum, pressure with d(alpha)/dt, turbulence
@@ -49,7 +49,8 @@ public:
     CoupledRun(const CouplingSettings& settings, const FluidProperties& properties, FluidEngine& fluid, DemEngine* dem,
                Communicator& communicator, RunRecorder& recorder, const std::filesystem::path& case_folder);
 
-    /// One step, see above. \throws CheckFailure when the engines disagree about the rotor's angle, or rock is outside the fluid's mesh
+    /// One step, see above. \throws CheckFailure when the engines disagree about the rotor's angle, or rock of a
+    /// mapping other than gaussian is outside the fluid's mesh
     void step();
 
     /// True when a stop rule holds: every feed is in and the undecided share is small enough; production is known well enough; every feed
@@ -132,7 +133,7 @@ private:
     RunCost run_cost_;
     double processor_start_ = 0.0;  ///< processor time of this process when the run began [s]
     double last_checkpoint_ = 0.0;
-    double last_picture_ = 0.0;  // of this start [s]
+    double last_picture_;  // of this start [s]
     bool is_recorded_ = false;
 };
 

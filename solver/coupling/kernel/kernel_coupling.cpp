@@ -348,10 +348,10 @@ void KernelCoupling::note_rock_without_cells() {
     const Vec3& x = rocks.position[last];
     warnings_.push_back(
         fmt::format("{} rock(s) so far had no cell of the mesh in reach, rock {} at ({:.6g} {:.6g} {:.6g}) m is one: until it "
-                    "has cells it moves by contacts and weight less buoyancy alone, and the fluid feels nothing of it; "
-                    "solid_volume_error of balance.csv tells its volume. Let rock.domain end inside the mesh, or make cells "
-                    "finer there",
-                    without_cells_.size(), rocks.id[last], x[0], x[1], x[2]));
+                    "has cells it moves by contacts and weight less buoyancy alone, and the fluid feels nothing of it{}. "
+                    "Let rock.domain end inside the mesh, or make cells finer there",
+                    without_cells_.size(), rocks.id[last], x[0], x[1], x[2],
+                    fluid_.feels_rock() ? "; solid_volume_error of balance.csv tells its volume" : ""));
 }
 
 /// \throws CheckFailure  when a cell has no room left
@@ -362,9 +362,15 @@ void KernelCoupling::note_fullness(const std::vector<double>& solid_fraction, do
     balance_.overfull_cells = count_above(limit, solid_fraction, communicator_);
     if (balance_.overfull_cells > 0)
         warn_once("overfull",
-                  fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room; "
-                              "balance.csv counts them",
-                              balance_.overfull_cells, limit, largest));
+                  fmt::format("{} cells hold more than kernel.maxSolidFraction = {}, at most {:.3f}: no cell in reach has room{}",
+                              balance_.overfull_cells, limit, largest, fluid_.feels_rock() ? "; balance.csv counts them" : ""));
+}
+
+/// Rock that has cells at one end of the step only would be a source of fluid as large as itself: it counts at neither.
+std::vector<double> KernelCoupling::volumes_of_rock_in_both(std::vector<double> volumes) const {
+    for (const Stencils* stencils : {&old_, &present_})
+        for (const std::size_t p : stencils->without_cells) volumes[p] = 0.0;
+    return volumes;
 }
 
 void KernelCoupling::map() {
@@ -374,7 +380,7 @@ void KernelCoupling::map() {
     const double dt = fluid_.time_step();
     mapping_.set_time(fluid_.time());
 
-    // Both void fractions hold the same set of rock: those that are still here.
+    // Both void fractions hold the same set of rock: those that are still here and have cells before and after the step.
     std::vector<Vec3> old_position, velocity_change;
     for (std::size_t p = 0; p < rocks.size(); ++p) {
         old_position.push_back(before_.position[index_before_[p]]);
@@ -382,10 +388,10 @@ void KernelCoupling::map() {
     }
     mapping_.build(shapes(old_position), old_);
     mapping_.build(shapes(rocks.position), present_);
-    const std::vector<double> volumes = volumes_of(rocks);
+    const std::vector<double> volumes = volumes_of(rocks), laid = volumes_of_rock_in_both(volumes);
     Stencils* const both[] = {&old_, &present_};
-    const auto fractions = redistribute(both, volumes, cell_volume, redistribution_limit(settings_.kernel), communicator_);
-    void_fraction_old_ = void_fraction_before(volumes, fractions[0], fractions[1]);
+    const auto fractions = redistribute(both, laid, cell_volume, redistribution_limit(settings_.kernel), communicator_);
+    void_fraction_old_ = void_fraction_before(laid, fractions[0], fractions[1]);
     void_fraction_new_ = void_fraction_of(fractions[1]);
 
     source_.resize(carry_.size());

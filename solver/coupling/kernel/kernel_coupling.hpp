@@ -98,6 +98,7 @@ private:
     void add_impulses(const Stencils& stencils, gsl::span<const Vec3> impulse, gsl::span<const Vec3> velocity_change,
                       gsl::span<const double> volume);
     void even_out_within_kernels(const std::vector<double>& drag);
+    std::vector<double> volumes_of_rock_in_both(std::vector<double> volumes) const;
     std::vector<double> void_fraction_before(const std::vector<double>& volume, const std::vector<double>& old_solid,
                                              const std::vector<double>& present_solid) const;
     physics::RockInFluid rock_in_fluid(const Rocks& rocks, std::size_t p, const FlowAtRock& flow) const;

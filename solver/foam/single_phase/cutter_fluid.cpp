@@ -133,10 +133,6 @@ void CutterFluid::save_state() {
     state_.set("continuityCumulative", continuity_cumulative_);
 }
 
-bool CutterFluid::running() {
-    return time_.run();
-}
-
 void CutterFluid::begin_step(double travel_limit, double stop_time) {
     choose_time_step(travel_limit, stop_time);
     ++time_;

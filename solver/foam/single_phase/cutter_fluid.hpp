@@ -106,6 +106,7 @@ private:
     void evaluate_flux_conditions();
     void require_supported_case() const;
     void require_case_for_rock() const;
+    void take_in_the_rest();
     void update_courant_number();
     void choose_time_step(double travel_limit, double stop_time);
     double next_write_time() const;

@@ -16,6 +16,18 @@ constexpr double k_time_tolerance = 1e-6;
 
 }  // namespace
 
+bool CutterFluid::running() {
+    take_in_the_rest();
+    return time_.run();
+}
+
+/// OpenFOAM's run ends within half a step of its end time. A step that was cut at a write time or a release may leave less than that.
+void CutterFluid::take_in_the_rest() {
+    const scalar left = time_.endTime().value() - time_.value();
+    const bool is_less = left > k_time_tolerance * time_.deltaTValue() && left < time_.deltaTValue();
+    if (is_less && time_.controlDict().lookupOrDefault("adjustTimeStep", false)) time_.setDeltaT(left, false);
+}
+
 void CutterFluid::update_courant_number() {
     const scalarField gross_flux(fvc::surfaceSum(mag(phi_))().primitiveField());
     const scalar half_step = 0.5 * time_.deltaTValue();
