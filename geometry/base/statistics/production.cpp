@@ -31,18 +31,6 @@ double at(const std::vector<double>& times, const std::vector<double>& values, d
     return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-/// Mean of a series over [from, to], linear between its times.
-double mean_over(const std::vector<double>& times, const std::vector<double>& values, double from, double to) {
-    std::vector<double> nodes{from};
-    for (const double time : times)
-        if (time > from && time < to) nodes.push_back(time);
-    nodes.push_back(to);
-    double integral = 0.0;
-    for (std::size_t i = 1; i < nodes.size(); ++i)
-        integral += 0.5 * (at(times, values, nodes[i - 1]) + at(times, values, nodes[i])) * (nodes[i] - nodes[i - 1]);
-    return integral / (to - from);
-}
-
 /// What a growing series gained in equal intervals from `from` on, as many as end by `to`.
 std::vector<double> gains(const std::vector<double>& times, const std::vector<double>& values, double from, double to, double interval) {
     std::vector<double> gained;
@@ -93,6 +81,24 @@ std::optional<double> first_fed(const ProductionSeries& series) {
     return series.time[static_cast<std::size_t>(fed - series.fed.begin())];
 }
 
+/// Number of values up to the feed's end: the last time at which anything was fed, when nothing came since for twice as long as ever
+/// between two times; all of them otherwise.
+std::size_t values_with_feed(const ProductionSeries& series) {
+    std::size_t last = 0;
+    double longest = 0.0;
+    for (std::size_t i = 1; i < series.time.size(); ++i) {
+        if (!(series.fed[i] > series.fed[i - 1])) continue;
+        if (last > 0) longest = std::max(longest, series.time[i] - series.time[last]);
+        last = i;
+    }
+    const bool ended = longest > 0.0 && series.time.back() - series.time[last] > 2.0 * longest;
+    return ended ? last + 1 : series.time.size();
+}
+
+std::vector<double> first_of(const std::vector<double>& values, std::size_t count) {
+    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 }  // namespace
 
 std::size_t mser5_truncation(const std::vector<double>& values) {
@@ -133,6 +139,17 @@ double gain_over(const std::vector<double>& times, const std::vector<double>& va
     return at(times, values, to) - at(times, values, from);
 }
 
+double mean_over(const std::vector<double>& times, const std::vector<double>& values, double from, double to) {
+    std::vector<double> nodes{from};
+    for (const double time : times)
+        if (time > from && time < to) nodes.push_back(time);
+    nodes.push_back(to);
+    double integral = 0.0;
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+        integral += 0.5 * (at(times, values, nodes[i - 1]) + at(times, values, nodes[i])) * (nodes[i] - nodes[i - 1]);
+    return integral / (to - from);
+}
+
 double longest_time_above(const std::vector<double>& time, const std::vector<double>& values, double limit) {
     double longest = 0.0;
     std::optional<double> since;
@@ -152,7 +169,10 @@ double shortest_fed_time(double revolution) {
            static_cast<double>(k_fewest_batches) * std::max(revolution, k_shortest_batch);
 }
 
-std::optional<Production> production_of(const ProductionSeries& series, double revolution) {
+std::optional<Production> production_of(const ProductionSeries& whole, double revolution) {
+    const std::size_t count = values_with_feed(whole);
+    const ProductionSeries series{first_of(whole.time, count), first_of(whole.fed, count), first_of(whole.delivered, count),
+                                  first_of(whole.spilled, count), first_of(whole.held, count)};
     const std::optional<double> begin = first_fed(series);
     if (!begin) return std::nullopt;
     const double end = series.time.back();

@@ -33,6 +33,9 @@ std::optional<BatchMeans> batch_means(const std::vector<double>& values, std::si
 /// What a growing series gained over [from, to], linear between its times.
 double gain_over(const std::vector<double>& times, const std::vector<double>& values, double from, double to);
 
+/// Mean of a series over [from, to], linear between its times.
+double mean_over(const std::vector<double>& times, const std::vector<double>& values, double from, double to);
+
 /// Longest stretch of time [s] over which a series stays above a limit.
 double longest_time_above(const std::vector<double>& time, const std::vector<double>& values, double limit);
 
@@ -51,8 +54,8 @@ struct Production {
 
 /// Start-up ends once the means of hold-up over two successive windows of max(1 revolution, 1.5 s) differ by less than 10 %, but not before
 /// max(2 revolutions, 3 s) after the first rock, nor before MSER-5 of the delivered rate says so. The window is all whole revolutions from
-/// there to the end. Batches are max(1 revolution, 1 s) long.
-/// \param revolution  [s] \return nothing when nothing was fed or no whole revolution is left
+/// there to the end, or to the end of the feed where that is earlier: a head that empties produces nothing steady. Batches are max(1
+/// revolution, 1 s) long. \param revolution  [s] \return nothing when nothing was fed or no whole revolution is left
 std::optional<Production> production_of(const ProductionSeries& series, double revolution);
 
 /// Time [s] that a head must be fed before the share that it delivers has an interval: the shortest start-up and the fewest batches of

@@ -20,7 +20,10 @@ double student_factor(double degrees_of_freedom) {
 Sample sample_of(const std::vector<double>& values) {
     Sample sample;
     sample.count = values.size();
-    for (const double value : values) sample.mean += value / static_cast<double>(sample.count);
+    if (values.empty()) return sample;
+    double above_first = 0.0;  // so that the mean of equal values is that value, to the bit
+    for (const double value : values) above_first += value - values.front();
+    sample.mean = values.front() + above_first / static_cast<double>(sample.count);
     for (const double value : values) sample.variance += (value - sample.mean) * (value - sample.mean);
     if (sample.count > 1) sample.variance /= static_cast<double>(sample.count - 1);
     return sample;

@@ -76,16 +76,16 @@ TEST(BatchMeans, are_refused_below_eight_batches) {
     EXPECT_FALSE(batch_means(drift, 10)) << "a drift correlates however long the batch";
 }
 
-/// Rock of 20 g is fed at 10 kg/s from 1 s on. Each rock in the head leaves it with the chance dt/residence in a step, 6 of 10 to the
-/// mouth; of what is fed, the share `stuck` stays for good. Hold-up is 10 residence on average.
-ProductionSeries reservoir(double residence, double end, double stuck = 0.0) {
+/// Rock of 20 g is fed at 10 kg/s from 1 s on, up to `feed_end` [s]. Each rock in the head leaves it with the chance dt/residence in a
+/// step, 6 of 10 to the mouth; of what is fed, the share `stuck` stays for good. Hold-up is 10 residence on average.
+ProductionSeries reservoir(double residence, double end, double stuck = 0.0, double feed_end = 1e9) {
     constexpr double mass = 0.02, step = 0.01;
     std::mt19937_64 generator(11);
     const auto leaving = [&](double mean) { return mass * static_cast<double>(std::poisson_distribution<int>(mean / mass)(generator)); };
     ProductionSeries series;
     double fed = 0.0, delivered = 0.0, spilled = 0.0;
     for (double time = 0.0; time <= end + 1e-9; time += step) {
-        if (time > 1.0) fed += 10.0 * step;
+        if (time > 1.0 && time <= feed_end) fed += 10.0 * step;
         const double out = std::max(0.0, (1.0 - stuck) * fed - delivered - spilled) * step / residence;
         delivered += leaving(0.6 * out);
         spilled += leaving(0.4 * out);
@@ -116,6 +116,16 @@ TEST(Production, of_a_reservoir_is_its_share_once_it_is_full) {
     EXPECT_LE(production->share->half_interval, 0.04);
     EXPECT_NEAR(production->spillage_min, 0.4, 0.03);
     EXPECT_NEAR(production->undelivered, 1.0 - share, 1e-12);
+}
+
+TEST(Production, of_a_head_that_empties_is_that_of_its_feed) {
+    const auto whole = production_of(reservoir(0.5, 21.0), 1.0), emptied = production_of(reservoir(0.5, 30.0, 0.0, 21.0), 1.0);
+    ASSERT_TRUE(whole && emptied);
+    EXPECT_NEAR(emptied->to, 21.0, 0.011);
+    EXPECT_NEAR(emptied->fed / (emptied->to - emptied->from), 10.0, 0.01);
+    EXPECT_NEAR(emptied->delivered / emptied->fed, whole->delivered / whole->fed, 1e-3);
+    EXPECT_TRUE(emptied->is_steady);
+    ASSERT_TRUE(emptied->share);
 }
 
 TEST(Production, without_a_steady_hold_up_has_bounds) {

@@ -14,16 +14,32 @@ constexpr std::array<std::vector<double> ProductionSeries::*, 5> k_columns{
 }  // namespace
 
 void ProductionWatch::add(double time, const RockLedger& ledger) {
-    const auto turn_at = [&](double moment) { return std::floor((moment - series_.time.front()) / revolution_ * (1.0 + 1e-12)); };
-    const bool ends_a_turn = !series_.time.empty() && turn_at(time) > turn_at(series_.time.back());
     series_.time.push_back(time);
     series_.fed.push_back(ledger.fed);
     series_.delivered.push_back(ledger.delivered);
     series_.spilled.push_back(ledger.spilled());
     series_.held.push_back(ledger.held());
-    if (!ends_a_turn) return;
-    const std::optional<Production> production = production_of(series_, revolution_);
-    is_known_ = production && production->is_steady && production->share && production->share->half_interval <= target_;
+    if (ends_a_turn(series_.time.size() - 1)) is_known_ = tells_enough(series_);
+}
+
+/// Whether a whole revolution of the series ends at its value `i` or since the one before.
+bool ProductionWatch::ends_a_turn(std::size_t i) const {
+    const auto turn_at = [&](double moment) { return std::floor((moment - series_.time.front()) / revolution_ * (1.0 + 1e-12)); };
+    return i > 0 && turn_at(series_.time[i]) > turn_at(series_.time[i - 1]);
+}
+
+bool ProductionWatch::tells_enough(const ProductionSeries& series) const {
+    const std::optional<Production> production = production_of(series, revolution_);
+    return production && production->is_steady && production->share && production->share->half_interval <= target_;
+}
+
+/// As it was told at the end of the last whole revolution.
+bool ProductionWatch::was_known() const {
+    std::size_t asked = series_.time.size();
+    while (asked > 0 && !ends_a_turn(asked - 1)) --asked;
+    ProductionSeries until = series_;
+    for (const auto column : k_columns) (until.*column).resize(asked);
+    return asked > 0 && tells_enough(until);
 }
 
 void ProductionWatch::write(std::ostream& stream) const {
@@ -49,6 +65,7 @@ bool ProductionWatch::restore(std::istream& stream) {
     }
     if (!stream) return false;
     series_ = std::move(series);
+    is_known_ = was_known();
     return true;
 }
 

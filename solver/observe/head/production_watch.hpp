@@ -23,6 +23,10 @@ public:
     bool restore(std::istream& stream);
 
 private:
+    bool ends_a_turn(std::size_t i) const;
+    bool tells_enough(const ProductionSeries& series) const;
+    bool was_known() const;
+
     double revolution_, target_;
     ProductionSeries series_;
     bool is_known_ = false;

@@ -104,6 +104,23 @@ TEST(ProductionWatch, goes_on_to_the_bit_from_its_file) {
     EXPECT_EQ(a.str(), b.str());
 }
 
+TEST(ProductionWatch, that_knew_enough_knows_it_from_its_file) {
+    constexpr double target = 0.03;
+    ProductionWatch watch(k_revolution, target), resumed(k_revolution, target), later(k_revolution, target);
+    ProductionSeries series;
+    const std::optional<double> end = end_of(watch, Head(), 200.0, series);
+    ASSERT_TRUE(end);
+    std::stringstream file;
+    watch.write(file);
+    ASSERT_TRUE(resumed.restore(file));
+    EXPECT_TRUE(resumed.is_known());
+    resumed.add(*end + k_step, Head().next());  // within the revolution after it
+    std::stringstream next;
+    resumed.write(next);
+    ASSERT_TRUE(later.restore(next));
+    EXPECT_TRUE(later.is_known());
+}
+
 TEST(ProductionWatch, refuses_a_file_that_is_cut_short) {
     ProductionWatch watch(k_revolution, 0.03), other(k_revolution, 0.03);
     watch.add(0.1, Head().next());
