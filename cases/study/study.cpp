@@ -143,15 +143,6 @@ bool is_cut_face(const ParameterValues& feed) {
     return feed.text("feed.kind") == k_cut_face;
 }
 
-void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
-    fill_from(feed, "feed.start_revolution", [&] { return study.number("run.flow_revolutions"); });
-    if (!feed.has("feed.kind") || is_cut_face(feed)) return;
-    fill_from(feed, "feed.azimuth_centre_deg",
-              [&] { return bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")); });
-    fill(feed, "feed.radius_to_m", head.tip_radius);
-    fill(feed, "feed.depth_to_m", head.depth);
-}
-
 bool has_size_law(const ParameterValues& feed) {
     return feed.text("feed.size_law") != k_classes;
 }
@@ -172,6 +163,25 @@ SizeDistribution sizes_of(const ParameterValues& feed) {
     const bool rosin = feed.text("feed.size_law") == k_rosin_rammler;
     return {rosin ? SizeLaw::rosin_rammler : SizeLaw::log_normal, feed.number(keys_of_law(feed).front()), feed.number("feed.size_spread"),
             feed.number("feed.size_min_m"), feed.number("feed.size_max_m")};
+}
+
+/// Of a feed from a cut face: what a law has below its smallest rock is fines, and rock is as dense as the soil's grains.
+void resolve_cut(ParameterValues& feed, const ParameterValues& study) {
+    if (feed.where("feed.disintegration").empty() && has_size_law(feed) && is_law_complete(feed))
+        feed.set("feed.disintegration", 1.0 - sizes_of(feed).mass_below(feed.number("feed.size_min_m")));
+    if (!study.has("soil.grain_density_kg_m3") || feed.tables("feed.class").empty()) return;
+    for (ParameterValues& rock : feed.tables_for_writing("feed.class"))
+        if (rock.where("feed.class.density_kg_m3").empty()) rock.set("feed.class.density_kg_m3", study.number("soil.grain_density_kg_m3"));
+}
+
+void resolve_feed(ParameterValues& feed, const ParameterValues& study, const HeadSize& head) {
+    fill_from(feed, "feed.start_revolution", [&] { return study.number("run.flow_revolutions"); });
+    if (!feed.has("feed.kind")) return;
+    if (is_cut_face(feed)) return where_known([&] { resolve_cut(feed, study); });
+    fill_from(feed, "feed.azimuth_centre_deg",
+              [&] { return bank_azimuth_deg(study.text("swing.direction"), study.text("rotor.direction")); });
+    fill(feed, "feed.radius_to_m", head.tip_radius);
+    fill(feed, "feed.depth_to_m", head.depth);
 }
 
 /// What a feed has of a batch alone.
@@ -247,6 +257,11 @@ private:
 void check_bank_keys(const ParameterValues& study, Rules& rules) {
     if (has_bank(study)) {
         rules.require(!lacks_swing(study), "bank.model", "A bank is cut by a swing: swing.speed_m_min is missing", "Add swing.speed_m_min");
+        const auto& feeds = study.tables("feed");
+        if (study.has("bed.spill_layer_m"))
+            rules.require(study.number("bed.spill_layer_m") == 0.0 || feeds.empty() || std::any_of(feeds.begin(), feeds.end(), is_cut_face),
+                          "bed.spill_layer_m", "What the swing before left comes in beside rock from a cut face, and no feed is of one",
+                          "Set feed.kind = \"cut_face\", or remove the key");
         return;
     }
     rules.require(!study.boolean("hauling.water"), "hauling.water",
@@ -738,7 +753,8 @@ void warn_of_cut_rock(const ParameterValues& resolved, const ParameterValues& fe
             fmt::format("Rock by a size_law has this density, and floats in a fluid of {} kg/m3", resolved.number("fluid.density_kg_m3")),
             "Correct the density");
     const double needed = shortest_fed_time(period_of(resolved));
-    const double fed = end_time_of(resolved) - feed.number("feed.start_revolution") * period_of(resolved);
+    const double rest = end_time_of(resolved) - feed.number("feed.start_revolution") * period_of(resolved);
+    const double duration = feed.number("feed.duration_s"), fed = duration > 0.0 ? std::min(duration, rest) : rest;
     rules.require(
         fed >= needed, "run.max_revolutions",
         fmt::format("Rock comes for {:.4g} s; spillage has an interval after {:.4g} s at the earliest, with the start-up", fed, needed),

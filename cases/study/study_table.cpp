@@ -48,6 +48,8 @@ Row choice(const char* stage, const char* key, std::vector<std::string> choices,
 ParameterTable head_rows() {
     return {
         text(k_report_stage, "name", "Name of the study, shown in its report.").by_default(std::string("study")),
+        choice(k_report_stage, "scene.kind", {"cutter"}, "What is studied: a cutter. Rooms and free surfaces have keys of their own.")
+            .by_default(std::string("cutter")),
         row(k_geometry_stage, "cutter.file", ParameterKind::path, "-",
             "Surface of the cutter (STL, OBJ or PLY), relative to this file; closed and facing outwards."),
         choice(k_geometry_stage, "cutter.unit", {"m", "mm", "cm", "inch", "ft"}, "Unit of length in the cutter's file.")
@@ -144,7 +146,8 @@ ParameterTable bank_rows() {
             .derived("no power of cutting"),
         number(k_case_stage, "bed.spill_layer_m", "m",
                "Thickness of the loose rock that the swing before left on what it cut; it comes in beside the cut rock, as loose as "
-               "soil.bulking says. A report tells the thickness that its own spillage makes.")
+               "soil.bulking says. A report tells the layer that its own spillage "
+               "makes (next_layer_m).")
             .at_least(0.0)
             .at_most(k_largest_length)
             .derived("0"),
@@ -308,7 +311,8 @@ ParameterTable feed_rows() {
             .at_most(1.0)
             .by_default(0.5),
         number(k_case_stage, "feed.disintegration", "-",
-               "Share of what a cut face gives that becomes rock of the feed's sizes; the rest are fines, which are not followed.")
+               "Share of what a cut face gives that becomes rock of the feed's sizes; the rest are fines, which are not followed. Of a "
+               "size_law the default is its share above size_min_m.")
             .above(0.0)
             .at_most(1.0)
             .by_default(1.0),
@@ -327,7 +331,8 @@ ParameterTable feed_rows() {
             .above(0.0)
             .at_most(20.0)
             .derived("needed by both laws"),
-        number(k_case_stage, "feed.size_min_m", "m", "Smallest diameter of rock; what is finer counts as fines. A law is truncated to it.")
+        number(k_case_stage, "feed.size_min_m", "m",
+               "Smallest diameter of rock. A law is truncated to it; what it has below is fines (disintegration).")
             .at_least(1e-5)
             .at_most(10.0)
             .derived("needed by both laws"),
@@ -373,7 +378,8 @@ ParameterTable feed_rows() {
                "Diameter of the rocks of this class, of a clump that of the sphere of its volume; less than the head's.")
             .at_least(1e-5)
             .at_most(10.0),
-        number(k_case_stage, "feed.class.density_kg_m3", "kg/m3", "Density of the rock.")
+        number(k_case_stage, "feed.class.density_kg_m3", "kg/m3",
+               "Density of the rock. From a cut face the default is soil.grain_density_kg_m3.")
             .at_least(100.0)
             .at_most(30000.0)
             .by_default(2650.0),

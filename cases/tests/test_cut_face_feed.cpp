@@ -256,6 +256,27 @@ TEST(CutFaceFeed, of_a_study_follows_from_its_bank_and_soil) {
     EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,time_s,x_m,y_m,z_m,diameter_m,density_kg_m3,vx_m_s,vy_m_s,vz_m_s,place");
 }
 
+TEST(CutFaceFeed, of_a_study_has_the_density_of_its_soil_and_leaves_out_the_fines_of_its_law) {
+    const auto feed_of = [](const std::string& feed_keys) {
+        const std::string text =
+            "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n[swing]\nspeed_m_min = 6\n"
+            "[bank]\nmodel = \"wall\"\n[soil]\ngrain_density_kg_m3 = 2000\n[[feed]]\nkind = \"cut_face\"\n" +
+            feed_keys;
+        const ParameterValues resolved = resolve_study(parse_parameters(study_table(), text, "study.toml"), {0.40, 0.40, 0.485});
+        // As a run reads it again from its folder.
+        return make_study(parse_parameters(study_table(), commented_toml(study_table(), &resolved), "study.toml"), "/").feeds.at(0);
+    };
+    const std::string law = "size_law = \"rosin_rammler\"\nsize_d63_m = 0.02\nsize_spread = 2\nsize_min_m = 0.01\nsize_max_m = 0.06\n";
+    const FeedRequest by_law = feed_of(law);
+    EXPECT_NEAR(by_law.disintegration, std::exp(-0.25), 1e-9);
+    EXPECT_EQ(by_law.classes.at(0).density, 2000.0);
+    EXPECT_EQ(feed_of(law + "disintegration = 1\n").disintegration, 1.0);
+    const FeedRequest by_classes = feed_of("[[feed.class]]\ndiameter_m = 0.02\n[[feed.class]]\ndiameter_m = 0.03\ndensity_kg_m3 = 2650\n");
+    EXPECT_EQ(by_classes.disintegration, 1.0);
+    EXPECT_EQ(by_classes.classes.at(0).density, 2000.0);
+    EXPECT_EQ(by_classes.classes.at(1).density, 2650.0) << "given, though it is the default";
+}
+
 TEST(CutFaceFeed, of_a_study_brings_what_the_swing_before_left) {
     const std::string text =
         "[cutter]\nfile = \"c.stl\"\n[rotor]\nspeed_rpm = 60\n[suction]\ndischarge_m3_s = 0.12\n[swing]\nspeed_m_min = 6\n"
@@ -269,6 +290,11 @@ TEST(CutFaceFeed, of_a_study_brings_what_the_swing_before_left) {
     EXPECT_FALSE(feeds[0].is_spill_layer);
     EXPECT_TRUE(feeds[1].is_spill_layer);
     const geometry::Bank bank = bank_of(study, crown().contour);
+    // Of 20 layers up to the bank's height: what the next swing takes of each.
+    ASSERT_EQ(feeds[0].layers.size(), 20u);
+    EXPECT_NEAR(feeds[0].layers.back().first, study.bank->cut_height, 1e-12);
+    EXPECT_NEAR(feeds[0].layers[4].second, bank.layer_section(0.25 * study.bank->cut_height), 1e-12);
+    EXPECT_TRUE(feeds[1].layers.empty());
     // Loose rock without fines, over three turns.
     const double one = sphere_mass(0.02, 2650.0), left = 0.1 * bank.layer_section(0.05) * 2650.0 * 0.85 / 1.25 * 3.0;
     EXPECT_NEAR(static_cast<double>(feeds[1].rocks.size()) * one, left, std::max(0.01 * left, one));

@@ -307,6 +307,7 @@ TEST(Study, warns_of_floating_soil_and_of_runs_too_short_for_an_interval) {
     EXPECT_TRUE(any_contains(warnings("[run]\nflow_revolutions = 1\nmax_revolutions = 11.9\n"),
                              "Rock comes for 10.9 s; spillage has an interval after 11 s"));
     EXPECT_FALSE(any_contains(warnings("[run]\nflow_revolutions = 1\nmax_revolutions = 12\n"), "has an interval"));
+    EXPECT_TRUE(any_contains(warnings("duration_s = 4\n[run]\nflow_revolutions = 1\nmax_revolutions = 12\n"), "Rock comes for 4 s"));
     EXPECT_TRUE(any_contains(warnings("[soil]\ngrain_density_kg_m3 = 900\n"), "soil.grain_density_kg_m3 = 900. Rock by a size_law"));
     EXPECT_FALSE(any_contains(warnings("[soil]\ngrain_density_kg_m3 = 1100\n"), "floats"));
 }

@@ -190,6 +190,10 @@ TEST(StudyBank, and_its_keys_need_each_other) {
     EXPECT_EQ(without.size(), 3u);
     EXPECT_TRUE(has(without, "bank.step_m = 0.1. It belongs to a bank"));
     EXPECT_TRUE(has(broken("[bed]\nspill_layer_m = 0.1\n"), "bed.spill_layer_m = 0.1. It belongs to a bank"));
+    const std::string batch =
+        "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[[feed]]\ncount = 3\n[[feed.class]]\ndiameter_m = 0.02\n";
+    EXPECT_TRUE(has(broken(batch + "[bed]\nspill_layer_m = 0.1\n"), "beside rock from a cut face, and no feed is of one"));
+    EXPECT_TRUE(broken(batch + "[bed]\nspill_layer_m = 0\n").empty());
     EXPECT_TRUE(has(mistakes_of(std::string("[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[bed]\nspill_layer_m = 1\n")),
                     "as high as the bank"));
     EXPECT_TRUE(broken("").empty());

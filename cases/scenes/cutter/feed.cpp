@@ -25,6 +25,7 @@ namespace {
 constexpr double k_clearance_per_diameter = 0.05;
 constexpr double k_patch_per_ring_radius = 0.02;  // of the cut face
 constexpr double k_share_without_blade = 0.05;
+constexpr int k_layers = 20;                       // up to the bank's height, whose sections are told
 constexpr std::int64_t k_seed_of_layer = 1000003;  // beside the cut face's: their rock comes at times of its own
 
 double mass_of(const FeedClass& rock) {
@@ -87,7 +88,7 @@ PlacedFeed place_batch(const FeedRequest& request, const Study& study, const Fee
     const AxialCylinder water = study.water(scene.size);
     const geometry::RockPlacement placement = geometry::place_rocks(batch_of(request, count), scene.head, water, {&cutter, &stationary});
 
-    PlacedFeed feed{request, placement.requested, {}, {}, false};
+    PlacedFeed feed{request, placement.requested, {}, {}};
     const std::vector<std::size_t> classes = shuffled_classes(counts, request.seed);
     for (std::size_t i = 0; i < placement.positions.size(); ++i)
         feed.rocks.push_back({request.start, {{placement.positions[i], std::nullopt}}, classes[i]});
@@ -105,7 +106,7 @@ PlacedFeed place_cut_face(const FeedRequest& request, const Study& study, const 
     cut.end = request.end;
     cut.seed = static_cast<std::uint64_t>(request.seed);
     cut.classes = request.classes;
-    PlacedFeed feed{request, 0, {}, {}, false};
+    PlacedFeed feed{request, 0, {}, {}};
     const CutSchedule schedule = cut_face_schedule(cut, {scene.head, scene.cutter, study.rotation_speed});
     for (const CutRock& rock : schedule.rocks) feed.rocks.push_back(placed_rock(rock, request.velocity_share * study.rotation_speed));
     if (schedule.share_without_blade > k_share_without_blade)
@@ -128,6 +129,7 @@ std::vector<PlacedFeed> place_swing(const FeedRequest& request, const Study& stu
     const Study::Bank& bank = *study.bank;
     const double cut = request.disintegration * cut_mass_rate(*scene.cut_face, bank.swing_speed, bank.grain_density, bank.porosity);
     std::vector<PlacedFeed> feeds{place_cut_face(request, study, scene, *scene.cut_face, cut)};
+    feeds.front().layers = scene.layers;
     if (!scene.spill_layer) return feeds;
     FeedRequest of_layer = request;
     of_layer.seed += k_seed_of_layer;
@@ -172,6 +174,10 @@ FeedScene feed_scene(const Study& study, const HeadSize& size, const geometry::C
     const geometry::Bank bank = bank_of(study, head);
     const double patch = k_patch_per_ring_radius * size.ring_radius;
     scene.cut_face = bank.cut_face(patch);
+    for (int i = 1; i <= k_layers; ++i) {
+        const double thickness = study.bank->cut_height * i / k_layers;
+        scene.layers.emplace_back(thickness, bank.layer_section(thickness));
+    }
     if (study.bank->spill_layer > 0.0) scene.spill_layer = bank.layer_face(study.bank->spill_layer, patch);
     return scene;
 }
@@ -243,12 +249,15 @@ std::string feed_json(const std::vector<PlacedFeed>& feeds, const Study& study) 
                                {"settling_velocity_m_s", settling_speed(study, rock)}});
             if (rock.shape) classes.back()["shape"] = rock.shape->file.filename().string();
         }
+        nlohmann::json layers = nlohmann::json::array();
+        for (const auto& [thickness, section] : feed.layers) layers.push_back({{"thickness_m", thickness}, {"section_m2", section}});
         list.push_back({{"requested", feed.requested},
                         {"placed", feed.rocks.size()},
                         {"rejected", feed.requested - feed.rocks.size()},
                         {"reasons", feed.reasons},
                         {"start_s", feed.request.start},
                         {"left_by_swing_before", feed.is_spill_layer},
+                        {"layers", layers},
                         {"classes", classes}});
     }
     return nlohmann::json{{"feeds", list}}.dump(2) + "\n";

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/scenes/cutter/cut_face_feed.hpp"
@@ -29,8 +30,9 @@ struct PlacedFeed {
     FeedRequest request;
     std::size_t requested = 0;
     std::vector<PlacedRock> rocks;
-    std::vector<std::string> reasons;  ///< why rocks were rejected or start elsewhere
-    bool is_spill_layer = false;       ///< loose rock that the swing before left, of a feed from a cut face
+    std::vector<std::string> reasons;                 ///< why rocks were rejected or start elsewhere
+    bool is_spill_layer = false;                      ///< loose rock that the swing before left, of a feed from a cut face
+    std::vector<std::pair<double, double>> layers{};  ///< of a cut face: thickness [m] of a layer, and its section that a swing takes [m2]
 };
 
 /// Number of rocks of each class: of `count` rocks in all, or of a mass [kg], such that masses are in proportion to the shares.
@@ -43,8 +45,9 @@ struct FeedScene {
     geometry::TriangleSurface cutter;      ///< at rotor angle 0, run's frame
     geometry::TriangleSurface stationary;  ///< closed
     HeadSize size;
-    std::optional<geometry::CutFace> cut_face{};     ///< of a study with a bank
-    std::optional<geometry::CutFace> spill_layer{};  ///< of a study whose swing before left one
+    std::optional<geometry::CutFace> cut_face{};      ///< of a study with a bank
+    std::optional<geometry::CutFace> spill_layer{};   ///< of a study whose swing before left one
+    std::vector<std::pair<double, double>> layers{};  ///< as PlacedFeed has them
 };
 
 /// The scene of a study's cutter. \param cutter  as FeedScene has it
