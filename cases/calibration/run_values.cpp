@@ -9,6 +9,7 @@
 #include "cases/runner/manifest.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
+#include "postproc/run/solver_starts.hpp"
 
 namespace cutterflow::cases {
 
@@ -93,7 +94,10 @@ std::string missing_reason(const fs::path& run, const Measured& measured) {
 }
 
 double run_core_s(const fs::path& run) {
-    return Manifest(run / names::manifest).core_s();
+    const Manifest manifest(run / names::manifest);
+    const StageRecord* solver = manifest.find("run");
+    const double noted = solver == nullptr ? 0.0 : solver->core_s;  // of the last attempt
+    return manifest.core_s() - noted + postproc::solver_core_seconds(run).value_or(noted);
 }
 
 }  // namespace cutterflow::cases

@@ -181,7 +181,12 @@ std::vector<Stage> Pipeline::stages() {
             {k_case_stage, with_overrides(inputs(k_case_stage), case_files), case_files, false, [this](bool) { return make_case(); }},
             {"start", {}, {"0/"}, false, [this](bool) { return make_start(); }},
             {"run", {}, {"system/decomposeParDict"}, true, [this](bool) { return run_solver(); }},
-            {k_report_stage, inputs(k_report_stage), {names::resolved_study}, false, [this](bool) { return make_report(); }}};
+            {k_report_stage,
+             inputs(k_report_stage),
+             {names::resolved_study},
+             false,
+             [this](bool) { return make_report(); },
+             {names::results_json, names::report_page}}};
 }
 
 ParameterValues Pipeline::checked_values(const HeadSize& head) const {

@@ -466,8 +466,12 @@ std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest&
                           }});
     stages.push_back({k_case, case_inputs(request, directory), {}, false, [room](bool) { return room->make_case(); }});
     stages.push_back({"run", {}, {}, true, [room](bool) { return room->run(); }});
-    stages.push_back(
-        {k_report, inputs_of(request.values, k_report), RoomWork::rewritten_by_report(), false, [room](bool) { return room->report(); }});
+    stages.push_back({k_report,
+                      inputs_of(request.values, k_report),
+                      RoomWork::rewritten_by_report(),
+                      false,
+                      [room](bool) { return room->report(); },
+                      {names::results_json, names::report_page, postproc::k_measure_results}});
     return stages;
 }
 

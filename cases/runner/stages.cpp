@@ -40,6 +40,10 @@ bool is_as_written(const std::filesystem::path& file, const std::string& hash) {
     return std::filesystem::is_regular_file(file) && sha256_of_file(file) == hash;
 }
 
+bool is_lost(const std::filesystem::path& file) {
+    return !std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) == 0;
+}
+
 class Plan {
 public:
     Plan(const RunDirectory& directory, const Manifest& manifest, const std::vector<Stage>& stages)
@@ -50,6 +54,8 @@ public:
         for (std::size_t i = 0; i < stages_.size(); ++i) {
             const StageRecord* record = manifest_.find(stages_[i].name);
             if (record == nullptr || record->state != StageState::done || record->inputs != stages_[i].inputs) return i;
+            for (const std::string& file : stages_[i].made_again)
+                if (is_lost(directory_.file(file))) return i;
         }
         return stages_.size();
     }

@@ -25,6 +25,8 @@ struct Stage {
     /// Can be resumed after an interruption, on request; its results are never overwritten.
     bool resumable = false;
     std::function<StageOutcome(bool resume)> work;
+    /// Files that it makes again when one of them is gone or empty.
+    std::vector<std::string> made_again{};
 };
 
 /// What happens to a stage, for the lines that a user reads.

@@ -48,10 +48,15 @@ std::vector<Stage> surface_stages(const RunDirectory& directory, const fs::path&
         table_inputs(surface_study_table(), read_placed_surface_study(study_file), [](const Parameter&) { return true; });
     return {{"case", of_case, {}, false, [&directory, inputs, check](bool) { return write_case(directory, inputs, check); }},
             {"run", none, {}, true, [&directory, solver](bool resume) { return run_solver(directory, solver, resume); }},
-            {"report", none, {}, false, [&directory](bool) {
+            {"report",
+             none,
+             {},
+             false,
+             [&directory](bool) {
                  postproc::write_surface_report(directory.path());
                  return StageOutcome{};
-             }}};
+             },
+             {names::results_json, names::report_page}}};
 }
 
 }  // namespace cutterflow::cases

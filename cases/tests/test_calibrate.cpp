@@ -385,6 +385,19 @@ TEST_F(Calibrate, reads_measures_or_results_and_names_the_nearest) {
     EXPECT_EQ(run_core_s(folder_ / "run"), 0.0);
 }
 
+// A bed, and a run of two starts of which the manifest knows the second.
+TEST_F(Calibrate, counts_what_interrupted_runs_took) {
+    const auto stage = [](double core_s) {
+        return fmt::format(R"({{"state": "done", "inputs": {{}}, "outputs": {{}}, "wall_s": 1.0, "core_s": {}, "finished": ""}})", core_s);
+    };
+    write_file(folder_ / "run/manifest.json",
+               fmt::format(R"({{"kind": "room", "schema": "cutterflow.manifest/1", "stages": {{"bed": {}, "run": {}}}}})", stage(2.0),
+                           stage(3.0)));
+    write_file(folder_ / "run/postProcessing/cost/0/cost.csv", "time_s,step_s\n0.1,4\n0.2,1\n");
+    write_file(folder_ / "run/postProcessing/cost/0.2/cost.json", R"({"ranks": 1, "core_s": 3.0})");
+    EXPECT_NEAR(run_core_s(folder_ / "run"), 2.0 + 5.0 + 3.0, 1e-12);
+}
+
 TEST_F(Calibrate, reports_all_mistakes_at_once) {
     const std::string text = refusal(R"(
 study = ["heap.toml", "absent.toml"]

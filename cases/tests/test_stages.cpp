@@ -36,10 +36,12 @@ protected:
         made.work = [this, name](bool resume) {
             done_.push_back(resume ? name + " resumed" : name);
             write_file(folder_ / (name + ".txt"), "of " + name);
+            if (name == "report") write_file(folder_ / "page", "of report");
             if (name == "start") write_file(folder_ / "a.txt", "rewritten");
             if (name == interrupted_) throw Interrupted("stopped");
             return StageOutcome{{name + ".txt"}, 0.5};
         };
+        if (name == "report") made.made_again = {"page"};
         return made;
     }
 
@@ -88,6 +90,16 @@ TEST_F(Stages, are_done_once_and_in_order) {
     EXPECT_EQ(manifest.find("run")->core_s, 0.5);
     EXPECT_EQ(manifest.find("run")->outputs.at("run.txt"), sha256("of run"));
     EXPECT_EQ(manifest.find("run")->finished.size(), 20u);
+}
+
+TEST_F(Stages, make_a_lost_report_again) {
+    go();
+    fs::remove(folder_ / "page");
+    EXPECT_EQ(go(), Names{"report"});
+    write_file(folder_ / "page", "");
+    EXPECT_EQ(go(), Names{"report"});
+    EXPECT_EQ(read_file(folder_ / "page"), "of report");
+    EXPECT_EQ(go(), Names{});
 }
 
 /// A kind without the first stages has results, whose stage `run` has the same name.

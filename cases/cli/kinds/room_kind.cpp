@@ -149,7 +149,7 @@ void run(const RunOptions& options) {
 
 void report(const ReportOptions& options) {
     if (options.adv_points || options.still_folder)
-        throw UserError("--adv or --static with a room", "They belong to cutters", "Leave them out");
+        throw UserError(fmt::format("{} with a room", options.adv_points ? "--adv" : "--static"), "It belongs to cutters", "Leave it out");
     postproc::write_room_report(options.folder);
     if (const std::string warning = postproc::unfinished_room(options.folder); !warning.empty()) say("warning: " + warning);
     say_results(options.folder, options.json);

@@ -86,7 +86,8 @@ void run(const RunOptions& options) {
 
 void report(const ReportOptions& options) {
     if (options.adv_points || options.still_folder)
-        throw UserError("--adv or --static with a scene with a free surface", "They belong to cutters", "Leave them out");
+        throw UserError(fmt::format("{} with a scene with a free surface", options.adv_points ? "--adv" : "--static"),
+                        "It belongs to cutters", "Leave it out");
     const fs::path page = postproc::write_surface_report(options.folder);
     std::cout << (options.json ? read_file(fs::path(options.folder) / names::results_json) : fmt::format("the report: {}\n", page.string()))
               << std::flush;
