@@ -10,21 +10,26 @@
 namespace cutterflow::postproc {
 namespace {
 
-constexpr const char *k_production = "production", *k_spillage = "ratio", *k_speed = "speed_rpm", *k_swing = "swing_speed_m_min",
-                     *k_delivered = "delivered_in_situ_m3_h";
-
 double speed_of(const Comparison& comparison, std::size_t setting) {
-    return find_quantity(comparison, k_speed)->settings[setting].value.value_or(0.0);
+    return quantity_of(comparison, quantity::k_speed, setting).value.value_or(0.0);
+}
+
+double swing_of(const Comparison& comparison, std::size_t setting) {
+    return quantity_of(comparison, quantity::k_swing, setting).value.value_or(0.0);
 }
 
 const Estimate& production_of(const Comparison& comparison, std::size_t setting) {
-    return find_quantity(comparison, k_production)->settings[setting];
+    return quantity_of(comparison, quantity::k_production, setting);
+}
+
+const Estimate& delivered_of(const Comparison& comparison, std::size_t setting) {
+    return quantity_of(comparison, quantity::k_delivered, setting);
 }
 
 /// Spillage has a value only where the hold-up is steady.
 bool is_known(const Comparison& comparison, std::size_t setting) {
     const Estimate& production = production_of(comparison, setting);
-    return production.value && production.half_width && find_quantity(comparison, k_spillage)->settings[setting].value;
+    return production.value && production.half_width && quantity_of(comparison, quantity::k_spillage, setting).value;
 }
 
 /// Whether the interval of a lies above that of b.
@@ -38,14 +43,6 @@ std::size_t highest(const Comparison& comparison, const SpeedSeries& series) {
         return *production_of(comparison, a).value < *production_of(comparison, b).value;
     };
     return static_cast<std::size_t>(std::max_element(series.settings.begin(), series.settings.end(), less) - series.settings.begin());
-}
-
-const Estimate& delivered_of(const Comparison& comparison, std::size_t setting) {
-    return find_quantity(comparison, k_delivered)->settings[setting];
-}
-
-double swing_of(const Comparison& comparison, std::size_t setting) {
-    return find_quantity(comparison, k_swing)->settings[setting].value.value_or(0.0);
 }
 
 /// \pre all deliver a known amount
@@ -76,6 +73,8 @@ std::string sentence(const Comparison& comparison, const SpeedSeries& series) {
         return fmt::format("Of these speeds {:g} rpm delivers most of what is fed{}: its interval is apart from its neighbours'.",
                            speed_of(comparison, *best), of);
     const std::string none = fmt::format("No optimum found within the error{}: ", of);
+    if (series.same_speed)
+        return none + fmt::format("more than one setting turns at {:g} rpm; compare one of each speed.", *series.same_speed);
     if (!all_known(comparison, series)) return none + "production is not steady, or has no interval, at every speed.";
     const std::size_t top = highest(comparison, series);
     if (top == 0 || top + 1 == series.settings.size())
@@ -95,13 +94,17 @@ std::vector<SpeedSeries> speed_series(const Comparison& comparison) {
         series.what = what;
         std::stable_sort(series.settings.begin(), series.settings.end(),
                          [&](std::size_t a, std::size_t b) { return speed_of(comparison, a) < speed_of(comparison, b); });
+        const auto same = std::adjacent_find(series.settings.begin(), series.settings.end(), [&](std::size_t a, std::size_t b) {
+            return speed_of(comparison, a) == speed_of(comparison, b);
+        });
+        if (same != series.settings.end()) series.same_speed = speed_of(comparison, *same);
         all.push_back(series);
     }
     return all;
 }
 
 std::optional<std::size_t> best_speed(const Comparison& comparison, const SpeedSeries& series) {
-    if (series.settings.size() < 3 || !all_known(comparison, series)) return std::nullopt;
+    if (series.settings.size() < 3 || series.same_speed || !all_known(comparison, series)) return std::nullopt;
     const std::size_t top = highest(comparison, series);
     if (top == 0 || top + 1 == series.settings.size()) return std::nullopt;
     const Estimate& best = production_of(comparison, series.settings[top]);
@@ -138,7 +141,7 @@ std::string best_point_text(const Comparison& comparison, const std::vector<std:
 }
 
 std::vector<std::string> best_speed_text(const Comparison& comparison) {
-    if (!scope_of(comparison).fed_by_cutting || !find_quantity(comparison, k_production)) return {};
+    if (!scope_of(comparison).fed_by_cutting || !find_quantity(comparison, quantity::k_production)) return {};
     std::vector<std::string> sentences;
     for (const SpeedSeries& series : speed_series(comparison))
         if (series.settings.size() >= 3) sentences.push_back(sentence(comparison, series));

@@ -11,7 +11,8 @@ namespace cutterflow::postproc {
 /// Settings that differ in nothing but the rotor's speed, by increasing speed.
 struct SpeedSeries {
     std::vector<std::size_t> settings;
-    std::string what;  ///< where there are several series: what this one has in common, as "swing 6 m/min"
+    std::string what;                    ///< where there are several series: what this one has in common, as "swing 6 m/min"
+    std::optional<double> same_speed{};  ///< at which more than one setting turns [rpm]: they differ in what does not tell series apart
 };
 
 /// Series of two speeds and more.

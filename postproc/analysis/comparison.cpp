@@ -32,7 +32,7 @@ std::optional<double> half_width_of(const Sample& sample) {
 
 Estimate of_average(const std::optional<TimeAverage>& average) {
     if (!average) return {};
-    return {average->mean, average->half_interval, std::nullopt, std::nullopt};
+    return {average->mean, std::nullopt, std::nullopt, average->half_interval};
 }
 
 Estimate plain(const std::optional<double>& value) {
@@ -194,7 +194,7 @@ std::vector<QuantityRule> fed_rules() {
         {"left_behind_share", "left behind / fed", "-", true, of([](const FedHead& head) { return plain(head.losses.left_behind); })},
         {"left_behind_cutting_share", "left behind, never taken in / fed", "-", true,
          of([](const FedHead& head) { return plain(head.losses.left_behind_cutting); })},
-        {"concentration", "delivered rock in the mixture, by volume", "-", true,
+        {"concentration", "delivered soil in the mixture, by volume", "-", true,
          of_work([](const Dredging& work) { return work.concentration; })},
         {"mixture_density_kg_m3", "density of the mixture", "kg/m³", true,
          of_work([](const Dredging& work) { return work.mixture_density; })},
@@ -213,8 +213,8 @@ std::vector<QuantityRule> fed_rules() {
         {"hold_up_kg", "hold-up: owed or in the head", "kg", true, of([](const FedHead& head) { return plain(head.production.held); })},
         {"hold_up_change_share", "change of hold-up / fed", "-", true,
          of([](const FedHead& head) { return plain(head.production.held_change / head.production.fed); })},
-        {"fed_kg_s", "fed", "kg/s", true, rate(&Production::fed)},
-        {"delivered_kg_s", "delivered", "kg/s", true, rate(&Production::delivered)},
+        {"fed_kg_s", "fed, rock alone", "kg/s", true, rate(&Production::fed)},
+        {"delivered_kg_s", "delivered, rock alone", "kg/s", true, rate(&Production::delivered)},
         {"delivered_in_situ_m3_h", "delivered, soil in situ", "m³/h", true, [](const ComparedRun& r) { return in_situ_rate(r, 1.0); }},
         {"prototype_delivered_in_situ_m3_h", "delivered, soil in situ, prototype", "m³/h", true,
          [](const ComparedRun& r) { return in_situ_rate(r, r.run.operating_point.length_ratio); }},
@@ -561,6 +561,10 @@ const Quantity* find_quantity(const Comparison& comparison, const std::string& k
     return found == comparison.quantities.end() ? nullptr : &*found;
 }
 
+const Estimate& quantity_of(const Comparison& comparison, const std::string& key, std::size_t setting) {
+    return find_quantity(comparison, key)->settings[setting];
+}
+
 void add_measured(Comparison& comparison, const std::vector<std::filesystem::path>& files) {
     Mistakes mistakes;
     for (const auto& file : files) mistakes.gather([&] { comparison.measured.push_back(read_measured_points(file)); });
@@ -650,6 +654,7 @@ Scope scope_of(const Comparison& comparison) {
         replays += run.replays == Replays::all ? 1 : 0;
     }
     if (replays > 0) scope.replays = replays == comparison.runs.size() ? Replays::all : Replays::some;
+    scope.of_one_run = comparison.runs.size() == 1;
     return scope;
 }
 

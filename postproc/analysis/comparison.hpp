@@ -72,8 +72,17 @@ struct Comparison {
 /// \throws UserError  when there are fewer than two, or a directory holds no run (all at once)
 Comparison compare_runs(const std::vector<std::filesystem::path>& directories);
 
+/// Keys of quantities that more than one figure needs.
+namespace quantity {
+inline constexpr const char *k_speed = "speed_rpm", *k_swing = "swing_speed_m_min", *k_delivered = "delivered_in_situ_m3_h",
+                            *k_production = "production", *k_spillage = "ratio";
+}
+
 /// The quantity of a key; null when the comparison has none.
 const Quantity* find_quantity(const Comparison& comparison, const std::string& key);
+
+/// Of a quantity that the comparison has, for one setting.
+const Estimate& quantity_of(const Comparison& comparison, const std::string& key, std::size_t setting);
 
 /// Difference of setting `index` from setting 0. Repeats are paired when both settings have the same seeds, else taken as independent
 /// (Welch).

@@ -7,6 +7,7 @@
 
 #include "geometry/base/at_work/usual_ranges.hpp"
 #include "geometry/base/sphere.hpp"
+#include "geometry/head/tip_radius.hpp"
 #include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
@@ -61,6 +62,37 @@ std::optional<WaysOut> ways_out_of(const Results& results) {
     return ways;
 }
 
+/// What the mouth takes: rock, and fines where it is known how many.
+void set_mixture(const Production& window, const RunData& run, Dredging& dredging) {
+    double mass = 0.0, volume = 0.0;  // of the feed
+    if (run.feed)
+        for (const RockClass& rock : run.feed->classes) {
+            mass += rock.count * sphere_mass(rock.diameter, rock.density);
+            volume += rock.count * sphere_volume(rock.diameter);
+        }
+    if (!(volume > 0.0) || !dredging.delivered_fines) return;
+    const OperatingPoint& point = run.operating_point;
+    const double grains = point.grain_density > 0.0 ? point.grain_density : mass / volume;
+    const double mixture = point.discharge * (window.to - window.from);
+    dredging.concentration = (window.delivered * volume / mass + *dredging.delivered_fines / grains) / mixture;
+    dredging.mixture_density =
+        point.fluid_density * (1.0 - *dredging.concentration) + (window.delivered + *dredging.delivered_fines) / mixture;
+}
+
+/// The thickness h that spilled rock has on all that the head passed: h s where the next swing does not come, and the section A_s(h) that
+/// it takes. \param section  of spilled rock, h s + A_s(h) [m2] \param step  s [m]
+/// \return nothing when no layer lower than the bank holds so much, or the feed is of an earlier program
+std::optional<double> layer_for_the_next_swing(double section, double step, const FeedSummary& feed) {
+    double thinner = 0.0, below = 0.0;
+    for (std::size_t i = 0; i < feed.layer_thickness.size(); ++i) {
+        const double thickness = feed.layer_thickness[i], held = thickness * step + feed.layer_section[i];
+        if (held >= section) return thinner + (section - below) / (held - below) * (thickness - thinner);
+        thinner = thickness;
+        below = held;
+    }
+    return std::nullopt;
+}
+
 /// "31.0 % of what was spilled", and of which part where not of all.
 std::string cause_text(const WaysOut& ways) {
     if (ways.cause_known == 1.0) return text::percent(*ways.by_cutting) + " of what was spilled";
@@ -68,6 +100,14 @@ std::string cause_text(const WaysOut& ways) {
         "{} of the part of what was spilled whose cause is known, {} of it (an earlier program’s ledger lost the cause of what "
         "is left behind),",
         text::percent(*ways.by_cutting), text::percent(ways.cause_known));
+}
+
+/// Of a head before whose blades rock waits all the time.
+std::string fullness_text(const FedHead& head) {
+    constexpr double k_much = 0.05;  // of what a revolution cuts
+    if (head.owed_share > k_much) return "the head is full, it cannot take what it cuts";
+    return fmt::format("rock always waits for a place before a blade, though little: in the mean {} of what a revolution cuts",
+                       text::percent(head.owed_share));
 }
 
 bool has_spilled(const Results& results) {
@@ -87,33 +127,25 @@ Dredging dredging_of(const Results& results, const RunData& run) {
     follow_delivered(run.rock->events, window, dredging);
     dredging.ways_out = ways_out_of(results);
 
-    double mass = 0.0, volume = 0.0;  // of the feed
-    if (run.feed)
-        for (const RockClass& rock : run.feed->classes) {
-            mass += rock.count * sphere_mass(rock.diameter, rock.density);
-            volume += rock.count * sphere_volume(rock.diameter);
-        }
-    if (volume > 0.0) {
-        const double mixture = point.discharge * duration;
-        dredging.concentration = window.delivered * volume / mass / mixture;
-        dredging.mixture_density = point.fluid_density * (1.0 - dredging.concentration) + window.delivered / mixture;
-    }
-
     const double of_soil = (1.0 - dredging.layer_share) * window.fed / point.rock_share;  // cut, rock and fines [kg]
-    const double fines = of_soil * (1.0 - point.rock_share);
+    dredging.fines = of_soil * (1.0 - point.rock_share);
+    if (dredging.fines == 0.0) dredging.delivered_fines = 0.0;
+    if (dredging.fines > 0.0 && results.mixing) dredging.delivered_fines = (1.0 - results.mixing->well_mixed_spillage) * dredging.fines;
+    set_mixture(window, run, dredging);
+
+    const double fed = window.fed + dredging.fines;
     if (window.is_steady && results.mixing)
-        dredging.spillage_with_fines =
-            (window.undelivered * window.fed + results.mixing->well_mixed_spillage * fines) / (window.fed + fines);
+        dredging.spillage_with_fines = (window.undelivered * window.fed + results.mixing->well_mixed_spillage * dredging.fines) / fed;
     if (!(point.in_situ_density > 0.0)) return dredging;
     dredging.cut_in_situ = of_soil / duration / point.in_situ_density;
-    dredging.fed_in_situ = (window.fed + fines) / duration / point.in_situ_density;
-    if (fines == 0.0 || results.mixing) {
-        const double delivered_fines = fines > 0.0 ? (1.0 - results.mixing->well_mixed_spillage) * fines : 0.0;
-        dredging.delivered_in_situ = (window.delivered + delivered_fines) / duration / point.in_situ_density;
+    dredging.fed_in_situ = fed / duration / point.in_situ_density;
+    if (dredging.delivered_fines)
+        dredging.delivered_in_situ = (window.delivered + *dredging.delivered_fines) / duration / point.in_situ_density;
+    if (window.is_steady && point.swing_speed > 0.0 && point.step > 0.0) {
+        const double left = window.undelivered * window.fed / duration / point.in_situ_density * point.bulking / point.swing_speed;
+        dredging.spill_layer = left / point.step;
+        if (run.feed) dredging.next_layer = layer_for_the_next_swing(left, point.step, *run.feed);
     }
-    if (window.is_steady && point.swing_speed > 0.0 && point.step > 0.0)
-        dredging.spill_layer =
-            window.undelivered * window.fed / duration / point.in_situ_density * point.bulking / (point.swing_speed * point.step);
     if (point.specific_energy) dredging.cutting_power = *point.specific_energy * *dredging.cut_in_situ;
     if (!dredging.delivered_in_situ || !(*dredging.delivered_in_situ > 0.0)) return dredging;
     if (results.rotor.power) dredging.energy = results.rotor.power->mean / *dredging.delivered_in_situ;
@@ -124,11 +156,10 @@ Dredging dredging_of(const Results& results, const RunData& run) {
 std::vector<std::string> outside_usual_practice(const Results& results, const RunData& run) {
     const OperatingPoint& point = run.operating_point;
     if (!point.has_bank && !point.fed_by_cutting) return {};
-    const double diameter = 2.0 * run.contour.ring_radius(),
-                 tip = *std::max_element(run.contour.radius().begin(), run.contour.radius().end());
+    const double diameter = 2.0 * run.contour.ring_radius();
     std::map<std::string, double> values{{at_work::k_ring_diameter, diameter},
                                          {at_work::k_rotor_speed, point.speed_rpm},
-                                         {at_work::k_tip_speed, point.angular_speed() * tip},
+                                         {at_work::k_tip_speed, point.angular_speed() * geometry::tip_radius(run.contour)},
                                          {at_work::k_ladder, point.inclination_deg},
                                          {at_work::k_mouth_speed, results.delivery.pipe_velocity}};
     const auto add_given = [&](const char* key, double value) {
@@ -139,7 +170,7 @@ std::vector<std::string> outside_usual_practice(const Results& results, const Ru
     add_given(at_work::k_cut_height, point.cut_height / diameter);
     if (results.fed && results.fed->production.is_steady) {
         values[at_work::k_spillage] = 100.0 * results.fed->production.undelivered;
-        if (results.dredging) add_given(at_work::k_mixture_density, results.dredging->mixture_density);
+        if (results.dredging) add_given(at_work::k_mixture_density, results.dredging->mixture_density.value_or(0.0));
     }
     return outside_usual_ranges(values, point.length_ratio);
 }
@@ -148,7 +179,7 @@ std::string limits_text(const Results& results) {
     if (!results.dredging) return "";
     const std::optional<WaysOut>& ways = results.dredging->ways_out;
     std::string sentence = "What limits: ";
-    if (results.fed->is_full) sentence += "the head is full, it cannot take what it cuts";
+    if (results.fed->is_full) sentence += fullness_text(*results.fed);
     if (!ways && !has_spilled(results)) return sentence + (results.fed->is_full ? "." : "nothing was spilled.");
     if (results.fed->is_full) sentence += "; ";
     if (!ways) return sentence + "which way rock leaves is not known, for want of the mean flow through the head's contour.";

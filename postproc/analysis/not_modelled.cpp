@@ -51,10 +51,10 @@ namespace {
 const std::string& sentence_of_scene(const Scope& scope) {
     static const std::string cutting =
         "Rock comes from the cut face as fast as the head swings, beside a bank that stands still. Hauling is not modelled, nor what a "
-        "later swing picks up of the bed; one run names no best speed.";
+        "later swing picks up of the bed.";
     static const std::string hauled =
         "Rock comes from the cut face as fast as the head swings, and bank, bed and water move past it. Forces of cutting, a bank that "
-        "breaches and the arc of the swing are not modelled; one run names no best speed.";
+        "breaches and the arc of the swing are not modelled.";
     static const std::string rock =
         "This is spillage by mixing of loose rock in a turning head with imposed discharge: cutting, bank, hauling and continuous feed are "
         "not modelled, so there is no optimum over speed here as there is in practice, and this report names no best speed.";
@@ -82,11 +82,13 @@ const std::string& sentence_of_scene(const Scope& scope) {
 }  // namespace
 
 std::string scope_sentence(const Scope& scope) {
-    static const std::map<Replays, std::string> of_replays{
+    const std::map<Replays, std::string> of_replays{
         {Replays::none, ""},
         {Replays::some, "In settings named replayed rock goes through a recorded flow and does not change it. "},
-        {Replays::all, "This is a replay: rock goes through a recorded flow and does not change it. "}};
-    return of_replays.at(scope.replays) + sentence_of_scene(scope);
+        {Replays::all, scope.of_one_run ? "This is a replay: rock goes through a recorded flow and does not change it. "
+                                        : "These are replays: rock goes through recorded flows and does not change them. "}};
+    return of_replays.at(scope.replays) + sentence_of_scene(scope) +
+           (scope.of_one_run && scope.fed_by_cutting && scope.feels_bank ? " One run names no best speed." : "");
 }
 
 }  // namespace cutterflow::postproc

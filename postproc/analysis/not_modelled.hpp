@@ -23,6 +23,7 @@ struct Scope {
     bool hauls = false;           ///< the run's frame travels with the head
     bool fed_by_layer = false;    ///< loose rock that the swing before left comes in, too
     Replays replays = Replays::none;
+    bool of_one_run = true;
 };
 
 Scope scope_of(const RunData& run);

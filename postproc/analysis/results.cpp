@@ -240,10 +240,6 @@ json ratios_json(const SpillageRatios& ratios) {
     return object;
 }
 
-json bin_json(const geometry::AxialBin& bin) {
-    return {{"name", bin.name}, {"z_min_m", std::isfinite(bin.z_min) ? json(bin.z_min) : json(nullptr)}, {"z_max_m", bin.z_max}};
-}
-
 json series_json(const std::vector<RatiosAt>& series, const char* key) {
     json list = json::array();
     for (const RatiosAt& point : series) {
@@ -273,7 +269,8 @@ json fed_json(const FedHead& head, const Dredging& dredging) {
                 {"spillage", production.is_steady ? json(production.undelivered) : json(nullptr)},
                 {"spillage_min", production.spillage_min},
                 {"spillage_max", production.spillage_max},
-                {"head_is_full", head.is_full}};
+                {"head_is_full", head.is_full},
+                {"owed_over_cut_per_revolution", head.owed_share}};
     if (!production.is_steady) object["spillage_reason"] = "hold-up still changes: only the bounds are known";
     return object;
 }
@@ -285,9 +282,10 @@ json dredging_json(const Dredging& dredging, const Losses& losses) {
                 {"spilled_cutting_share", losses.cutting},
                 {"left_behind_share", losses.left_behind},
                 {"left_behind_cutting_share", or_null(losses.left_behind_cutting)},
-                {"concentration", dredging.concentration},
-                {"mixture_density_kg_m3", dredging.mixture_density},
+                {"concentration", or_null(dredging.concentration)},
+                {"mixture_density_kg_m3", or_null(dredging.mixture_density)},
                 {"spill_layer_m", or_null(dredging.spill_layer)},
+                {"next_layer_m", or_null(dredging.next_layer)},
                 {"cutting_power_w", or_null(dredging.cutting_power)},
                 {"energy_j_m3", or_null(dredging.energy)},
                 {"cutting_energy_j_m3", or_null(dredging.cutting_energy)},
@@ -308,7 +306,7 @@ json spillage_json(const Spillage& spillage, const std::vector<BinOutflow>& outf
     object["replicates"] = "no replicate";
     object["bins"] = json::array();
     for (std::size_t i = 0; i < spillage.bins.size(); ++i) {
-        json bin = bin_json(spillage.bins[i].bin);
+        json bin = axial_bin_json(spillage.bins[i].bin);
         bin.update(amount_json(spillage.bins[i].spilled));
         bin["radial_velocity_mean_m_s"] = outflow.empty() ? json(nullptr) : mean_or_null(outflow[i].radial_velocity);
         object["bins"].push_back(bin);
@@ -354,7 +352,7 @@ json rock_json(const Results& results) {
 json outflow_json(const std::vector<BinOutflow>& outflow) {
     json object{{"bins", json::array()}};
     for (const BinOutflow& item : outflow) {
-        json bin = bin_json(item.bin);
+        json bin = axial_bin_json(item.bin);
         bin["radial_velocity_mean_m_s"] = mean_or_null(item.radial_velocity);
         bin["radial_velocity_standard_error_m_s"] = error_or_null(item.radial_velocity);
         bin["flux_mean_m3_s"] = mean_or_null(item.flux);
@@ -449,7 +447,8 @@ std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, doubl
     };
     Losses losses{lost("spilled_mixing_kg"), lost("spilled_cutting_kg"), lost("left_behind_kg"), {}};
     if (ledger.has(k_left_behind_cutting)) losses.left_behind_cutting = lost(k_left_behind_cutting);
-    return FedHead{*production, losses, longest >= revolution};
+    const double owed = mean_over(series.time, ledger.number("owed_kg"), production->from, production->to);
+    return FedHead{*production, losses, longest >= revolution, owed / (rate * revolution)};
 }
 
 Results compute_results(const RunData& run) {
@@ -476,11 +475,21 @@ Results compute_results(const RunData& run) {
     results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.spillage) results.exits = exits_of_run(results, run);
     if (results.fed) results.dredging = dredging_of(results, run);
+    if (run.operating_point.fed_by_cutting) {  // since the first rock the start-up would be in them
+        results.delivery.concentration = results.dredging ? results.dredging->concentration : std::nullopt;
+        results.delivery.mixture_density = results.dredging ? results.dredging->mixture_density : std::nullopt;
+    }
+    results.steel = steel_work_of(results, run);
+    results.outside_usual_practice = outside_usual_practice(results, run);
     results.scale = scale_numbers_of(run, results.dredging ? results.dredging->cut_in_situ : std::nullopt);
     results.conservation = worst_balance(run.balance, results.spillage && !run.flow);
     const double before_rock = run.flow ? results.spillage->feed_start / run.operating_point.revolution_s() : 0.0;
     results.cost = sum_cost(run, results.end_time, results.rotor.revolutions - before_rock);
     return results;
+}
+
+json axial_bin_json(const geometry::AxialBin& bin) {
+    return {{"name", bin.name}, {"z_min_m", std::isfinite(bin.z_min) ? json(bin.z_min) : json(nullptr)}, {"z_max_m", bin.z_max}};
 }
 
 json results_json(const Results& results, const RunData& run) {
@@ -507,8 +516,8 @@ json results_json(const Results& results, const RunData& run) {
                           {"balance_error", results.mixing ? or_null(results.mixing->balance_error) : json(nullptr)}};
     document["production"] = results.fed ? fed_json(*results.fed, *results.dredging) : json(nullptr);
     document["dredging"] = results.dredging ? dredging_json(*results.dredging, results.fed->losses) : json(nullptr);
-    document["steel_work"] = steel_work_json(steel_work_of(results, run));
-    document["outside_usual_practice"] = outside_usual_practice(results, run);
+    document["steel_work"] = steel_work_json(results.steel);
+    document["outside_usual_practice"] = results.outside_usual_practice;
     document["recorded_flow"] = run.flow ? recorded_flow_json(*run.flow) : json(nullptr);
     document["operation"] = {{"pipe_velocity_m_s", results.delivery.pipe_velocity},
                              {"delivered_concentration", or_null(results.delivery.concentration)},

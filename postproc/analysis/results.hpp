@@ -11,6 +11,7 @@
 #include "postproc/analysis/exits/last_exits.hpp"
 #include "postproc/analysis/scale/scale_numbers.hpp"
 #include "postproc/analysis/spillage.hpp"
+#include "postproc/analysis/steel/steel_work.hpp"
 #include "postproc/analysis/time_average.hpp"
 #include "postproc/run/run_reader.hpp"
 
@@ -61,7 +62,8 @@ struct Losses {
 struct FedHead {
     Production production;
     Losses losses;
-    bool is_full = false;  ///< for a revolution more was owed than 5 % of what a blade passing cuts: the head cannot take what it cuts
+    bool is_full = false;     ///< for a revolution more was owed than 5 % of what a blade passing cuts
+    double owed_share = 0.0;  ///< owed, mean of the window, over what a revolution cuts
 };
 
 /// Ways out of a head that is fed from a cut face, as shares of what left it outside the mouth in the window of its production, by mass.
@@ -74,13 +76,16 @@ struct WaysOut {
 
 /// What a head that is fed from a cut face does in the window of its production (dredging.hpp).
 struct Dredging {
-    std::optional<double> cut_in_situ;          ///< soil that the swing cuts [m3/s]
-    std::optional<double> fed_in_situ;          ///< the same and what the swing before left [m3/s]
-    std::optional<double> delivered_in_situ;    ///< fines as neutral rock: (delivered + (1 - S_mix) fines) / (rho_grain (1 - n)) [m3/s]
-    double layer_share = 0.0;                   ///< of what was fed: loose rock that the swing before left
-    double concentration = 0.0;                 ///< delivered rock's volume over the mixture's
-    double mixture_density = 0.0;               ///< [kg/m3]
-    std::optional<double> spill_layer;          ///< (1 - P) M_fed / (rho_grain (1 - n)) B / (v_h s): thickness that the spillage makes [m]
+    std::optional<double> cut_in_situ;        ///< soil that the swing cuts [m3/s]
+    std::optional<double> fed_in_situ;        ///< the same and what the swing before left [m3/s]
+    std::optional<double> delivered_in_situ;  ///< fines as neutral rock: (delivered + (1 - S_mix) fines) / (rho_grain (1 - n)) [m3/s]
+    double layer_share = 0.0;                 ///< of what was fed: loose rock that the swing before left
+    double fines = 0.0;                       ///< cut in the window [kg]; they are not followed
+    std::optional<double> delivered_fines;    ///< of them, as neutral rock [kg]: (1 - S_mix) fines; 0 without fines
+    std::optional<double> concentration;      ///< volume of delivered rock and fines over the mixture's
+    std::optional<double> mixture_density;    ///< [kg/m3]
+    std::optional<double> spill_layer;  ///< (1 - P) M_fed / (rho_grain (1 - n)) B / (v_h s): what the swings leave in the end, at most [m]
+    std::optional<double> next_layer;   ///< of it on all that the head passed, for the next swing to meet [m]
     std::optional<double> cutting_power;        ///< specific energy given by the user, times cut_in_situ [W]
     std::optional<double> energy;               ///< of the drive for flow and rock, per delivered volume of soil [J/m3]
     std::optional<double> cutting_energy;       ///< of cutting, per delivered volume of soil [J/m3]
@@ -123,11 +128,13 @@ struct Results {
     double end_time = 0.0;             ///< of the last step [s]
     std::optional<Spillage> spillage;  ///< none: no rock
     std::int64_t rock_requested = 0, rock_rejected = 0;
-    std::vector<BinOutflow> outflow;   ///< empty when the run did not sample it
-    std::optional<Mixing> mixing;      ///< of the outflow
-    std::optional<FedHead> fed;        ///< of a head that is fed all the time, once it has run long enough
-    std::optional<Dredging> dredging;  ///< of the same
-    std::optional<LastExits> exits;    ///< in the window of the production, else since the first rock; none without rock
+    std::vector<BinOutflow> outflow;                  ///< empty when the run did not sample it
+    std::optional<Mixing> mixing;                     ///< of the outflow
+    std::optional<FedHead> fed;                       ///< of a head that is fed all the time, once it has run long enough
+    std::optional<Dredging> dredging;                 ///< of the same
+    std::optional<LastExits> exits;                   ///< in the window of the production, else since the first rock; none without rock
+    std::optional<SteelWork> steel;                   ///< what rock does to the steel; none when the run did not count it
+    std::vector<std::string> outside_usual_practice;  ///< of a head at work, in the prototype
     RotorLoads rotor;
     Delivery delivery;
     ScaleNumbers scale;
@@ -141,6 +148,9 @@ std::optional<FedHead> fed_head_of(const Table& ledger, double revolution, doubl
 
 /// \throws CheckFailure  when the fates of the rock do not add up
 Results compute_results(const RunData& run);
+
+/// Name and limits of an axial bin; `z_min_m` is null where it has none.
+nlohmann::json axial_bin_json(const geometry::AxialBin& bin);
 
 /// The contract's document. Undefined numbers are null; `*_reason` gives the reason.
 nlohmann::json results_json(const Results& results, const RunData& run);

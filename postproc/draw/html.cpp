@@ -58,6 +58,8 @@ th, td { padding: 5px 12px 5px 0; text-align: left; vertical-align: top; border-
 tr { break-inside: avoid; }
 thead th { color: var(--soft); font-weight: 600; border-bottom: 1.5px solid #b8c1ca; }
 tbody th { font-weight: 500; }
+.settings th, .settings td { overflow-wrap: normal; }
+.settings .name { overflow-wrap: anywhere; }
 table + table, table + p { margin-top: 14px; }
 sup { font-size: 0.72em; line-height: 0; }
 sub { font-size: 0.72em; line-height: 0; }

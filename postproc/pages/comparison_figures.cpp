@@ -66,8 +66,6 @@ Figure with_legend_that_fits(Plot plot, const std::string& caption) {
 
 constexpr const char* k_share_title = "% by mass";
 constexpr double k_percent = 100.0;
-constexpr const char* k_delivered = "delivered_in_situ_m3_h";
-constexpr const char* k_swing_speed = "swing_speed_m_min";
 
 struct Share {
     const char* key;
@@ -184,7 +182,7 @@ Plot delivered_plot(const Comparison& comparison, const Against& against) {
     plot.y.title = "delivered, soil in situ, m³/h";
     plot.y.tip = {".3g", " m³/h"};
     plot.y.from = 0.0;
-    add_trends(plot, comparison, against, {{k_delivered, "delivered", palette::sucked_up, 1.0}});
+    add_trends(plot, comparison, against, {{quantity::k_delivered, "delivered", palette::sucked_up, 1.0}});
     return plot;
 }
 
@@ -237,7 +235,7 @@ struct OutflowLine {
 
 OutflowLine outflow_line(const Comparison& comparison, const SpeedSeries& series, const Quantity& mixed) {
     OutflowLine line;
-    const Quantity& speed = *find_quantity(comparison, "speed_rpm");
+    const Quantity& speed = *find_quantity(comparison, quantity::k_speed);
     for (const std::size_t i : series.settings) {
         if (!mixed.settings[i].value) continue;
         line.speeds.push_back(*speed.settings[i].value);
@@ -290,15 +288,20 @@ Series hypothesis_line(const OutflowLine& outflow, double fall_through, const st
     return dashed;
 }
 
+struct DrawnLines {
+    bool outflow = false, hypothesis = false;
+};
+
 /// Beside what heads that are fed all the time spill: what neutral rock would, from each run's own outflow, and, where there are tests to
-/// fit it to, a hypothesis of what falls through at low speed. \return whether there is such a hypothesis
-bool add_outflow_lines(Plot& plot, const Comparison& comparison) {
+/// fit it to, a hypothesis of what falls through at low speed.
+DrawnLines add_outflow_lines(Plot& plot, const Comparison& comparison) {
     const Quantity* mixed = find_quantity(comparison, "well_mixed_spillage");
-    if (!mixed) return false;
-    bool has_hypothesis = false;
+    DrawnLines drawn;
+    if (!mixed) return drawn;
     for (const SpeedSeries& series : speed_series(comparison)) {
         const OutflowLine outflow = outflow_line(comparison, series, *mixed);
-        if (outflow.speeds.size() < 2) continue;
+        if (series.same_speed || outflow.speeds.size() < 2) continue;
+        drawn.outflow = true;
         const std::string of = series.what.empty() ? "" : ", " + series.what;
         Series line{"S_out: neutral rock" + of, palette::outflow, outflow.speeds, {}};
         line.line_width = 1.4;
@@ -307,9 +310,9 @@ bool add_outflow_lines(Plot& plot, const Comparison& comparison) {
         const std::optional<double> fall_through = measured_fall_through(comparison, series, outflow);
         if (!fall_through) continue;
         plot.series.push_back(hypothesis_line(outflow, *fall_through, of));
-        has_hypothesis = true;
+        drawn.hypothesis = true;
     }
-    return has_hypothesis;
+    return drawn;
 }
 
 std::vector<std::string> bins_of(const Comparison& comparison, const std::string& what, const std::string& unit) {
@@ -428,20 +431,20 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
         fed ? "; bars are 95 % intervals. Spillage is not drawn while the hold-up still changes; the table has its bounds and the hold-up."
             : "; bars are bounds: what the undecided rock could still do.";
     std::vector<Figure> figures{{shares_plot(comparison), shares + ", of every setting" + bars, ""}};
-    const Quantity &speed = *find_quantity(comparison, "speed_rpm"), &flow_number = *find_quantity(comparison, "flow_number");
-    const Quantity* delivered = find_quantity(comparison, k_delivered);
+    const Quantity &speed = *find_quantity(comparison, quantity::k_speed), &flow_number = *find_quantity(comparison, "flow_number");
+    const Quantity* delivered = find_quantity(comparison, quantity::k_delivered);
     const bool drawn_delivery = delivered && std::any_of(delivered->settings.begin(), delivered->settings.end(),
                                                          [](const Estimate& estimate) { return estimate.value.has_value(); });
     const auto add_trend = [&](const Against& against, bool with_measured) {
         Plot plot = trend_plot(comparison, against);
         if (with_measured) add_measured_points(plot, comparison);
-        const bool with_lines = with_measured && fed, with_hypothesis = with_lines && add_outflow_lines(plot, comparison);
+        const DrawnLines lines = with_measured && fed ? add_outflow_lines(plot, comparison) : DrawnLines{};
         figures.push_back(with_legend_that_fits(
             plot,
             shares + ", against " + against.what + bars +
                 (with_measured && !comparison.measured.empty() ? " Open marks are measured." : "") +
-                (with_lines ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow." : "") +
-                (with_hypothesis
+                (lines.outflow ? " Line: S<sub>out</sub>, what neutral rock would spill with each run’s own outflow." : "") +
+                (lines.hypothesis
                      ? " Dashed, a hypothesis and no result: 1 − (1 − S<sub>out</sub>) exp(−(n<sub>0</sub>/n)²), rock that falls through "
                        "between two blades below the speed n<sub>0</sub>, which is fitted to the measured points and not to the runs."
                      : "")));
@@ -453,7 +456,7 @@ std::vector<Figure> rock_figures(const Comparison& comparison) {
     };
     if (varies(speed) || !comparison.measured.empty())
         add_trend({speed, k_rotor_speed_key, "speed", "rotor speed, rpm", {".3g", " rpm"}, "the rotor’s speed"}, true);
-    if (const Quantity& swing = *find_quantity(comparison, k_swing_speed); varies(swing))
+    if (const Quantity& swing = *find_quantity(comparison, quantity::k_swing); varies(swing))
         add_trend({swing, k_swing_speed_key, "swing_speed", "swing speed, m/min", {".3g", " m/min"}, "the swing speed"}, false);
     if (varies(flow_number)) {
         // At one speed the flow number varies with the discharge, along a curve.
@@ -489,7 +492,7 @@ const char* setting_colour(std::size_t setting) {
 
 std::vector<Figure> comparison_figures(const Comparison& comparison) {
     std::vector<Figure> figures;
-    if (find_quantity(comparison, "ratio")) figures = rock_figures(comparison);
+    if (find_quantity(comparison, quantity::k_spillage)) figures = rock_figures(comparison);
     if (bins_of(comparison, "outflow", "m_s").empty()) return figures;
     figures.push_back(with_legend_that_fits(
         bins_plot(comparison, "outflow", "m_s", 1.0, "mean radial velocity, m/s (outwards positive)", {".3f", " m/s"}),

@@ -65,6 +65,11 @@ std::string differences_table(const Comparison& comparison) {
                                              "blade_angle_less_ladder_deg",
                                              "friction_rock",
                                              "friction_steel",
+                                             "cut_height_m",
+                                             "step_m",
+                                             "pipe_velocity_m_s",
+                                             "flow_revolutions",
+                                             "flow_change",
                                              "placed",
                                              "revolutions_since_feed",
                                              "undecided",
@@ -111,12 +116,14 @@ std::string settings_table(const Comparison& comparison) {
         const RunData& run = comparison.runs[setting.runs.front()].run;
         const bool finished =
             std::all_of(setting.runs.begin(), setting.runs.end(), [&](std::size_t r) { return comparison.runs[r].results.finished; });
-        rows.push_back({fmt::format("<i style=\"background: {}\"></i>{}", setting_colour(i), i + 1), escape(setting.label),
+        rows.push_back({fmt::format("<i style=\"background: {}\"></i>{}", setting_colour(i), i + 1),
+                        fmt::format("<span class=\"name\">{}</span>", escape(setting.label)),
                         escape(fs::path(run.geometry.value("file", std::string())).filename().string()),
                         escape(run.operating_point.mesh_preset), fmt::format("{}", setting.runs.size()),
                         finished ? "yes" : "<span class=\"failed\">no</span>"});
     }
-    return "<div class=\"legend\">" + html::table({"setting", "name", "cutter", "mesh", "runs", "finished"}, rows, false) + "</div>";
+    return "<div class=\"legend settings\">" + html::table({"setting", "name", "cutter", "mesh", "runs", "finished"}, rows, false) +
+           "</div>";
 }
 
 /// A column of the table of operating points.
@@ -133,7 +140,7 @@ constexpr PointColumn k_point_columns[] = {{"speed_rpm", "rpm", 1.0, -0.5},
                                            {"step_m", "step, m", 1.0, 1.0},
                                            {"cut_in_situ_m3_h", "cut in situ, m³/h", 1.0, 2.5},
                                            {"delivered_in_situ_m3_h", "delivered in situ, m³/h", 1.0, 2.5},
-                                           {"delivered_kg_s", "delivered dry, t/h", 3.6, 2.5},
+                                           {"delivered_kg_s", "delivered rock, t/h", 3.6, 2.5},
                                            {"ratio", "spillage, %", 100.0, 0.0},
                                            {"spilled_mixing_share", "mixing, %", 100.0, 0.0},
                                            {"spilled_cutting_share", "cutting, %", 100.0, 0.0},
@@ -232,11 +239,11 @@ std::string heads(const Comparison& comparison, Page& page) {
                                      : "";
         content += html::figure(head.markup, fmt::format("Setting {}: {}.{}", i + 1, escape(comparison.settings[i].label), rock));
     }
-    const std::string legend = find_quantity(comparison, "ratio") ? html::legend({{palette::spilled, "spilled"},
-                                                                                  {palette::in_cutter, "in cutter"},
-                                                                                  {palette::never_entered, "never entered"},
-                                                                                  {palette::sucked_up, "sucked up"}})
-                                                                  : "";
+    const std::string legend = find_quantity(comparison, quantity::k_spillage) ? html::legend({{palette::spilled, "spilled"},
+                                                                                               {palette::in_cutter, "in cutter"},
+                                                                                               {palette::never_entered, "never entered"},
+                                                                                               {palette::sucked_up, "sucked up"}})
+                                                                               : "";
     const std::string caption =
         "<p>From the side, gravity downwards; backplate and suction pipe transparent<span class=\"hint\">; drag to turn, then wheel or two "
         "fingers to zoom</span>.</p>";
@@ -289,7 +296,7 @@ fs::path write_comparison(const Comparison& comparison, const fs::path& folder, 
     const fs::path file = folder / "index.html", document = folder / k_document;
     fs::create_directories(folder);
     Page page(file, form);
-    const bool with_rock = find_quantity(comparison, "ratio") != nullptr;
+    const bool with_rock = find_quantity(comparison, quantity::k_spillage) != nullptr;
     const std::string title = fmt::format("Comparison of {} settings", comparison.settings.size());
     std::string body = fmt::format("<header><h1>{}</h1></header>\n", title) + page.how_to_make_live("cutterflow compare RUN... -o FOLDER") +
                        batches_notice(comparison) + settings_table(comparison);

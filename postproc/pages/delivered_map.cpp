@@ -15,15 +15,10 @@
 namespace cutterflow::postproc {
 namespace {
 
-constexpr const char *k_delivered = "delivered_in_situ_m3_h", *k_speed = "speed_rpm", *k_swing = "swing_speed_m_min";
 constexpr double k_px_of_label = 44.0, k_px_of_frame = 90.0;  // of a number, and of what stands beside the cells
 
-const Estimate& estimate_of(const Comparison& comparison, const char* key, std::size_t setting) {
-    return find_quantity(comparison, key)->settings[setting];
-}
-
 double value_of(const Comparison& comparison, const char* key, std::size_t setting) {
-    return *estimate_of(comparison, key, setting).value;
+    return *quantity_of(comparison, key, setting).value;
 }
 
 /// Settings that differ in nothing but the two speeds.
@@ -36,7 +31,7 @@ std::vector<MapGroup> groups_of(const Comparison& comparison) {
     const std::vector<std::string> rest = told_apart(comparison, {k_rotor_speed_key, k_swing_speed_key});
     std::map<std::string, MapGroup> by_rest;
     for (std::size_t i = 0; i < rest.size(); ++i) {
-        if (!estimate_of(comparison, k_delivered, i).value || !estimate_of(comparison, k_swing, i).value) continue;
+        if (!quantity_of(comparison, quantity::k_delivered, i).value || !quantity_of(comparison, quantity::k_swing, i).value) continue;
         by_rest[rest[i]].what = rest[i];
         by_rest[rest[i]].settings.push_back(i);
     }
@@ -53,8 +48,8 @@ std::set<double> distinct_values(const Comparison& comparison, const MapGroup& g
 
 /// Whether there are settings enough at two or more values of each speed.
 bool make_a_map(const Comparison& comparison, const MapGroup& group) {
-    return group.settings.size() >= k_fewest_of_map && distinct_values(comparison, group, k_speed).size() > 1 &&
-           distinct_values(comparison, group, k_swing).size() > 1;
+    return group.settings.size() >= k_fewest_of_map && distinct_values(comparison, group, quantity::k_speed).size() > 1 &&
+           distinct_values(comparison, group, quantity::k_swing).size() > 1;
 }
 
 /// Distinct values along an axis, each with the ends of its cells: half-way to its neighbours. \pre two or more
@@ -74,7 +69,8 @@ std::map<double, std::pair<double, double>> cells_along(const Comparison& compar
 /// Whether no two settings stand at one place: such differ in what a map does not show.
 bool have_places_of_their_own(const Comparison& comparison, const MapGroup& group) {
     std::set<std::pair<double, double>> places;
-    for (const std::size_t i : group.settings) places.emplace(value_of(comparison, k_speed, i), value_of(comparison, k_swing, i));
+    for (const std::size_t i : group.settings)
+        places.emplace(value_of(comparison, quantity::k_speed, i), value_of(comparison, quantity::k_swing, i));
     return places.size() == group.settings.size();
 }
 
@@ -93,11 +89,11 @@ std::string colour_of(double share) {
 }
 
 std::string tip_of(const Comparison& comparison, std::size_t i) {
-    const Estimate& delivered = estimate_of(comparison, k_delivered, i);
-    std::string tip =
-        fmt::format("{:g} rpm, {:g} m/min: {:.3g}", value_of(comparison, k_speed, i), value_of(comparison, k_swing, i), *delivered.value);
+    const Estimate& delivered = quantity_of(comparison, quantity::k_delivered, i);
+    std::string tip = fmt::format("{:g} rpm, {:g} m/min: {:.3g}", value_of(comparison, quantity::k_speed, i),
+                                  value_of(comparison, quantity::k_swing, i), *delivered.value);
     tip += delivered.half_width ? fmt::format(" ± {:.2g} m³/h", *delivered.half_width) : " m³/h, its error is not known";
-    return estimate_of(comparison, "ratio", i).value ? tip : tip + ", the hold-up still changes";
+    return quantity_of(comparison, quantity::k_spillage, i).value ? tip : tip + ", the hold-up still changes";
 }
 
 void set_axis(Axis& axis, const char* title, const std::map<double, std::pair<double, double>>& cells) {
@@ -109,9 +105,9 @@ void set_axis(Axis& axis, const char* title, const std::map<double, std::pair<do
 }
 
 Plot map_of(const Comparison& comparison, const MapGroup& group) {
-    const auto speeds = cells_along(comparison, group, k_speed), swings = cells_along(comparison, group, k_swing);
+    const auto speeds = cells_along(comparison, group, quantity::k_speed), swings = cells_along(comparison, group, quantity::k_swing);
     double largest = 0.0;
-    for (const std::size_t i : group.settings) largest = std::max(largest, value_of(comparison, k_delivered, i));
+    for (const std::size_t i : group.settings) largest = std::max(largest, value_of(comparison, quantity::k_delivered, i));
     Plot plot;
     plot.tips = Tips::at_point;
     plot.legend = Legend::none;
@@ -119,9 +115,9 @@ Plot map_of(const Comparison& comparison, const MapGroup& group) {
     set_axis(plot.y, "swing speed, m/min", swings);
     const double px_per_rpm = (plot.width - k_px_of_frame) / (*plot.x.to - *plot.x.from);
     for (const std::size_t i : group.settings) {
-        const auto [from, to] = speeds.at(value_of(comparison, k_speed, i));
-        const auto [low, high] = swings.at(value_of(comparison, k_swing, i));
-        const double value = value_of(comparison, k_delivered, i), share = largest > 0.0 ? value / largest : 0.0;
+        const auto [from, to] = speeds.at(value_of(comparison, quantity::k_speed, i));
+        const auto [low, high] = swings.at(value_of(comparison, quantity::k_swing, i));
+        const double value = value_of(comparison, quantity::k_delivered, i), share = largest > 0.0 ? value / largest : 0.0;
         const bool has_room = (to - from) * px_per_rpm >= k_px_of_label;
         plot.bars.push_back({from, to, 0.5 * (low + high), high - low, colour_of(share), tip_of(comparison, i),
                              has_room ? fmt::format("{:.3g}", value) : "", share > 0.6 ? "white" : palette::ink});
@@ -133,7 +129,7 @@ Plot map_of(const Comparison& comparison, const MapGroup& group) {
 
 std::vector<Figure> delivered_maps(const Comparison& comparison) {
     std::vector<Figure> figures;
-    if (!find_quantity(comparison, k_delivered)) return figures;
+    if (!find_quantity(comparison, quantity::k_delivered)) return figures;
     for (const MapGroup& group : groups_of(comparison)) {
         if (!make_a_map(comparison, group) || !have_places_of_their_own(comparison, group)) continue;
         Plot plot = map_of(comparison, group);

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/statistics/developed_flow.hpp"
+#include "geometry/head/tip_radius.hpp"
 #include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/text.hpp"
@@ -151,8 +152,11 @@ std::string fed_answers(const FedHead& head) {
     blocks += answer(palette::in_cutter, "Hold-up: owed or in the head", fmt::format("{} kg", number(production.held)),
                      fmt::format("changed by {} of what was fed", percent(production.held_change / production.fed)));
     return blocks + answer(palette::ink, "Head", head.is_full ? "full" : "not full",
-                           head.is_full ? "for a revolution more rock waited for a place than 5 % of what a blade cuts in passing"
-                                        : "rock that was cut found its place");
+                           head.is_full
+                               ? fmt::format("for a revolution more rock waited for a place than 5 % of what a blade cuts in passing; "
+                                             "in the mean {} of what a revolution cuts waited",
+                                             percent(head.owed_share))
+                               : "rock that was cut found its place");
 }
 
 /// Masses so far, and no ratio: the hold-up of a window is not known.
@@ -192,6 +196,11 @@ std::string production_table(const Results& results, const RunData& run) {
     const auto times = [](double factor, const std::optional<double>& value) {
         return value ? std::optional<double>(factor * *value) : std::nullopt;
     };
+    const auto with_fines = [&](double mass, const std::optional<double>& fines) {
+        return fines ? std::optional<double>(tonnes(mass + *fines)) : std::nullopt;
+    };
+    const std::optional<double> spilled_fines =
+        dredging.delivered_fines ? std::optional<double>(dredging.fines - *dredging.delivered_fines) : std::nullopt;
     const auto given = [](double value) { return value > 0.0 ? std::optional<double>(value) : std::nullopt; };
     const std::optional<double> cutting_torque = times(1.0 / point.angular_speed(), dredging.cutting_power);
     const std::vector<ScaledValue> values{
@@ -202,16 +211,17 @@ std::string production_table(const Results& results, const RunData& run) {
         {"discharge of the mixture", "m³/h", 3600.0 * point.discharge, 2.5},
         {"speed in the suction mouth", "m/s", results.delivery.pipe_velocity, 0.5},
         {"cut, soil in situ", "m³/h", times(3600.0, dredging.cut_in_situ), 2.5},
-        {"fed, dry", "t/h", tonnes(production.fed), 2.5},
+        {"fed, dry", "t/h", tonnes(production.fed + dredging.fines), 2.5},
         {"fed, soil in situ", "m³/h", times(3600.0, dredging.fed_in_situ), 2.5},
-        {"delivered, dry", "t/h", tonnes(production.delivered), 2.5},
+        {"delivered, dry", "t/h", with_fines(production.delivered, dredging.delivered_fines), 2.5},
         {"delivered, soil in situ", "m³/h", times(3600.0, dredging.delivered_in_situ), 2.5},
-        {"spilled, dry", "t/h", tonnes(production.spilled), 2.5},
+        {"spilled, dry", "t/h", with_fines(production.spilled, spilled_fines), 2.5},
         {"hold-up grows by", "t/h", tonnes(production.held_change), 2.5},
         {"hold-up", "kg", production.held, 3.0},
-        {"density of the mixture", "kg/m³", given(dredging.mixture_density), 0.0},
-        {"delivered rock in the mixture, by volume", "%", 100.0 * dredging.concentration, 0.0},
-        {"thickness of the layer that this spillage leaves", "m", dredging.spill_layer, 1.0},
+        {"density of the mixture", "kg/m³", dredging.mixture_density, 0.0},
+        {"delivered soil in the mixture, by volume", "%", times(100.0, dredging.concentration), 0.0},
+        {"layer that the swings leave in the end, at most: all that is spilled, on one step’s width", "m", dredging.spill_layer, 1.0},
+        {"layer for the next swing to meet (bed.spill_layer_m), on all that the head passed", "m", dredging.next_layer, 1.0},
         {"torque of the flow", "kN m", scaled_down(mean(results.rotor.torque_flow)), 4.0},
         {"torque of the rock", "kN m", scaled_down(mean(results.rotor.torque_rock)), 4.0},
         {"torque of cutting, from soil.specific_energy_mj_m3", "kN m", scaled_down(cutting_torque), 3.0},
@@ -365,7 +375,7 @@ std::string answers(const Results& results, const RunData& run) {
 
 /// What an engineer would find unusual about a head at work; nothing where there is nothing.
 std::string practice_text(const Results& results, const RunData& run) {
-    const std::vector<std::string> outside = outside_usual_practice(results, run);
+    const std::vector<std::string>& outside = results.outside_usual_practice;
     if (outside.empty()) return "";
     return fmt::format(
         "<p>Outside of usual practice, in the prototype {:g} times as long, with the usual range in brackets: {}. The numbers hold for "
@@ -489,7 +499,7 @@ std::string operation_section(const Results& results, const RunData& run) {
     std::vector<std::vector<std::string>> rows{
         scaled_row("rotor speed", "rpm", point.speed_rpm, ratio, -0.5),
         scaled_row("ring radius", "m", run.contour.ring_radius(), ratio, 1.0),
-        scaled_row("tip speed", "m/s", point.angular_speed() * run.contour.ring_radius(), ratio, 0.5),
+        scaled_row("tip speed", "m/s", point.angular_speed() * geometry::tip_radius(run.contour), ratio, 0.5),
         scaled_row("discharge Q of the mixture", "m³/s", point.discharge, ratio, 2.5),
         scaled_row("velocity in the suction pipe", "m/s", results.delivery.pipe_velocity, ratio, 0.5),
         scaled_row("mean torque of the flow", "N m", mean_of(results.rotor.torque_flow), ratio, 4.0)};
@@ -534,7 +544,10 @@ std::string operation_section(const Results& results, const RunData& run) {
     content +=
         "<p>R ring radius, ω rotor speed, u<sub>t</sub> settling velocity and d diameter of the rock (mean by mass), λ inclination of the "
         "ladder, z number, w depth and β angle with the axis of the blades. ";
-    if (results.spillage) content += "Delivered concentration: volume of sucked up rock over the mixture discharged since the first rock. ";
+    if (results.spillage)
+        content += point.fed_by_cutting
+                       ? "Delivered concentration and density of the mixture: in the window of the production. "
+                       : "Delivered concentration: volume of sucked up rock over the mixture discharged since the first rock. ";
     content += fmt::format("Torques and power: {}.</p>", over_revolutions(results.rotor));
     return html::section("Operating point and scale", content + "</div></div>");
 }
@@ -600,7 +613,9 @@ std::string cost_section(const Results& results, const RunData& run, const PageF
             const auto found = stage.find(key);
             return done && found != stage.end() && found->is_number() ? duration(found->get<double>()) : std::string(k_dash);
         };
-        stages.push_back({name, json_text(stage.value("state", json(""))), seconds("wall_s"), seconds("core_s")});
+        const bool is_solver = std::string(name) == "run" && results.cost.core_s;  // of all attempts, also those that were interrupted
+        stages.push_back({name, json_text(stage.value("state", json(""))), seconds("wall_s"),
+                          is_solver ? duration(*results.cost.core_s) : seconds("core_s")});
     }
     if (!stages.empty()) content += html::table({"stage", "state", "wall time", "core time"}, stages, true);
     return html::section("Cost by part", content);

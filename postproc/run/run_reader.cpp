@@ -37,6 +37,8 @@ const std::vector<JsonField> k_feed_fields{{"feeds/*/requested", JsonKind::whole
                                            {"feeds/*/rejected", JsonKind::whole, true},
                                            {"feeds/*/reasons/*", JsonKind::text},
                                            {"feeds/*/left_by_swing_before", JsonKind::truth},
+                                           {"feeds/*/layers/*/thickness_m", JsonKind::number, true},
+                                           {"feeds/*/layers/*/section_m2", JsonKind::number, true},
                                            {"feeds/*/classes/*/diameter_m", JsonKind::number, true},
                                            {"feeds/*/classes/*/density_kg_m3", JsonKind::number, true},
                                            {"feeds/*/classes/*/count", JsonKind::number, true},
@@ -138,7 +140,8 @@ OperatingPoint read_operating_point(StudyReader& study) {
     point.rock_share = study.rock_share();
     point.hauls = study.is_true("hauling.water");
     if (const double energy = study.number_or("soil.specific_energy_mj_m3", 0.0); energy > 0.0) point.specific_energy = 1e6 * energy;
-    point.in_situ_density = study.number_or("soil.grain_density_kg_m3", 0.0) * (1.0 - study.number_or("soil.porosity", 0.0));
+    point.grain_density = study.number_or("soil.grain_density_kg_m3", 0.0);
+    point.in_situ_density = point.grain_density * (1.0 - study.number_or("soil.porosity", 0.0));
     return point;
 }
 
@@ -151,7 +154,9 @@ AdvProbe read_adv_probe(const StudyReader& study) {
 
 geometry::Contour read_contour(const fs::path& directory, double ring_radius, double gap) {
     const fs::path file = directory / names::contour_table;
-    const Table table = read_table(file, {{"z_m", "r_m"}, {}, {}, k_rerun});
+    const Table table = read_table(file, {{"z_m", "r_m"}, {}, {}, k_rerun}, true);
+    if (table.rows() == 0 || std::abs(table.number("z_m").back()) > 1e-6 * ring_radius)
+        throw UserError(fmt::format("{} does not end at the ring plane, z = 0", file.string()), "A contour goes from hub to ring", k_rerun);
     try {
         return geometry::Contour(table.number("z_m"), table.number("r_m"), ring_radius, gap);
     } catch (const std::exception& error) {
@@ -168,6 +173,10 @@ std::optional<FeedSummary> read_feed(const fs::path& file) {
         summary.requested += feed.at("requested").get<std::int64_t>();
         summary.rejected += feed.at("rejected").get<std::int64_t>();
         for (const json& reason : feed.value("reasons", json::array())) summary.reasons.push_back(reason);
+        for (const json& layer : feed.value("layers", json::array())) {
+            summary.layer_thickness.push_back(layer.at("thickness_m"));
+            summary.layer_section.push_back(layer.at("section_m2"));
+        }
         for (const json& item : feed.value("classes", json::array())) {
             RockClass rock_class{item.at("diameter_m"), item.at("density_kg_m3"), item.at("count"), std::nullopt};
             const json speed = item.value("settling_velocity_m_s", json());

@@ -36,6 +36,7 @@ struct OperatingPoint {
     bool has_bank = false;                  ///< soil stands beside the head
     double swing_speed = 0.0;               ///< [m/s]; 0: not given
     double in_situ_density = 0.0;           ///< dry grains per volume of soil, rho_grain (1 - n) [kg/m3]; 0: not given
+    double grain_density = 0.0;             ///< of the soil [kg/m3]; 0: not given
     double bulking = 1.5;                   ///< volume of loose rock over that of soil
     double cut_height = 0.0, step = 0.0;    ///< of the bank [m]; 0: not given
     double standing_out = 0.0;              ///< of picks and clearance beyond the contour [m]
@@ -61,7 +62,8 @@ struct FeedSummary {
     std::int64_t rejected = 0;
     std::vector<std::string> reasons;
     std::vector<RockClass> classes;
-    double left_share = 0.0;  ///< of the mass: loose rock that the swing before left
+    double left_share = 0.0;                             ///< of the mass: loose rock that the swing before left
+    std::vector<double> layer_thickness, layer_section;  ///< of layers that a swing may leave [m], and what the next takes of each [m2]
 };
 
 /// Tables of the rock; present once rock was put in.

@@ -103,6 +103,15 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     EXPECT_NEAR(*difference.estimate.half_width, std::hypot(*production.settings[0].half_width, *production.settings[1].half_width), 1e-12);
     EXPECT_EQ(difference.verdict, ComparisonVerdict::differs);
     EXPECT_THAT(comparison_text(comparison), HasSubstr("[0.3"));
+    // Of the flow: an interval and no bounds.
+    const Estimate& torque = quantity_of(comparison, "torque_flow_mean_n_m").settings[0];
+    ASSERT_TRUE(torque.half_width);
+    EXPECT_EQ(*torque.half_width, *comparison.runs[0].results.rotor.torque_flow->half_interval);
+    for (const Quantity& quantity : comparison.quantities)
+        for (const Estimate& estimate : quantity.settings) {
+            EXPECT_EQ(estimate.low.has_value(), estimate.high.has_value()) << quantity.key;
+            if (estimate.low) EXPECT_LE(*estimate.low, *estimate.high) << quantity.key;
+        }
     for (const Quantity& quantity : comparison.quantities) {
         EXPECT_NE(quantity.key, "ratio_at_equal_time");
         EXPECT_NE(quantity.key, "energy_per_volume_j_m3") << "it is over the whole time, start-up included";

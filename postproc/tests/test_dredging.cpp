@@ -70,8 +70,8 @@ TEST(Dredging, has_the_rates_of_the_swing) {
         volume += rock.count * one;
         mass += rock.count * one * rock.density;
     }
-    EXPECT_NEAR(work.concentration, 6.0 * volume / mass / 0.12, 1e-3);
-    EXPECT_NEAR(work.mixture_density, run.operating_point.fluid_density * (1.0 - work.concentration) + 6.0 / 0.12, 1.0);
+    EXPECT_NEAR(*work.concentration, 6.0 * volume / mass / 0.12, 1e-3);
+    EXPECT_NEAR(*work.mixture_density, run.operating_point.fluid_density * (1.0 - *work.concentration) + 6.0 / 0.12, 1.0);
     // 4 kg/s are 2 l/s of soil, 2.8 l/s loose; the swing passes 0.016 m2/s of bed.
     EXPECT_NEAR(*work.spill_layer, 0.002 * k_bulking / (k_swing * k_step), 0.005);
     EXPECT_NEAR(*work.cutting_power, 0.5e6 * 0.005, 1.0);
@@ -84,6 +84,9 @@ TEST(Dredging, has_the_rates_of_the_swing) {
     EXPECT_NE(limits_text(results).find("where the water flows outwards (outflow)"), std::string::npos);
     Results full = results;
     full.fed->is_full = true;
+    full.fed->owed_share = 0.02;
+    EXPECT_NE(limits_text(full).find("though little: in the mean 2.0 % of what"), std::string::npos) << limits_text(full);
+    full.fed->owed_share = 0.2;
     EXPECT_NE(limits_text(full).find("it cannot take what it cuts; of the rock that left"), std::string::npos) << limits_text(full);
 }
 
@@ -214,6 +217,31 @@ TEST(Dredging, counts_fines_as_neutral_rock_and_the_layer_as_not_cut) {
     EXPECT_NEAR(*work.delivered_in_situ, (1.0 - *work.spillage_with_fines) * *work.fed_in_situ, 1e-6);
     EXPECT_NEAR(results_json(results, run).at("production").at("delivered_in_situ_m3_h").get<double>(), 3600.0 * *work.delivered_in_situ,
                 1e-3);
+    // The mouth takes the same soil: its mass displaces water.
+    const Production& window = results.fed->production;
+    const double taken = *work.delivered_in_situ * run.operating_point.in_situ_density / run.operating_point.discharge;
+    EXPECT_NEAR(*work.mixture_density, run.operating_point.fluid_density * (1.0 - *work.concentration) + taken, 1e-6);
+    const Dredging rock_alone = *compute_results(plain).dredging;
+    EXPECT_NEAR(*work.concentration - *rock_alone.concentration,
+                *work.delivered_fines / (window.to - window.from) / run.operating_point.grain_density / run.operating_point.discharge,
+                1e-9);
+    EXPECT_GT(*work.delivered_fines, 0.0);
+}
+
+TEST(Dredging, lays_what_is_spilled_on_all_that_the_head_passed) {
+    RunData run = read_run(at_work("dredging_layer"));
+    EXPECT_FALSE(compute_results(run).dredging->next_layer) << "a feed of an earlier program";
+    // Of a layer on a floor twice as wide as the step the next swing takes the half.
+    for (const double thickness : {0.1, 0.2, 0.3}) {
+        run.feed->layer_thickness.push_back(thickness);
+        run.feed->layer_section.push_back(thickness * k_step);
+    }
+    const Dredging work = *compute_results(run).dredging;
+    ASSERT_TRUE(work.next_layer);
+    EXPECT_NEAR(*work.next_layer, 0.5 * *work.spill_layer, 1e-12);
+    for (double& section : run.feed->layer_section) section = 0.0;
+    run.feed->layer_thickness = {0.01, 0.02, 0.03};
+    EXPECT_FALSE(compute_results(run).dredging->next_layer) << "no layer of the bank's height holds it";
 }
 
 TEST(Dredging, follows_delivered_rock_from_cut_to_mouth) {
@@ -241,8 +269,8 @@ TEST(UsualPractice, is_that_of_the_prototype_and_leaves_out_what_is_not_steady) 
     const auto outside = [](const fs::path& directory) {
         const RunData run = read_run(directory);
         const Results results = compute_results(run);
-        EXPECT_EQ(results_json(results, run).at("outside_usual_practice"), outside_usual_practice(results, run));
-        return fmt::format("{}", fmt::join(outside_usual_practice(results, run), ", "));
+        EXPECT_EQ(results_json(results, run).at("outside_usual_practice"), results.outside_usual_practice);
+        return fmt::format("{}", fmt::join(results.outside_usual_practice, ", "));
     };
     const std::string as_is = outside(at_work("practice_1", 60.0));
     EXPECT_NE(as_is.find("ring diameter 0.8 m (1.5 to 3.5), rotor speed 60 rpm (20 to 40)"), std::string::npos) << as_is;

@@ -358,6 +358,20 @@ TEST(WriteReport, says_of_a_folder_in_the_place_of_a_file_that_it_cannot_be_read
     }
 }
 
+TEST(WriteReport, refuses_a_contour_that_was_cut_short) {
+    for (const std::size_t lines : {std::size_t{1}, std::size_t{3}}) {
+        SmallRun run("report_of_half_a_contour");
+        run.write();
+        const std::string whole = read_text(run.directory / "geometry/contour.csv");
+        std::size_t end = 0;
+        for (std::size_t i = 0; i < lines; ++i) end = whole.find('\n', end) + 1;
+        for (const std::size_t length : {end, end + 4}) {
+            testing::write_text(run.directory / "geometry/contour.csv", whole.substr(0, length));
+            EXPECT_THROW(write_report(run.directory), UserError) << length;
+        }
+    }
+}
+
 TEST(WriteReport, names_of_the_user_cannot_become_markup) {
     SmallRun run("report_escape");
     run.study_name = "<script>alert('x')</script> & \"rev B\"";

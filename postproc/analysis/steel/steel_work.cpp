@@ -9,6 +9,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/head/head_names.hpp"
+#include "postproc/analysis/results.hpp"
 #include "postproc/run/vtp_arrays.hpp"
 
 namespace cutterflow::postproc {
@@ -132,14 +133,13 @@ json wall_json(const EnergyOfWall& wall, const SteelWork& work) {
 
 json bin_json(const EnergyOfBin& bin, const SteelWork& work) {
     const double area_time = bin.area * work.map_duration();
-    return {{"name", bin.bin.name},
-            {"z_min_m", std::isfinite(bin.bin.z_min) ? json(bin.bin.z_min) : json(nullptr)},
-            {"z_max_m", bin.bin.z_max},
-            {"area_m2", bin.area},
-            {"impact_j", bin.energy.impact},
-            {"sliding_j", bin.energy.sliding},
-            {"impact_w_m2", per(bin.energy.impact, area_time)},
-            {"sliding_w_m2", per(bin.energy.sliding, area_time)}};
+    json object = axial_bin_json(bin.bin);
+    object.update({{"area_m2", bin.area},
+                   {"impact_j", bin.energy.impact},
+                   {"sliding_j", bin.energy.sliding},
+                   {"impact_w_m2", per(bin.energy.impact, area_time)},
+                   {"sliding_w_m2", per(bin.energy.sliding, area_time)}});
+    return object;
 }
 
 }  // namespace

@@ -9,10 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/head/axial_bins.hpp"
-#include "postproc/analysis/results.hpp"
 #include "postproc/draw/triangle_surface.hpp"
+#include "postproc/run/run_reader.hpp"
 
 namespace cutterflow::postproc {
+
+struct Results;
 
 /// Work of rock on steel: of rock that comes closer, against the normal force, and of friction. solver/liggghts/contacts has the equations.
 struct SteelEnergy {
@@ -56,6 +58,7 @@ struct SteelWork {
 /// A wall's surface with its work, as the solver writes it. \throws UserError  when it is damaged
 WorkedSurface read_worked_surface(const std::filesystem::path& file);
 
+/// \param results  with the rock and, of a fed head, its production
 /// \return nothing when the run counted no work (one without rock, or of an earlier program), or no time of the window has any
 std::optional<SteelWork> steel_work_of(const Results& results, const RunData& run);
 

@@ -64,8 +64,8 @@ std::vector<std::string> warnings_of(const fs::path& run, const nlohmann::json& 
     return first_warnings(std::move(warnings));
 }
 
-/// Core seconds of a stage, from the manifest.
-double core_seconds(const nlohmann::json& manifest, const char* stage) {
+/// Core seconds of a stage, from the manifest: without those of attempts that were interrupted.
+double noted_core_seconds(const nlohmann::json& manifest, const char* stage) {
     return manifest.value("stages", nlohmann::json::object()).value(stage, nlohmann::json::object()).value("core_s", 0.0);
 }
 
@@ -108,18 +108,20 @@ nlohmann::json results_of(const fs::path& run, const nlohmann::json& room, const
     const Grains& grains = source.grains(picture);
     const double time = source.picture_times().at(picture);
     const nlohmann::json manifest = read_if_there(run / names::manifest);
-    return {{"schema", "cutterflow.room/1"},
-            {"name", room.at("name")},
-            {"time_s", time},
-            {"end_s", room.at("end_s")},
-            {"finished", !cost_of(run).empty()},
-            {"grains", grains.size()},
-            {"grains_kg", mass_of(grains)},
-            {"bed", room.value("bed", nlohmann::json())},
-            {"account", account_of(source, room)},
-            {"largest_overlap", largest_overlap(source)},
-            {"warnings", warnings_of(run, room.value("bed", nlohmann::json()))},
-            {"core_s", {{"bed", core_seconds(manifest, "bed")}, {"run", core_seconds(manifest, "run")}}}};
+    return {
+        {"schema", "cutterflow.room/1"},
+        {"name", room.at("name")},
+        {"time_s", time},
+        {"end_s", room.at("end_s")},
+        {"finished", !cost_of(run).empty()},
+        {"grains", grains.size()},
+        {"grains_kg", mass_of(grains)},
+        {"bed", room.value("bed", nlohmann::json())},
+        {"account", account_of(source, room)},
+        {"largest_overlap", largest_overlap(source)},
+        {"warnings", warnings_of(run, room.value("bed", nlohmann::json()))},
+        {"core_s",
+         {{"bed", noted_core_seconds(manifest, "bed")}, {"run", solver_core_seconds(run).value_or(noted_core_seconds(manifest, "run"))}}}};
 }
 
 std::string answers(const nlohmann::json& results, const nlohmann::json& measures) {

@@ -119,7 +119,7 @@ std::string words(const SteelWork& work, double length_ratio) {
 }  // namespace
 
 std::string steel_section(const Results& results, const RunData& run, const Page& page) {
-    const std::optional<SteelWork> work = steel_work_of(results, run);
+    const std::optional<SteelWork>& work = results.steel;
     if (!work) return "";
     std::string content = words(*work, run.operating_point.length_ratio);
     if (work->cutter)

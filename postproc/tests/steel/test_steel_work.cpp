@@ -100,7 +100,7 @@ TEST(SteelWork, of_a_head_that_is_fed_is_that_of_its_production) {
     const RunData data = read_run(run.directory);
     const Results results = compute_results(data);
     ASSERT_TRUE(results.fed.has_value());
-    const std::optional<SteelWork> work = steel_work_of(results, data);
+    const std::optional<SteelWork>& work = results.steel;
     ASSERT_TRUE(work.has_value());
     EXPECT_NEAR(work->from, results.fed->production.from, 1e-9);
     EXPECT_GT(work->from, 2.0);
