@@ -112,7 +112,7 @@ Figure map_figure(const Outcome& outcome, const Map& map) {
         if (!level.x.empty()) plot.series.push_back(std::move(level));
     }
     Series edge = line("edge of the 95 % region", palette::spilled, 2.0);
-    const Isoline region = isoline(map.x, map.y, map.chi_squared, 1.0);
+    const Isoline region = isoline(map.region_x, map.region_y, map.distance, 1.0);
     edge.x = region.x;
     edge.y = region.y;
     if (!edge.x.empty()) plot.series.push_back(std::move(edge));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <Eigen/Eigenvalues>
@@ -28,6 +29,11 @@ double rise(std::size_t count, double freedom) {
     return p * quantile(boost::math::fisher_f(p, freedom), k_confidence);
 }
 
+/// From the minimum, 1 on the edge. Of a parabola it grows linearly, so that it is interpolated without error.
+double distance(double chi_squared, double least, double limit) {
+    return std::sqrt(std::max(0.0, chi_squared - least) / limit);
+}
+
 /// A regular net over all scaled parameters with the values on it.
 struct Net {
     Eigen::Index parameters = 0, side = 0;
@@ -35,6 +41,15 @@ struct Net {
 
     std::size_t size() const { return objective.size(); }
     double coordinate(Eigen::Index index) const { return -1.0 + 2.0 * static_cast<double>(index) / static_cast<double>(side - 1); }
+    Eigen::Index nearest(double coordinate) const { return std::lround(0.5 * (coordinate + 1.0) * static_cast<double>(side - 1)); }
+    /// Of its values along a parameter and one more, in order.
+    std::vector<double> coordinates_with(double one) const {
+        std::vector<double> all{one};
+        for (Eigen::Index i = 0; i < side; ++i)
+            if (coordinate(i) != one) all.push_back(coordinate(i));
+        std::sort(all.begin(), all.end());
+        return all;
+    }
     Eigen::Index index(std::size_t node, Eigen::Index parameter) const {
         auto rest = static_cast<Eigen::Index>(node);
         for (Eigen::Index k = 0; k < parameter; ++k) rest /= side;
@@ -79,11 +94,12 @@ public:
         const double freedom = surface_.degrees_of_freedom(likeliest);
         const double limit = rise(1, freedom) * found.contradiction, region = rise(ranges_.size(), freedom) * found.contradiction;
         for (Eigen::Index k = 0; k < net_.parameters; ++k) {
-            found.profiles.push_back(profile(k, likeliest, found.least_chi_squared, limit));
+            found.profiles.push_back(profile(k, found.least_chi_squared, limit));
             found.intervals.push_back(interval(k, found.profiles.back(), likeliest));
         }
         for (Eigen::Index k = 0; k < net_.parameters; ++k)
-            for (Eigen::Index l = k + 1; l < net_.parameters; ++l) found.maps.push_back(map(k, l, found.least_chi_squared, region));
+            for (Eigen::Index l = k + 1; l < net_.parameters; ++l)
+                found.maps.push_back(map(k, l, likeliest, found.least_chi_squared, region));
         found.directions = directions(likeliest, limit);
         return found;
     }
@@ -97,23 +113,22 @@ private:
         return function(polished) < values[node] ? polished : start;
     }
 
-    /// Least value of chi^2 with one parameter held, from the best node of its slice.
-    double least_with(Eigen::Index held, double value, std::size_t node) const {
-        Eigen::VectorXd start = net_.place(node);
-        if (net_.parameters == 1) return net_.chi_squared[node];
-        Eigen::VectorXd free(net_.parameters - 1);
-        const auto whole = [&](const Eigen::VectorXd& others) {
-            Eigen::VectorXd at(net_.parameters);
-            for (Eigen::Index k = 0, next = 0; k < net_.parameters; ++k) at[k] = k == held ? value : others[next++];
-            return at;
+    /// Least value of chi^2 with some parameters held where they are in `start`, the others from there on.
+    double least_from(const Eigen::VectorXd& start, const std::vector<Eigen::Index>& held) const {
+        std::vector<Eigen::Index> others;
+        for (Eigen::Index k = 0; k < net_.parameters; ++k)
+            if (std::find(held.begin(), held.end(), k) == held.end()) others.push_back(k);
+        const double there = surface_.chi_squared(start);
+        if (others.empty()) return there;
+        const Function function = [&](const Eigen::VectorXd& values) {
+            Eigen::VectorXd at = start;
+            at(others) = values;
+            return surface_.chi_squared(at);
         };
-        for (Eigen::Index k = 0, next = 0; k < net_.parameters; ++k)
-            if (k != held) free[next++] = start[k];
-        const Function function = [&](const Eigen::VectorXd& others) { return surface_.chi_squared(whole(others)); };
-        return std::min(net_.chi_squared[node], function(minimum_near(function, free)));
+        return std::min(there, function(minimum_near(function, start(others))));
     }
 
-    ObjectiveProfile profile(Eigen::Index parameter, const Eigen::VectorXd& likeliest, double least, double limit) const {
+    ObjectiveProfile profile(Eigen::Index parameter, double least, double limit) const {
         const auto side = static_cast<std::size_t>(net_.side);
         std::vector<std::size_t> best(side, net_.size());
         ObjectiveProfile found;
@@ -123,59 +138,82 @@ private:
             found.objective[i] = std::min(found.objective[i], net_.objective[node]);
             if (best[i] == net_.size() || net_.chi_squared[node] < net_.chi_squared[best[i]]) best[i] = node;
         }
-        Eigen::VectorXd at = likeliest;
         for (std::size_t i = 0; i < side; ++i) {
-            const double value = net_.coordinate(static_cast<Eigen::Index>(i));
-            at[parameter] = value;
+            const Eigen::VectorXd at = net_.place(best[i]);
             found.x.push_back(unscaled(ranges_, at)[parameter]);
-            found.chi_squared.push_back((least_with(parameter, value, best[i]) - least) / limit);
+            found.distance.push_back(distance(least_from(at, {parameter}), least, limit));
         }
         return found;
     }
 
-    /// From the first to the last value where the profile is below 1.
+    /// From the first to the last value where the distance is at most 1. The minimum is one of the values: the interval holds it, also
+    /// where it is narrower than the net.
     ParameterInterval interval(Eigen::Index parameter, const ObjectiveProfile& profile, const Eigen::VectorXd& likeliest) const {
-        const double middle = unscaled(ranges_, likeliest)[parameter];
-        ParameterInterval found{middle, middle, false, false};
-        const auto inside = [&](std::size_t i) { return profile.chi_squared[i] <= 1.0; };
-        const auto crossing = [&](std::size_t out, double x_in, double value_in) {
-            const double share = (1.0 - value_in) / (profile.chi_squared[out] - value_in);
-            return x_in + share * (profile.x[out] - x_in);
+        struct Point {
+            double x, distance;
         };
-        const std::size_t side = profile.x.size();
-        std::size_t first = 0, last = side - 1;
-        while (first < side && !inside(first)) ++first;
-        while (last > 0 && !inside(last)) --last;
-        if (first >= side) {  // narrower than the net: between the nodes beside the minimum
-            const auto above = static_cast<std::size_t>(std::upper_bound(profile.x.begin(), profile.x.end(), middle) - profile.x.begin());
-            if (above > 0 && above < side) found = {crossing(above - 1, middle, 0.0), crossing(above, middle, 0.0), false, false};
-            return found;
-        }
-        found.reaches_low = first == 0;
-        found.reaches_high = last == side - 1;
-        found.low = found.reaches_low ? profile.x.front() : crossing(first - 1, profile.x[first], profile.chi_squared[first]);
-        found.high = found.reaches_high ? profile.x.back() : crossing(last + 1, profile.x[last], profile.chi_squared[last]);
+        std::vector<Point> points;
+        for (std::size_t i = 0; i < profile.x.size(); ++i) points.push_back({profile.x[i], profile.distance[i]});
+        const Point minimum{unscaled(ranges_, likeliest)[parameter], 0.0};
+        points.insert(std::upper_bound(points.begin(), points.end(), minimum, [](const Point& a, const Point& b) { return a.x < b.x; }),
+                      minimum);
+        const auto inside = [](const Point& point) { return point.distance <= 1.0; };
+        const auto crossing = [](const Point& in, const Point& out) {
+            return in.x + (1.0 - in.distance) / (out.distance - in.distance) * (out.x - in.x);
+        };
+        const auto first = std::find_if(points.begin(), points.end(), inside);
+        const auto last = std::prev(std::find_if(points.rbegin(), points.rend(), inside).base());
+        ParameterInterval found;
+        found.reaches_low = first == points.begin();
+        found.reaches_high = std::next(last) == points.end();
+        found.low = found.reaches_low ? first->x : crossing(*first, *std::prev(first));
+        found.high = found.reaches_high ? last->x : crossing(*last, *std::next(last));
         return found;
     }
 
-    Map map(Eigen::Index first, Eigen::Index second, double least, double region) const {
+    Map map(Eigen::Index first, Eigen::Index second, const Eigen::VectorXd& likeliest, double least, double region) const {
         Map found;
         found.first = static_cast<std::size_t>(first);
         found.second = static_cast<std::size_t>(second);
         const auto side = static_cast<std::size_t>(net_.side);
+        std::vector<std::size_t> best(side * side, net_.size());
         found.objective.assign(side * side, std::numeric_limits<double>::infinity());
-        found.chi_squared = found.objective;
         for (std::size_t node = 0; node < net_.size(); ++node) {
             const auto at = static_cast<std::size_t>(net_.index(node, first) + net_.side * net_.index(node, second));
             found.objective[at] = std::min(found.objective[at], net_.objective[node]);
-            found.chi_squared[at] = std::min(found.chi_squared[at], (net_.chi_squared[node] - least) / region);
+            if (best[at] == net_.size() || net_.chi_squared[node] < net_.chi_squared[best[at]]) best[at] = node;
         }
         for (Eigen::Index i = 0; i < net_.side; ++i) {
             const Eigen::VectorXd at = unscaled(ranges_, Eigen::VectorXd::Constant(net_.parameters, net_.coordinate(i)));
             found.x.push_back(at[first]);
             found.y.push_back(at[second]);
         }
+        add_region(found, best, likeliest, least, region);
         return found;
+    }
+
+    /// \param best  node of the net with the least chi^2 at each place of the map
+    void add_region(Map& map, const std::vector<std::size_t>& best, const Eigen::VectorXd& likeliest, double least, double region) const {
+        const auto first = static_cast<Eigen::Index>(map.first), second = static_cast<Eigen::Index>(map.second);
+        const std::vector<double> x = net_.coordinates_with(likeliest[first]), y = net_.coordinates_with(likeliest[second]);
+        for (const double b : y)
+            for (const double a : x) {
+                const bool beside = a == likeliest[first] || b == likeliest[second];
+                Eigen::VectorXd at =
+                    beside ? likeliest : net_.place(best[static_cast<std::size_t>(net_.nearest(a) + net_.side * net_.nearest(b))]);
+                at[first] = a;
+                at[second] = b;
+                map.distance.push_back(distance(least_from(at, {first, second}), least, region));
+            }
+        Eigen::VectorXd at = likeliest;
+        for (const double a : x) {
+            at[first] = a;
+            map.region_x.push_back(unscaled(ranges_, at)[first]);
+        }
+        for (const double b : y) {
+            at[second] = b;
+            map.region_y.push_back(unscaled(ranges_, at)[second]);
+        }
     }
 
     std::vector<Direction> directions(const Eigen::VectorXd& at, double limit) const {

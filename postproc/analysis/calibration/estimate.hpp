@@ -81,15 +81,17 @@ struct Direction {
 
 /// Values over two parameters; what is least over the others.
 struct Map {
-    std::size_t first = 0, second = 0;  ///< indices of the parameters
-    std::vector<double> x, y;           ///< in their own units
-    std::vector<double> objective;      ///< at x[i], y[j]: value i + j*x.size()
-    std::vector<double> chi_squared;    ///< above its minimum, over the limit of the region: 1 on its edge
+    std::size_t first = 0, second = 0;       ///< indices of the parameters
+    std::vector<double> x, y;                ///< in their own units
+    std::vector<double> objective;           ///< at x[i], y[j]: value i + j*x.size()
+    std::vector<double> region_x, region_y;  ///< x and y, and the place where chi^2 is least
+    std::vector<double> distance;            ///< there: root of (chi^2 above its minimum, over the limit of the region), 1 on its edge
 };
 
 /// Values along one parameter; what is least over the others.
 struct ObjectiveProfile {
-    std::vector<double> x, objective, chi_squared;  ///< as in Map
+    std::vector<double> x, objective;
+    std::vector<double> distance;  ///< at x: as in Map, with the limit of the interval
 };
 
 struct ParameterEstimate {

@@ -2,8 +2,10 @@
 #include <random>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "geometry/base/error.hpp"
 #include "postproc/analysis/calibration/optimiser.hpp"
@@ -60,6 +62,46 @@ Calibration grid(Box& box, double hidden_mu) {
 
 bool holds(const ParameterInterval& interval, double value) {
     return interval.low <= value && value <= interval.high;
+}
+
+/// As many targets as parameters, linear in them and without scatter: chi^2 is a parabola.
+struct Parabola {
+    Calibration calibration;
+    Eigen::VectorXd least, half_widths;  ///< where it is least, and of its 95 % intervals; ranges are 0 to 1
+};
+
+/// \param half_width  of the first parameter
+Parabola parabola(std::mt19937_64& random, Eigen::Index parameters, double half_width) {
+    std::uniform_real_distribution<double> slope(-0.3, 0.3), place(0.1, 0.9);
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(parameters, parameters);
+    for (Eigen::Index k = 0; k < slopes.size(); ++k) slopes.data()[k] += slope(random);
+    const Eigen::MatrixXd inverse = (slopes.transpose() * slopes).inverse();
+    const Eigen::VectorXd roots = inverse.diagonal().cwiseSqrt();
+    const double tolerance = half_width / roots[0];
+    Parabola made;
+    made.half_widths = tolerance * roots;
+    made.least.resize(parameters);
+    for (double& value : made.least) value = place(random);
+    made.calibration.objective = find_objective("squared_misfit");
+    const Eigen::VectorXd values = slopes * made.least;
+    std::vector<Eigen::VectorXd> places{Eigen::VectorXd(parameters)};
+    for (Eigen::Index k = 0; k < parameters; ++k) {
+        made.calibration.ranges.push_back({fmt::format("p{}", k), 0.0, 1.0, 0.1});
+        made.calibration.targets.fitted.push_back({fmt::format("t{}", k), {values[k]}, tolerance, 1.0});
+        std::vector<Eigen::VectorXd> more;
+        for (const Eigen::VectorXd& at : places)
+            for (const double value : {0.0, 0.3, 0.7, 1.0}) {
+                more.push_back(at);
+                more.back()[k] = value;
+            }
+        places = more;
+    }
+    for (const Eigen::VectorXd& at : places) {
+        made.calibration.evaluations.push_back({at, {}});
+        const Eigen::VectorXd model = slopes * at;
+        for (const double value : model) made.calibration.evaluations.back().values.push_back({{value}});
+    }
+    return made;
 }
 
 /// The last target is held out.
@@ -166,6 +208,25 @@ TEST(CalibrationFit, has_intervals_that_hold_the_truth_where_no_run_was_repeated
     }
     RecordProperty("intervals_that_hold", held);
     EXPECT_GE(held, 182) << "95 %: fewer of 200 has a chance of 1 %";
+}
+
+TEST(CalibrationFit, has_intervals_of_their_width_however_narrow) {
+    // Values of the net are 0.25, 1.25, 3.3 and 7.1 % of the range apart.
+    std::mt19937_64 random(5);
+    for (const auto& [parameters, trials] : {std::pair{1, 40}, std::pair{2, 30}, std::pair{3, 8}, std::pair{4, 3}})
+        for (const double half_width : {0.002, 0.01, 0.04})
+            for (int trial = 0; trial < trials; ++trial) {
+                const Parabola truth = parabola(random, parameters, half_width);
+                const Outcome outcome = outcome_of(truth.calibration, true);
+                for (Eigen::Index k = 0; k < parameters; ++k) {
+                    SCOPED_TRACE(fmt::format("{} parameters, half-width {}, trial {}, parameter {}", parameters, half_width, trial, k));
+                    const ParameterInterval& interval = outcome.estimate->intervals[static_cast<std::size_t>(k)];
+                    const double half = truth.half_widths[k], low = truth.least[k] - half, high = truth.least[k] + half;
+                    EXPECT_NEAR(interval.low, std::max(low, 0.0), 0.03 * half);
+                    EXPECT_NEAR(interval.high, std::min(high, 1.0), 0.03 * half);
+                    EXPECT_TRUE(holds(interval, outcome.parameters[k]));
+                }
+            }
 }
 
 TEST(CalibrationFit, finds_a_valley_that_the_targets_leave_open) {

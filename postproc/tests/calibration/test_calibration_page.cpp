@@ -87,6 +87,28 @@ TEST(CalibrationPage, shows_objective_runs_and_targets) {
     EXPECT_NEAR(answer.y_high[0] - answer.y[0], 0.2, 1e-12);
 }
 
+TEST(CalibrationPage, has_the_edge_of_a_region_that_is_smaller_than_the_net) {
+    // a = 1.415, b = 2.52, both between values of the net; the region's half-widths are 0.3 % of the ranges.
+    Calibration calibration;
+    calibration.objective = find_objective("squared_misfit");
+    calibration.ranges = {{"a", 0.0, 2.0, 0.1}, {"b", 1.0, 5.0, 0.4}};
+    calibration.targets.fitted = {{"angle", {2.0 * 1.415}, 0.01, 1.0}, {"rate", {2.52 - 0.5 * 1.415}, 0.01, 1.0}};
+    for (const double a : {0.0, 1.0, 2.0})
+        for (const double b : {1.0, 3.0, 5.0}) calibration.evaluations.push_back({Eigen::Vector2d(a, b), {{{2.0 * a}}, {{b - 0.5 * a}}}});
+    const Outcome found = outcome_of(calibration, true);
+    const std::vector<Figure> figures = calibration_figures(found);
+    const std::vector<Series>& series = figures[0].plot.series;
+    const auto edge = std::find_if(series.begin(), series.end(), [](const Series& one) { return one.name == "edge of the 95 % region"; });
+    ASSERT_NE(edge, series.end());
+    EXPECT_GE(edge->x.size(), 3u * 6u);
+    for (std::size_t i = 0; i < edge->x.size(); ++i) {
+        if (std::isnan(edge->x[i])) continue;
+        const double angle = 2.0 * (edge->x[i] - 1.415), rate = edge->y[i] - 2.52 - 0.5 * (edge->x[i] - 1.415);
+        const double chi_squared = (angle * angle + rate * rate) / std::pow(0.01 / 1.959964, 2);
+        EXPECT_NEAR(chi_squared / 5.9915, 1.0, 0.05) << edge->x[i] << " " << edge->y[i];
+    }
+}
+
 TEST(CalibrationPage, has_intervals_what_is_not_determined_held_out_errors_and_cost) {
     std::string folder = (fs::temp_directory_path() / "cutterflow_calibration_page_XXXXXX").string();
     ASSERT_NE(::mkdtemp(folder.data()), nullptr);
