@@ -314,6 +314,25 @@ TEST_F(Calibrate, stops_when_its_core_hours_are_spent) {
     EXPECT_LT(outcome.calibration.cost.core_h, 0.66 + 0.09 + 0.03) << "no round is begun once it is spent, the answer is run";
 }
 
+TEST_F(Calibrate, goes_on_from_places_that_leave_the_scatter_unknown) {
+    write(R"(
+study = ["heap.toml"]
+repeats = 1
+rounds = 1
+[budget]
+runs = 20
+core_h = 10
+[[parameter]]
+key = "contact.friction"
+range = [0.1, 0.9]
+values = [0.1, 0.5, 0.9]
+tolerance = 0.8
+)" + angle_target());
+    const auto outcome = run();
+    EXPECT_GT(outcome.calibration.evaluations.size(), 3u) << "three places of one run have no interval, though 0.8 is all of the range";
+    EXPECT_NE(outcome.interval(0), nullptr);
+}
+
 TEST_F(Calibrate, takes_a_profile_from_a_file) {
     write_file(folder_ / "heap.csv", "x_m,height_m\n0.2,0.088\n1,0.44\n1.9,0.044\n");
     write(calibration_text("study = [\"heap.toml\"]\nmethod = \"surface\"\nrounds = 0\nrepeats = 1",

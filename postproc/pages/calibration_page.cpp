@@ -148,8 +148,8 @@ Figure profile_figure(const Outcome& outcome, std::size_t k) {
     plot.y.from = 0.0;
     plot.tips = Tips::at_point;
     if (outcome.estimate) {
-        const ParameterInterval& interval = outcome.estimate->intervals[k];
-        plot.bands.push_back({interval.low, interval.high, "#fbe6da", "95 %"});
+        if (const ParameterInterval* interval = outcome.interval(k))
+            plot.bands.push_back({interval->low, interval->high, "#fbe6da", "95 %"});
         Series fit = line("fit, others at their best", palette::sucked_up, 1.6);
         fit.x = outcome.estimate->profiles[k].x;
         fit.y = outcome.estimate->profiles[k].objective;
@@ -243,13 +243,10 @@ Figure heights_figure(const Agreement& agreement, std::size_t t) {
 std::string answers(const Outcome& outcome) {
     std::string markup;
     for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k) {
-        const bool determined = !outcome.estimate || outcome.estimate->intervals[k].determined();
-        const double value = outcome.parameters[static_cast<Eigen::Index>(k)];
-        markup +=
-            html::answer(determined ? palette::sucked_up : palette::never_entered, html::escape(outcome.calibration.ranges[k].name),
-                         fmt::format("{:.3g}", value),
-                         outcome.estimate ? "95 %: " + interval_text(outcome.estimate->intervals[k], outcome.calibration.ranges[k], value)
-                                          : "no interval: too few places");
+        const ParameterInterval* interval = outcome.interval(k);
+        const bool determined = interval == nullptr || interval->determined();
+        markup += html::answer(determined ? palette::sucked_up : palette::never_entered, html::escape(outcome.calibration.ranges[k].name),
+                               fmt::format("{:.3g}", outcome.parameters[static_cast<Eigen::Index>(k)]), known_text(outcome, k));
     }
     markup += html::answer(palette::faint, "cost", fmt::format("{:.3g} core h", outcome.calibration.cost.core_h),
                            fmt::format("{} runs, {} failed", outcome.calibration.cost.runs, outcome.calibration.cost.failed_runs));
@@ -292,6 +289,9 @@ std::string direction_text(const Direction& direction, const std::vector<Range>&
 
 std::string determined_section(const Outcome& outcome) {
     if (!outcome.estimate) return "<p>The places that were run do not determine a quadratic: no intervals.</p>";
+    if (outcome.estimate->intervals.empty())
+        return "<p>Each place was run once, and the quadratic has as many terms as there are places: it goes through all of them, and the "
+               "scatter is unknown. Repeats or further places tell it.</p>";
     std::vector<std::vector<std::string>> rows;
     for (const Direction& direction : outcome.estimate->directions)
         rows.push_back({direction_text(direction, outcome.calibration.ranges), fmt::format("{:.2g}", direction.ratio),

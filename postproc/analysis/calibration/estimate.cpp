@@ -22,8 +22,9 @@ constexpr double k_normal_quantile = 1.959964;  // of 0.975
 /// Values along each parameter of the net that is searched: 1 to 4 parameters.
 constexpr std::array<Eigen::Index, 4> k_net{401, 81, 31, 15};
 
-/// What chi^2 may rise in the region of `count` parameters.
+/// What chi^2 may rise in the region of `count` parameters: without degrees of freedom by any amount.
 double rise(std::size_t count, double freedom) {
+    if (freedom == 0.0) return std::numeric_limits<double>::infinity();
     const auto p = static_cast<double>(count);
     if (std::isinf(freedom)) return quantile(boost::math::chi_squared(p), k_confidence);
     return p * quantile(boost::math::fisher_f(p, freedom), k_confidence);
@@ -95,7 +96,7 @@ public:
         const double limit = rise(1, freedom) * found.contradiction, region = rise(ranges_.size(), freedom) * found.contradiction;
         for (Eigen::Index k = 0; k < net_.parameters; ++k) {
             found.profiles.push_back(profile(k, found.least_chi_squared, limit));
-            found.intervals.push_back(interval(k, found.profiles.back(), likeliest));
+            if (freedom > 0.0) found.intervals.push_back(interval(k, found.profiles.back(), likeliest));
         }
         for (Eigen::Index k = 0; k < net_.parameters; ++k)
             for (Eigen::Index l = k + 1; l < net_.parameters; ++l)
@@ -333,6 +334,7 @@ double Surface::degrees_of_freedom(const Eigen::VectorXd& at) const {
     for (std::size_t t = 0; t < targets_.size(); ++t) {
         const double own = std::pow(targets_[t].tolerance / k_normal_quantile, 2);
         for (const Response& place : responses_[t]) {
+            if (!place.scatter_is_known()) return 0.0;
             const double variance = place.variance(at);
             if (variance > 0.0) least = std::min(least, place.degrees_of_freedom(at) * std::pow((own + variance) / variance, 2));
         }
@@ -345,6 +347,7 @@ ParameterEstimate estimate(const Surface& surface, const std::vector<Range>& ran
 }
 
 bool narrow_enough(const ParameterEstimate& estimate, const std::vector<Range>& ranges) {
+    if (estimate.intervals.empty()) return false;
     for (std::size_t k = 0; k < ranges.size(); ++k)
         if (0.5 * (estimate.intervals[k].high - estimate.intervals[k].low) > ranges[k].tolerance) return false;
     return true;

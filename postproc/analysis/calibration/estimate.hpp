@@ -52,7 +52,7 @@ public:
     /// Half the matrix of second derivatives of chi^2 without those of the responses: sum of g g^T/sigma^2.
     Eigen::MatrixXd information(const Eigen::VectorXd& at) const;
 
-    /// nu above; infinite where no response has a variance.
+    /// nu above; infinite where no response has a variance, 0 where the scatter of one is unknown.
     double degrees_of_freedom(const Eigen::VectorXd& at) const;
     /// Of a target: the response at its first place.
     const Response& response(std::size_t target) const { return responses_[target].front(); }
@@ -97,9 +97,9 @@ struct ObjectiveProfile {
 struct ParameterEstimate {
     Eigen::VectorXd parameters;  ///< where the objective is least
     double objective = 0.0;
-    std::vector<std::vector<double>> model;  ///< of the fitted targets there
-    std::vector<ParameterInterval> intervals;
-    std::vector<Direction> directions;  ///< best determined first
+    std::vector<std::vector<double>> model;    ///< of the fitted targets there
+    std::vector<ParameterInterval> intervals;  ///< none where the scatter of a response is unknown
+    std::vector<Direction> directions;         ///< best determined first
     double least_chi_squared = 0.0;
     double contradiction = 1.0;              ///< factor of the intervals' squares for targets that contradict each other
     std::vector<ObjectiveProfile> profiles;  ///< of each parameter
@@ -109,7 +109,7 @@ struct ParameterEstimate {
 /// \pre one to four parameters
 ParameterEstimate estimate(const Surface& surface, const std::vector<Range>& ranges, const ObjectiveFunction& function);
 
-/// Whether every interval is as narrow as its tolerance asks.
+/// Whether every interval is known and as narrow as its tolerance asks.
 bool narrow_enough(const ParameterEstimate& estimate, const std::vector<Range>& ranges);
 
 /// Up to three places in the region to run next: the estimate, and two on either side of it along the direction that is determined worst.

@@ -40,7 +40,8 @@ std::vector<Agreement> agreements_of_fit(const Outcome& outcome) {
     const std::vector<std::vector<double>> fit = surface.model(at);
     for (std::size_t t = 0; t < agreements.size(); ++t) {
         agreements[t].fit = fit[t];
-        if (fit[t].size() == 1) agreements[t].fit_standard_error = std::sqrt(surface.response(t).variance(at));
+        const Response& response = surface.response(t);
+        if (fit[t].size() == 1 && response.scatter_is_known()) agreements[t].fit_standard_error = std::sqrt(response.variance(at));
     }
     return agreements;
 }
@@ -85,11 +86,10 @@ nlohmann::json parameters_json(const Outcome& outcome) {
                            {"tolerance", range.tolerance},
                            {"interval_95", nullptr},
                            {"determined", nullptr}};
-        if (outcome.estimate) {
-            const ParameterInterval& interval = outcome.estimate->intervals[k];
-            row["interval_95"] = {interval.low, interval.high};
-            row["interval_reaches_range"] = {interval.reaches_low, interval.reaches_high};
-            row["determined"] = interval.determined();
+        if (const ParameterInterval* interval = outcome.interval(k)) {
+            row["interval_95"] = {interval->low, interval->high};
+            row["interval_reaches_range"] = {interval->reaches_low, interval->reaches_high};
+            row["determined"] = interval->determined();
         }
         rows.push_back(row);
     }
@@ -146,9 +146,9 @@ Outcome outcome_of(Calibration calibration, bool fitted_minimum) {
     const bool takes_fit = fitted_minimum && outcome.estimate.has_value();
     outcome.parameters = takes_fit ? outcome.estimate->parameters : outcome.calibration.evaluations[best].parameters;
     outcome.agreements = agreements_of_fit(outcome);
-    if (outcome.estimate)
-        for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k)
-            if (!outcome.estimate->intervals[k].determined()) outcome.undetermined.push_back(outcome.calibration.ranges[k].name);
+    for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k)
+        if (const ParameterInterval* interval = outcome.interval(k); interval != nullptr && !interval->determined())
+            outcome.undetermined.push_back(outcome.calibration.ranges[k].name);
     return outcome;
 }
 
@@ -235,16 +235,19 @@ std::string interval_text(const ParameterInterval& interval, const Range& range,
     return text;
 }
 
+std::string known_text(const Outcome& outcome, std::size_t parameter) {
+    if (!outcome.estimate) return "no interval: too few places";
+    const ParameterInterval* interval = outcome.interval(parameter);
+    if (interval == nullptr) return "no interval: the scatter is unknown";
+    const double value = outcome.parameters[static_cast<Eigen::Index>(parameter)];
+    return "95 %: " + interval_text(*interval, outcome.calibration.ranges[parameter], value);
+}
+
 std::string outcome_text(const Outcome& outcome) {
     std::string text;
-    for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k) {
-        text += fmt::format("{} = {:.4g}", outcome.calibration.ranges[k].name, outcome.parameters[static_cast<Eigen::Index>(k)]);
-        if (outcome.estimate) {
-            text += fmt::format("  ({})", interval_text(outcome.estimate->intervals[k], outcome.calibration.ranges[k],
-                                                        outcome.parameters[static_cast<Eigen::Index>(k)]));
-        }
-        text += '\n';
-    }
+    for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k)
+        text += fmt::format("{} = {:.4g}  ({})\n", outcome.calibration.ranges[k].name, outcome.parameters[static_cast<Eigen::Index>(k)],
+                            known_text(outcome, k));
     for (const Agreement& agreement : outcome.agreements) text += agreement_text(agreement);
     return text + fmt::format("{} runs, {:.3g} core hours; {}\n", outcome.calibration.cost.runs, outcome.calibration.cost.core_h,
                               outcome.calibration.ended);

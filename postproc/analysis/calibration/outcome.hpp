@@ -25,7 +25,7 @@ struct Agreement {
     std::vector<double> target;
     double tolerance = 0.0;
     std::vector<double> fit;                   ///< of a fitted target, by the quadratic; empty without one
-    std::optional<double> fit_standard_error;  ///< of a single value: scatter of the fit and misfit of the quadratic
+    std::optional<double> fit_standard_error;  ///< of a single value: scatter of the fit and misfit of the quadratic, where known
     std::size_t runs = 0;                      ///< at the answer that have a value
     std::vector<double> model;                 ///< mean of those runs; empty without any
     std::optional<double> standard_error;      ///< of the mean of a single value, from two runs on
@@ -51,6 +51,11 @@ struct Outcome {
     std::optional<Evaluation> answer;           ///< runs at the chosen parameters, of all targets: no part of the fit
     std::vector<Agreement> agreements;          ///< fitted targets; with the answer then the held-out ones
     std::vector<std::string> undetermined;      ///< names of parameters that the targets do not determine
+
+    /// Of a parameter; null without an estimate, and where the scatter is unknown.
+    const ParameterInterval* interval(std::size_t parameter) const {
+        return estimate && !estimate->intervals.empty() ? &estimate->intervals[parameter] : nullptr;
+    }
 };
 
 /// The fit through all evaluations; none when they do not determine it. It sees no held-out target.
@@ -74,6 +79,9 @@ void certify_objectives(const nlohmann::json& calibration);
 
 /// "0.31 to 0.42", and where the targets leave it open. \param value  the chosen one; at an end of its range that is told
 std::string interval_text(const ParameterInterval& interval, const Range& range, double value);
+
+/// What is known of a parameter beside its value: "95 %: 0.31 to 0.42", or why there is no interval.
+std::string known_text(const Outcome& outcome, std::size_t parameter);
 
 /// The answer in a few lines of plain text.
 std::string outcome_text(const Outcome& outcome);

@@ -46,6 +46,8 @@ public:
     /// Of variance(at), by Welch and Satterthwaite: nu = (v_s + tau^2)^2/(v_s^2/nu_s + tau^4/nu_m), v_s of the fit with the nu_s of the
     /// pooled scatter, nu_m the spare points. Where nothing scatters, all of it is known from the spare points.
     double degrees_of_freedom(const Eigen::VectorXd& at) const;
+    /// Whether repeats or spare points tell it. Without either the quadratic goes through all points, and its variance of 0 means nothing.
+    bool scatter_is_known() const { return freedom_ > 0.0 || spare_ > 0; }
     /// Points more than terms: without any the misfit of the quadratic is unknown, and taken as 0.
     std::size_t spare_points() const { return spare_; }
 

@@ -229,6 +229,38 @@ TEST(CalibrationFit, has_intervals_of_their_width_however_narrow) {
             }
 }
 
+TEST(CalibrationFit, has_no_interval_where_neither_repeats_nor_spare_places_tell_the_scatter) {
+    Calibration calibration;
+    calibration.method = "surface";
+    calibration.objective = find_objective("squared_misfit");
+    calibration.ranges = {{"mu", 0.1, 0.7, 0.05}};
+    calibration.targets.fitted = {{"slope", {40.1}, 0.5, 1.0}};
+    const std::vector<double> places{0.1, 0.4, 0.7}, slopes{36.2, 39.5, 42.3};
+    for (std::size_t i = 0; i < places.size(); ++i)
+        calibration.evaluations.push_back({Eigen::VectorXd::Constant(1, places[i]), {{{slopes[i]}}}});
+    const Outcome unknown = outcome_of(calibration, true);
+    ASSERT_TRUE(unknown.estimate);
+    EXPECT_NEAR(unknown.parameters[0], 0.46, 0.02) << "where the quadratic through the three meets the target";
+    EXPECT_EQ(unknown.interval(0), nullptr);
+    EXPECT_TRUE(unknown.undetermined.empty());
+    EXPECT_FALSE(unknown.agreements[0].fit_standard_error);
+    EXPECT_THAT(outcome_text(unknown), HasSubstr("no interval: the scatter is unknown"));
+    const nlohmann::json json = to_json(unknown);
+    EXPECT_TRUE(json.at("parameters")[0].at("interval_95").is_null());
+    EXPECT_TRUE(json.at("parameters")[0].at("determined").is_null());
+    EXPECT_FALSE(narrow_enough(*unknown.estimate, {{"mu", 0.1, 0.7, 10.0}}));
+    EXPECT_FALSE(next_places(*unknown.estimate, calibration.ranges, calibration.evaluations).empty()) << "further places tell it";
+    // One more place, or repeats.
+    Calibration more = calibration;
+    more.evaluations.push_back({Eigen::VectorXd::Constant(1, 0.55), {{{40.8}}}});
+    ASSERT_NE(outcome_of(more, true).interval(0), nullptr);
+    for (Evaluation& evaluation : calibration.evaluations) evaluation.values[0].push_back({evaluation.values[0][0][0] + 0.1});
+    const Outcome repeated = outcome_of(calibration, true);
+    ASSERT_NE(repeated.interval(0), nullptr);
+    EXPECT_TRUE(repeated.interval(0)->determined());
+    EXPECT_TRUE(repeated.agreements[0].fit_standard_error);
+}
+
 TEST(CalibrationFit, finds_a_valley_that_the_targets_leave_open) {
     // One target of two parameters that act together: neither is determined, their sum is.
     Box box;

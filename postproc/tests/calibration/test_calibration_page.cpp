@@ -14,6 +14,7 @@ using namespace cutterflow;
 using namespace cutterflow::postproc;
 using namespace cutterflow::postproc::calibration;
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 namespace {
@@ -128,6 +129,12 @@ TEST(CalibrationPage, has_intervals_what_is_not_determined_held_out_errors_and_c
     Outcome fitted_alone = outcome();
     fitted_alone.agreements.erase(fitted_alone.agreements.begin() + 1);
     EXPECT_THAT(read_file(write_calibration(fitted_alone, folder)), HasSubstr("No target was held out"));
+    Calibration once = outcome().calibration;
+    once.evaluations.resize(6);  // as many as terms
+    once.evaluations[3].parameters = Eigen::Vector2d(2.0, 2.0);
+    for (Evaluation& evaluation : once.evaluations) evaluation.values[0].resize(1);
+    EXPECT_THAT(read_file(write_calibration(outcome_of(once, true), folder)),
+                AllOf(HasSubstr("no interval: the scatter is unknown"), HasSubstr("it goes through all of them")));
     Outcome lie = outcome();
     lie.objectives[4] += 0.5;
     EXPECT_THROW(write_calibration(lie, folder), CheckFailure);
