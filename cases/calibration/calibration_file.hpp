@@ -42,7 +42,7 @@ struct CalibratedParameter {
 /// Where a run's value for a target is found.
 struct Measured {
     std::size_t study = 0;       ///< index
-    std::string measure;         ///< name in report/measures.json, or place of a number in report/results.json ("rock.mass_kg")
+    std::string measure;         ///< name in report/measures.json, or place of a number in report/results.json ("production.share")
     std::vector<double> places;  ///< [m] along a profile; empty: one value
 };
 

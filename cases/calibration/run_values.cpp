@@ -63,12 +63,13 @@ std::vector<double> measure_values(const fs::path& file, const Measured& measure
     return {result.at("value").get<double>()};
 }
 
-/// A number of results.json by its keys: "rock.mass_kg".
+/// A number of results.json by its keys: "production.share". What a run has none of is null, with all that would be in it.
 std::vector<double> result_values(const fs::path& file, const Measured& measured) {
     const json document = read_json_document(file, {}, "Run it again");
     const json* node = &document;
     std::istringstream keys(measured.measure);
     for (std::string key; std::getline(keys, key, '.');) {
+        if (node->is_null()) return {};
         if (!node->is_object() || !node->contains(key))
             refuse(file, measured.measure, node->is_object() ? keys_of_object(*node) : std::vector<std::string>{}, "There are");
         node = &node->at(key);

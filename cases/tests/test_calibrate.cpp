@@ -385,7 +385,7 @@ TEST_F(Calibrate, a_profile_that_a_run_could_not_measure_has_no_values) {
 }
 
 TEST_F(Calibrate, reads_measures_or_results_and_names_the_nearest) {
-    write_file(folder_ / "run/report/results.json", R"({"rock": {"mass_kg": 2.5, "gone": null, "name": "x"}})");
+    write_file(folder_ / "run/report/results.json", R"({"rock": {"mass_kg": 2.5, "gone": null, "name": "x"}, "production": null})");
     const auto text_of = [&](const std::string& measure) {
         try {
             run_values(folder_ / "run", {0, measure, {}});
@@ -396,6 +396,7 @@ TEST_F(Calibrate, reads_measures_or_results_and_names_the_nearest) {
     };
     EXPECT_EQ(run_values(folder_ / "run", {0, "rock.mass_kg", {}}), std::vector<double>{2.5});
     EXPECT_TRUE(run_values(folder_ / "run", {0, "rock.gone", {}}).empty());
+    EXPECT_TRUE(run_values(folder_ / "run", {0, "production.share", {}}).empty());
     EXPECT_THAT(text_of("rock.mass"), HasSubstr("mass_kg"));
     EXPECT_THAT(text_of("rock.name"), HasSubstr("A target is a number"));
     write_file(folder_ / "run/report/measures.json", R"({"removed": {"value": 0.9}})");
