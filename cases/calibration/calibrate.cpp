@@ -1,6 +1,7 @@
 #include "cases/calibration/calibrate.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -51,6 +52,12 @@ public:
     bool allows(std::size_t places) const {
         const std::size_t runs = cost_.runs + places * file_.runs_of_a_place() + file_.runs_of_the_answer();
         return static_cast<double>(runs) <= file_.budget_runs && cost_.core_h < file_.budget_core_h;
+    }
+
+    /// Places whose runs go at the same time.
+    std::size_t at_once() const {
+        const std::size_t of_a_place = file_.runs_of_a_place();
+        return (static_cast<std::size_t>(settings_.jobs) + of_a_place - 1) / of_a_place;
     }
 
     void run(std::vector<Eigen::VectorXd> places) {
@@ -122,14 +129,33 @@ private:
 
     /// \return names of the runs that are done
     std::set<std::string> run(const std::vector<SweepPoint>& points) {
-        const SweepOutcome outcome = run_sweep(points, sweep_settings(), say_);
+        const SweepOutcome outcome = run_sweep(with_donors(points), sweep_settings(), say_);
         for (const std::string& failure : outcome.failed) say_(failure);
-        cost_.runs += points.size();
-        cost_.failed_runs += outcome.failed.size();
-        for (const SweepPoint& point : points) cost_.core_h += run_core_s(folder() / point.name) / 3600.0;
         std::set<std::string> done;
         for (const fs::path& run : outcome.done) done.insert(run.filename().string());
+        cost_.runs += points.size();
+        for (const SweepPoint& point : points) {
+            cost_.core_h += run_core_s(folder() / point.name) / 3600.0;
+            if (done.count(point.name) == 0)
+                ++cost_.failed_runs;
+            else if (!point.design.empty())
+                donors_.emplace(point.design, point);
+        }
         return done;
+    }
+
+    /// Points before which stand finished ones of their designs, from which they take mesh or bed.
+    std::vector<SweepPoint> with_donors(const std::vector<SweepPoint>& points) const {
+        std::set<std::string> names, designs;
+        for (const SweepPoint& point : points) {
+            names.insert(point.name);
+            designs.insert(point.design);
+        }
+        std::vector<SweepPoint> all;
+        for (const auto& [design, donor] : donors_)
+            if (designs.count(design) > 0 && names.count(donor.name) == 0) all.push_back(donor);
+        all.insert(all.end(), points.begin(), points.end());
+        return all;
     }
 
     /// Of the first targets, each run that is done and has a value.
@@ -182,18 +208,27 @@ private:
     const CalibrateSettings& settings_;
     const std::function<void(const std::string&)>& say_;
     std::vector<calibration::Evaluation> evaluations_;
-    std::string why_left_out_;  // the last place that was
+    std::string why_left_out_;                  // the last place that was
+    std::map<std::string, SweepPoint> donors_;  // of each design the first run that was done
     calibration::CalibrationCost cost_;
 };
 
+/// Where the cost of a run is not known before, places are run as they go at once, while the budget allows it.
 std::string run_grid(const CalibrationFile& file, Places& places) {
-    places.run(grid_of(file));
+    const std::vector<Eigen::VectorXd> grid = grid_of(file);
+    const std::size_t slice = file.plan.core_h ? grid.size() : places.at_once();
+    for (auto next = grid.begin(); next != grid.end();) {
+        const auto end = next + std::min(static_cast<std::ptrdiff_t>(slice), grid.end() - next);
+        if (!places.allows(static_cast<std::size_t>(end - next))) return k_spent;
+        places.run(std::vector<Eigen::VectorXd>(next, end));
+        next = end;
+    }
     return "the grid is done";
 }
 
 std::string run_surface(const CalibrationFile& file, Places& places) {
     const std::string ended = run_grid(file, places);
-    if (file.rounds == 0) return ended;
+    if (file.rounds == 0 || ended == k_spent) return ended;
     for (int round = 0; round < file.rounds; ++round) {
         const auto found = calibration::estimate_of(places.calibration(""));
         if (!found) return "too few places have values of all targets for a quadratic";

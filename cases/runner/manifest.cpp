@@ -78,6 +78,13 @@ void Manifest::start(const std::string& stage, std::map<std::string, std::string
     write();
 }
 
+void Manifest::note_cost(const std::string& stage, double wall_s, double core_s) {
+    StageRecord& record = records_.at(stage);
+    record.wall_s = wall_s;
+    record.core_s = core_s;
+    write();
+}
+
 void Manifest::finish(const std::string& stage, std::map<std::string, std::string> outputs, double wall_s, double core_s) {
     StageRecord& record = records_.at(stage);
     record.state = StageState::done;

@@ -33,6 +33,8 @@ public:
 
     /// Notes that a stage begins. `dropped`: later stages, whose records are no longer true.
     void start(const std::string& stage, std::map<std::string, std::string> inputs, const std::vector<std::string>& dropped);
+    /// Notes what a stage took that was begun and did not come to its end.
+    void note_cost(const std::string& stage, double wall_s, double core_s);
     void finish(const std::string& stage, std::map<std::string, std::string> outputs, double wall_s, double core_s);
     /// \throws UserError  when the directory has work of another kind of study
     void set_kind(const std::string& kind);

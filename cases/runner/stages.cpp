@@ -8,6 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/process/child_process.hpp"
 #include "geometry/base/run_files.hpp"
 
 namespace cutterflow::cases {
@@ -162,8 +163,16 @@ void run_stages(const RunDirectory& directory, Manifest& manifest, const std::ve
         const bool goes_on = stage.resumable && manifest.find(stage.name) != nullptr;
         const auto begin = std::chrono::steady_clock::now();
         manifest.start(stage.name, stage.inputs, plan.after(i));
-        const StageOutcome outcome = stage.work(goes_on);
-        const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const double core_s = children_core_s();
+        const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+        StageOutcome outcome;
+        try {
+            outcome = stage.work(goes_on);
+        } catch (...) {
+            manifest.note_cost(stage.name, wall(), children_core_s() - core_s);
+            throw;
+        }
+        const double wall_s = wall();
         manifest.finish(stage.name, hashes_of(directory, outcome.outputs), wall_s, outcome.core_s);
         observer(stage, StageEvent::ends, wall_s);
     }

@@ -314,6 +314,33 @@ TEST_F(Calibrate, stops_when_its_core_hours_are_spent) {
     EXPECT_LT(outcome.calibration.cost.core_h, 0.66 + 0.09 + 0.03) << "no round is begun once it is spent, the answer is run";
 }
 
+TEST_F(Calibrate, stops_its_grid_when_its_core_hours_are_spent) {
+    std::string text = calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"", angle_target());
+    text.replace(text.find("core_h = 10"), 11, "core_h = 0.2");
+    EXPECT_THAT(refusal(text), HasSubstr("about 0.48 core hours")) << "15 places of 0.03, and the answer";
+    CalibrateSettings how = settings();
+    how.access.predicted_core_s = [](const fs::path&) { return std::optional<double>(); };
+    // All points are of one cutter: the first one makes the mesh.
+    how.access.points = [points = how.access.points](const fs::path& study, const std::vector<KeyAxis>& axes, const RepeatRange& repeats,
+                                                     const fs::path& folder) {
+        std::vector<SweepPoint> all = points(study, axes, repeats, folder);
+        for (SweepPoint& point : all) {
+            point.design = "cutter";
+            point.shared = {"case"};
+        }
+        return all;
+    };
+    const auto outcome = run_calibration(begin_calibration(how), how, [](const std::string&) {});
+    EXPECT_EQ(outcome.calibration.ended, "the budget is spent");
+    EXPECT_EQ(outcome.calibration.evaluations.size(), 7u) << "a place at a time: two jobs, three runs; 7 cost 0.21 h";
+    EXPECT_NEAR(outcome.calibration.cost.core_h, 7 * 0.03 + 0.03, 1e-9);
+    EXPECT_EQ(outcome.calibration.cost.runs, 7u * 3u + 3u) << "a run from which others take the mesh counts once";
+    std::size_t meshes = 0;
+    for (const auto& log : fs::directory_iterator(folder_ / "out/runs/logs"))
+        if (log.path().string().find(".mesh.log") != std::string::npos) ++meshes;
+    EXPECT_EQ(meshes, 1u);
+}
+
 TEST_F(Calibrate, goes_on_from_places_that_leave_the_scatter_unknown) {
     write(R"(
 study = ["heap.toml"]

@@ -249,6 +249,21 @@ TEST_F(Stages, a_process_killed_in_the_middle_leaves_a_manifest_that_says_so) {
     EXPECT_EQ(go(true), (Names{"run resumed", "report"}));
 }
 
+TEST_F(Stages, one_that_fails_notes_what_its_programs_took) {
+    const RunDirectory directory(folder_);
+    Manifest manifest(directory.file("manifest.json"));
+    Stage failing = stage("a");
+    failing.work = [this](bool) -> StageOutcome {
+        require_child({{"sh", "-c", "i=0; while [ $i -lt 100000 ]; do i=$((i + 1)); done; exit 1"}, {}, folder_ / "a.log", {}});
+        return {};
+    };
+    EXPECT_THROW(run_stages(directory, manifest, {failing}, "a", false, [](const Stage&, StageEvent, double) {}), ToolError);
+    const Manifest read(directory.file("manifest.json"));
+    EXPECT_EQ(read.find("a")->state, StageState::started);
+    EXPECT_GT(read.core_s(), 0.01);
+    EXPECT_LE(read.core_s(), read.find("a")->wall_s + 0.02) << "one program";
+}
+
 TEST_F(Stages, files_changed_by_hand_are_named_and_kept) {
     go(false, "start");
     write_file(folder_ / "start.txt", "mine");

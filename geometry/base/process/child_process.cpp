@@ -27,6 +27,12 @@ extern char** environ;
 namespace cutterflow {
 namespace {
 
+/// User and system time [s].
+double core_s_of(const struct rusage& usage) {
+    const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 class FileDescriptor {
 public:
     explicit FileDescriptor(int number) : number_(number) {}
@@ -153,12 +159,9 @@ public:
         while (::wait4(child_, &status, 0, &usage) < 0 && errno == EINTR) {
         }
         child_ = 0;
-        const auto seconds = [](const timeval& time) {
-            return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-        };
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
         // The kernel counts the resident set in KiB.
-        return {code, 0.0, seconds(usage.ru_utime) + seconds(usage.ru_stime), 1024.0 * static_cast<double>(usage.ru_maxrss)};
+        return {code, 0.0, core_s_of(usage), 1024.0 * static_cast<double>(usage.ru_maxrss)};
     }
 
 private:
@@ -261,6 +264,12 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
     if (const std::string signal = StopSignals::received(); !signal.empty())
         throw Interrupted(fmt::format("{} was stopped by {}", program.filename().string(), signal));
     return result;
+}
+
+double children_core_s() {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    return core_s_of(usage);
 }
 
 Mistake failure_of(const ChildCommand& command, const ChildResult& result) {

@@ -43,6 +43,9 @@ ChildResult run_child(const ChildCommand& command, const std::function<void(cons
 /// As run_child, but an exit code other than 0 throws ToolError, which quotes the log's last lines and names the log.
 ChildResult require_child(const ChildCommand& command, const std::function<void(const std::string&)>& each_line = {});
 
+/// User and system time of all children of this process that have ended [s].
+double children_core_s();
+
 /// Message for an exit code other than 0: how the program ended, name and last lines of the log.
 Mistake failure_of(const ChildCommand& command, const ChildResult& result);
 
