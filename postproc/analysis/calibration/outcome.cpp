@@ -143,8 +143,8 @@ Outcome outcome_of(Calibration calibration, bool fitted_minimum) {
     const auto best =
         static_cast<std::size_t>(std::min_element(outcome.objectives.begin(), outcome.objectives.end()) - outcome.objectives.begin());
     outcome.calibration = std::move(calibration);
-    const bool takes_fit = fitted_minimum && outcome.estimate.has_value();
-    outcome.parameters = takes_fit ? outcome.estimate->parameters : outcome.calibration.evaluations[best].parameters;
+    outcome.is_fitted_minimum = fitted_minimum && outcome.estimate.has_value();
+    outcome.parameters = outcome.is_fitted_minimum ? outcome.estimate->parameters : outcome.calibration.evaluations[best].parameters;
     outcome.agreements = agreements_of_fit(outcome);
     for (std::size_t k = 0; k < outcome.calibration.ranges.size(); ++k)
         if (const ParameterInterval* interval = outcome.interval(k); interval != nullptr && !interval->determined())
@@ -239,8 +239,10 @@ std::string known_text(const Outcome& outcome, std::size_t parameter) {
     if (!outcome.estimate) return "no interval: too few places";
     const ParameterInterval* interval = outcome.interval(parameter);
     if (interval == nullptr) return "no interval: the scatter is unknown";
-    const double value = outcome.parameters[static_cast<Eigen::Index>(parameter)];
-    return "95 %: " + interval_text(*interval, outcome.calibration.ranges[parameter], value);
+    const auto k = static_cast<Eigen::Index>(parameter);
+    const std::string text = interval_text(*interval, outcome.calibration.ranges[parameter], outcome.parameters[k]);
+    if (outcome.is_fitted_minimum) return "95 %: " + text;
+    return fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", outcome.estimate->parameters[k], text);
 }
 
 std::string outcome_text(const Outcome& outcome) {

@@ -46,6 +46,7 @@ struct Calibration {
 struct Outcome {
     Calibration calibration;
     Eigen::VectorXd parameters;                 ///< chosen ones
+    bool is_fitted_minimum = false;             ///< whether they are where the fit is least; else at the best evaluation
     std::vector<double> objectives;             ///< of each evaluation, at the means of its repeats
     std::optional<ParameterEstimate> estimate;  ///< none when the evaluations do not determine the quadratic
     std::optional<Evaluation> answer;           ///< runs at the chosen parameters, of all targets: no part of the fit
@@ -80,7 +81,8 @@ void certify_objectives(const nlohmann::json& calibration);
 /// "0.31 to 0.42", and where the targets leave it open. \param value  the chosen one; at an end of its range that is told
 std::string interval_text(const ParameterInterval& interval, const Range& range, double value);
 
-/// What is known of a parameter beside its value: "95 %: 0.31 to 0.42", or why there is no interval.
+/// What is known of a parameter beside its value: "95 %: 0.31 to 0.42", or why there is no interval. Where the best
+/// evaluation is chosen the interval lies around another value, which is told.
 std::string known_text(const Outcome& outcome, std::size_t parameter);
 
 /// The answer in a few lines of plain text.

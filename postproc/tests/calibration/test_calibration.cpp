@@ -402,6 +402,18 @@ TEST(Answer, at_the_end_of_its_range_is_told_so) {
     EXPECT_EQ(interval_text({0.1, 0.5, true, true}, range, 0.3), "not determined by the targets in 0.1 to 0.5");
 }
 
+TEST(Answer, that_is_the_best_place_is_told_apart_from_the_minimum_of_the_fit) {
+    Box box;
+    const Calibration calibration = grid(box, 0.337);
+    const Outcome best = outcome_of(calibration, false), fitted = outcome_of(calibration, true);
+    EXPECT_TRUE(best.parameters[1] == 0.25 || best.parameters[1] == 0.4) << "values of the grid";
+    const ParameterInterval& interval = *best.interval(1);
+    const std::string range = fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
+    EXPECT_EQ(known_text(fitted, 1), "95 %: " + range);
+    EXPECT_EQ(known_text(best, 1), fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", fitted.parameters[1], range));
+    EXPECT_THAT(outcome_text(best), HasSubstr("(95 % by the quadratic fit, least at "));
+}
+
 TEST(Answer, is_judged_by_runs_that_had_no_part_in_the_fit) {
     Calibration calibration = with_held_out(25.0);
     Outcome outcome = outcome_of(calibration, true);

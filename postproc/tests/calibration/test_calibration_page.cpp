@@ -135,6 +135,9 @@ TEST(CalibrationPage, has_intervals_what_is_not_determined_held_out_errors_and_c
     for (Evaluation& evaluation : once.evaluations) evaluation.values[0].resize(1);
     EXPECT_THAT(read_file(write_calibration(outcome_of(once, true), folder)),
                 AllOf(HasSubstr("no interval: the scatter is unknown"), HasSubstr("it goes through all of them")));
+    EXPECT_THAT(text, HasSubstr("95 %: "));
+    EXPECT_THAT(read_file(write_calibration(outcome_of(outcome().calibration, false), folder)),
+                HasSubstr("95 % by the quadratic fit, least at 1.4: "));
     Outcome lie = outcome();
     lie.objectives[4] += 0.5;
     EXPECT_THROW(write_calibration(lie, folder), CheckFailure);
