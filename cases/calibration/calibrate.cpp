@@ -229,16 +229,16 @@ std::string run_grid(const CalibrationFile& file, Places& places) {
 std::string run_surface(const CalibrationFile& file, Places& places) {
     const std::string ended = run_grid(file, places);
     if (file.rounds == 0 || ended == k_spent) return ended;
-    for (int round = 0; round < file.rounds; ++round) {
+    for (int round = 0;; ++round) {
         const auto found = calibration::estimate_of(places.calibration(""));
         if (!found) return "too few places have values of all targets for a quadratic";
         if (calibration::narrow_enough(*found, file.ranges())) return "every interval is within its tolerance";
+        if (round == file.rounds) return "its rounds are used up";
         const auto next = calibration::next_places(*found, file.ranges(), places.evaluations());
         if (next.empty()) return "the places to run next have been run";
         if (!places.allows(next.size())) return k_spent;
         places.run(next);
     }
-    return "its rounds are used up";
 }
 
 std::string run_bobyqa(const CalibrationFile& file, Places& places) {
@@ -257,11 +257,11 @@ std::string run_bobyqa(const CalibrationFile& file, Places& places) {
         return calibration::objective_of(*file.objective, file.targets.fitted, calibration::means_of(places.evaluations().back()));
     };
     try {
-        calibration::bobyqa(objective, Eigen::VectorXd::Zero(count), file.evaluations, steps);
+        const bool has_ended = calibration::bobyqa(objective, Eigen::VectorXd::Zero(count), file.evaluations, steps);
+        return has_ended ? "the optimiser has ended" : "its evaluations are used up";
     } catch (const BudgetSpent&) {
         return k_spent;
     }
-    return "the optimiser has ended";
 }
 
 struct Method {

@@ -263,6 +263,13 @@ TEST_F(Calibrate, optimiser_goes_on_where_it_was) {
     EXPECT_NEAR(whole.parameters[0], 0.44, 0.05);
 }
 
+TEST_F(Calibrate, optimiser_tells_that_its_evaluations_are_used_up) {
+    write(calibration_text("study = [\"heap.toml\"]\nmethod = \"bobyqa\"\nevaluations = 6\nrepeats = 1", angle_target()));
+    const auto outcome = run();
+    EXPECT_EQ(outcome.calibration.evaluations.size(), 6u);
+    EXPECT_EQ(outcome.calibration.ended, "its evaluations are used up");
+}
+
 TEST_F(Calibrate, leaves_out_runs_that_fail_and_places_without_any) {
     set_program(R"(case $4 in *friction_0.3_*3000_repeat2|*friction_0.5_*2000_*) exit 3;; esac)");
     write(calibration_text("study = [\"heap.toml\"]\nmethod = \"grid\"", angle_target()));
@@ -358,6 +365,7 @@ tolerance = 0.8
     const auto outcome = run();
     EXPECT_GT(outcome.calibration.evaluations.size(), 3u) << "three places of one run have no interval, though 0.8 is all of the range";
     EXPECT_NE(outcome.interval(0), nullptr);
+    EXPECT_EQ(outcome.calibration.ended, "every interval is within its tolerance") << "since the last round";
 }
 
 TEST_F(Calibrate, takes_a_profile_from_a_file) {

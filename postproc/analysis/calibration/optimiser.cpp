@@ -26,9 +26,14 @@ double evaluate(const std::vector<double>& at, std::vector<double>&, void* data)
     }
 }
 
-/// Runs an algorithm to its end, whichever it is. \return the best place
-Eigen::VectorXd minimise(nlopt::algorithm algorithm, const Function& function, const Eigen::VectorXd& start, int evaluations,
-                         const Eigen::VectorXd& tolerance, double first_step) {
+struct Minimum {
+    Eigen::VectorXd at;      ///< the best place
+    bool has_ended = false;  ///< before the evaluations were used up
+};
+
+/// Runs an algorithm to its end, whichever it is.
+Minimum minimise(nlopt::algorithm algorithm, const Function& function, const Eigen::VectorXd& start, int evaluations,
+                 const Eigen::VectorXd& tolerance, double first_step) {
     nlopt::opt optimiser(algorithm, static_cast<unsigned>(start.size()));
     Call call{function, nullptr};
     optimiser.set_lower_bounds(-1.0);
@@ -39,24 +44,25 @@ Eigen::VectorXd minimise(nlopt::algorithm algorithm, const Function& function, c
     optimiser.set_min_objective(evaluate, &call);
     std::vector<double> at(start.data(), start.data() + start.size());
     double least = 0.0;
+    bool has_ended = true;
     try {
-        optimiser.optimize(at, least);
+        has_ended = optimiser.optimize(at, least) != nlopt::MAXEVAL_REACHED;
     } catch (const nlopt::forced_stop&) {
     } catch (const nlopt::roundoff_limited&) {
         // `at` is the best place so far
     }
     if (call.thrown) std::rethrow_exception(call.thrown);
-    return Eigen::Map<const Eigen::VectorXd>(at.data(), start.size());
+    return {Eigen::Map<const Eigen::VectorXd>(at.data(), start.size()), has_ended};
 }
 
 }  // namespace
 
 Eigen::VectorXd minimum_near(const Function& function, const Eigen::VectorXd& start) {
-    return minimise(nlopt::LN_SBPLX, function, start, 400, Eigen::VectorXd::Constant(start.size(), 1e-5), 0.05);
+    return minimise(nlopt::LN_SBPLX, function, start, 400, Eigen::VectorXd::Constant(start.size(), 1e-5), 0.05).at;
 }
 
-void bobyqa(const Function& function, const Eigen::VectorXd& start, int evaluations, const Eigen::VectorXd& tolerance) {
-    minimise(nlopt::LN_BOBYQA, function, start, evaluations, tolerance, k_first_step);
+bool bobyqa(const Function& function, const Eigen::VectorXd& start, int evaluations, const Eigen::VectorXd& tolerance) {
+    return minimise(nlopt::LN_BOBYQA, function, start, evaluations, tolerance, k_first_step).has_ended;
 }
 
 }  // namespace cutterflow::postproc::calibration

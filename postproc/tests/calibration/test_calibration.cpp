@@ -468,21 +468,24 @@ TEST(HeldOut, that_enters_an_objective_is_caught) {
 
 TEST(Optimiser, finds_the_minimum_of_a_smooth_function_in_few_evaluations_and_repeats_itself) {
     std::vector<std::vector<double>> first, second;
-    const auto follow = [](std::vector<std::vector<double>>& places) {
-        bobyqa(
+    const auto follow = [](std::vector<std::vector<double>>& places, int evaluations) {
+        return bobyqa(
             [&](const Eigen::VectorXd& at) {
                 places.push_back({at[0], at[1]});
                 return std::pow(at[0] - 0.3, 2) + 2.0 * std::pow(at[1] + 0.6, 2) + 0.5 * (at[0] - 0.3) * (at[1] + 0.6);
             },
-            Eigen::Vector2d(0.0, 0.0), 40, Eigen::Vector2d(1e-3, 1e-3));
+            Eigen::Vector2d(0.0, 0.0), evaluations, Eigen::Vector2d(1e-3, 1e-3));
     };
-    follow(first);
-    follow(second);
+    EXPECT_TRUE(follow(first, 40));
+    EXPECT_TRUE(follow(second, 40));
     EXPECT_EQ(first, second);
     EXPECT_LE(first.size(), 40u);
     double nearest = 1.0;
     for (const auto& at : first) nearest = std::min(nearest, std::hypot(at[0] - 0.3, at[1] + 0.6));
     EXPECT_LT(nearest, 0.01);
+    std::vector<std::vector<double>> few;
+    EXPECT_FALSE(follow(few, 6)) << "its evaluations were used up";
+    EXPECT_EQ(few.size(), 6u);
 }
 
 TEST(Optimiser, passes_on_what_an_evaluation_throws) {
