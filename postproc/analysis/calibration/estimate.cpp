@@ -18,6 +18,7 @@ namespace {
 
 constexpr double k_confidence = 0.95;
 constexpr double k_normal_quantile = 1.959964;  // of 0.975
+constexpr double k_many = 1e6;                  // degrees of freedom: F is chi squared to a millionth, and its quantile fails far above
 
 /// Values along each parameter of the net that is searched: 1 to 4 parameters.
 constexpr std::array<Eigen::Index, 4> k_net{401, 81, 31, 15};
@@ -26,7 +27,7 @@ constexpr std::array<Eigen::Index, 4> k_net{401, 81, 31, 15};
 double rise(std::size_t count, double freedom) {
     if (freedom == 0.0) return std::numeric_limits<double>::infinity();
     const auto p = static_cast<double>(count);
-    if (std::isinf(freedom)) return quantile(boost::math::chi_squared(p), k_confidence);
+    if (freedom > k_many) return quantile(boost::math::chi_squared(p), k_confidence);
     return p * quantile(boost::math::fisher_f(p, freedom), k_confidence);
 }
 
