@@ -31,7 +31,7 @@ double RunClock::next_write_time() const {
 void RunClock::advance(double limit, double stop_time) {
     const double ahead = std::min(next_write_time(), stop_time) - time_;
     const double longest = std::min(longest_step_, limit);
-    step_ = ahead / std::ceil(ahead / longest - k_time_tolerance);
+    step_ = ahead / std::max(1.0, std::ceil(ahead / longest - k_time_tolerance));
     time_ += step_;
 }
 

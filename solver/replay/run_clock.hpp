@@ -15,10 +15,11 @@ struct ClockTimes {
 class RunClock {
 public:
     /// \param longest_step  [s], > 0
-    RunClock(const ClockTimes& times, double longest_step) : times_(times), longest_step_(longest_step), time_(times.start) {}
+    RunClock(const ClockTimes& times, double longest_step)
+        : times_(times), longest_step_(longest_step), time_(times.start), step_(longest_step) {}
 
     double time() const { return time_; }  ///< [s]
-    double step() const { return step_; }  ///< the last one [s]
+    double step() const { return step_; }  ///< the last one; before the first the longest [s]
     std::string time_name() const;
     bool running() const;
     /// Goes one step on, at most `limit` and not beyond `stop_time` [s].
@@ -32,7 +33,7 @@ private:
     ClockTimes times_;
     double longest_step_;
     double time_;
-    double step_ = 0.0;
+    double step_;
 };
 
 }  // namespace cutterflow::coupling

@@ -271,6 +271,25 @@ TEST(Account, and_events_go_on_after_a_resume_as_without_one) {
     EXPECT_THROW(other.run.resume(checkpoint), UserError);
 }
 
+/// A checkpoint's time is a sum of steps: it may lie below that of an event by rounding.
+TEST(Account, goes_on_at_an_event_that_is_due_within_rounding) {
+    const TemporaryFolder folder;
+    CouplingSettings settings = row_of_rock(folder, 3);
+    settings.checkpoint = CheckpointSettings{0.1, 2};
+    Rows before, after;
+    settings.operations = {at(0.5, OperationKind::remove, SphereRegion{Vec3::Zero(), 0.5})};
+    Bed whole(settings, folder, before);
+    while (newest_checkpoint(folder.path()).empty()) whole.run.step();
+    const double saved = whole.fluid.time();
+
+    settings.operations.front().begin = std::nextafter(saved, 1.0);
+    Bed resumed(settings, folder, after, saved);
+    resumed.run.resume(newest_checkpoint(folder.path()));
+    resumed.run.step();
+    EXPECT_THAT(resumed.dem.rocks().id, ElementsAre(2, 3)) << "at once";
+    EXPECT_NEAR(resumed.fluid.time(), saved + 2e-3, 1e-9) << "after a whole step";
+}
+
 TEST(Start, takes_the_rock_of_another_run_with_what_is_frozen) {
     const TemporaryFolder folder;
     CouplingSettings bed_settings = row_of_rock(folder, 5);

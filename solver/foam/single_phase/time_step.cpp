@@ -52,7 +52,7 @@ void CutterFluid::choose_time_step(double travel_limit, double stop_time) {
     const scalar step = std::min(std::min(headroom, growth) * time_.deltaTValue(), limit);
     // OpenFOAM's own way of meeting write times counts from the run's start, which a restart moves.
     const scalar ahead = std::min(next_write_time(), stop_time) - time_.value();
-    time_.setDeltaT(ahead / std::ceil(ahead / step - k_time_tolerance), false);
+    time_.setDeltaT(ahead / std::max<scalar>(1.0, std::ceil(ahead / step - k_time_tolerance)), false);
     Info << "deltaT = " << time_.deltaTValue() << endl;
 }
 

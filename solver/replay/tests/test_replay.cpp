@@ -148,6 +148,17 @@ TEST(Replay, steps_meet_pictures_releases_and_the_end) {
     EXPECT_NEAR(pictures[1], 0.4, 1e-9);
 }
 
+TEST(RunClock, begins_at_most_one_step_before_what_lies_within_rounding) {
+    const double event = 0.84, longest = 0.01;
+    RunClock clock({std::nextafter(event, 0.0), 1.4, {}}, longest);
+    EXPECT_EQ(clock.step(), longest) << "what is due within a share of a step is due at once";
+    clock.advance(1.0, event);
+    EXPECT_GT(clock.step(), 0.0);
+    EXPECT_NEAR(clock.time(), event, 1e-12);
+    clock.advance(1.0, 10.0);
+    EXPECT_NEAR(clock.time(), event + longest, 1e-12);
+}
+
 TEST(Replay, keeps_the_void_fraction_of_rock) {
     FrozenFluid frozen(recorded_flow(one_turn()), {0.0, 1.0, {}});
     const std::size_t cells = frozen.cells().centres.size();
