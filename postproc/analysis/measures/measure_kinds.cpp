@@ -212,9 +212,10 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> map_extent(const Grains& grains, con
     return {lower.head<2>() + edge, upper.head<2>() - edge};
 }
 
-/// Lines up to four times the strongest.
+/// Lines up to four times the strongest; without one all.
 std::size_t lines_to_show(const Spectrum& spectrum) {
-    const auto after = std::upper_bound(spectrum.frequency.begin(), spectrum.frequency.end(), 4.0 * spectrum.peak_frequency);
+    const double highest = spectrum.peak_frequency ? 4.0 * *spectrum.peak_frequency : spectrum.frequency.back();
+    const auto after = std::upper_bound(spectrum.frequency.begin(), spectrum.frequency.end(), highest);
     return std::min<std::size_t>(static_cast<std::size_t>(after - spectrum.frequency.begin()), 4 * k_most_points);
 }
 
@@ -550,13 +551,16 @@ MeasureOutcome measure_spectrum(const MeasureSource& source, const MeasureValues
     outcome.unit = strouhal ? "-" : "Hz";
     outcome.detail = {{"from_s", part.time.front()},
                       {"to_s", part.time.back()},
-                      {"peak_frequency_hz", spectrum.peak_frequency},
                       {"amplitude", spectrum.amplitude},
                       {"peak_over_median", spectrum.peak_over_median},
                       {"noise_limit", spectrum.noise_limit}};
-    outcome.detail["strouhal"] = length && velocity ? json(spectrum.peak_frequency * *length / *velocity) : json(nullptr);
-    if (spectrum.stands_out()) {
-        outcome.value = factor * spectrum.peak_frequency;
+    const auto& peak = spectrum.peak_frequency;
+    outcome.detail["peak_frequency_hz"] = peak ? json(*peak) : json(nullptr);
+    outcome.detail["strouhal"] = peak && length && velocity ? json(*peak * *length / *velocity) : json(nullptr);
+    if (!peak) {
+        outcome.detail["reason"] = "the signal changes slowly, and power falls with frequency: take a later window";
+    } else if (spectrum.stands_out()) {
+        outcome.value = factor * *peak;
         if (spectrum.standard_error) outcome.standard_error = factor * *spectrum.standard_error;
     } else if (!std::isfinite(spectrum.peak_over_median)) {
         outcome.detail["reason"] = "the signal does not change";

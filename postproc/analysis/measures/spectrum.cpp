@@ -59,15 +59,24 @@ std::vector<double> periodogram(const double* values, std::size_t length, double
     return power;
 }
 
-/// The highest line in [from, to), and its place between lines.
-double peak_line(const std::vector<double>& power, std::size_t from, std::size_t to) {
+/// The first of the highest lines in [from, to).
+std::size_t highest_line(const std::vector<double>& power, std::size_t from, std::size_t to) {
     const auto highest =
         std::max_element(power.begin() + static_cast<std::ptrdiff_t>(from), power.begin() + static_cast<std::ptrdiff_t>(to));
-    const auto k = static_cast<std::size_t>(highest - power.begin());
-    if (k == 0 || k + 1 >= power.size() || power[k - 1] <= 0.0 || power[k + 1] <= 0.0) return static_cast<double>(k);
+    return static_cast<std::size_t>(highest - power.begin());
+}
+
+bool is_local_maximum(const std::vector<double>& power, std::size_t k) {
+    return (k == 0 || power[k] >= power[k - 1]) && (k + 1 >= power.size() || power[k] >= power[k + 1]);
+}
+
+/// Place of a line's peak between lines, at most half a line away; the line itself where power rises beyond it.
+double peak_about(const std::vector<double>& power, std::size_t k) {
+    const auto line = static_cast<double>(k);
+    if (k == 0 || k + 1 >= power.size() || !is_local_maximum(power, k) || power[k - 1] <= 0.0 || power[k + 1] <= 0.0) return line;
     const double left = std::log(power[k - 1]), middle = std::log(power[k]), right = std::log(power[k + 1]);
     const double curvature = left - 2.0 * middle + right;
-    return static_cast<double>(k) + (curvature < 0.0 ? 0.5 * (left - right) / curvature : 0.0);
+    return line + (curvature < 0.0 ? 0.5 * (left - right) / curvature : 0.0);
 }
 
 double median_of(std::vector<double> values) {
@@ -98,7 +107,9 @@ Spectrum spectrum_of(const std::vector<double>& times, const std::vector<double>
         spectrum.frequency.push_back(static_cast<double>(k) * line);
         for (const auto& part : parts) spectrum.power[k] += part[k] / segments;
     }
-    const double peak = peak_line(spectrum.power, lobe, spectrum.power.size());
+    const std::size_t highest = highest_line(spectrum.power, lobe, spectrum.power.size());
+    if (!is_local_maximum(spectrum.power, highest)) return spectrum;
+    const double peak = peak_about(spectrum.power, highest);
     const auto at = static_cast<std::size_t>(std::lround(peak));
     spectrum.peak_frequency = peak * line;
     double carried = 0.0;
@@ -113,7 +124,7 @@ Spectrum spectrum_of(const std::vector<double>& times, const std::vector<double>
     spectrum.noise_limit = quantile(noise, std::pow(1.0 - k_false_alarm, 1.0 / lines)) / quantile(noise, 0.5);
     if (segments >= 4) {
         std::vector<double> peaks;
-        for (const auto& part : parts) peaks.push_back(peak_line(part, std::max<std::size_t>(from, 1), to) * line);
+        for (const auto& part : parts) peaks.push_back(peak_about(part, highest_line(part, std::max<std::size_t>(from, 1), to)) * line);
         spectrum.standard_error = std::sqrt(sample_of(peaks).variance / (0.5 * (segments + 1)));
     }
     return spectrum;

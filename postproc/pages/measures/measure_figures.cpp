@@ -225,8 +225,9 @@ std::optional<Plot> velocity_plot(const std::string& name, const json& result) {
 std::optional<Plot> spectrum_plot(const std::string& name, const json& result) {
     Plot plot = plot_of(name, {"frequency [Hz]", {".4g", " Hz"}}, {"power [signal² / Hz]", {".3g", ""}});
     const Numbers power = list(result["series"]["power"]);
-    const double peak = number(result["detail"], "peak_frequency_hz");
     plot.series.push_back(line("power", palette::flow_load, list(result["series"]["frequency_hz"]), power));
+    if (result.at("detail").at("peak_frequency_hz").is_null()) return plot;
+    const double peak = number(result["detail"], "peak_frequency_hz");
     plot.series.push_back(
         dashed(line(fmt::format("{:.4g} Hz", peak), palette::spilled, {peak, peak}, {0.0, *std::max_element(power.begin(), power.end())})));
     return plot;

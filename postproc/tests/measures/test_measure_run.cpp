@@ -301,6 +301,18 @@ TEST_F(MeasuredRun, draws_no_spectrum_of_what_is_not_there_and_tells_of_a_signal
     EXPECT_NO_THROW(measure_figures(results));
 }
 
+TEST_F(MeasuredRun, finds_no_oscillation_in_a_force_that_fades) {
+    std::string walls = "time_s,wall,force_x_n,force_y_n,force_z_n\n";
+    for (int n = 1; n <= 400; ++n) walls += fmt::format("{:.3f},plate,0,{:.9f},0\n", 0.01 * n, std::exp(-0.01 * n / 1.5));
+    write("postProcessing/rock/0/walls.csv", walls);
+    write(k_measures, R"([{"name": "beat", "what": "spectrum", "wall": "plate", "component": "y", "length_m": 0.1, "velocity_m_s": 2}])");
+    const json results = write_possible_measures(run_);
+    EXPECT_TRUE(results["beat"]["value"].is_null());
+    EXPECT_TRUE(results["beat"]["detail"]["strouhal"].is_null());
+    EXPECT_THAT(results["beat"]["detail"]["reason"].get<std::string>(), HasSubstr("changes slowly"));
+    EXPECT_EQ(measure_figures(results).at(0).plot.series.size(), 1U) << "without a line at a peak";
+}
+
 TEST_F(MeasuredRun, tells_of_a_place_of_pressure_in_no_cell) {
     write("postProcessing/drop/0/p", "# Probe 0 (0 0 0)\n# Time\n0.1 10 -1e+300\n0.2 10 -1e+300\n");
     write(k_measures, R"([{"name": "drop", "what": "pressure_drop", "upstream_m": [0, 0, 0], "downstream_m": [0, 0, 1],

@@ -108,12 +108,13 @@ TEST(Spectrum, finds_a_sine_in_noise_of_its_own_power) {
             values.push_back(5.0 + std::sin(2.0 * k_pi * frequency * time) + noise(random));
         }
         const Spectrum spectrum = spectrum_of(times, values, 7);
-        EXPECT_NEAR(spectrum.peak_frequency, frequency, 0.01 * frequency);
+        ASSERT_TRUE(spectrum.peak_frequency);
+        EXPECT_NEAR(*spectrum.peak_frequency, frequency, 0.01 * frequency);
         EXPECT_NEAR(spectrum.amplitude, 1.0, 0.15) << frequency;
         EXPECT_TRUE(spectrum.stands_out());
         ASSERT_TRUE(spectrum.standard_error);
         EXPECT_LT(*spectrum.standard_error, 0.01 * frequency);
-        RecordProperty(fmt::format("sine_{}_hz", frequency), fmt::format("{:.4f}", spectrum.peak_frequency));
+        RecordProperty(fmt::format("sine_{}_hz", frequency), fmt::format("{:.4f}", *spectrum.peak_frequency));
     }
 }
 
@@ -131,6 +132,38 @@ TEST(Spectrum, of_noise_has_no_line_that_stands_out) {
     }
     RecordProperty("false_alarms_of_200", false_alarms);
     EXPECT_LE(false_alarms, 6) << "at most 1 of 100 is stated: 2 of 200 are expected";
+}
+
+/// Power falls from low frequencies, and nothing oscillates.
+TEST(Spectrum, of_a_signal_that_fades_has_no_peak) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0.0, 0.01);
+    std::vector<double> times, values;
+    for (int i = 0; i < 400; ++i) {
+        times.push_back(0.01 * i);
+        values.push_back(std::exp(-times.back() / 1.5) + noise(random));
+    }
+    for (const int segments : {1, 2, 7}) {
+        const Spectrum spectrum = spectrum_of(times, values, segments);
+        EXPECT_FALSE(spectrum.peak_frequency) << segments << " segments: " << spectrum.peak_frequency.value_or(0.0);
+        EXPECT_FALSE(spectrum.stands_out()) << segments;
+        EXPECT_FALSE(spectrum.standard_error) << segments;
+    }
+}
+
+/// A tone that rises and grows: six of seven segments have their highest line below the lobe of the mean one's peak. They count with its
+/// edge, 9 lines of 1/40.96 Hz below the seventh.
+TEST(Spectrum, peaks_of_segments_lie_within_the_lobe) {
+    std::vector<double> times, values;
+    for (int i = 0; i < 4000; ++i) {
+        const double time = 0.01 * i;
+        times.push_back(time);
+        values.push_back((20.0 + time) * std::sin(2.0 * k_pi * (2.0 + 0.02 * time) * time));
+    }
+    const Spectrum spectrum = spectrum_of(times, values, 7);
+    ASSERT_TRUE(spectrum.peak_frequency && spectrum.standard_error);
+    const double deviation = 9.0 / 40.96 / std::sqrt(7.0);
+    EXPECT_NEAR(*spectrum.standard_error, deviation / 2.0, 0.05 * deviation);
 }
 
 TEST(Spectrum, needs_enough_values) {
