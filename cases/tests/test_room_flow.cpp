@@ -19,6 +19,7 @@ namespace cutterflow::cases {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -142,6 +143,21 @@ TEST_F(RoomFlow, discharge_is_speed_times_area) {
     EXPECT_THAT(condition(given, "U", "in"), HasSubstr("flowRateInletVelocity"));
     EXPECT_THAT(condition(given, "U", "in"), ContainsRegex("rho +voidFraction"));
     EXPECT_EQ(outlet_patch(given.scene), "x_max_2");
+}
+
+/// k_out grows for half a second.
+TEST_F(RoomFlow, grains_at_rest_end_no_run_whose_flow_still_changes) {
+    const auto stop_of = [&](const std::string& boundaries) {
+        const RoomScene scene = request(std::string(k_tank) + "stop = { settled = true }\n" + boundaries).scene;
+        return grain_files(scene, "bed", 1).front().text;
+    };
+    const std::string grown = std::string(k_out) + k_free;
+    EXPECT_THAT(stop_of(grown), ContainsRegex("from +0\\.5;"));
+    EXPECT_THAT(stop_of(grown + "[[event]]\ndo = \"ramp\"\nboundary = \"out\"\nspeed_m_s = 1\nfrom_s = 1\nto_s = 1.25\n"),
+                ContainsRegex("from +1\\.25;"));
+    EXPECT_THAT(stop_of("[[boundary]]\non = \"x_min\"\nflow = { inflow_m3_s = 0.003 }\n"
+                        "[[boundary]]\non = \"x_max\"\nflow = \"pressure\"\n"),
+                AllOf(HasSubstr("atRest"), Not(ContainsRegex("from +[0-9]"))));
 }
 
 /// From 1.5 m/s at 0.5 s to 0.5 m/s between 1 and 1.2 s, and to three litres per second at 2 s.

@@ -42,7 +42,8 @@ void StopRules::note_crossing(double time, const std::string& gate, double mass)
 }
 
 bool StopRules::at_rest(double time) const {
-    return at_rest_ && state_.at_rest_since && time - *state_.at_rest_since >= at_rest_->hold - k_rounding;
+    if (!at_rest_ || !state_.at_rest_since || time < at_rest_->from - k_rounding) return false;
+    return time - *state_.at_rest_since >= at_rest_->hold - k_rounding;
 }
 
 bool StopRules::idle(double time) const {

@@ -73,6 +73,7 @@ void check_bed_operations(Mistakes& mistakes, const std::vector<OperationSetting
         mistakes.positive("stop.atRest.energy", at_rest->energy);
         mistakes.positive("stop.atRest.speed", at_rest->speed);
         mistakes.not_negative("stop.atRest.hold", at_rest->hold);
+        mistakes.not_negative("stop.atRest.from", at_rest->from);
     }
     const auto require_gate = [&](const char* key, const std::string& gate) {
         mistakes.require(names.count(gate) > 0, fmt::format("{} = {}", key, gate), "It must be one of gates", k_correct);

@@ -41,6 +41,7 @@ struct AtRestSettings {
     double energy = 1e-6;  ///< [-]
     double speed = 0.01;   ///< [-]
     double hold = 0.05;    ///< [s]
+    double from = 0.0;     ///< not before, as while a flow still grows [s]
 };
 
 /// Nothing crossed a gate for a time.

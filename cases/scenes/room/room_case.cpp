@@ -169,8 +169,20 @@ FoamDictionary rock_section(const RoomScene& scene, const std::string& start, bo
         .add("domain", domain_section(scene, !moves));
 }
 
-FoamDictionary at_rest(double energy) {
-    return FoamDictionary().add("atRest", FoamDictionary().add("energy", energy).add("speed", k_rest_speed));
+/// \param from  until when a flow grows or falls [s]; 0: never
+FoamDictionary at_rest(double energy, double from) {
+    FoamDictionary rest;
+    rest.add("energy", energy).add("speed", k_rest_speed);
+    if (from > 0.0) rest.add("from", from);
+    return FoamDictionary().add("atRest", rest);
+}
+
+/// Grains that lie still before the flow has grown are not yet at rest.
+double flows_change_until(const RoomScene& scene) {
+    double until = 0.0;
+    for (const RoomBoundary& boundary : scene.boundaries)
+        if (const auto* flow = std::get_if<ThroughFlow>(&boundary.flow)) until = std::max(until, flow->changes_until());
+    return until;
 }
 
 FoamDictionary event_section(const RegionEvent& event) {
@@ -219,7 +231,7 @@ CaseText text_of(const FoamFile& file) {
 }
 
 FoamDictionary stop_section(const RoomScene& scene) {
-    if (std::holds_alternative<StopWhenAtRest>(scene.run.stop)) return at_rest(k_rest_energy_of_run);
+    if (std::holds_alternative<StopWhenAtRest>(scene.run.stop)) return at_rest(k_rest_energy_of_run, flows_change_until(scene));
     if (const auto* idle = std::get_if<StopWhenIdle>(&scene.run.stop))
         return FoamDictionary().add("idle", FoamDictionary().add("gate", idle->gate).add("duration", idle->idle));
     if (const auto* below = std::get_if<StopWhenBelow>(&scene.run.stop))
@@ -255,7 +267,7 @@ std::vector<CaseText> bed_case(const RoomScene& scene, const BedPiece& piece, co
         for (const RegionEvent& event : piece.events) events.emplace_back(event_section(event));
         coupling.add("events", FoamValue::list(events));
     }
-    coupling.add("stop", at_rest(k_rest_energy)).add("checkpoint", checkpoint_section(k_bed_checkpoints));
+    coupling.add("stop", at_rest(k_rest_energy, 0.0)).add("checkpoint", checkpoint_section(k_bed_checkpoints));
     std::vector<CaseText> files{foam_text(names::coupling_properties, "dictionary", coupling),
                                 text_of(gravity_file(scene.upright_gravity())),
                                 dry_control(piece.end(), std::min(scene.bed_step, k_bed_pictures), k_bed_pictures)};

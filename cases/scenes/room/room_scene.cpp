@@ -23,6 +23,10 @@ double ThroughFlow::largest_speed() const {
     return largest;
 }
 
+double ThroughFlow::changes_until() const {
+    return speed.size() > 1 ? speed.back().first : 0.0;
+}
+
 std::vector<GrainClass> RoomGrains::extremes() const {
     if (const auto* uniform = std::get_if<UniformByNumber>(&sizes))
         return {{uniform->smallest, 0.5, density}, {uniform->largest, 0.5, density}};

@@ -87,6 +87,7 @@ struct ThroughFlow {
     double area = 0.0;                             ///< of the part [m2]
 
     double largest_speed() const;  ///< [m/s]
+    double changes_until() const;  ///< [s]; 0 for a steady one
 };
 using SideFlow = std::variant<NoSlip, Slip, RoughWall, FixedPressure, ThroughFlow>;
 

@@ -395,6 +395,11 @@ TEST(StopRules, wait_for_rest_events_walls_and_the_hold_time) {
     waiting.dem.walls_change = 0.1;
     while (!waiting.run.finished()) waiting.run.step();
     EXPECT_NEAR(waiting.fluid.time(), 0.1, 2.1e-3);
+    settings.at_rest->from = 0.2;
+    Bed growing(settings, folder, rows);  // a flow grows until then
+    growing.dem.gravity = Vec3(0, 0, -1e-9);
+    while (!growing.run.finished()) growing.run.step();
+    EXPECT_NEAR(growing.fluid.time(), 0.2, 2.1e-3);
     Bed falling(settings, folder, rows);
     falling.dem.gravity = Vec3(0, 0, -9.81);
     falling.go_to(0.5);

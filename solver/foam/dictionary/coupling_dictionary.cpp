@@ -279,6 +279,7 @@ void read_stop(DictionarySection& section, coupling::CouplingSettings& settings)
         rest.read("energy", values.energy, k_optional);
         rest.read("speed", values.speed, k_optional);
         rest.read("hold", values.hold, k_optional);
+        rest.read("from", values.from, k_optional);
     });
     read_optional(section, "idle", settings.idle, [](DictionarySection& idle, coupling::IdleSettings& values) {
         idle.read("gate", values.gate, k_required);

@@ -406,7 +406,7 @@ events
     { do remove; at 0.5; region { type sphere; centre (1 2 3); radius 0.25; } }
 );
 gates ( { name outlet; centre (0 0 0.1); normal (0 0 -1); radius 0.05; } { name slot; lower (0 0 0); upper (1 1 0); normal (0 0 1); } );
-stop { atRest { energy 1e-5; hold 0.1; } idle { gate outlet; duration 5; }
+stop { atRest { energy 1e-5; hold 0.1; from 2.5; } idle { gate outlet; duration 5; }
        below { gate slot; rate 0.05; window 2; } }
 )")
                                              .coupling;
@@ -431,6 +431,7 @@ stop { atRest { energy 1e-5; hold 0.1; } idle { gate outlet; duration 5; }
     EXPECT_EQ(c.at_rest->energy, 1e-5);
     EXPECT_EQ(c.at_rest->speed, 0.01);
     EXPECT_EQ(c.at_rest->hold, 0.1);
+    EXPECT_EQ(c.at_rest->from, 2.5);
     EXPECT_EQ(c.idle->gate, "outlet");
     EXPECT_EQ(c.idle->duration, 5.0);
     ASSERT_TRUE(c.below);
