@@ -17,6 +17,7 @@
 #include "cases/scenes/room/room_prediction.hpp"
 #include "cases/scenes/room/room_study.hpp"
 #include "cases/scenes/study_kind.hpp"
+#include "cases/study/contact_rules.hpp"
 #include "cases/sweep/room_sweep.hpp"
 #include "geometry/base/axis_frame.hpp"
 #include "geometry/base/error.hpp"
@@ -327,7 +328,7 @@ TEST_F(RoomStudy, grains_may_be_clumps_and_begin_with_room_for_any_orientation) 
     write(two, "flat.clump");
     const RoomRequest request = read_room_request(write(changed("[[grains]]\n", "[[grains]]\nshape = \"flat.clump\"\n")));
     const RoomGrains& grains = request.scene.grains.front();
-    EXPECT_GT(grains.girth, 1.1);
+    EXPECT_GT(grains.girth(), 1.1);
     const std::vector<CaseText> files = bed_case(request.scene, request.pieces.front(), "", "../../");
     EXPECT_THAT(files.front().text, ContainsRegex("shapes"));
     int found = 0;
@@ -342,7 +343,35 @@ TEST_F(RoomStudy, grains_may_be_clumps_and_begin_with_room_for_any_orientation) 
     const std::vector<PlacedGrain>& placed = request.pieces.front().grains;
     for (std::size_t i = 0; i < placed.size(); ++i)
         for (std::size_t j = i + 1; j < placed.size() && placed[j].time == placed[i].time; ++j)
-            EXPECT_GT((placed[i].position - placed[j].position).norm(), grains.girth * 0.5 * (placed[i].diameter + placed[j].diameter));
+            EXPECT_GT((placed[i].position - placed[j].position).norm(), grains.girth() * 0.5 * (placed[i].diameter + placed[j].diameter));
+}
+
+/// Contacts are of a clump's spheres, which are smaller and more.
+TEST_F(RoomStudy, clumps_are_predicted_by_their_spheres) {
+    write(
+        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
+        "[[sphere]]\nx_m = 1.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n",
+        "pair.clump");
+    const std::string feed =
+        "[[event]]\ndo = \"feed\"\ngrains = \"beads\"\nfrom_s = 1\nto_s = 2\nrate_kg_s = 0.05\n"
+        "region = { box = { lower_m = [-0.01, -0.01, 0.13], upper_m = [0.01, 0.01, 0.15] } }\n";
+    const auto predicted = [&](const std::string& study) {
+        const RoomRequest request = read_room_request(write(study + feed));
+        return predict(request.scene, request.pieces, request.mesh);
+    };
+    const RoomPrediction round = predicted(room_template("heap"));
+    const RoomPrediction pairs = predicted(changed("[[grains]]\n", "[[grains]]\nshape = \"pair.clump\"\n"));
+    const RoomScene scene = read_room(folder_ / "room.toml");
+    const RoomGrains& kind = scene.grains.front();
+    EXPECT_EQ(pairs.contact_step, contact_step(scene.contact, *kind.shape, kind.smallest(), kind.density));
+    EXPECT_LT(pairs.contact_step, 0.9 * round.contact_step);
+    EXPECT_GT(pairs.contact_step, 0.4 * round.contact_step);
+    // Steps times grains that are there; those that are fed are from the middle of the feed on.
+    const auto per_grain_and_step = [](const RoomPrediction& of) {
+        const double time = static_cast<double>(of.grains) * (of.bed_time + of.end) + of.fed * (of.end - 1.5);
+        return of.grain_seconds * of.contact_step / time;
+    };
+    EXPECT_NEAR(per_grain_and_step(pairs), 2.0 * per_grain_and_step(round), 1e-6 * per_grain_and_step(round));
 }
 
 TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {

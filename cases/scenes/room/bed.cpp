@@ -101,7 +101,9 @@ double contact_step(const RoomScene& scene, const coupling::ContactSettings& con
     if (scene.grains.empty()) return 0.0;
     double step = std::numeric_limits<double>::infinity();
     for (const RoomGrains& kind : scene.grains)
-        for (const GrainClass& one : kind.extremes()) step = std::min(step, contact_step(contact, one.diameter, one.density));
+        for (const GrainClass& one : kind.extremes())
+            step = std::min(step, kind.shape ? contact_step(contact, *kind.shape, one.diameter, one.density)
+                                             : contact_step(contact, one.diameter, one.density));
     return step;
 }
 

@@ -28,8 +28,8 @@ std::vector<BedPiece> bed_pieces(const RoomScene& scene);
 /// \param centres  of the grains that are there when the piece begins [m]
 std::vector<Mistake> empty_freezes(const BedPiece& piece, std::vector<Vec3> centres);
 
-/// Time step of the contacts [s]: a share of the smaller of Rayleigh and Hertz time of the smallest grains. 0 without grains.
-/// \param contact  of the run or of the preparation
+/// Time step of the contacts [s]: a share of the smaller of Rayleigh and Hertz time of the smallest grains, or of spheres of their clumps.
+/// 0 without grains. \param contact  of the run or of the preparation
 double contact_step(const RoomScene& scene, const coupling::ContactSettings& contact);
 
 /// Largest speed of a solid that compresses [m/s]: 0.05, and in a step of the contacts at most 0.3 of the overlap that the smallest grains

@@ -165,7 +165,7 @@ void place_feed(const RoomScene& scene, const FeedEvent& feed, Places& places, i
     double due = 0.0;
     for (const auto& [diameter, density] : draw_grains(kind, feed.rate * (feed.to - feed.from), random)) {
         const double time = feed.from + due / feed.rate;
-        const std::optional<Vec3> place = place_in_feed(scene, feed, places, time, kind.girth * diameter);
+        const std::optional<Vec3> place = place_in_feed(scene, feed, places, time, kind.girth() * diameter);
         if (!place)
             throw UserError(
                 {{feed.where, fmt::format("grains of {} find no place in the region of their feed at {:.3g} s", feed.grains, time),
@@ -193,7 +193,7 @@ public:
         std::size_t next = 0;
         for (int batch = 0; next < drawn.size() && batch < k_most_batches; ++batch) {
             const std::size_t before = next;
-            const double level = lying > 0.0 ? room.level_of(lying) + k_bumps * grains.girth * grains.largest() : bottom;
+            const double level = lying > 0.0 ? room.level_of(lying) + k_bumps * grains.girth() * grains.largest() : bottom;
             const double placed = place_batch(step, grains, drawn, next, std::min(level, top), top, room);
             if (next == before) refuse(step, drawn.size() - next, drawn.size());
             deposits_.emplace_back(step.region, placed / k_loose_share);
@@ -212,18 +212,18 @@ private:
     /// \return volume of the placed grains [m3]
     double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<DrawnGrain>& drawn, std::size_t& next,
                        double level, double top, const geometry::FreeSpace& room) {
-        Neighbours neighbours(grains.girth * grains.largest());
+        Neighbours neighbours(grains.girth() * grains.largest());
         const double allowed = k_falling_share * (room.volume() - room.volume_below(level));
         double placed = 0.0;
         for (; next < drawn.size(); ++next) {
             const auto [diameter, density] = drawn[next];
             if (placed > 0.0 && placed + sphere_volume(diameter) > allowed) break;
-            const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, grains.girth * diameter);
+            const std::optional<Vec3> place = free_place(step.region, neighbours, level, top, grains.girth() * diameter);
             if (!place) break;
-            neighbours.add(*place, grains.girth * diameter);
+            neighbours.add(*place, grains.girth() * diameter);
             placed += sphere_volume(diameter);
             grains_.push_back({++last_id_, time_, *place, diameter, density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
-            if (!deposits_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth * diameter);
+            if (!deposits_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth() * diameter);
         }
         return placed;
     }

@@ -21,13 +21,17 @@ namespace cutterflow::cases {
 
 namespace {
 
-constexpr double k_seconds_per_grain_and_step = 0.65e-6;  // of a dense bed with rolling friction and walls, on one core
-constexpr double k_rest = 0.5;                            // of a small bed [s]
+constexpr double k_seconds_per_sphere_and_step = 0.65e-6;  // of a dense bed with rolling friction and walls, on one core
+constexpr double k_rest = 0.5;                             // of a small bed [s]
 // Of a coupled step on one core: of the flow, with grains (docs/design/003-meshing.md), and of mapping a grain to cells.
 constexpr double k_seconds_per_cell_and_step = 5.9e-6 * 1.41, k_seconds_per_mapped_grain = 30e-6;
 constexpr double k_travel_share = 0.25;          // of its kernel's width that a grain may travel in a step
 constexpr double k_most_diameters_across = 3.0;  // below which grains may block an opening
 constexpr double k_soft_overlap = 0.05;          // of a diameter, from which a bed packs and rolls otherwise than stiff grains
+
+double spheres_of(const RoomScene& scene, const PlacedGrain& grain) {
+    return grain.shape.empty() ? 1.0 : static_cast<double>(scene.find_grains(grain.shape)->spheres());
+}
 
 double mass_of(const PlacedGrain& grain) {
     return sphere_mass(grain.diameter, grain.density);
@@ -216,25 +220,30 @@ RoomPrediction predict(const RoomScene& scene, const std::vector<BedPiece>& piec
     found.medium = scene.medium.name;
     found.solids = scene.solids.size();
     found.contact_step = contact_step(scene, scene.contact);
+    double spheres = 0.0;  // of the bed's grains
     for (const BedPiece& piece : pieces) {
         found.grains += piece.grains.size();
-        for (const PlacedGrain& grain : piece.grains) found.mass += mass_of(grain);
+        for (const PlacedGrain& grain : piece.grains) {
+            found.mass += mass_of(grain);
+            spheres += spheres_of(scene, grain);
+        }
         found.bed_time += (piece.grains.empty() ? 0.0 : piece.grains.back().time) + k_rest;
     }
     found.end = scene.run.end;
     found.fed_mass = scene.fed_mass();
-    double grain_time = static_cast<double>(found.grains) * found.end;  // in the run
+    double grain_time = static_cast<double>(found.grains) * found.end, sphere_time = spheres * found.end;  // in the run
     for (const RoomEvent& event : scene.events) {
         const auto* feed = std::get_if<FeedEvent>(&event);
         if (feed == nullptr) continue;
         const RoomGrains& kind = *scene.find_grains(feed->grains);
         const double count = feed->mass(found.end) / kind.mean_mass();
+        const double time = count * std::max(0.0, found.end - 0.5 * (feed->from + std::min(feed->to, found.end)));
         found.fed += count;
-        grain_time += count * std::max(0.0, found.end - 0.5 * (feed->from + std::min(feed->to, found.end)));
+        grain_time += time;
+        sphere_time += time * static_cast<double>(kind.spheres());
     }
     if (found.contact_step > 0.0)
-        found.grain_seconds =
-            k_seconds_per_grain_and_step * (static_cast<double>(found.grains) * found.bed_time + grain_time) / found.contact_step;
+        found.grain_seconds = k_seconds_per_sphere_and_step * (spheres * found.bed_time + sphere_time) / found.contact_step;
     if (mesh) {
         found.cells = mesh->predicted_cells;
         found.mesh_seconds = mesh->predicted_core_s;

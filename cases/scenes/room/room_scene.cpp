@@ -27,6 +27,14 @@ double ThroughFlow::changes_until() const {
     return speed.size() > 1 ? speed.back().first : 0.0;
 }
 
+double RoomGrains::girth() const {
+    return shape ? 2.0 * shape->reach() : 1.0;
+}
+
+std::size_t RoomGrains::spheres() const {
+    return shape ? shape->balls.size() : 1;
+}
+
 std::vector<GrainClass> RoomGrains::extremes() const {
     if (const auto* uniform = std::get_if<UniformByNumber>(&sizes))
         return {{uniform->smallest, 0.5, density}, {uniform->largest, 0.5, density}};

@@ -14,6 +14,7 @@
 
 #include "geometry/base/region.hpp"
 #include "geometry/base/vec3.hpp"
+#include "geometry/clump/unit_clump.hpp"
 #include "geometry/surface/surface.hpp"
 #include "solver/ports/dem_settings.hpp"
 
@@ -126,10 +127,12 @@ struct RoomGrains {
     std::string name;
     double density = 0.0;  ///< of all sizes, or of classes that give none of their own [kg/m3]
     GrainSizes sizes;
-    std::filesystem::path clump;  ///< file of a clump; empty: spheres
-    std::string clump_text;       ///< of that file
-    double girth = 1.0;           ///< diameter of the sphere around a grain over that of the sphere of its volume
+    std::filesystem::path clump;               ///< file of a clump; empty: spheres
+    std::string clump_text;                    ///< of that file
+    std::optional<geometry::UnitClump> shape;  ///< that it describes; none: spheres
 
+    double girth() const;         ///< diameter of the sphere around a grain over that of the sphere of its volume
+    std::size_t spheres() const;  ///< of a grain
     /// Its classes; of a range of diameters its ends.
     std::vector<GrainClass> extremes() const;
     double smallest() const;      ///< [m]

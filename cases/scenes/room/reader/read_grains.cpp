@@ -62,7 +62,7 @@ void read_grains(RoomReading& room, const ParameterValues& values) {
     if (values.has("grains.shape"))
         room.mistakes.gather([&] {
             ShapeFile shape = read_shape_file(values, "grains.shape", grains.name, room.folder);
-            grains.girth = shape.girth();
+            grains.shape = std::move(shape.clump);
             grains.clump = std::move(shape.file);
             grains.clump_text = std::move(shape.text);
         });

@@ -161,7 +161,7 @@ void read_pour(RoomReading& room, const ParameterValues& values, const std::opti
         pour.mass = static_cast<double>(*pour.count) * grains->mean_mass();
     }
     if (!require_few_enough(room, *grains, pour.mass, "pour", where)) return;
-    if (const double widest = grains->girth * grains->largest(); widest > narrowest(*region))
+    if (const double widest = grains->girth() * grains->largest(); widest > narrowest(*region))
         return room.refuse(where, fmt::format("grains of up to {:.3g} m in a region of {:.3g} m", widest, narrowest(*region)),
                            "A grain begins in its region as a whole", "Pour smaller grains, or give a larger region");
     const double bulk = pour.mass / (grains->mean_density() * k_packed_share), place = free_volume(room.scene, *region);
