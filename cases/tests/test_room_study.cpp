@@ -374,6 +374,53 @@ TEST_F(RoomStudy, clumps_are_predicted_by_their_spheres) {
     EXPECT_NEAR(per_grain_and_step(pairs), 2.0 * per_grain_and_step(round), 1e-6 * per_grain_and_step(round));
 }
 
+/// The DEM would leave them waiting for ever.
+TEST_F(RoomStudy, clumps_that_reach_too_far_for_the_room_are_refused) {
+    write(
+        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
+        "[[sphere]]\nx_m = 1.5\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n",
+        "pair.clump");
+    const auto room = [](double side, double diameter) {
+        return fmt::format(R"([scene]
+kind = "room"
+[room]
+size_m = [0.04, {}, 0.2]
+[[material]]
+name = "stone"
+youngs_modulus_pa = 1e7
+[[contact]]
+pair = ["stone", "stone"]
+friction = 0.5
+restitution = 0.8
+[[contact]]
+pair = ["stone", "steel"]
+friction = 0.4
+restitution = 0.8
+[[grains]]
+name = "pairs"
+material = "stone"
+density_kg_m3 = 2650
+diameter_m = {}
+shape = "pair.clump"
+[[prepare]]
+do = "pour"
+grains = "pairs"
+count = 2
+[run]
+end_s = 1
+)",
+                           side, diameter);
+    };
+    const RoomScene scene = read_room(write(room(0.08, 0.004)));
+    const double girth = scene.grains.front().girth(), longest = 0.125 * 0.08;  // [m]: a quarter of half of the larger side
+    const double largest = longest / (0.5 * girth);
+    EXPECT_EQ(mistakes_of(room(0.08, 0.99 * largest)), "");
+    EXPECT_THAT(mistakes_of(room(0.08, 1.01 * largest)),
+                AllOf(ContainsRegex("room.toml:[0-9]+: clumps pairs of up to"), HasSubstr("an eighth of the room's larger horizontal side"),
+                      HasSubstr("0.01 m")));
+    EXPECT_EQ(mistakes_of(room(0.081, 1.01 * largest)), "");
+}
+
 TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {
     const RoomRequest request = read_room_request(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/hopper/study.toml");
     const std::string bed = bed_case(request.scene, request.pieces.at(0), "", "../../").front().text;

@@ -50,7 +50,6 @@ using coupling::Rocks;
 constexpr double k_skin_in_radii = 0.4;       // of the largest rock: neighbour lists hold until something moved half of it
 constexpr double k_skin_without_rock = 4e-4;  // of the domain's half width
 constexpr double k_margin_in_radii = 0.25;    // of the domain's half width: room that a rock may use between leaving it and being removed
-constexpr double k_clump_margin = 0.5;        // the same with clumps, half of it for their spheres beyond the centre
 constexpr double k_most_bins = 1e5;           // of little rock: LIGGGHTS clears all bins at each rebuild
 constexpr double k_bins_per_rock = 10.0;      // of much rock, however little of the domain it fills
 constexpr const char* k_restart_file = "dem.restart";
@@ -67,6 +66,9 @@ constexpr const char* k_pressed = "pressed_m";  // of a wall in a checkpoint
 constexpr const char* k_wall_contacts = "wall_contacts";
 constexpr const char* k_wall_rolling = "wall_rolling";
 constexpr const char* k_contact_forces = "contact_forces";
+
+/// k_margin_in_radii with clumps, half of it for their spheres beyond the centre.
+constexpr double k_clump_margin = 2.0 * coupling::k_largest_reach;
 
 std::array<double, 3> as_list(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
@@ -507,7 +509,7 @@ std::vector<bool> LiggghtsEngine::Implementation::room_for(const Rocks& candidat
 
 /// LIGGGHTS loses particles outside its box, in which spheres of a clump may lie beyond the domain that the centre of mass is in.
 bool LiggghtsEngine::Implementation::fits_margin(const coupling::Rock& rock) const {
-    return rock.shape == coupling::k_sphere_shape || bodies_.reach_of(rock) <= 0.5 * k_clump_margin * half_width(settings_.domain);
+    return rock.shape == coupling::k_sphere_shape || bodies_.reach_of(rock) <= coupling::k_largest_reach * half_width(settings_.domain);
 }
 
 std::vector<int> LiggghtsEngine::Implementation::insert(const Rocks& candidates) {

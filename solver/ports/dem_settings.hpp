@@ -164,6 +164,10 @@ struct DomainSettings {
     double position_of(std::size_t side) const { return (side % 2 == 0 ? lower : upper)[static_cast<Eigen::Index>(side / 2)]; }
 };
 
+/// How far a rock that is a clump may reach from its centre of mass, over half the domain's larger horizontal width. One that reaches
+/// farther finds no room.
+inline constexpr double k_largest_reach = 0.25;
+
 /// Whether rock with its centre there [m] belongs to the run.
 bool contains(const DomainSettings& domain, const Vec3& centre);
 

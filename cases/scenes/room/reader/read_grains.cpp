@@ -42,6 +42,18 @@ bool read_sizes(RoomReading& room, const ParameterValues& values, RoomGrains& gr
     return true;
 }
 
+/// The DEM leaves clumps that reach farther waiting for ever. \pre sizes are read
+void require_short_clumps(RoomReading& room, const ParameterValues& values, const RoomGrains& grains) {
+    if (!grains.shape) return;
+    const double reach = 0.5 * grains.girth() * grains.largest();
+    const double longest = coupling::k_largest_reach * 0.5 * room.scene.size.head<2>().maxCoeff();
+    if (reach <= longest - room.scene.tolerance()) return;
+    room.refuse(values.where("grains.shape"),
+                fmt::format("clumps {} of up to {:.4g} m reach {:.4g} m from their centre of mass", grains.name, grains.largest(), reach),
+                fmt::format("They reach less than an eighth of the room's larger horizontal side, {:.4g} m", longest),
+                "Give smaller grains, a rounder shape or a wider room");
+}
+
 void read_grains(RoomReading& room, const ParameterValues& values) {
     RoomGrains grains;
     grains.name = values.text("grains.name");
@@ -66,7 +78,9 @@ void read_grains(RoomReading& room, const ParameterValues& values) {
             grains.clump = std::move(shape.file);
             grains.clump_text = std::move(shape.text);
         });
-    if (read_sizes(room, values, grains)) room.scene.grains.push_back(std::move(grains));
+    if (!read_sizes(room, values, grains)) return;
+    require_short_clumps(room, values, grains);
+    room.scene.grains.push_back(std::move(grains));
 }
 
 }  // namespace
