@@ -388,6 +388,19 @@ TEST_F(RoomRuns, a_bed_that_is_not_at_rest_or_lost_grains_is_refused) {
     EXPECT_NE(said.find("those of its 60 lie from"), std::string::npos) << said;
 }
 
+/// A later part begins without the grains that were taken out before.
+TEST_F(RoomRuns, grains_that_were_trimmed_do_not_count_as_waiting) {
+    std::string study = std::string(k_pressed_bed) + k_materials;
+    study.insert(study.find("[[prepare]]\ndo = \"compress\""),
+                 "[[prepare]]\ndo = \"trim\"\nabove_m = 0.01\n[[prepare]]\ndo = \"pour\"\ngrains = \"grains\"\ncount = 3\n"
+                 "region = { box = { lower_m = [-0.015, -0.015, 0], upper_m = [0.015, 0.015, 0.05] } }\n");
+    study.replace(study.find("pressure_pa = 2000"), 18, "pressure_pa = 2000\nlongest_s = 0.02");
+    write_file(folder_ / "bed.toml", study);
+    const std::string said = call({"run", "bed.toml", "-o", "bed"}, 4);
+    EXPECT_NE(said.find("with which lid is pressed; it went"), std::string::npos) << said;
+    EXPECT_EQ(said.find("found no room"), std::string::npos) << said;
+}
+
 TEST_F(RoomRuns, studies_that_nobody_foresaw_run) {
     write_file(folder_ / "hourglass.toml", std::string(k_hourglass) + k_materials);
     call({"run", "hourglass.toml", "-o", "hourglass"});
