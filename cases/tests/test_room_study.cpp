@@ -303,6 +303,47 @@ TEST_F(RoomStudy, preparation_is_cut_into_pieces_that_end_at_rest) {
     for (const CaseText& file : files) EXPECT_NE(file.path, "constant/rockFeed.csv");
 }
 
+/// 250 grains of 5 mm lie 20 mm high at their loosest, in a room of 45 mm.
+TEST_F(RoomStudy, a_pour_after_a_trim_begins_above_what_is_left) {
+    const auto steps = [](const std::vector<std::string>& between) {
+        const std::string pour = "[[prepare]]\ndo = \"pour\"\ngrains = \"stones\"\ncount = 250\n";
+        std::string text = R"([scene]
+kind = "room"
+[room]
+size_m = [0.04, 0.04, 0.045]
+[[material]]
+name = "stone"
+youngs_modulus_pa = 1e7
+[[contact]]
+pair = ["stone", "stone"]
+friction = 0.5
+restitution = 0.8
+[[contact]]
+pair = ["stone", "steel"]
+friction = 0.4
+restitution = 0.8
+[[grains]]
+name = "stones"
+material = "stone"
+density_kg_m3 = 2650
+diameter_m = 0.005
+)" + pour;
+        for (const std::string& step : between) text += "[[prepare]]\ndo = \"trim\"\n" + step + "\n" + pour;
+        return text + "[run]\nend_s = 1\n";
+    };
+    const std::string level = "above_m = 0.005",
+                      box = "region = { box = { lower_m = [-0.02, -0.02, 0.005], upper_m = [0.02, 0.02, 0.045] } }";
+    const auto pieces = read_room_request(write(steps({level, level}))).pieces;
+    ASSERT_EQ(pieces.size(), 3u);
+    for (const BedPiece& piece : pieces) EXPECT_EQ(piece.grains.size(), 250u);
+    for (const PlacedGrain& grain : pieces[1].grains)
+        EXPECT_GE(grain.position.z(), 0.005 + 2.0 * 0.005 + 0.5 * 0.005 - 1e-9) << "above the bumps of what is left";
+    EXPECT_THAT(mistakes_of(steps({"above_m = 0.03"})),
+                AllOf(ContainsRegex("[0-9]+ of 250 grains of stones find no place"), Not(HasSubstr("trim takes out"))));
+    EXPECT_THAT(mistakes_of(steps({box})),
+                AllOf(ContainsRegex("[0-9]+ of 250 grains of stones find no place"), HasSubstr("another region than one above a level")));
+}
+
 TEST_F(RoomStudy, a_step_freeze_that_finds_no_grains_is_a_mistake) {
     const std::string steps = "[[prepare]]\ndo = \"trim\"\nabove_m = 0.06\n\n[[prepare]]\ndo = \"freeze\"\nabove_m = 0.055\n\n";
     const RoomRequest request = read_room_request(write(changed("[[prepare]]\ndo = \"settle\"\n", steps)));

@@ -28,6 +28,7 @@ public:
             open_ = poured_ = true;
         } else if (const auto* trim = std::get_if<TrimStep>(&step)) {
             add({"remove", 0.0, trim->region});
+            pouring_.trim(trim->region);
         } else if (const auto* freeze = std::get_if<FreezeStep>(&step)) {
             add({"freeze", 0.0, freeze->region, freeze->where});
         } else if (const auto* compress = std::get_if<CompressStep>(&step)) {

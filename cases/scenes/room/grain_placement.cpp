@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -189,18 +190,26 @@ public:
             step.count ? draw_grains(grains, *step.count, random_) : draw_grains(grains, step.mass, random_);
         const double bottom = bottom_of(step.region), top = bottom + height_of(step.region);
         const geometry::FreeSpace room(step.region, places_.solids());
-        double lying = lying_in(step.region);
+        double lying = lying_in(step.region, room);
         std::size_t next = 0;
         for (int batch = 0; next < drawn.size() && batch < k_most_batches; ++batch) {
             const std::size_t before = next;
             const double level = lying > 0.0 ? room.level_of(lying) + k_bumps * grains.girth() * grains.largest() : bottom;
             const double placed = place_batch(step, grains, drawn, next, std::min(level, top), top, room);
             if (next == before) refuse(step, drawn.size() - next, drawn.size());
-            deposits_.emplace_back(step.region, placed / k_loose_share);
+            history_.emplace_back(Deposit{step.region, placed / k_loose_share});
             lying += placed / k_loose_share;
             time_ += k_times_to_fall * time_to_fall(top - bottom, scene_.gravity_strength);
         }
         if (next < drawn.size()) refuse(step, drawn.size() - next, drawn.size());
+    }
+
+    void trim(const Region& region) {
+        const auto* half = std::get_if<HalfSpaceRegion>(&region);
+        if (half != nullptr && half->normal.z() > 0.0 && half->normal.head<2>().isZero())
+            history_.emplace_back(TrimLevel{half->point.z()});
+        else
+            uncounted_trim_ = true;
     }
 
     std::vector<PlacedGrain> take() {
@@ -209,6 +218,16 @@ public:
     }
 
 private:
+    /// Grains that came down in a region.
+    struct Deposit {
+        Region region;
+        double bulk = 0.0;  // [m3]
+    };
+    /// All above a level was taken out.
+    struct TrimLevel {
+        double height = 0.0;  // [m]
+    };
+
     /// \return volume of the placed grains [m3]
     double place_batch(const PourStep& step, const RoomGrains& grains, const std::vector<DrawnGrain>& drawn, std::size_t& next,
                        double level, double top, const geometry::FreeSpace& room) {
@@ -223,7 +242,7 @@ private:
             neighbours.add(*place, grains.girth() * diameter);
             placed += sphere_volume(diameter);
             grains_.push_back({++last_id_, time_, *place, diameter, density, Vec3(0.0, 0.0, -k_falling_speed), shape_of(grains)});
-            if (!deposits_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth() * diameter);
+            if (!history_.empty()) grains_.back().above = place_at_top(*place, top, grains.girth() * diameter);
         }
         return placed;
     }
@@ -242,18 +261,24 @@ private:
         return places_.clear_of_solids(above, diameter) ? std::optional<Vec3>(above) : std::nullopt;
     }
 
-    /// Bulk volume [m3] that earlier pours may have left in a region, at their loosest.
-    double lying_in(const Region& region) const {
+    /// Bulk volume [m3] that earlier pours may have left in a region, at their loosest. \param room  that solids leave there
+    double lying_in(const Region& region, const geometry::FreeSpace& room) const {
         double volume = 0.0;
-        for (const auto& [other, bulk] : deposits_)
-            if (overlap_seen_from_above(other, region)) volume += bulk;
+        for (const std::variant<Deposit, TrimLevel>& past : history_) {
+            if (const auto* trim = std::get_if<TrimLevel>(&past)) volume = std::min(volume, room.volume_below(trim->height));
+            const auto* deposit = std::get_if<Deposit>(&past);
+            if (deposit != nullptr && overlap_seen_from_above(deposit->region, region)) volume += deposit->bulk;
+        }
         return volume;
     }
 
     [[noreturn]] void refuse(const PourStep& step, std::size_t left, std::size_t all) const {
+        const char* trimmed =
+            uncounted_trim_ ? "; what a trim takes out of another region than one above a level counts as lying there" : "";
         throw UserError(
             {{step.where, fmt::format("{} of {} grains of {} find no place in the region of their pour", left, all, step.grains),
-              "They begin in its free part, above what has come down, clear of the solids", "Pour less, or give a larger region"}});
+              fmt::format("They begin in its free part, above what has come down, clear of the solids{}", trimmed),
+              "Pour less, or give a larger region"}});
     }
 
     const RoomScene& scene_;
@@ -261,7 +286,8 @@ private:
     Places places_;
     std::vector<PlacedGrain> grains_;
     double time_ = 0.0;
-    std::vector<std::pair<Region, double>> deposits_;  // bulk volume [m3] that came down in each region
+    std::vector<std::variant<Deposit, TrimLevel>> history_;
+    bool uncounted_trim_ = false;
     int last_id_ = 0;
 };
 
@@ -270,6 +296,10 @@ Pouring::~Pouring() = default;
 
 void Pouring::pour(const PourStep& step) {
     impl_->pour(step);
+}
+
+void Pouring::trim(const Region& region) {
+    impl_->trim(region);
 }
 
 std::vector<PlacedGrain> Pouring::take() {

@@ -45,6 +45,10 @@ public:
     /// \throws UserError  when grains find no place
     void pour(const PourStep& step);
 
+    /// Grains that have come down are taken out of a region: later pours begin lower where that is all that lies above a level. What
+    /// another region takes out counts on.
+    void trim(const Region& region);
+
     /// Grains of the pours since the last call, by their times, which begin at 0 again; ids go on.
     std::vector<PlacedGrain> take();
 
