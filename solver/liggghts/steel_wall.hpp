@@ -19,13 +19,13 @@ namespace cutterflow::liggghts {
 /// Where a wall is at one time, and how it moves.
 struct WallPose {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< since time 0
-    Vec3 origin = Vec3::Zero();                          ///< of the turn [m]
+    Vec3 origin = Vec3::Zero();                          ///< of the turn, before the wall went its way [m]
     Vec3 way = Vec3::Zero();                             ///< travelled since time 0 [m]
     Vec3 spin = Vec3::Zero();                            ///< [rad/s]
     Vec3 travel = Vec3::Zero();                          ///< [m/s]
 
     Vec3 into_frame(const Vec3& point) const { return origin + turn.transpose() * (point - way - origin); }
-    Vec3 velocity_at(const Vec3& point) const { return travel + spin.cross(point - origin); }
+    Vec3 velocity_at(const Vec3& point) const { return travel + spin.cross(point - way - origin); }
 };
 
 /// A place of steel that a sphere reaches.

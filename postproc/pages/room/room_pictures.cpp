@@ -30,25 +30,13 @@ double lasted(const nlohmann::json& motion, double time) {
     return std::clamp(time - begin, 0.0, end - begin);
 }
 
-/// Where a point of a solid is at a time.
-Vec3 moved(const nlohmann::json& solid, double time, const Vec3& given) {
-    Vec3 point = solid.contains("pressed_m") ? Vec3(given + vec3_in(solid.at("pressed_m"))) : given;
-    for (const nlohmann::json& travel : travels_of(solid)) point += vec3_in(travel.at("velocity_m_s")) * lasted(travel, time);
-    if (solid.contains("turn")) {
-        const nlohmann::json& turn = solid.at("turn");
-        return rotate_about({vec3_in(turn.at("origin_m")), vec3_in(turn.at("axis"))},
-                            turn.at("speed_rad_s").get<double>() * lasted(turn, time), point);
-    }
-    return point;
-}
-
 /// The solids as they stand at a time.
 TriangleSurface solids_at(const nlohmann::json& room, const std::filesystem::path& run, double time) {
     TriangleSurface all;
     for (const nlohmann::json& solid : room.at("solids")) {
         if (solid.contains("removed_at_s") && time >= solid.at("removed_at_s").get<double>()) continue;
         for (Triangle triangle : read_binary_stl(run / solid.at("file").get<std::string>())) {
-            for (Vec3& corner : triangle) corner = moved(solid, time, corner);
+            for (Vec3& corner : triangle) corner = moved_point(solid, time, corner);
             all.push_back(triangle);
         }
     }
@@ -137,6 +125,19 @@ std::vector<nlohmann::json> travels_of(const nlohmann::json& solid) {
     if (!solid.contains("travel")) return {};
     const nlohmann::json& travel = solid.at("travel");
     return travel.is_array() ? std::vector<nlohmann::json>(travel.begin(), travel.end()) : std::vector<nlohmann::json>{travel};
+}
+
+/// The axis goes with the solid, as in the DEM.
+Vec3 moved_point(const nlohmann::json& solid, double time, const Vec3& given) {
+    Vec3 point = given;
+    if (solid.contains("turn")) {
+        const nlohmann::json& turn = solid.at("turn");
+        point = rotate_about({vec3_in(turn.at("origin_m")), vec3_in(turn.at("axis"))},
+                             turn.at("speed_rad_s").get<double>() * lasted(turn, time), point);
+    }
+    if (solid.contains("pressed_m")) point += vec3_in(solid.at("pressed_m"));
+    for (const nlohmann::json& travel : travels_of(solid)) point += vec3_in(travel.at("velocity_m_s")) * lasted(travel, time);
+    return point;
 }
 
 std::string room_pictures(const Page& page, const nlohmann::json& room, const MeasureSource& source) {

@@ -12,6 +12,7 @@
 #include "postproc/analysis/measures/measure_run.hpp"
 #include "postproc/pages/measures/measure_figures.hpp"
 #include "postproc/pages/room/room_page.hpp"
+#include "postproc/pages/room/room_pictures.hpp"
 #include "postproc/tests/synthetic_run.hpp"
 
 namespace cutterflow::postproc {
@@ -131,6 +132,18 @@ protected:
     json room_;
     std::string page_;
 };
+
+/// Its axis was pressed with it: a solid whose file stands there moves alike.
+TEST(RoomPictures, show_a_pressed_solid_that_turns_where_it_is) {
+    const json turn = {{"origin_m", {0.0, 0.0, 0.04}}, {"axis", {0.0, 1.0, 0.0}}, {"speed_rad_s", 0.5}, {"from_s", 1.0}, {"to_s", 4.0}};
+    const json pressed{{"turn", turn}, {"pressed_m", {0.002, 0.0, -0.01}}};
+    json there{{"turn", turn}};
+    there["turn"]["origin_m"] = {0.002, 0.0, 0.03};
+    const Vec3 point(0.02, 0.01, 0.05), way(0.002, 0.0, -0.01);
+    for (const double time : {0.0, 2.0, 5.0})
+        EXPECT_NEAR((moved_point(pressed, time, point) - moved_point(there, time, point + way)).norm(), 0.0, 1e-15) << time;
+    EXPECT_GT((moved_point(pressed, 5.0, point) - point - way).norm(), 0.01);
+}
 
 /// The first row of the account is of the end of the first step.
 TEST_F(RoomReport, counts_what_was_fed_at_the_beginning) {

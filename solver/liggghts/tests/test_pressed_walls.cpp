@@ -111,6 +111,41 @@ TEST(PressedWalls, checkpoints_know_how_far_a_wall_was_pressed) {
     EXPECT_GT(force_on(later, "plate"), 0.5 * k_force);
 }
 
+// It turns about the axis that was pressed with it: a wall whose file stands there moves the rock alike.
+TEST(PressedWalls, turns_as_a_wall_that_stands_where_it_was_pressed_to) {
+    coupling::DemSettings settings = between_plates(true);
+    const std::filesystem::path folder = settings.walls[0].file.parent_path() / "checkpoint";
+    if (rank() == 0) std::filesystem::create_directories(folder);
+    MPI_Barrier(MPI_COMM_WORLD);
+    settings.gravity = Vec3::Zero();
+    settings.contact.rock_steel.friction = 0.4;
+    settings.walls.pop_back();
+    settings.walls[0].press->direction = Vec3(0.6, 0.0, 0.8);  // away from the rock
+    LiggghtsEngine before(settings, no_zones(), MPI_COMM_WORLD);
+    ASSERT_EQ(before.insert(sphere()).size(), 1u);
+    const Vec3 way = advanced(before, 200).wall_force[0].pressed;
+    EXPECT_NEAR(way.norm(), 200 * k_call * k_speed, 1e-12);
+    before.write_checkpoint(folder);
+
+    settings.gravity = Vec3(0, 0, 9.81);  // the rock falls on the plate above it
+    settings.walls[0].press.reset();
+    settings.walls[0].turn = {{Vec3(0, 0, k_radius + k_gap), Vec3::UnitY()}, 2.0, 0.0, 1.0};
+    coupling::DemSettings there = settings;
+    const Vec3 low(-0.05, -0.05, k_radius + k_gap);
+    there.walls[0].name = "there";
+    there.walls[0].file =
+        write_stl(settings.walls[0].file.parent_path() / "there.stl", block(low + way, low + way + Vec3(0.1, 0.1, 0.01), 3));
+    there.walls[0].turn.axis.origin += way;
+    LiggghtsEngine pressed(settings, no_zones(), MPI_COMM_WORLD), standing(there, no_zones(), MPI_COMM_WORLD);
+    for (LiggghtsEngine* engine : {&pressed, &standing}) {
+        engine->start_from(folder);
+        advanced(*engine, 100);
+    }
+    EXPECT_NEAR((pressed.rocks().position[0] - standing.rocks().position[0]).norm(), 0.0, 1e-9);
+    EXPECT_NEAR((pressed.rocks().velocity[0] - standing.rocks().velocity[0]).norm(), 0.0, 1e-7);
+    EXPECT_GT(pressed.rocks().angular_velocity[0].norm(), 0.1) << "the plate took the rock along";
+}
+
 TEST(PressedWalls, refuses_all_mistakes_at_once) {
     coupling::DemSettings settings = between_plates(true);
     settings.walls[0].press = coupling::WallPress{Vec3(0, 0, 2), 0.0, -1.0};
