@@ -32,6 +32,9 @@ public:
 
     bool is_rigid() const { return motion_ != nullptr; }
 
+    /// Null when the mesh does not turn rigidly.
+    const SlidingOverlap* overlap() const { return overlap_ ? &*overlap_ : nullptr; }
+
 private:
     /// Vectors of some places of a field.
     struct Vectors {

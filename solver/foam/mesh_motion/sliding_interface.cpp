@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/foam/mesh_motion/overlap_flux.hpp"
+
 #include "cyclicAMIFvPatch.H"
 
 namespace cutterflow::foam {
@@ -15,6 +17,16 @@ double mismatch_of_side(const surfaceScalarField& flux, const cyclicAMIFvPatch& 
     const cyclicAMIFvPatch& other = side.neighbPatch();
     const scalarField of_other(side.interpolate(scalarField(flux.boundaryField()[other.index()] / other.magSf())));
     return sum(mag(flux.boundaryField()[side.index()] + side.magSf() * of_other));
+}
+
+/// Of the faces of all sides: sum |phi_f + what the other side has as flow through its parts with f|.
+double mismatch_of_parts(const surfaceScalarField& flux, const OverlapFlux& parts) {
+    double mismatch = 0.0;
+    for (const PartFluxes& part : parts.sides()) {
+        const label other = refCast<const cyclicAMIFvPatch>(flux.mesh().boundary()[part.side.patch()]).neighbPatchID();
+        mismatch += sum(mag(flux.boundaryField()[other] + part.side.sum_beyond(part.flux)));
+    }
+    return mismatch;
 }
 
 }  // namespace
@@ -34,19 +46,21 @@ std::vector<label> interface_patches(const fvMesh& mesh) {
     return patches;
 }
 
-InterfaceFlow interface_flow(const surfaceScalarField& flux) {
+InterfaceFlow interface_flow(const surfaceScalarField& flux, const OverlapFlux* parts) {
     InterfaceFlow flow;
     for (const InterfacePair& pair : interface_pairs(flux.mesh())) {
         double net = 0.0;
         for (const label patch : {pair.owner, pair.neighbour}) {
             net += sum(flux.boundaryField()[patch]);
             flow.gross += sum(mag(flux.boundaryField()[patch]));
-            flow.mismatch += 0.5 * mismatch_of_side(flux, refCast<const cyclicAMIFvPatch>(flux.mesh().boundary()[patch]));
+            if (parts == nullptr || !parts->has(patch))
+                flow.mismatch += 0.5 * mismatch_of_side(flux, refCast<const cyclicAMIFvPatch>(flux.mesh().boundary()[patch]));
         }
         reduce(net, sumOp<scalar>());
         flow.net += net;
         flow.imbalance += std::abs(net);
     }
+    if (parts != nullptr) flow.mismatch += 0.5 * mismatch_of_parts(flux, *parts);
     reduce(flow.gross, sumOp<scalar>());
     reduce(flow.mismatch, sumOp<scalar>());
     return flow;

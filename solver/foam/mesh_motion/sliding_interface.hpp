@@ -7,6 +7,8 @@
 
 namespace cutterflow::foam {
 
+class OverlapFlux;
+
 /// The patches on the two sides of one interface.
 struct InterfacePair {
     Foam::label owner;
@@ -29,7 +31,8 @@ struct InterfaceFlow {
     double mismatch = 0.0;
 };
 
-/// Collective.
-InterfaceFlow interface_flow(const Foam::surfaceScalarField& flux);
+/// \param parts  where interfaces have fluxes of parts, the mismatch is of those: sum |phi_f + sum_g Q_gf| / 2 with Q_gf what the other
+/// side's face g has as flow through its part with f. Collective.
+InterfaceFlow interface_flow(const Foam::surfaceScalarField& flux, const OverlapFlux* parts = nullptr);
 
 }  // namespace cutterflow::foam

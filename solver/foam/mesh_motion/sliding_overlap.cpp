@@ -60,11 +60,15 @@ std::optional<bool> turns(const polyPatch& patch, const MovingZones& zones) {
 struct SideOverlap {
     labelListList faces;  ///< of the other side, over all ranks
     scalarListList shares;
+    std::vector<std::vector<vector>> areas;
 
-    explicit SideOverlap(label size) : faces(size), shares(size) {}
-    void add(label own, label other, scalar share) {
+    explicit SideOverlap(label size) : faces(size), shares(size), areas(static_cast<std::size_t>(size)) {
+        for (std::vector<vector>& of_face : areas) of_face.reserve(4);
+    }
+    void add(label own, label other, scalar share, const vector& area) {
         faces[own].append(other);
         shares[own].append(share);
+        areas[static_cast<std::size_t>(own)].push_back(area);
     }
 };
 
@@ -99,19 +103,24 @@ void SlidingOverlap::put_back() {
 }
 
 void SlidingOverlap::set(double angle) {
+    areas_.clear();
     for (const Interface& interface : interfaces_) {
         const globalIndex &owner = interface.owner_faces, &neighbour = interface.neighbour_faces;
         SideOverlap of_owner(owner.localSize()), of_neighbour(neighbour.localSize());
         for (const FaceOverlap& overlap : interface.overlap.at(angle - base_angle_)) {
             auto of_first = static_cast<label>(overlap.still), of_second = static_cast<label>(overlap.turned);
             scalar first_share = overlap.of_still, second_share = overlap.of_turned;
+            vector area = to_foam(overlap.area);
             if (interface.owner_turns) {
                 std::swap(of_first, of_second);
                 std::swap(first_share, second_share);
+                area = -area;
             }
-            if (owner.isLocal(of_first)) of_owner.add(owner.toLocal(of_first), of_second, first_share);
-            if (neighbour.isLocal(of_second)) of_neighbour.add(neighbour.toLocal(of_second), of_first, second_share);
+            if (owner.isLocal(of_first)) of_owner.add(owner.toLocal(of_first), of_second, first_share, area);
+            if (neighbour.isLocal(of_second)) of_neighbour.add(neighbour.toLocal(of_second), of_first, second_share, -area);
         }
+        if (interface.overlap.pairs_areas())
+            areas_.push_back({interface.patches, std::move(of_owner.areas), std::move(of_neighbour.areas)});
 
         AMIPatchToPatchInterpolation& overlap = edit(patch_of(mesh_, interface.patches.owner).AMI());
         if (overlap.singlePatchProc() == -1) {

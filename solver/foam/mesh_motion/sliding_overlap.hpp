@@ -12,6 +12,13 @@
 
 namespace cutterflow::foam {
 
+/// Area vectors [m2] of the parts of each face of both patches, in the order of the overlap's addresses, out of the patch's own cells. Each
+/// part has one vector, which both sides have with the other sign.
+struct PartAreas {
+    InterfacePair patches;
+    std::vector<std::vector<Foam::vector>> owner, neighbour;
+};
+
 /// Interfaces between the turning zone and the rest whose sides are surfaces of revolution: the overlap of their faces follows from the
 /// angle (RevolutionOverlap) instead of being looked for. That of other interfaces is left to OpenFOAM.
 class SlidingOverlap {
@@ -28,6 +35,9 @@ public:
 
     std::size_t size() const { return interfaces_.size(); }
 
+    /// Of the interfaces whose parts have areas (RevolutionOverlap::pairs_areas), at the angle last set.
+    const std::vector<PartAreas>& areas() const { return areas_; }
+
 private:
     struct Interface {
         InterfacePair patches;
@@ -42,6 +52,7 @@ private:
     const Foam::fvMesh& mesh_;
     double base_angle_;  ///< [rad]
     std::vector<Interface> interfaces_;
+    std::vector<PartAreas> areas_;
 };
 
 }  // namespace cutterflow::foam

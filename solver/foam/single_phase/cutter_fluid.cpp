@@ -47,6 +47,7 @@ CutterFluid::CutterFluid(dynamicFvMesh& mesh, const MovingZones& zones, RockPres
     : mesh_(mesh),
       zones_(zones),
       rotation_(mesh, zones),
+      parts_(mesh),
       time_(const_cast<Time&>(mesh.time())),
       rock_(rock),
       pimple_(mesh),

@@ -8,6 +8,7 @@
 #include <gsl/span>
 
 #include "solver/foam/mesh_motion/moving_zones.hpp"
+#include "solver/foam/mesh_motion/overlap_flux.hpp"
 #include "solver/foam/mesh_motion/rigid_rotation.hpp"
 #include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/single_phase/registered_turbulence.hpp"
@@ -80,6 +81,7 @@ public:
     const Foam::surfaceScalarField& relative_fluid_flux() const { return alphaPhi_; }  ///< of alpha u, relative to the mesh [m3/s]
     const Foam::volScalarField& void_fraction() const { return alpha_; }
     const Foam::volVectorField& material_acceleration() const { return DuDt_; }
+    const OverlapFlux& overlap_flux() const { return parts_; }  ///< of alpha u [m3/s]
     const Foam::vectorField& received() const { return received_; }
     const OutsideMomentum& outside_momentum() const { return outside_; }
     const Soil* soil() const { return soil_.get(); }  ///< null without
@@ -131,6 +133,11 @@ private:
     Foam::tmp<Foam::surfaceScalarField> predicted_flux(const Foam::volVectorField& HbyA, const Foam::volScalarField& rAU) const;
     void add_wall_forces(Foam::surfaceScalarField& flux, const Foam::volScalarField& rAU) const;
     void close_domain(Foam::surfaceScalarField& flux);
+    void predict_parts(const Foam::volVectorField& HbyA);
+    void move_pressure_of_parts(const Foam::volScalarField& time);
+    void set_conductances(Foam::surfaceScalarField& alpha_rAtUf, const Foam::volScalarField& rAtU);
+    void add_pressure_to_parts();
+    void put_on_faces(Foam::surfaceScalarField& flux) const;
     void close_interfaces(Foam::surfaceScalarField& flux, const Foam::surfaceScalarField& alpha_rAtUf) const;
     Foam::dimensionedScalar find_surplus(const Foam::surfaceScalarField& flux);
     void report_continuity();
@@ -146,6 +153,7 @@ private:
     Foam::dynamicFvMesh& mesh_;
     const MovingZones& zones_;
     RigidRotation rotation_;
+    OverlapFlux parts_;
     Foam::Time& time_;
     const RockPresence rock_;
     Foam::pimpleControl pimple_;

@@ -91,7 +91,7 @@ coupling::FluidLoads compute_loads(const CutterFluid& fluid, const MovingZones& 
     add_torque(fluid, zones, loads);
     if (outlet) add_outlet(fluid, *outlet, loads);
     const BoundaryFlows flows = sum_boundary_flows(fluid.relative_fluid_flux());
-    const InterfaceFlow interfaces = interface_flow(fluid.relative_fluid_flux());
+    const InterfaceFlow interfaces = interface_flow(fluid.relative_fluid_flux(), &fluid.overlap_flux());
     loads.boundary_flow = flows.open_net + interfaces.net;
     loads.wall_flow = flows.wall_gross;
     const fvMesh& mesh = fluid.mesh();

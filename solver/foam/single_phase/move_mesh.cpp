@@ -10,6 +10,7 @@ using namespace Foam;
 /// velocity.
 void CutterFluid::move_mesh() {
     rotation_.move();
+    if (rotation_.overlap() != nullptr) parts_.couple(*rotation_.overlap());
     if (!mesh_.moving()) return;
     forAll(phi_.boundaryField(), patch) {
         if (!U_.boundaryField()[patch].fixesValue()) continue;

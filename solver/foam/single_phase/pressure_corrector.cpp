@@ -17,6 +17,44 @@ namespace cutterflow::foam {
 
 using namespace Foam;
 
+namespace {
+
+/// Gradient in the cells beside a patch, from values at faces; 0 in all others.
+void add_gradient_beside(const fvPatch& patch, const surfaceScalarField& at_faces, vectorField& gradient) {
+    const fvMesh& mesh = at_faces.mesh();
+    for (const label cell : patch.faceCells()) {
+        vector sum = Zero;
+        for (const label face : mesh.cells()[cell]) {
+            if (mesh.isInternalFace(face)) {
+                sum += (mesh.faceOwner()[face] == cell ? 1.0 : -1.0) * at_faces[face] * mesh.Sf()[face];
+            } else {
+                const label number = mesh.boundaryMesh().patchID()[face - mesh.nInternalFaces()];
+                const fvsPatchScalarField& values = at_faces.boundaryField()[number];
+                if (values.empty()) continue;  // of patches of type empty
+                const label at = face - mesh.boundaryMesh()[number].start();
+                sum += values[at] * mesh.Sf().boundaryField()[number][at];
+            }
+        }
+        gradient[cell] = sum / mesh.V()[cell];
+    }
+}
+
+/// Sets the fluxes of the parts of sliding interfaces without what the new pressure drives: as predicted, and what the distance of the
+/// cells beside a part misses of the present pressure's gradient.
+void set_explicit_fluxes(OverlapFlux& parts, const volScalarField& pressure) {
+    if (parts.sides().empty()) return;
+    const fvMesh& mesh = pressure.mesh();
+    const surfaceScalarField at_faces(fvc::interpolate(pressure));
+    vectorField gradient(mesh.nCells(), Zero);
+    for (const PartFluxes& part : parts.sides()) add_gradient_beside(mesh.boundary()[part.side.patch()], at_faces, gradient);
+    for (PartFluxes& part : parts.sides()) {
+        const OverlapSide& side = part.side;
+        part.flux = part.predicted - part.conductance / side.strength() * (side.rest() & side.mean(gradient));
+    }
+}
+
+}  // namespace
+
 void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     const volScalarField rAU(free_time(momentum));
     volVectorField H(momentum.H());
@@ -30,6 +68,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     }
     volVectorField HbyA(constrainHbyA(rAU * H, U_, p_));
     surfaceScalarField phiHbyA("phiHbyA", predicted_flux(HbyA, rAU));
+    predict_parts(HbyA);
     close_domain(phiHbyA);
     const dimensionedScalar surplus(find_surplus(phiHbyA));
 
@@ -37,6 +76,7 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
     if (pimple_.consistent()) {
         rAtU = 1.0 / max(1.0 / rAU - momentum.H1(), 0.1 / rAU);
         phiHbyA += fvc::interpolate(rAtU() - rAU) * fvc::snGrad(p_) * mesh_.magSf();
+        move_pressure_of_parts(rAtU() - rAU);
         HbyA -= (rAU - rAtU()) * pressure_gradient();
     }
     add_wall_forces(phiHbyA, rAtU());
@@ -51,15 +91,21 @@ void CutterFluid::correct_pressure(fvVectorMatrix& momentum) {
         phiHbyA += soil_flux;
         alpha_rAtUf *= soil_->face_mobility();
     }
+    set_conductances(alpha_rAtUf, rAtU());
     close_interfaces(phiHbyA, alpha_rAtUf);
-    const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * phiHbyA)().internalField() - surplus);
     while (pimple_.correctNonOrthogonal()) {
+        set_explicit_fluxes(parts_, p_);
+        put_on_faces(phiHbyA);
+        const volScalarField::Internal outflow(alpha_rate_ + fvc::div(alphaf_ * phiHbyA)().internalField() - surplus);
+        const OverlapFlux::InMatrix parts(parts_);
         fvScalarMatrix pressure(fvm::laplacian(alpha_rAtUf, p_));
         pressure -= outflow;
         pressure.setReference(p_ref_cell_, p_ref_value_);
         pressure.solve(own_linear_solver(mesh_.solver(p_.select(pimple_.finalInnerIter()))));
         if (pimple_.finalNonOrthogonalIter()) phi_ = phiHbyA - pressure.flux() / alphaf_;
     }
+    add_pressure_to_parts();
+    put_on_faces(phi_);
     report_continuity();
     p_.relax();
     U_ = HbyA - rAtU * pressure_gradient();
@@ -105,8 +151,55 @@ void CutterFluid::close_domain(surfaceScalarField& flux) {
     fvc::makeAbsolute(flux, U_);
 }
 
-/// The two sides of a sliding interface are different polygons, so that their fluxes differ slightly. Half of the difference, shared out by
-/// area outside of soil, is taken from either side of the predicted flux; the pressure's own part of it is that of the last pressure.
+/// What passes through the parts of sliding interfaces without pressure.
+void CutterFluid::predict_parts(const volVectorField& HbyA) {
+    for (PartFluxes& part : parts_.sides()) part.predicted = part.side.mean(HbyA.primitiveField()) & part.side.area();
+}
+
+/// The gradient of the last pressure, over a time [s], as the difference of the cells beside a part has it.
+void CutterFluid::move_pressure_of_parts(const volScalarField& time) {
+    for (PartFluxes& part : parts_.sides())
+        part.predicted += part.side.mean(time.primitiveField()) * part.side.strength() * part.side.difference(p_.primitiveField());
+}
+
+/// What soil and rock leave of the fluxes of the parts, and what the pressure drives through them. Faces have the sum of their parts.
+void CutterFluid::set_conductances(surfaceScalarField& alpha_rAtUf, const volScalarField& rAtU) {
+    for (PartFluxes& part : parts_.sides()) {
+        const OverlapSide& side = part.side;
+        const label patch = side.patch();
+        part.conductance = side.mean(rAtU.primitiveField()) * side.strength();
+        if (soil_) {
+            const scalarField mobility(side.mean(soil_->mobility().primitiveField()));
+            const scalarField of_soil(soil_->velocity().value() & side.area());
+            part.predicted = of_soil + mobility * (part.predicted - of_soil);
+            part.conductance *= mobility;
+        }
+        const scalarField alpha(side.mean(alpha_.primitiveField()));
+        part.predicted *= alpha;
+        part.conductance *= alpha;
+        alpha_rAtUf.boundaryFieldRef()[patch] =
+            side.sum(part.conductance) / (mesh_.nonOrthDeltaCoeffs().boundaryField()[patch] * mesh_.magSf().boundaryField()[patch]);
+    }
+}
+
+/// Of the pressure just solved for.
+void CutterFluid::add_pressure_to_parts() {
+    if (parts_.sides().empty()) return;
+    p_.correctBoundaryConditions();  // which the solution evaluated by the matrix' weights
+    for (PartFluxes& part : parts_.sides()) part.flux -= part.conductance * part.side.difference(p_.primitiveField());
+}
+
+/// The sum of its parts' fluxes on each face of a sliding interface. \param flux  of u [m3/s]
+void CutterFluid::put_on_faces(surfaceScalarField& flux) const {
+    for (const PartFluxes& part : parts_.sides()) {
+        const label patch = part.side.patch();
+        flux.boundaryFieldRef()[patch] = part.side.sum(part.flux) / alphaf_.boundaryField()[patch];
+    }
+}
+
+/// Where a sliding interface has no fluxes of parts: its two sides are different polygons, so that their fluxes differ slightly. Half of
+/// the difference, shared out by area outside of soil, is taken from either side of the predicted flux; the pressure's own part of it is
+/// that of the last pressure.
 void CutterFluid::close_interfaces(surfaceScalarField& flux, const surfaceScalarField& alpha_rAtUf) const {
     const auto open_area = [this](label patch) {
         scalarField area(mesh_.magSf().boundaryField()[patch]);
@@ -114,6 +207,7 @@ void CutterFluid::close_interfaces(surfaceScalarField& flux, const surfaceScalar
         return area;
     };
     for (const InterfacePair& pair : interface_pairs(mesh_)) {
+        if (parts_.has(pair.owner)) continue;
         scalar difference = 0.0, area = 0.0;
         for (const label patch : {pair.owner, pair.neighbour}) {
             const scalarField& size = mesh_.magSf().boundaryField()[patch];

@@ -184,6 +184,54 @@ TEST(RevolutionOverlap, HoldsForACanOfAnyMeshAndAxis) {
     }
 }
 
+Vec3 area_of(const RevolutionOverlap::Face& face) {
+    return 0.5 * (face[2] - face[0]).cross(face[3] - face[1]);
+}
+
+/// What the parts of a face, over both sides, lack at most of the area vector of the face.
+double lacking_area(const Side& still, const Side& turning, const RevolutionOverlap& overlap, double angle) {
+    std::vector<Vec3> of_still, of_turned;
+    for (const auto& face : still) of_still.push_back(area_of(face));
+    for (auto face : turning) {
+        for (Vec3& corner : face) corner = rotate_about(RotationAxis(), angle, corner);
+        of_turned.push_back(area_of(face));
+    }
+    for (const FaceOverlap& part : overlap.at(angle)) {
+        of_still[part.still] -= part.area;
+        of_turned[part.turned] -= part.area;
+    }
+    double worst = 0.0;
+    for (const Vec3& rest : of_still) worst = std::max(worst, rest.norm());
+    for (const Vec3& rest : of_turned) worst = std::max(worst, rest.norm());
+    return worst;
+}
+
+// One area vector for a part closes the cells of both sides: also where chords of 10 and of 17 faces stand off from each other.
+TEST(RevolutionOverlap, PartsOfAFaceAddUpToItsAreaOnBothSides) {
+    Side still, turning;
+    add_ring(still, 10, k_radius, 0.0, k_radius, k_height, 0.3);
+    add_ring(turning, 17, k_radius, 0.0, k_radius, k_height, 0.2);
+    const auto cylinder = RevolutionOverlap::between(still, turning, RotationAxis());
+    ASSERT_TRUE(cylinder.has_value());
+    ASSERT_TRUE(cylinder->pairs_areas());
+    const Side side = can(6);
+    const auto closed = RevolutionOverlap::between(side, side, RotationAxis());
+    ASSERT_TRUE(closed.has_value());
+    ASSERT_TRUE(closed->pairs_areas());
+    for (int step = 0; step < 50; ++step) {
+        EXPECT_LE(lacking_area(still, turning, *cylinder, 0.37 * step), 1e-14 * k_radius * k_height);
+        EXPECT_LE(lacking_area(side, side, *closed, 0.37 * step), 1e-13 * k_radius * k_height);
+    }
+    for (const FaceOverlap& part : closed->at(0.37)) EXPECT_GT(part.area.dot(area_of(side[part.still])), 0.0);
+}
+
+// Discs of 16 and of 24 corners have not the same area.
+TEST(RevolutionOverlap, HasNoAreasOfPartsWhereBothSidesHaveNotTheSame) {
+    const auto unlike = RevolutionOverlap::between(can(4), can(6), RotationAxis());
+    ASSERT_TRUE(unlike.has_value());
+    EXPECT_FALSE(unlike->pairs_areas());
+}
+
 TEST(RevolutionOverlap, RefusesOtherSurfaces) {
     Side ring, half, other_rings;
     add_ring(ring, 12, k_radius, 0.0, k_radius, k_height);

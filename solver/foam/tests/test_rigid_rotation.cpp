@@ -214,7 +214,9 @@ std::vector<Vec3> velocities_after_two_steps(const std::string& name, GeometryOf
         run.begin();
         if (geometry == GeometryOfSteps::recomputed) {
             const Foam::surfaceScalarField flux("flux", mesh.phi());
+            overlap.take();  // the fluid has seen it in this step
             mesh.update();
+            overlap.put_back();
             overlap.set(zones.motion.front().angle(run.engine().time()));
             mesh.surfaceInterpolation::movePoints();
             mesh.setPhi() == flux;
