@@ -474,7 +474,7 @@ std::vector<Stage> room_stages(const RunDirectory& directory, const RoomRequest&
                       RoomWork::rewritten_by_report(),
                       false,
                       [room](bool) { return room->report(); },
-                      {names::results_json, names::report_page, postproc::k_measure_results}});
+                      {names::results_json, names::report_page}});
     return stages;
 }
 
