@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cases/calibration/run_values.hpp"
+#include "cases/runner/manifest.hpp"
 #include "geometry/base/file_content.hpp"
 #include "geometry/base/mistakes.hpp"
 #include "postproc/analysis/calibration/optimiser.hpp"

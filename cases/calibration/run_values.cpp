@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cases/runner/manifest.hpp"
 #include "geometry/base/json_document.hpp"
 #include "geometry/base/run_files.hpp"
-#include "postproc/run/solver_starts.hpp"
 
 namespace cutterflow::cases {
 
@@ -92,13 +90,6 @@ std::string missing_reason(const fs::path& run, const Measured& measured) {
     const json document = read_json_document(measures, {}, "Run it again");
     const json result = document.value(measured.measure, json::object());
     return result.value("detail", json::object()).value("reason", "");
-}
-
-double run_core_s(const fs::path& run) {
-    const Manifest manifest(run / names::manifest);
-    const StageRecord* solver = manifest.find("run");
-    const double noted = solver == nullptr ? 0.0 : solver->core_s;  // of the last attempt
-    return manifest.core_s() - noted + postproc::solver_core_seconds(run).value_or(noted);
 }
 
 }  // namespace cutterflow::cases

@@ -16,8 +16,4 @@ std::vector<double> run_values(const std::filesystem::path& run, const Measured&
 /// Why a run has no value for a target, in the words of its measure; empty when it does not say.
 std::string missing_reason(const std::filesystem::path& run, const Measured& measured);
 
-/// Core seconds of all stages that the run noted, the one that failed too; shared ones count in the run that made them. 0 without a
-/// manifest.
-double run_core_s(const std::filesystem::path& run);
-
 }  // namespace cutterflow::cases

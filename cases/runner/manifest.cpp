@@ -8,6 +8,8 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_content.hpp"
+#include "geometry/base/run_files.hpp"
+#include "postproc/run/solver_starts.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -110,6 +112,13 @@ void Manifest::write() const {
     json stages = json::object();
     for (const auto& [name, record] : records_) stages[name] = to_json(record);
     write_file(file_, json{{"schema", k_schema}, {"kind", kind_}, {"stages", stages}, {"versions", versions_}}.dump(2) + "\n");
+}
+
+double run_core_s(const std::filesystem::path& run) {
+    const Manifest manifest(run / names::manifest);
+    const StageRecord* solver = manifest.find("run");
+    const double noted = solver == nullptr ? 0.0 : solver->core_s;  // of the last attempt
+    return manifest.core_s() - noted + postproc::solver_core_seconds(run).value_or(noted);
 }
 
 }  // namespace cutterflow::cases

@@ -49,4 +49,8 @@ private:
     std::string kind_;  // of the study; empty in manifests of earlier versions
 };
 
+/// Core seconds of all stages that a run directory noted, the one that failed too, of the solver in all its starts; shared stages count in
+/// the run that made them. 0 without a manifest.
+double run_core_s(const std::filesystem::path& run_directory);
+
 }  // namespace cutterflow::cases

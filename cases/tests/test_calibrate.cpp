@@ -9,6 +9,7 @@
 
 #include "cases/calibration/calibrate.hpp"
 #include "cases/calibration/run_values.hpp"
+#include "cases/runner/manifest.hpp"
 #include "cases/scenes/free_surface/surface_study.hpp"
 #include "cases/scenes/room/room_study.hpp"
 #include "cases/sweep/room_sweep.hpp"
@@ -446,8 +447,8 @@ TEST_F(Calibrate, counts_what_interrupted_runs_took) {
         return fmt::format(R"({{"state": "done", "inputs": {{}}, "outputs": {{}}, "wall_s": 1.0, "core_s": {}, "finished": ""}})", core_s);
     };
     write_file(folder_ / "run/manifest.json",
-               fmt::format(R"({{"kind": "room", "schema": "cutterflow.manifest/1", "stages": {{"bed": {}, "run": {}}}}})", stage(2.0),
-                           stage(3.0)));
+               fmt::format(R"({{"kind": "room", "schema": "cutterflow.manifest/1", "versions": {{}}, "stages": {{"bed": {}, "run": {}}}}})",
+                           stage(2.0), stage(3.0)));
     write_file(folder_ / "run/postProcessing/cost/0/cost.csv", "time_s,step_s\n0.1,4\n0.2,1\n");
     write_file(folder_ / "run/postProcessing/cost/0.2/cost.json", R"({"ranks": 1, "core_s": 3.0})");
     EXPECT_NEAR(run_core_s(folder_ / "run"), 2.0 + 5.0 + 3.0, 1e-12);

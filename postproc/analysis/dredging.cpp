@@ -7,7 +7,6 @@
 
 #include "geometry/base/at_work/usual_ranges.hpp"
 #include "geometry/base/sphere.hpp"
-#include "geometry/head/tip_radius.hpp"
 #include "postproc/analysis/text.hpp"
 
 namespace cutterflow::postproc {
@@ -159,7 +158,7 @@ std::vector<std::string> outside_usual_practice(const Results& results, const Ru
     const double diameter = 2.0 * run.contour.ring_radius();
     std::map<std::string, double> values{{at_work::k_ring_diameter, diameter},
                                          {at_work::k_rotor_speed, point.speed_rpm},
-                                         {at_work::k_tip_speed, point.angular_speed() * geometry::tip_radius(run.contour)},
+                                         {at_work::k_tip_speed, point.angular_speed() * run.tip_radius()},
                                          {at_work::k_ladder, point.inclination_deg},
                                          {at_work::k_mouth_speed, results.delivery.pipe_velocity}};
     const auto add_given = [&](const char* key, double value) {

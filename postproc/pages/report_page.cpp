@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/statistics/developed_flow.hpp"
-#include "geometry/head/tip_radius.hpp"
 #include "postproc/analysis/dredging.hpp"
 #include "postproc/analysis/not_modelled.hpp"
 #include "postproc/analysis/text.hpp"
@@ -499,7 +498,7 @@ std::string operation_section(const Results& results, const RunData& run) {
     std::vector<std::vector<std::string>> rows{
         scaled_row("rotor speed", "rpm", point.speed_rpm, ratio, -0.5),
         scaled_row("ring radius", "m", run.contour.ring_radius(), ratio, 1.0),
-        scaled_row("tip speed", "m/s", point.angular_speed() * geometry::tip_radius(run.contour), ratio, 0.5),
+        scaled_row("tip speed", "m/s", point.angular_speed() * run.tip_radius(), ratio, 0.5),
         scaled_row("discharge Q of the mixture", "m³/s", point.discharge, ratio, 2.5),
         scaled_row("velocity in the suction pipe", "m/s", results.delivery.pipe_velocity, ratio, 0.5),
         scaled_row("mean torque of the flow", "N m", mean_of(results.rotor.torque_flow), ratio, 4.0)};

@@ -37,8 +37,8 @@ const std::vector<JsonField> k_feed_fields{{"feeds/*/requested", JsonKind::whole
                                            {"feeds/*/rejected", JsonKind::whole, true},
                                            {"feeds/*/reasons/*", JsonKind::text},
                                            {"feeds/*/left_by_swing_before", JsonKind::truth},
-                                           {"feeds/*/layers/*/thickness_m", JsonKind::number, true},
-                                           {"feeds/*/layers/*/section_m2", JsonKind::number, true},
+                                           {"feeds/*/layers/*/thickness_m", JsonKind::number},
+                                           {"feeds/*/layers/*/section_m2", JsonKind::number},
                                            {"feeds/*/classes/*/diameter_m", JsonKind::number, true},
                                            {"feeds/*/classes/*/density_kg_m3", JsonKind::number, true},
                                            {"feeds/*/classes/*/count", JsonKind::number, true},
@@ -174,8 +174,8 @@ std::optional<FeedSummary> read_feed(const fs::path& file) {
         summary.rejected += feed.at("rejected").get<std::int64_t>();
         for (const json& reason : feed.value("reasons", json::array())) summary.reasons.push_back(reason);
         for (const json& layer : feed.value("layers", json::array())) {
-            summary.layer_thickness.push_back(layer.at("thickness_m"));
-            summary.layer_section.push_back(layer.at("section_m2"));
+            summary.layer_thickness.push_back(layer.value("thickness_m", 0.0));
+            summary.layer_section.push_back(layer.value("section_m2", 0.0));
         }
         for (const json& item : feed.value("classes", json::array())) {
             RockClass rock_class{item.at("diameter_m"), item.at("density_kg_m3"), item.at("count"), std::nullopt};

@@ -1,5 +1,6 @@
 #pragma once
 /// \file What a run directory holds, read for the report. Which file has what: docs/design/001-contracts.md.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -112,6 +113,8 @@ struct RunData {
     std::vector<std::string> warnings{};                    ///< of the solver, as first_warnings
     std::optional<RecordedFlow> flow{};                     ///< of a replay, which has rock: all but rock, feed and cost is then that run's
 
+    /// Largest radius of the head's contour [m].
+    double tip_radius() const { return *std::max_element(contour.radius().begin(), contour.radius().end()); }
     /// Of the cutter and of what stands around it.
     const std::filesystem::path& geometry_directory() const { return flow ? flow->run : directory; }
 };

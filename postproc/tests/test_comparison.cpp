@@ -103,10 +103,6 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     EXPECT_NEAR(*difference.estimate.half_width, std::hypot(*production.settings[0].half_width, *production.settings[1].half_width), 1e-12);
     EXPECT_EQ(difference.verdict, ComparisonVerdict::differs);
     EXPECT_THAT(comparison_text(comparison), HasSubstr("[0.3"));
-    // Of the flow: an interval and no bounds.
-    const Estimate& torque = quantity_of(comparison, "torque_flow_mean_n_m").settings[0];
-    ASSERT_TRUE(torque.half_width);
-    EXPECT_EQ(*torque.half_width, *comparison.runs[0].results.rotor.torque_flow->half_interval);
     for (const Quantity& quantity : comparison.quantities)
         for (const Estimate& estimate : quantity.settings) {
             EXPECT_EQ(estimate.low.has_value(), estimate.high.has_value()) << quantity.key;
@@ -123,6 +119,28 @@ TEST(Comparison, of_fed_heads_has_shares_with_their_intervals_and_hold_up) {
     EXPECT_EQ(*quantity_of(comparison, "spilled_0-30mm_share").settings[0].value, 0.0);
     for (const Figure& figure : comparison_figures(comparison))
         if (figure.plot.name == "spilled") EXPECT_EQ(figure.plot.x.title, "spilled, % of the fed mass");
+}
+
+/// The small run with a torque that is noted often.
+fs::path pushed(const std::string& name, double torque, double length_ratio) {
+    const fs::path directory = variant(name, {}, length_ratio);
+    std::string rows = "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w\n";
+    for (int step = 1; step <= 2000; ++step) {
+        const double time = 0.001 * step;
+        rows += fmt::format("{:.9g},{:.9g},{:.9g},0,0,60\n", time, 2.0 * k_pi * time, torque + std::sin(17.0 * time));
+    }
+    testing::write_text(directory / "postProcessing/loads/0/loads.csv", rows);
+    return directory;
+}
+
+TEST(Comparison, of_flows_has_intervals_and_no_bounds) {
+    const Comparison comparison = compare_runs({pushed("pushed_a", -10.0, 1.0), pushed("pushed_b", -20.0, 2.0)});
+    const Quantity& torque = quantity_of(comparison, "torque_flow_mean_n_m");
+    ASSERT_EQ(comparison.settings.size(), 2u);
+    ASSERT_TRUE(torque.settings[0].half_width);
+    EXPECT_NEAR(*torque.settings[0].half_width, *comparison.runs[0].results.rotor.torque_flow->half_interval, 1e-12);
+    EXPECT_FALSE(torque.settings[0].low || torque.settings[0].high);
+    EXPECT_EQ(difference_of(comparison, torque, 1).verdict, ComparisonVerdict::differs);
 }
 
 fs::path swinging(const std::string& name, double swing_m_min) {

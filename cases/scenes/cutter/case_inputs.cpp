@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/base/mistakes.hpp"
 #include "geometry/base/run_files.hpp"
 #include "geometry/head/head_names.hpp"
-#include "geometry/head/tip_radius.hpp"
 #include "solver/physics/contact.hpp"
 
 namespace cutterflow::cases {
@@ -30,7 +30,7 @@ void fill(double& value, double derived) {
 
 void check_tank(const CaseInputs& inputs, Mistakes& rules) {
     const char* remedy = "Enlarge the tank";
-    rules.require(inputs.tank.radius > geometry::tip_radius(inputs.contour), "tank radius [m]", inputs.tank.radius,
+    rules.require(inputs.tank.radius > tip_radius(inputs.contour), "tank radius [m]", inputs.tank.radius,
                   "It must be larger than the head's largest radius", remedy);
     rules.require(inputs.tank.z_min < inputs.contour.z_hub(), "tank bottom z [m]", inputs.tank.z_min, "It must lie below the head", remedy);
     rules.require(inputs.tank.z_max > inputs.contour.z_backplate(), "tank top z [m]", inputs.tank.z_max, "It must lie above the backplate",
@@ -47,8 +47,12 @@ void check_times(const RunTimes& times, Mistakes& rules) {
 
 CaseInputs::CaseInputs(geometry::Contour head) : contour(std::move(head)) {}
 
+double tip_radius(const geometry::Contour& contour) {
+    return *std::max_element(contour.radius().begin(), contour.radius().end());
+}
+
 double tip_speed(const CaseInputs& inputs) {
-    return std::abs(inputs.rotor.speed) * geometry::tip_radius(inputs.contour);
+    return std::abs(inputs.rotor.speed) * tip_radius(inputs.contour);
 }
 
 double mouth_speed(const CaseInputs& inputs) {

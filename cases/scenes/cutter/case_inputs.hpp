@@ -84,6 +84,9 @@ coupling::CouplingSettings solver_settings(const CaseInputs& inputs);
 /// The same of the DEM; its domain is the water. \pre inputs.rock
 coupling::DemSettings dem_settings(const CaseInputs& inputs);
 
+/// Largest radius [m] of a head.
+double tip_radius(const geometry::Contour& contour);
+
 /// Speed [m/s] of the rotor's outermost point.
 double tip_speed(const CaseInputs& inputs);
 
