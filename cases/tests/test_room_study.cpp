@@ -28,6 +28,20 @@
 namespace cutterflow::cases {
 namespace {
 
+/// A material with its contacts, as studies have it.
+const std::string k_stone = R"([[material]]
+name = "stone"
+youngs_modulus_pa = 1e7
+[[contact]]
+pair = ["stone", "stone"]
+friction = 0.5
+restitution = 0.8
+[[contact]]
+pair = ["stone", "steel"]
+friction = 0.4
+restitution = 0.8
+)";
+
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
@@ -311,18 +325,7 @@ TEST_F(RoomStudy, a_pour_after_a_trim_begins_above_what_is_left) {
 kind = "room"
 [room]
 size_m = [0.04, 0.04, 0.045]
-[[material]]
-name = "stone"
-youngs_modulus_pa = 1e7
-[[contact]]
-pair = ["stone", "stone"]
-friction = 0.5
-restitution = 0.8
-[[contact]]
-pair = ["stone", "steel"]
-friction = 0.4
-restitution = 0.8
-[[grains]]
+)" + k_stone + R"([[grains]]
 name = "stones"
 material = "stone"
 density_kg_m3 = 2650
@@ -426,18 +429,7 @@ TEST_F(RoomStudy, clumps_that_reach_too_far_for_the_room_are_refused) {
 kind = "room"
 [room]
 size_m = [0.04, {}, 0.2]
-[[material]]
-name = "stone"
-youngs_modulus_pa = 1e7
-[[contact]]
-pair = ["stone", "stone"]
-friction = 0.5
-restitution = 0.8
-[[contact]]
-pair = ["stone", "steel"]
-friction = 0.4
-restitution = 0.8
-[[grains]]
+{}[[grains]]
 name = "pairs"
 material = "stone"
 density_kg_m3 = 2650
@@ -450,7 +442,7 @@ count = 2
 [run]
 end_s = 1
 )",
-                           side, diameter);
+                           side, k_stone, diameter);
     };
     const RoomScene scene = read_room(write(room(0.08, 0.004)));
     const double girth = scene.grains.front().girth(), longest = 0.125 * 0.08;  // [m]: a quarter of half of the larger side

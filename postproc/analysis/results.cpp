@@ -130,10 +130,16 @@ LastExits exits_of_run(const Results& results, const RunData& run) {
     return between(results.spillage->feed_start, fates.time, fates.placed.mass);
 }
 
-Delivery compute_delivery(const OperatingPoint& point, const std::optional<Spillage>& spillage) {
+/// Concentration and density since the first rock; of a head that is fed all the time in the window of its production.
+Delivery compute_delivery(const OperatingPoint& point, const Results& results) {
     Delivery delivery;
     delivery.pipe_velocity = point.discharge / (k_pi * point.mouth_radius * point.mouth_radius);
-    if (!spillage) return delivery;
+    if (results.dredging) {
+        delivery.concentration = results.dredging->concentration;
+        delivery.mixture_density = results.dredging->mixture_density;
+    }
+    const std::optional<Spillage>& spillage = results.spillage;
+    if (!spillage || point.fed_by_cutting) return delivery;
     const double duration = spillage->fates.time - spillage->feed_start;
     if (!(duration > 0.0)) return delivery;
     const double concentration = spillage->sucked_volume / (point.discharge * duration);
@@ -472,13 +478,9 @@ Results compute_results(const RunData& run) {
     if (run.operating_point.fed_by_cutting && run.rock && !run.rock->ledger.empty())
         results.fed = fed_head_of(run.rock->ledger, run.operating_point.revolution_s(), blade_period(run));
     results.rotor = run.flow ? loads_of_replay(run, results.end_time) : loads_of_run(run, results);
-    results.delivery = compute_delivery(run.operating_point, results.spillage);
     if (results.spillage) results.exits = exits_of_run(results, run);
     if (results.fed) results.dredging = dredging_of(results, run);
-    if (run.operating_point.fed_by_cutting) {  // since the first rock the start-up would be in them
-        results.delivery.concentration = results.dredging ? results.dredging->concentration : std::nullopt;
-        results.delivery.mixture_density = results.dredging ? results.dredging->mixture_density : std::nullopt;
-    }
+    results.delivery = compute_delivery(run.operating_point, results);
     results.steel = steel_work_of(results, run);
     results.outside_usual_practice = outside_usual_practice(results, run);
     results.scale = scale_numbers_of(run, results.dredging ? results.dredging->cut_in_situ : std::nullopt);

@@ -62,11 +62,11 @@ std::vector<double> means_of(const std::vector<double>& values, std::size_t size
     return means;
 }
 
-/// When hold-up has settled; none when it never does.
-std::optional<double> settled(const ProductionSeries& series, double begin, double revolution) {
+/// When hold-up has settled; none when it does not up to `last` [s].
+std::optional<double> settled(const ProductionSeries& series, double begin, double last, double revolution) {
     const double window = std::max(revolution, k_shortest_window);
     for (double end = begin + std::max(2.0 * window, std::max(k_revolutions_of_start * revolution, k_shortest_start));
-         end <= series.time.back() * (1.0 + 1e-12); end += 0.1 * window) {
+         end <= last * (1.0 + 1e-12); end += 0.1 * window) {
         const double before = mean_over(series.time, series.held, end - 2.0 * window, end - window);
         const double after = mean_over(series.time, series.held, end - window, end);
         if (std::abs(after - before) <= k_largest_drift * std::max(before, after)) return end;
@@ -81,22 +81,18 @@ std::optional<double> first_fed(const ProductionSeries& series) {
     return series.time[static_cast<std::size_t>(fed - series.fed.begin())];
 }
 
-/// Number of values up to the feed's end: the last time at which anything was fed, when nothing came since for twice as long as ever
-/// between two times; all of them otherwise.
-std::size_t values_with_feed(const ProductionSeries& series) {
-    std::size_t last = 0;
+/// The last time at which anything was fed, when nothing came since for twice as long as ever between two times; the end of the series
+/// otherwise.
+double feed_end(const ProductionSeries& series) {
+    std::optional<double> last;
     double longest = 0.0;
     for (std::size_t i = 1; i < series.time.size(); ++i) {
         if (!(series.fed[i] > series.fed[i - 1])) continue;
-        if (last > 0) longest = std::max(longest, series.time[i] - series.time[last]);
-        last = i;
+        if (last) longest = std::max(longest, series.time[i] - *last);
+        last = series.time[i];
     }
-    const bool ended = longest > 0.0 && series.time.back() - series.time[last] > 2.0 * longest;
-    return ended ? last + 1 : series.time.size();
-}
-
-std::vector<double> first_of(const std::vector<double>& values, std::size_t count) {
-    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count)};
+    const bool ended = longest > 0.0 && series.time.back() - *last > 2.0 * longest;
+    return ended ? *last : series.time.back();
 }
 
 }  // namespace
@@ -169,18 +165,15 @@ double shortest_fed_time(double revolution) {
            static_cast<double>(k_fewest_batches) * std::max(revolution, k_shortest_batch);
 }
 
-std::optional<Production> production_of(const ProductionSeries& whole, double revolution) {
-    const std::size_t count = values_with_feed(whole);
-    const ProductionSeries series{first_of(whole.time, count), first_of(whole.fed, count), first_of(whole.delivered, count),
-                                  first_of(whole.spilled, count), first_of(whole.held, count)};
+std::optional<Production> production_of(const ProductionSeries& series, double revolution) {
     const std::optional<double> begin = first_fed(series);
     if (!begin) return std::nullopt;
-    const double end = series.time.back();
+    const double end = feed_end(series);
     const double batch = std::max(revolution, k_shortest_batch);
     const double interval = batch / static_cast<double>(k_intervals_per_batch);
 
     Production production;
-    production.start = settled(series, *begin, revolution);
+    production.start = settled(series, *begin, end, revolution);
     double from = production.start.value_or(std::min(end, *begin + std::max(k_revolutions_of_start * revolution, k_shortest_start)));
     const std::size_t dropped = mser5_truncation(gains(series.time, series.delivered, *begin, end, interval));
     from = std::max(from, *begin + static_cast<double>(dropped) * interval);

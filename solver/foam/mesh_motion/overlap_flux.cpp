@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/foam/mesh_motion/edit.hpp"
+
 #include "mapDistribute.H"
 #include "surfaceFields.H"
 
@@ -10,12 +12,6 @@ namespace cutterflow::foam {
 using namespace Foam;
 
 namespace {
-
-/// OpenFOAM hands its overlaps and its geometry out for reading only.
-template <class Type>
-Type& edit(const Type& value) {
-    return const_cast<Type&>(value);
-}
 
 AMIPatchToPatchInterpolation& overlap_of(const cyclicAMIFvPatch& patch) {
     return edit(patch.owner() ? patch.AMI() : patch.neighbPatch().AMI());

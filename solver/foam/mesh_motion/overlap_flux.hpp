@@ -1,5 +1,5 @@
 #pragma once
-/// \file What passes through each part that two faces of a sliding interface share. Only for .cpp files of this folder.
+/// \file What passes through each part that two faces of a sliding interface share.
 #include <vector>
 
 #include "solver/foam/mesh_motion/sliding_overlap.hpp"

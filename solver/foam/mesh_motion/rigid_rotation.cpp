@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solver/foam/mesh_motion/edit.hpp"
 #include "solver/foam/mesh_motion/sliding_interface.hpp"
 #include "solver/foam/multigrid/aggregation_multigrid.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
@@ -24,12 +25,6 @@ namespace cutterflow::foam {
 using namespace Foam;
 
 namespace {
-
-/// OpenFOAM hands its geometry out for reading only.
-template <class Type>
-Type& edit(const Type& geometry) {
-    return const_cast<Type&>(geometry);
-}
 
 /// x -> centre + R (x - centre).
 vector turned_position(const tensor& rotation, const vector& centre, const vector& x) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "solver/foam/mesh_motion/edit.hpp"
 #include "solver/foam/session/foam_conversions.hpp"
 
 #include "fvMesh.H"
@@ -12,12 +13,6 @@ namespace cutterflow::foam {
 using namespace Foam;
 
 namespace {
-
-/// OpenFOAM hands its overlaps out for reading only.
-template <class Type>
-Type& edit(const Type& value) {
-    return const_cast<Type&>(value);
-}
 
 /// The overlap that a patch keeps.
 struct OpenPatch : cyclicAMIPolyPatch {
