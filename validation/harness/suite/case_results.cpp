@@ -116,6 +116,7 @@ nlohmann::json case_json(const VerifiedCase& result) {
         {"case", result.name},     {"title", result.title},     {"class", result.effort},     {"verdict", verdict_text(result.verdict())},
         {"reason", result.reason}, {"quantities", quantities},  {"core_s", result.core_s},    {"wall_s", result.wall_s},
         {"date", result.date},     {"machine", result.machine}, {"programs", result.programs}};
+    if (result.stopped) json["stopped"] = true;
     if (!result.exhibits.empty()) json["exhibits"] = exhibits_json(result.exhibits);
     return json;
 }
@@ -139,6 +140,7 @@ VerifiedCase case_from_json(const std::string& text, const std::string& where) {
         for (const nlohmann::json& quantity : json.at("quantities")) result.quantities.push_back(read_quantity(quantity));
         if (json.contains("exhibits")) result.exhibits = exhibits_from_json(json.at("exhibits"));
         result.failed_as_a_whole = json.at("verdict") == verdict_text(CaseVerdict::fail) && !result.reason.empty();
+        result.stopped = json.value("stopped", false);
         result.core_s = json.at("core_s");
         result.wall_s = json.at("wall_s");
         result.date = json.at("date");

@@ -54,6 +54,7 @@ struct VerifiedCase {
     Exhibits exhibits;
     std::string reason;  ///< why the case as a whole was skipped or failed; empty otherwise
     bool failed_as_a_whole = false;
+    bool stopped = false;  ///< failed as a whole because somebody ended its program; what it would have found is not known
     double core_s = 0.0;   ///< of all starts whose work the last one went on with
     double wall_s = 0.0;   ///< of the last start
     std::string date;      ///< UTC, as 2026-01-31 12:34

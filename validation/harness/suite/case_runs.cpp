@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -239,6 +240,12 @@ private:
     std::map<std::string, std::string> written_, found_;  // by the earlier start's program; in the folder when this one began
 };
 
+/// Whether a signal that programs do not send themselves ended it: a kill by hand, a shutdown, too little memory.
+bool was_stopped(const ChildResult& ended) {
+    const int signals[] = {SIGHUP, SIGINT, SIGKILL, SIGTERM};
+    return std::any_of(std::begin(signals), std::end(signals), [&](int number) { return ended.exit_code == 128 + number; });
+}
+
 /// Runs one case's program. What it wrote is read back; how it ended is a reason when there is nothing to read.
 VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& places, const VerificationSettings& settings,
                       const std::function<void(const std::string&)>& say) {
@@ -258,6 +265,7 @@ VerifiedCase run_case(const VerificationCase& one, const VerificationPlaces& pla
     const bool judged = ended.exit_code == static_cast<int>(ExitCode::done) || ended.exit_code == static_cast<int>(ExitCode::check_failed);
     if (!judged || !fs::exists(written)) {
         result.failed_as_a_whole = true;
+        result.stopped = was_stopped(ended);
         result.reason = judged ? fmt::format("{} ended without having checked anything", one.name) : failure_of(command, ended).text();
         return result;
     }
@@ -399,6 +407,7 @@ std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& o
     std::map<std::string, VerifiedCase> merged;
     for (const VerifiedCase& result : older) merged[result.name] = result;
     for (const VerifiedCase& result : newer) {
+        if (result.stopped) continue;
         const auto found = merged.find(result.name);
         if (found != merged.end() && !replaces(result, found->second)) continue;
         merged[result.name] = result;

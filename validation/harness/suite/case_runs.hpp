@@ -54,8 +54,8 @@ std::vector<VerifiedCase> run_verification(const std::vector<VerificationCase>& 
 /// The results that lie in a folder as <case>.json, by name of the case; empty when there is no such folder.
 std::vector<VerifiedCase> read_verification(const std::filesystem::path& folder);
 
-/// `newer` in the place of what `older` has of the same cases, unless that was run with more effort or later; a later failure always. By
-/// name.
+/// `newer` in the place of what `older` has of the same cases, unless that was run with more effort or later; a later failure always.
+/// A case that was stopped is left out. By name.
 std::vector<VerifiedCase> merged_verification(const std::vector<VerifiedCase>& older, const std::vector<VerifiedCase>& newer);
 
 }  // namespace cutterflow::validation

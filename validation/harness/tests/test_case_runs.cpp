@@ -87,6 +87,8 @@ TEST_F(VerificationRun, a_program_that_breaks_or_says_nothing_fails) {
     const auto kept = read_verification(settings_.folder);
     EXPECT_EQ(kept[0].verdict(), CaseVerdict::fail);
     EXPECT_THAT(kept[0].reason, HasSubstr("the mesh is gone"));
+    EXPECT_FALSE(kept[0].stopped);
+    EXPECT_TRUE(kept[1].stopped);
     add_case("silent", "exit 0");
     EXPECT_EQ(run().back().verdict(), CaseVerdict::fail);
 }
@@ -285,6 +287,9 @@ TEST_F(VerificationRun, keeps_the_result_that_was_run_with_more_effort) {
     EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "long");
     newer.quantities.clear();
     EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard") << "a skipped case replaces nothing";
+    newer.failed_as_a_whole = newer.stopped = true;
+    EXPECT_EQ(merged_verification({older}, {newer}).at(0).effort, "standard") << "a kill is no finding";
+    EXPECT_TRUE(merged_verification({}, {newer}).empty());
     VerifiedCase old = older;
     old.date = "2026-01-01 10:00";
     older.date = "2026-01-02 09:00";
