@@ -1,6 +1,7 @@
 #include "postproc/analysis/replays/replay_estimate.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <gsl/assert>
@@ -112,7 +113,7 @@ ReplayEstimate estimate_spillage(const std::vector<double>& replays, const std::
     estimate.replay_interval = interval_of(estimate.replays);
     estimate.correction_interval = interval_of(estimate.corrections);
     if (estimate.replay_interval && estimate.correction_interval)
-        estimate.interval = half_interval_of_two(estimate.replays, estimate.corrections);
+        estimate.interval = std::hypot(*estimate.replay_interval, *estimate.correction_interval);
     return estimate;
 }
 

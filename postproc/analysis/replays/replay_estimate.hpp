@@ -44,6 +44,8 @@ struct ReplayPair {
 
 /// E[S] = E[S_replayed] + E[S_coupled - S_replayed], each mean over its own placements of rock. It is unbiased whatever the recorded flow
 /// leaves out, because the second mean holds just that; its variance is small because both of a pair have the same placement. [Giles2015]
+/// Half the 95 % interval is the root of the sum of squares of both means' own: it holds the truth at least that often, however few pairs
+/// there are and whichever mean scatters more. [Banerjee1960]
 struct ReplayEstimate {
     Sample replays;      ///< S_replayed, other placements than those of the pairs
     Sample corrections;  ///< S_coupled - S_replayed
