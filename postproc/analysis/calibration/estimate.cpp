@@ -89,6 +89,7 @@ public:
         found.model = surface_.model(best);
         const auto chi = [this](const Eigen::VectorXd& at) { return surface_.chi_squared(at); };
         const Eigen::VectorXd likeliest = best_place(net_.chi_squared, chi);
+        found.likeliest = unscaled(ranges_, likeliest);
         found.least_chi_squared = chi(likeliest);
         const double spare = static_cast<double>(surface_.targets().size()) - static_cast<double>(ranges_.size());
         if (spare > 0.0 && found.least_chi_squared > quantile(boost::math::chi_squared(spare), k_confidence))

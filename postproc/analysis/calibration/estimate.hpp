@@ -100,6 +100,7 @@ struct ParameterEstimate {
     std::vector<std::vector<double>> model;    ///< of the fitted targets there
     std::vector<ParameterInterval> intervals;  ///< none where the scatter of a response is unknown
     std::vector<Direction> directions;         ///< best determined first
+    Eigen::VectorXd likeliest;                 ///< where chi-squared is least, about which the intervals lie; weights do not count there
     double least_chi_squared = 0.0;
     double contradiction = 1.0;              ///< factor of the intervals' squares for targets that contradict each other
     std::vector<ObjectiveProfile> profiles;  ///< of each parameter

@@ -12,7 +12,8 @@ namespace cutterflow::postproc::calibration {
 
 namespace {
 
-constexpr double k_at_end = 1e-3;  // of the range
+constexpr double k_at_end = 1e-3;     // of the range
+constexpr double k_same_place = 0.1;  // of an interval's width
 
 std::vector<Eigen::VectorXd> scaled_places(const Calibration& calibration) {
     std::vector<Eigen::VectorXd> places;
@@ -240,9 +241,13 @@ std::string known_text(const Outcome& outcome, std::size_t parameter) {
     const ParameterInterval* interval = outcome.interval(parameter);
     if (interval == nullptr) return "no interval: the scatter is unknown";
     const auto k = static_cast<Eigen::Index>(parameter);
-    const std::string text = interval_text(*interval, outcome.calibration.ranges[parameter], outcome.parameters[k]);
-    if (outcome.is_fitted_minimum) return "95 %: " + text;
-    return fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", outcome.estimate->parameters[k], text);
+    const Range& range = outcome.calibration.ranges[parameter];
+    const double value = outcome.parameters[k], likeliest = outcome.estimate->likeliest[k];
+    std::string text = interval_text(*interval, range, value);
+    if (interval->determined() && (value < interval->low || value > interval->high))
+        text += "; the answer lies outside, as its objective weighs the targets otherwise";
+    if (outcome.is_fitted_minimum && std::abs(value - likeliest) <= k_same_place * (interval->high - interval->low)) return "95 %: " + text;
+    return fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", likeliest, text);
 }
 
 std::string outcome_text(const Outcome& outcome) {

@@ -410,8 +410,28 @@ TEST(Answer, that_is_the_best_place_is_told_apart_from_the_minimum_of_the_fit) {
     const ParameterInterval& interval = *best.interval(1);
     const std::string range = fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
     EXPECT_EQ(known_text(fitted, 1), "95 %: " + range);
-    EXPECT_EQ(known_text(best, 1), fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", fitted.parameters[1], range));
+    EXPECT_EQ(known_text(best, 1), fmt::format("95 % by the quadratic fit, least at {:.4g}: {}", best.estimate->likeliest[1], range));
     EXPECT_THAT(outcome_text(best), HasSubstr("(95 % by the quadratic fit, least at "));
+}
+
+TEST(Answer, that_weights_drew_away_from_the_interval_is_told_so) {
+    // Four targets of the parameter itself, in runs that scatter by 0.1: one at 0 that counts ten times, three at 0.2. Weights draw the
+    // answer to (10 * 0 + 3 * 0.2) / 13; chi-squared, which has none, is least at 0.15.
+    Calibration calibration;
+    calibration.objective = find_objective("squared_misfit");
+    calibration.ranges = {{"friction", 0.0, 0.4, 0.05}};
+    for (const double at : {0.0, 0.2, 0.2, 0.2}) calibration.targets.fitted.push_back({"t", {at}, 0.01, at == 0.0 ? 10.0 : 1.0});
+    for (const double friction : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+        const std::vector<std::vector<double>> runs{{friction - 0.1}, {friction}, {friction + 0.1}};
+        calibration.evaluations.push_back({Eigen::VectorXd::Constant(1, friction), std::vector<std::vector<std::vector<double>>>(4, runs)});
+    }
+    Outcome outcome = outcome_of(calibration, true);
+    EXPECT_NEAR(outcome.parameters[0], 0.6 / 13.0, 2e-3);
+    EXPECT_NEAR(outcome.estimate->likeliest[0], 0.15, 2e-3);
+    EXPECT_THAT(known_text(outcome, 0), HasSubstr("least at 0.15"));
+    outcome.estimate->intervals[0].low = 0.1;
+    EXPECT_THAT(known_text(outcome, 0), HasSubstr("0.1 to "));
+    EXPECT_THAT(known_text(outcome, 0), HasSubstr("the answer lies outside, as its objective weighs the targets otherwise"));
 }
 
 TEST(Answer, is_judged_by_runs_that_had_no_part_in_the_fit) {
