@@ -31,11 +31,17 @@ std::vector<std::string> keys_of_object(const json& object) {
     return keys;
 }
 
-/// Linear between the points of a profile, 0 beyond its ends.
+/// Linear between the points of a profile, which are the middles of its columns. In the outer halves of the end columns it is their
+/// height, beyond them 0.
 double height_at(double place, const std::vector<double>& places, const std::vector<double>& heights) {
-    if (places.empty() || place < places.front() || place > places.back()) return 0.0;
+    if (places.size() < 2) return !places.empty() && place == places.front() ? heights.front() : 0.0;
+    const std::size_t last = places.size() - 1;
+    const double before = places[0] - 0.5 * (places[1] - places[0]), behind = places[last] + 0.5 * (places[last] - places[last - 1]);
+    const double rounding = 1e-9 * (behind - before);
+    if (place < before - rounding || place > behind + rounding) return 0.0;
+    if (place >= places[last]) return heights[last];
     const auto after = std::upper_bound(places.begin(), places.end(), place) - places.begin();
-    const auto i = std::min(static_cast<std::size_t>(after), places.size() - 1);
+    const auto i = static_cast<std::size_t>(after);
     if (i == 0) return heights.front();
     const double share = (place - places[i - 1]) / (places[i] - places[i - 1]);
     return (1.0 - share) * heights[i - 1] + share * heights[i];

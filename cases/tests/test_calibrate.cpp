@@ -413,6 +413,16 @@ TEST_F(Calibrate, refuses_a_profile_of_a_measure_that_has_none_before_any_run) {
     }
 }
 
+// Heights of a bed between two walls are measured at the middles of its columns, half a column from the walls.
+TEST_F(Calibrate, a_profile_reaches_to_the_sides_of_its_end_columns) {
+    write_file(folder_ / "run/report/measures.json",
+               R"({"bed": {"value": 0.1, "series": {"place_m": [0.05, 0.15, 0.25], "height_m": [0.1, 0.2, 0.3]}}})");
+    const auto heights = [&](const std::vector<double>& places) { return run_values(folder_ / "run", {0, "bed", places}); };
+    EXPECT_THAT(heights({0.0, 0.05, 0.1, 0.15, 0.25, 0.3}),
+                ::testing::Pointwise(::testing::DoubleNear(1e-12), {0.1, 0.1, 0.15, 0.2, 0.3, 0.3}));
+    EXPECT_THAT(heights({-0.01, 0.31}), ::testing::Each(0.0));
+}
+
 TEST_F(Calibrate, a_profile_that_a_run_could_not_measure_has_no_values) {
     write_file(folder_ / "run/report/measures.json",
                R"({"line": {"value": null, "series": null, "detail": {"reason": "the picture at 2 s has no grains"}}})");
