@@ -230,6 +230,7 @@ nlohmann::json to_json(const Prediction& p) {
             {"core_hours_per_revolution_with_rock", p.core_hours_per_revolution_with_rock},
             {"first_release_s", p.first_release},
             {"development_end_s", p.development_end},
+            {"development_step_ratio", k_development_step_ratio},
             {"revolutions", p.revolutions},
             {"rocks", p.rocks},
             {"tip_speed_m_s", p.tip_speed},

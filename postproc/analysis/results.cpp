@@ -184,17 +184,20 @@ std::optional<int> whole_number(const json& object, const char* key) {
     return found->get<int>();
 }
 
-/// prediction.json has rates with and without rock, applied to the simulated time.
+/// prediction.json has rates with and without rock, applied to the simulated time. While the flow develops steps are longer, and as many
+/// times fewer and cheaper.
 std::optional<PredictedCost> predicted_cost(const json& prediction, double end_time, double revolutions) {
     if (prediction.empty()) return std::nullopt;
     const double flow_time = std::min(end_time, prediction.at("first_release_s").get<double>());
-    const double flow_share = end_time > 0.0 ? flow_time / end_time : 1.0;
-    const double core_hours = revolutions * (flow_share * prediction.at("core_hours_per_revolution").get<double>() +
-                                             (1.0 - flow_share) * prediction.at("core_hours_per_revolution_with_rock").get<double>());
-    return PredictedCost{prediction.at("cells").get<double>(),
-                         flow_time / prediction.at("time_step_s").get<double>() +
-                             (end_time - flow_time) / prediction.at("time_step_with_rock_s").get<double>(),
-                         3600.0 * core_hours};
+    const double development = std::min(flow_time, prediction.value("development_end_s", 0.0));
+    const double by_steps = flow_time - development + development / prediction.value("development_step_ratio", 1.0);
+    const double rock_time = end_time - flow_time, turns = end_time > 0.0 ? revolutions / end_time : 0.0;
+    const double core_hours = turns * (by_steps * prediction.at("core_hours_per_revolution").get<double>() +
+                                       rock_time * prediction.at("core_hours_per_revolution_with_rock").get<double>());
+    return PredictedCost{
+        prediction.at("cells").get<double>(),
+        by_steps / prediction.at("time_step_s").get<double>() + rock_time / prediction.at("time_step_with_rock_s").get<double>(),
+        3600.0 * core_hours};
 }
 
 Cost sum_cost(const RunData& run, double end_time, double revolutions) {

@@ -52,7 +52,9 @@ const std::vector<JsonField> k_prediction_fields{{"first_release_s", JsonKind::n
                                                  {"core_hours_per_revolution_with_rock", JsonKind::number, true},
                                                  {"cells", JsonKind::number, true},
                                                  {"time_step_s", JsonKind::number, true},
-                                                 {"time_step_with_rock_s", JsonKind::number, true}};
+                                                 {"time_step_with_rock_s", JsonKind::number, true},
+                                                 {"development_end_s", JsonKind::number},
+                                                 {"development_step_ratio", JsonKind::number}};
 const std::vector<JsonField> k_cost_fields{{"cells", JsonKind::whole},       {"ranks", JsonKind::whole},
                                            {"core_s", JsonKind::number},     {"models/*/name", JsonKind::text},
                                            {"models/*/why", JsonKind::text}, {"versions", JsonKind::object}};

@@ -272,6 +272,23 @@ TEST(ResultsJson, predicted_cost_is_that_of_the_time_that_the_run_went_through) 
     EXPECT_NEAR(predicted.at("error").at("steps").get<double>(), 0.5, 1e-9);
 }
 
+TEST(ResultsJson, predicted_cost_knows_the_longer_steps_of_a_flow_that_develops) {
+    SmallRun run("predicted_development");
+    run.write();  // two revolutions of 1 s, rock from 1 s on
+    std::ofstream(run.directory / "prediction.json") << json{{"cells", 50000.0},
+                                                             {"time_step_s", 0.01},
+                                                             {"time_step_with_rock_s", 0.005},
+                                                             {"first_release_s", 1.0},
+                                                             {"development_end_s", 0.6},
+                                                             {"development_step_ratio", 3.0},
+                                                             {"core_hours_per_revolution", 0.1},
+                                                             {"core_hours_per_revolution_with_rock", 0.2},
+                                                             {"revolutions", 10.0}};
+    const json predicted = document_of(run).at("cost").at("predicted");
+    EXPECT_NEAR(predicted.at("steps").get<double>(), 20.0 + 40.0 + 200.0, 1e-9);
+    EXPECT_NEAR(predicted.at("core_s").get<double>(), 0.6 * 360.0 + 720.0, 1e-6);
+}
+
 TEST(ResultsJson, a_resumed_run_gives_the_numbers_of_an_uninterrupted_one) {
     const json whole = document_of_small_run("whole");
     SmallRun run("resumed");
