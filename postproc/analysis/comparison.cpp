@@ -228,8 +228,8 @@ std::vector<QuantityRule> load_rules(bool with_rock, bool of_batch) {
     if (with_rock)
         rules.push_back({"torque_rock_mean_n_m", "mean torque of the rock", "N m", true,
                          [](const ComparedRun& r) { return of_average(r.results.rotor.torque_rock); }});
-    rules.push_back(
-        {"power_mean_w", "mean power of the drive", "W", false, [](const ComparedRun& r) { return of_average(r.results.rotor.power); }});
+    rules.push_back({"power_mean_w", "mean power of the drive", "W", with_rock,
+                     [](const ComparedRun& r) { return of_average(r.results.rotor.power); }});
     if (of_batch)
         rules.push_back({"energy_per_volume_j_m3", "energy per delivered volume of rock (cutting excluded)", "J/m³", true,
                          [](const ComparedRun& r) { return energy_per_volume(r.results); }});

@@ -143,6 +143,23 @@ TEST(Comparison, of_flows_has_intervals_and_no_bounds) {
     EXPECT_EQ(difference_of(comparison, torque, 1).verdict, ComparisonVerdict::differs);
 }
 
+/// The small run with a drive of a constant power.
+fs::path driven(const std::string& name, const std::vector<int>& spilled_instead, double power) {
+    const fs::path directory = variant(name, spilled_instead);
+    std::string rows = "time_s,rotor_angle_rad,torque_pressure_n_m,torque_viscous_n_m,torque_rock_n_m,power_w\n";
+    for (int step = 1; step <= 2000; ++step) rows += fmt::format("{:.9g},{:.9g},-10,0,0,{}\n", 0.001 * step, 0.002 * k_pi * step, power);
+    testing::write_text(directory / "postProcessing/loads/0/loads.csv", rows);
+    return directory;
+}
+
+TEST(Comparison, of_a_drive_that_rock_loads_has_the_interval_of_its_repeats) {
+    const Comparison comparison =
+        compare_runs({driven("power_1", {}, 60.0), driven("power_2", {4}, 66.0), driven("power_3", {4, 5}, 72.0)});
+    const Estimate& power = quantity_of(comparison, "power_mean_w").settings.at(0);
+    EXPECT_NEAR(*power.value, 66.0, 1e-9);
+    EXPECT_NEAR(*power.half_width, 4.302653 * 6.0 / std::sqrt(3.0), 1e-5) << "each run's own power does not scatter";
+}
+
 fs::path swinging(const std::string& name, double swing_m_min) {
     const fs::path directory = fed(name, 0.0, 1.0);
     testing::set_swing_speed(directory, swing_m_min);
