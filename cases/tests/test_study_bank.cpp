@@ -332,6 +332,9 @@ TEST_F(SoilOfAFile, must_be_closed_beside_the_head_and_below_the_water) {
     geometry::TriangleSurface open = box_between(Vec3(0.1, 0.6, -0.5), Vec3(0.8, 1.1, -0.05));
     open.triangles.pop_back();
     EXPECT_TRUE(has(mistakes_of(with(open)), "open")) << mistakes_of(with(open)).front();
+    const auto both = mistakes_of(with(open) + "cut_height_m = 6.0\n");
+    EXPECT_TRUE(has(both, "open")) << "the file is read although keys of the cut are wrong";
+    EXPECT_TRUE(has(both, "bank.cut_height_m = 6"));
     EXPECT_TRUE(has(mistakes_of(with(box_between(Vec3(0.1, 0.0, -0.3), Vec3(0.8, 1.1, -0.05)))), "The soil cuts the head"));
     const double inside = 0.01;  // a box within the head, which touches no wall of it
     EXPECT_TRUE(has(mistakes_of(with(box_between(Vec3(0, 0, -0.1), Vec3(inside, inside, -0.1 + inside)))), "The soil cuts the head"));

@@ -256,7 +256,7 @@ std::vector<Mistake> bank_mistakes(const ParameterValues& resolved, const Study&
         return mistakes.take();
     }
     check_shape(resolved, study, size, bank_of(study, contour), mistakes);
-    if (!mistakes.empty()) return mistakes.take();
+    if (!mistakes.empty() && !study.bank->file) return mistakes.take();  // soil of a file does not follow from these keys
     mistakes.gather([&] {
         const geometry::TriangleSurface soil = bank_surface(study, size, contour);
         if (study.bank->file) check_soil_of_file(resolved, study, size, profile, soil, mistakes);
