@@ -103,10 +103,10 @@ double derived_outflow_start(const ParameterValues& values) {
 }
 
 /// Keys that say something of a bank or its soil.
-constexpr std::array<const char*, 11> k_bank_keys = {
-    "swing.speed_m_min",  "bank.cut_height_m",          "bank.step_m",      "bank.clearance_m",
-    "bank.pick_length_m", "soil.grain_density_kg_m3",   "soil.porosity",    "bank.file",
-    "soil.bulking",       "soil.specific_energy_mj_m3", "bed.spill_layer_m"};
+constexpr std::array<const char*, 12> k_bank_keys = {
+    "swing.speed_m_min",  "bank.cut_height_m",          "bank.step_m",       "bank.clearance_m",
+    "bank.pick_length_m", "soil.grain_density_kg_m3",   "soil.porosity",     "bank.file",
+    "soil.bulking",       "soil.specific_energy_mj_m3", "bed.spill_layer_m", "bank.permeability_m2"};
 constexpr double k_wider_by_picks = 0.03;  // of the ring radius: a head that is wider than its ring by this has picks
 
 void resolve_bank(ParameterValues& values, const HeadSize& head) {
@@ -120,6 +120,7 @@ void resolve_bank(ParameterValues& values, const HeadSize& head) {
     fill(values, "soil.porosity", 0.15);
     fill(values, "soil.bulking", 1.5);
     fill(values, "bed.spill_layer_m", 0.0);
+    fill(values, "bank.permeability_m2", 0.0);
 }
 
 Study::Bank make_bank(const ParameterValues& resolved, const std::filesystem::path& folder) {
@@ -136,7 +137,8 @@ Study::Bank make_bank(const ParameterValues& resolved, const std::filesystem::pa
             file,
             resolved.boolean("hauling.water"),
             number("soil.bulking"),
-            number("bed.spill_layer_m")};
+            number("bed.spill_layer_m"),
+            number("bank.permeability_m2")};
 }
 
 bool is_cut_face(const ParameterValues& feed) {

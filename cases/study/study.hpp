@@ -101,6 +101,7 @@ struct Study {
         bool hauls = false;                         ///< the run's frame travels with the head
         double bulking = 1.5;                       ///< volume of loose rock over that of soil
         double spill_layer = 0.0;                   ///< left by the swing before [m]
+        double permeability = 0.0;                  ///< of the soil, by Darcy's law [m2]; 0: no water moves in it
     };
     std::optional<Bank> bank;
     struct Tank {

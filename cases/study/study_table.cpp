@@ -124,6 +124,11 @@ ParameterTable bank_rows() {
             "along y, lowest side of the head at positive x. Water and rock feel it in the place of the bank that earlier swings left; cut "
             "face and production still follow from the other keys.")
             .derived("what earlier swings left"),
+        number(k_case_stage, "bank.permeability_m2", "m2",
+               "Permeability of the bank by Darcy's law: water moves in it. Sand 1e-11, gravel 1e-8, rock without open joints 0.")
+            .at_least(0.0)
+            .at_most(1e-3)
+            .derived("0"),
         row(k_case_stage, "hauling.water", ParameterKind::boolean, "-",
             "Whether the run's frame travels with the head at swing.speed_m_min: far water, bank and bed move past it, and the cut soil's "
             "volume comes into the water. Otherwise water and bank stand still.")

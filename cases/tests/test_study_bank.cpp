@@ -190,6 +190,7 @@ TEST(StudyBank, and_its_keys_need_each_other) {
     EXPECT_EQ(without.size(), 3u);
     EXPECT_TRUE(has(without, "bank.step_m = 0.1. It belongs to a bank"));
     EXPECT_TRUE(has(broken("[bed]\nspill_layer_m = 0.1\n"), "bed.spill_layer_m = 0.1. It belongs to a bank"));
+    EXPECT_TRUE(has(broken("[bank]\npermeability_m2 = 1e-9\n"), "bank.permeability_m2 = 1e-09. It belongs to a bank"));
     const std::string batch =
         "[swing]\nspeed_m_min = 6\n[bank]\nmodel = \"wall\"\n[[feed]]\ncount = 3\n[[feed.class]]\ndiameter_m = 0.02\n";
     EXPECT_TRUE(has(broken(batch + "[bed]\nspill_layer_m = 0.1\n"), "beside rock from a cut face, and no feed is of one"));
@@ -214,6 +215,8 @@ TEST(StudyBank, is_felt_by_water_and_by_rock) {
     EXPECT_FALSE(solver_settings(inputs_of(k_rock)).soil);
     EXPECT_EQ(dem_settings(inputs_of(k_rock)).walls.size(), 3u);
     EXPECT_TRUE(solver_settings(inputs_of(k_bank)).soil);
+    EXPECT_EQ(solver_settings(inputs_of(k_bank)).soil->permeability, 0.0);
+    EXPECT_EQ(solver_settings(inputs_of(std::string(k_bank) + "permeability_m2 = 1e-8\n")).soil->permeability, 1e-8);
     const CaseInputs both = inputs_of(std::string(k_bank) + k_rock + "[rock]\nfriction_soil = 0.7\n");
     EXPECT_TRUE(solver_settings(both).soil);
     const coupling::DemSettings dem = dem_settings(both);

@@ -106,7 +106,7 @@ coupling::CouplingSettings solver_settings(const CaseInputs& inputs) {
     if (!inputs.replay.empty()) return settings;  // nothing of the flow is observed or saved
     const double driving_speed = tip_speed(inputs) + mouth_speed(inputs) + inputs.hauling.norm();
     if (driving_speed > 0.0) settings.largest_speed = k_largest_speed_ratio * driving_speed;
-    if (inputs.bank) settings.soil = coupling::SoilSettings{names::bank_surface, 0.0, inputs.hauling};
+    if (inputs.bank_permeability) settings.soil = coupling::SoilSettings{names::bank_surface, *inputs.bank_permeability, inputs.hauling};
     settings.outflow = inputs.outflow;
     if (!inputs.velocity_sets.empty()) {
         settings.velocity.emplace();

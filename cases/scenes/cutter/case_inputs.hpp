@@ -75,7 +75,7 @@ struct CaseInputs {
     };
     std::optional<Rock> rock;                      ///< none: pure flow
     std::optional<coupling::QueueSettings> queue;  ///< of rock that comes all the time; none: batches
-    bool bank = false;                             ///< water feels the soil of names::bank_surface
+    std::optional<double> bank_permeability;       ///< [m2]; water feels the soil of names::bank_surface; none: there is no bank
 };
 
 /// What the solver reads in constant/couplingProperties, files relative to the run directory.

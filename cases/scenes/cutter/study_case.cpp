@@ -160,7 +160,7 @@ CaseInputs case_inputs_of(const Study& study, const HeadSize& head, const geomet
         inputs.stop = study.run.stop;
         inputs.record = record_of(study, head);
     }
-    inputs.bank = study.bank.has_value();
+    if (study.bank) inputs.bank_permeability = study.bank->permeability;
     fill_scaled_defaults(inputs);
     return inputs;
 }
