@@ -27,8 +27,7 @@ constexpr double k_gravity = 9.81;
 constexpr double k_rock_share = 1.27;
 constexpr double k_flow_per_rank = 0.44;
 constexpr double k_rock_per_rank = 0.33;
-// Rock may travel this share of its kernel width in a step. The smallest cells that it meets at the cutter measure this share of the
-// background's (docs/design/003-meshing.md).
+// Rock may travel this share of its kernel width in a step.
 constexpr double k_travel_share = 0.25;
 // What each rock adds: its mapping, by the cells in the cube of its kernel's width (0.12 ms for 20 mm on the draft mesh, 0.43 ms for 30
 // mm), and each step of its contacts, as in a dense bed.
@@ -36,7 +35,6 @@ constexpr double k_seconds_per_mapped_cell = 23e-6, k_seconds_per_contact_step =
 constexpr double k_seconds_of_feed_at_work = 2.0;  // of a cut face: in the head, and near it before it counts as left behind
 // Core time of the stages before the run: per cell, and per cell and iteration (draft mesh of the model cutter).
 constexpr double k_mesh_seconds_per_cell = 0.24e-3, k_start_seconds_per_cell = 2.8e-6;
-constexpr double k_cell_at_rock = 0.387;
 
 // Text files of the demo (61,000 cells, two ranks): mesh in both forms, fields at the start, logs; fields with face fluxes and moved points
 // at each write; momentum carried in a checkpoint. All a little above what was measured.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "solver/physics/catalogue.hpp"
+#include "solver/ports/mapping_width.hpp"
 
 namespace cutterflow::cases {
 namespace {
@@ -42,14 +43,17 @@ std::optional<Mistake> wide_kernel_warning(const Opening& opening, const couplin
     // (case mouth). What it takes of room and momentum is spread over a kernel all the same.
     const bool near = kernel.sampling == coupling::k_gaussian_sampling;
     const double resolved_by = near ? 4.0 : 7.0;
-    const double width = kernel.gamma * diameter;
-    if (kernel.map != coupling::k_gaussian_map || opening.width >= resolved_by * width) return std::nullopt;
+    if (kernel.map != coupling::k_gaussian_map) return std::nullopt;
+    const double width = coupling::mapping_width(kernel, diameter, opening.cell);
+    if (opening.width >= resolved_by * width) return std::nullopt;
+    const bool by_cells = width > kernel.gamma * diameter;
+    const std::string of = by_cells ? fmt::format("in cells of {:.2g} m", opening.cell) : fmt::format("of rock of {:g} m", diameter);
+    const std::string other = by_cells ? "smaller cells" : "kernel.gamma = 0.5";
     return Mistake{opening.where, fmt::format("{} = {:.6g}", opening.name, opening.width),
-                   fmt::format("It is {:.2g} times the kernel width of rock of {:g} m; below {:g} times {}", opening.width / width,
-                               diameter, resolved_by,
+                   fmt::format("It is {:.2g} times the kernel width {}; below {:g} times {}", opening.width / width, of, resolved_by,
                                near ? "the room and the momentum that rock takes from the water there are spread past the opening"
                                     : "the speed that rock feels there is off by more than a tenth"),
-                   near ? "Compare with kernel.gamma = 0.5" : "Set kernel.sampling = \"gaussian\", and compare with kernel.gamma = 0.5"};
+                   near ? "Compare with " + other : "Set kernel.sampling = \"gaussian\", and compare with " + other};
 }
 
 }  // namespace cutterflow::cases

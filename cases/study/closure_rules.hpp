@@ -24,11 +24,12 @@ struct Opening {
     std::string where;   ///< in the study
     std::string name;    ///< as its key
     double width = 0.0;  ///< [m]
+    double cell = 0.0;   ///< size of the cells there [m]
 };
 
 /// A kernel spreads what rock takes of room and momentum past an opening below 4 of its widths; with kernel.sampling quadratic rock also
-/// feels a speed that is off by more than a tenth, below 7 widths (case mouth). Maps
-/// without kernels have no warning. \param diameter  of the largest rock [m]
+/// feels a speed that is off by more than a tenth, below 7 widths (case mouth). In coarse cells the kernel is wider than kernel.gamma makes
+/// it (mapping_width). Maps without kernels have no warning. \param diameter  of the largest rock [m]
 std::optional<Mistake> wide_kernel_warning(const Opening& opening, const coupling::KernelSettings& kernel, double diameter);
 
 }  // namespace cutterflow::cases

@@ -20,6 +20,7 @@
 #include "geometry/base/statistics/developed_flow.hpp"
 #include "geometry/base/statistics/production.hpp"
 #include "geometry/head/axial_bins.hpp"
+#include "meshing/cutter/mesh_plan.hpp"
 #include "solver/physics/catalogue.hpp"
 #include "solver/physics/contact.hpp"
 
@@ -721,15 +722,16 @@ bool is_dense(const ParameterValues& feed) {
     return is_cut_face(feed) || k_pi / 6.0 > k_dilute_solids * spacing * spacing * spacing;
 }
 
-void warn_of_wide_kernels(const ParameterValues& resolved, Rules& rules) {
+void warn_of_wide_kernels(const ParameterValues& resolved, const HeadSize& head, Rules& rules) {
     double largest = 0.0;
     for (const ParameterValues& feed : resolved.tables("feed")) {
         if (has_size_law(feed)) largest = std::max(largest, feed.number("feed.size_max_m"));
         for (const ParameterValues& rock : feed.tables("feed.class")) largest = std::max(largest, rock.number("feed.class.diameter_m"));
     }
     const coupling::KernelSettings kernel = k_kernel_section.read(resolved);
+    const double cell = k_cell_at_rock * meshing::mesh_preset(resolved.text("mesh.preset")).cell_size * head.ring_radius;
     for (const char* key : {"suction.mouth_radius_m", "suction.gap_m"})
-        if (const auto warning = wide_kernel_warning({resolved.where(key), key, resolved.number(key)}, kernel, largest))
+        if (const auto warning = wide_kernel_warning({resolved.where(key), key, resolved.number(key), cell}, kernel, largest))
             rules.add(*warning);
 }
 
@@ -790,7 +792,7 @@ std::vector<Mistake> study_warnings(const ParameterValues& resolved, const Study
     for (const ParameterValues& feed : feeds)
         if (is_cut_face(feed)) warn_of_cut_rock(resolved, feed, rules);
     for (const Mistake& warning : hindrance_warnings(resolved, std::any_of(feeds.begin(), feeds.end(), is_dense))) rules.add(warning);
-    warn_of_wide_kernels(resolved, rules);
+    warn_of_wide_kernels(resolved, head, rules);
     warn_of_young_flow(resolved, rules);
     warn_of_large_rock(resolved, study, head, rules);
     const double speed = rpm_to_rad_s(resolved.number("rotor.speed_rpm")) * head.tip_radius;

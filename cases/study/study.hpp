@@ -36,6 +36,9 @@ struct HeadSize {
     int blades = 1;
 };
 
+/// Size of the smallest cells that rock meets at the cutter, over that of the background's (docs/design/003-meshing.md).
+inline constexpr double k_cell_at_rock = 0.387;
+
 /// One size of rock in a feed.
 struct FeedClass {
     double diameter = 0.0;             ///< of the sphere of its volume [m]

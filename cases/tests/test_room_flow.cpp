@@ -247,22 +247,27 @@ TEST_F(RoomFlow, prediction_counts_cells_and_steps_of_the_flow) {
 
 TEST_F(RoomFlow, warns_of_what_a_run_may_be_asked_in_spite_of) {
     const std::string open = std::string(k_tank) + k_out + k_free;
-    // The radius of 40 mm has 5 kernels of 8 mm and the bore 10 grains; the wall of 10 mm is thinner than its cells.
+    // The bore has 10 grains of 8 mm. Its radius of 40 mm has 1.3 kernels of 1.5 cells, as cells of 20 mm are larger than grains, and 5
+    // kernels of 8 mm in cells of 5 mm. The wall of 10 mm is thinner than cells of 20 mm.
     EXPECT_THAT(warnings_of(request(open)), HasSubstr("riser is 0.01 m thin in cells of 0.02 m"));
-    EXPECT_THAT(warnings_of(request(open + "[kernel]\nsampling = \"quadratic\"\n")), HasSubstr("It is 5 times the kernel width"));
-    EXPECT_THAT(warnings_of(request(open)), Not(HasSubstr("times the kernel width")));
+    EXPECT_THAT(warnings_of(request(open)), HasSubstr("radius of riser = 0.04. It is 1.3 times the kernel width in cells of 0.02 m"));
+    EXPECT_THAT(warnings_of(request(open)), HasSubstr("Compare with smaller cells"));
+    std::string fine = open;
+    fine.replace(fine.find("cell_m = 0.02"), 13, "cell_m = 0.005");
+    EXPECT_THAT(warnings_of(request(fine)), Not(HasSubstr("times the kernel width")));
+    EXPECT_THAT(warnings_of(request(fine + "[kernel]\nsampling = \"quadratic\"\n")), HasSubstr("It is 5 times the kernel width"));
     EXPECT_THAT(warnings_of(request(open + "[closures]\ndrag_modifier = 3\n")), HasSubstr("counts it twice"));
     EXPECT_THAT(warnings_of(request(open + "[closures]\nhindrance = \"none\"\n")), HasSubstr("the drag of a single rock is too small"));
-    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\n")), HasSubstr("2.5 times the kernel width"));
-    EXPECT_THAT(warnings_of(request(open + "[kernel]\ngamma = 2\nmap = \"centroid\"\n")), Not(HasSubstr("times the kernel width")));
+    EXPECT_THAT(warnings_of(request(fine + "[kernel]\ngamma = 2\n")), HasSubstr("2.5 times the kernel width of rock of 0.008 m"));
+    EXPECT_THAT(warnings_of(request(fine + "[kernel]\ngamma = 2\nmap = \"centroid\"\n")), Not(HasSubstr("times the kernel width")));
     const std::string bin =
         "[[solid]]\nname = \"bin\"\ngenerate = \"hopper\"\ncentre_m = [0.12, 0, 0.15]\ninner_radius_m = 0.05\nheight_m = 0.1\n"
         "wall_m = 0.02\norifice_radius_m = 0.0125\n";
-    EXPECT_THAT(warnings_of(request(open + bin)), HasSubstr("opening of bin = 0.025. It is 3.1 times the kernel width"));
+    EXPECT_THAT(warnings_of(request(fine + bin)), HasSubstr("opening of bin = 0.025. It is 3.1 times the kernel width"));
     std::string coarse = open;
     coarse.replace(coarse.find("diameter_m = 0.008"), 18, "diameter_m = 0.03");
     coarse.replace(coarse.find("count = 50"), 10, "count = 5");
-    EXPECT_THAT(warnings_of(request(coarse)), HasSubstr("may block an opening below 3 diameters"));
+    EXPECT_THAT(warnings_of(request(coarse)), HasSubstr("may block an opening below 3 lengths"));
 }
 
 struct Bad {

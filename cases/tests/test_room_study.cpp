@@ -454,6 +454,25 @@ end_s = 1
     EXPECT_EQ(mistakes_of(room(0.081, 1.01 * largest)), "");
 }
 
+TEST_F(RoomStudy, an_opening_is_measured_by_the_length_of_clumps) {
+    write(
+        "[[sphere]]\nx_m = 0.0\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n"
+        "[[sphere]]\nx_m = 1.5\ny_m = 0.0\nz_m = 0.0\nradius_m = 1.0\n",
+        "pair.clump");
+    const std::string shape = changed("[[grains]]\n", "[[grains]]\nshape = \"pair.clump\"\n");
+    const RoomScene scene = read_room(write(shape));
+    EXPECT_GT(scene.longest_grain(), 1.2 * scene.largest_grain());
+    const auto with_bin = [&](double orifice) {
+        std::string study = shape;
+        return study.replace(study.find("[run]\n"), 6,
+                             fmt::format("[[solid]]\nname = \"bin\"\ngenerate = \"hopper\"\ncentre_m = [0, 0, 0.01]\n"
+                                         "inner_radius_m = 0.01\nheight_m = 0.01\nwall_m = 0.001\norifice_radius_m = {}\n[run]\n",
+                                         0.5 * orifice));
+    };
+    EXPECT_THAT(mistakes_of(with_bin(2.9 * scene.longest_grain())), HasSubstr("An opening below 3 lengths of the longest grain"));
+    EXPECT_THAT(mistakes_of(with_bin(3.1 * scene.longest_grain())), Not(HasSubstr("An opening below 3 lengths")));
+}
+
 TEST_F(RoomStudy, run_has_the_solids_that_are_left_and_their_motion) {
     const RoomRequest request = read_room_request(fs::path(CUTTERFLOW_SOURCE_DIR) / "cases/examples/hopper/study.toml");
     const std::string bed = bed_case(request.scene, request.pieces.at(0), "", "../../").front().text;
@@ -795,7 +814,7 @@ INSTANTIATE_TEST_SUITE_P(
             "[[solid]]\nname = \"bin\"\ngenerate = \"hopper\"\ncentre_m = [0, 0, 0.01]\ninner_radius_m = 0.01\nheight_m = 0.01\nwall_m = "
             "0.001\n"
             "orifice_radius_m = 0.0062\n\n[run]\n",
-            "An opening below 3 diameters"},
+            "An opening below 3 lengths"},
         Bad{"name = \"tube\"\n", "name = \"xMin\"\n", "A side of the room is called so"},
         Bad{k_dry, "medium = \"none\"\ngravity_m_s2 = 0\n", "gravity_m_s2"},
         Bad{k_end, "[[measure]]\nname = \"push\"\nwhat = \"wall_force\"\nwall = \"x_min\"\n\n[run]\n", "Name one of disc, tube"},

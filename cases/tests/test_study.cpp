@@ -477,10 +477,17 @@ TEST(Study, warns_of_kernels_that_average_over_mouth_or_gap) {
     EXPECT_TRUE(any_contains(warnings(shell, "0.026"), "suction.mouth_radius_m = 0.1. It is 3.8 times the kernel width"));
     EXPECT_TRUE(any_contains(warnings(shell, "0.02"), "suction.mouth_radius_m = 0.1. It is 5 times the kernel width"));
     EXPECT_TRUE(any_contains(warnings(shell, "0.02"), "suction.gap_m = 0.03. It is 1.5 times the kernel width"));
-    EXPECT_FALSE(any_contains(warnings(shell, "0.00425"), "times the kernel width"));
     EXPECT_FALSE(any_contains(warnings("", "0.02"), "suction.mouth_radius_m"));
     EXPECT_TRUE(any_contains(warnings("", "0.02"), "are spread past the opening. Compare with kernel.gamma = 0.5"));
-    EXPECT_FALSE(any_contains(warnings("", "0.0075"), "times the kernel width"));
+    // Draft cells of 0.387 x 0.075 x 0.4 m make the kernel of small rock 17.4 mm wide.
+    EXPECT_TRUE(
+        any_contains(warnings(shell, "0.00425"), "suction.mouth_radius_m = 0.1. It is 5.7 times the kernel width in cells of 0.012 m"));
+    EXPECT_TRUE(any_contains(warnings("", "0.0075"), "suction.gap_m = 0.03. It is 1.7 times the kernel width in cells of 0.012 m"));
+    EXPECT_TRUE(any_contains(warnings("", "0.0075"), "Compare with smaller cells"));
+    const std::string fine = "[mesh]\npreset = \"paper\"\n";
+    EXPECT_FALSE(any_contains(warnings(fine + shell, "0.004"), "suction.mouth_radius_m"));
+    EXPECT_TRUE(any_contains(warnings(fine + shell, "0.006"), "suction.gap_m = 0.03. It is 5 times the kernel width of rock of 0.006 m"));
+    EXPECT_FALSE(any_contains(warnings(fine, "0.006"), "times the kernel width"));
 }
 
 TEST(Study, warns_of_a_drag_that_counts_other_rock_twice_or_not_at_all) {

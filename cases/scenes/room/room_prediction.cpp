@@ -67,25 +67,32 @@ double flow_step(const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     return step;
 }
 
+/// Size of the smallest cells at a solid's surface [m].
+double cell_at(const RoomSolid& solid, const meshing::RoomMeshPlan& mesh) {
+    double finest = mesh.background_cell();
+    for (const Vec3& point : solid.surface.points) finest = std::min(finest, mesh.cell_at(point));
+    return finest;
+}
+
 /// Bores that something flows through.
-std::vector<Opening> flow_bores(const ParameterValues& values, const RoomScene& scene) {
+std::vector<Opening> flow_bores(const ParameterValues& values, const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     std::vector<Opening> bores;
     for (const ParameterValues& boundary : values.tables("boundary")) {
         if (!boundary.has("boundary.inside")) continue;
         const RoomSolid* solid = scene.find_solid(boundary.text("boundary.inside"));
         if (solid != nullptr && solid->bore)
-            bores.push_back({boundary.where("boundary.inside"), "radius of " + solid->name, solid->bore->radius});
+            bores.push_back({boundary.where("boundary.inside"), "radius of " + solid->name, solid->bore->radius, cell_at(*solid, mesh)});
     }
     return bores;
 }
 
 /// Openings in floors and spouts of solids that the medium feels.
-std::vector<Opening> floor_openings(const ParameterValues& values, const RoomScene& scene) {
+std::vector<Opening> floor_openings(const ParameterValues& values, const RoomScene& scene, const meshing::RoomMeshPlan& mesh) {
     std::vector<Opening> openings;
     for (const ParameterValues& table : values.tables("solid")) {
         const RoomSolid* solid = scene.find_solid(table.text("solid.name"));
         if (solid != nullptr && solid->felt_by_fluid && solid->opening > 0.0)
-            openings.push_back({table.where("solid.name"), "opening of " + solid->name, solid->opening});
+            openings.push_back({table.where("solid.name"), "opening of " + solid->name, solid->opening, cell_at(*solid, mesh)});
     }
     return openings;
 }
@@ -266,17 +273,17 @@ std::vector<Mistake> room_warnings(const ParameterValues& values, const RoomScen
     for (Mistake& warning : meshing::room_mesh_warnings(*mesh)) warnings.push_back(std::move(warning));
     if (scene.grains.empty()) return warnings;
     for (const Mistake& warning : hindrance_warnings(values, !scene.preparation.empty())) warnings.push_back(warning);
-    const double largest = scene.largest_grain();
-    std::vector<Opening> openings = floor_openings(values, scene);
-    for (const Opening& bore : flow_bores(values, scene)) {
+    const double longest = scene.longest_grain();
+    std::vector<Opening> openings = floor_openings(values, scene, *mesh);
+    for (const Opening& bore : flow_bores(values, scene, *mesh)) {
         openings.push_back(bore);
-        if (2.0 * bore.width < k_most_diameters_across * largest)
+        if (2.0 * bore.width < k_most_diameters_across * longest)
             warnings.push_back({bore.where, fmt::format("{} = {:g}", bore.name, bore.width),
-                                fmt::format("Grains of {:g} m may block an opening below {:g} diameters", largest, k_most_diameters_across),
+                                fmt::format("Grains {:g} m long may block an opening below {:g} lengths", longest, k_most_diameters_across),
                                 "Check the diameters"});
     }
     for (const Opening& opening : openings)
-        if (const auto warning = wide_kernel_warning(opening, scene.kernel, largest)) warnings.push_back(*warning);
+        if (const auto warning = wide_kernel_warning(opening, scene.kernel, scene.largest_grain())) warnings.push_back(*warning);
     return warnings;
 }
 

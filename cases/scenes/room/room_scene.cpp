@@ -96,6 +96,12 @@ double RoomScene::largest_grain() const {
     return largest;
 }
 
+double RoomScene::longest_grain() const {
+    double longest = 0.0;
+    for (const RoomGrains& kind : grains) longest = std::max(longest, kind.girth() * kind.largest());
+    return longest;
+}
+
 double RoomScene::densest_grain() const {
     double densest = 0.0;
     for (const RoomGrains& kind : grains)

@@ -267,6 +267,7 @@ struct RoomScene {
     Vec3 upper() const { return {0.5 * size.x(), 0.5 * size.y(), size.z()}; }
     double smallest_grain() const;                               ///< diameter [m]; infinity without grains
     double largest_grain() const;                                ///< diameter [m]; 0 without grains
+    double longest_grain() const;                                ///< of the sphere around it, as of a clump [m]; 0 without grains
     double densest_grain() const;                                ///< largest density [kg/m3]; 0 without grains
     double fed_mass() const;                                     ///< that feeds give until the run's end [kg]
     double tolerance() const { return 1e-6 * size.maxCoeff(); }  ///< lengths below it are rounding [m]

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double k_tolerance = 1e-9;         // [m]
-constexpr double k_narrowest_opening = 3.0;  // largest diameters; a narrower one is plugged by an arch
+constexpr double k_narrowest_opening = 3.0;  // lengths of the longest grain; a narrower one is plugged by an arch
 constexpr double k_millimetre = 1e-3;        // [m]
 constexpr double k_too_large = 10.0;         // sizes of the room, above which a file is taken to be in millimetres
 
@@ -68,11 +68,11 @@ void read_motion(RoomReading& room, const ParameterValues& values, RoomSolid& so
 }
 
 void require_opening(RoomReading& room, const std::optional<double>& opening, const std::string& name, const std::string& where) {
-    const double least = k_narrowest_opening * room.scene.largest_grain();
+    const double least = k_narrowest_opening * room.scene.longest_grain();
     if (opening && *opening > 0.0 && *opening < least - k_tolerance)
         room.refuse(
             where, fmt::format("the opening of {} is {:g} m wide", name, *opening),
-            fmt::format("An opening below {:g} diameters of the largest grain ({:g} m) is plugged by an arch", k_narrowest_opening, least),
+            fmt::format("An opening below {:g} lengths of the longest grain ({:g} m) is plugged by an arch", k_narrowest_opening, least),
             "Widen it, or take smaller grains");
 }
 
