@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/base/checkpoint_folders.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/run_files.hpp"
 
@@ -118,14 +120,11 @@ RunDirectory::RunDirectory(const fs::path& path) : path_(fs::absolute(path).lexi
 }
 
 void remove_unfinished_run(const fs::path& directory) {
-    std::vector<fs::path> left;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
-        const std::string name = entry.path().filename().string();
-        const bool later_time = name != "0" && name.find_first_not_of("0123456789.e-+") == std::string::npos;
-        const bool processor = name.rfind("processor", 0) == 0;
-        if (entry.is_directory() && (later_time || processor || name == "postProcessing" || name == names::checkpoints))
-            left.push_back(entry);
-    }
+    std::vector<fs::path> left = processor_folders(directory);
+    for (const fs::path& folder : time_folders(directory))
+        if (std::strtod(folder.filename().c_str(), nullptr) > 0.0) left.push_back(folder);
+    for (const char* name : {"postProcessing", names::checkpoints})
+        if (fs::is_directory(directory / name)) left.push_back(directory / name);
     for (const fs::path& folder : left) fs::remove_all(folder);
 }
 

@@ -61,7 +61,8 @@ private:
     std::optional<FolderLock> lock_;
 };
 
-/// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed.
+/// Removes the output of a run that was stopped before its first checkpoint: it cannot be resumed. Folders that a run does not
+/// write are the user's and stay.
 void remove_unfinished_run(const std::filesystem::path& directory);
 
 /// Regular files below a folder of the run directory, relative to `root`, sorted; empty when there is no such folder.

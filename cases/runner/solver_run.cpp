@@ -20,13 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> processor_folders(const fs::path& directory) {
-    std::vector<fs::path> folders;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory))
-        if (entry.is_directory() && entry.path().filename().string().rfind("processor", 0) == 0) folders.push_back(entry);
-    return folders;
-}
-
 /// The first goes first: a case without it counts as undecomposed.
 void remove_processor_folders(const fs::path& directory) {
     fs::remove_all(directory / "processor0");

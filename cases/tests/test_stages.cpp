@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/runner/pipeline.hpp"
+#include "cases/runner/run_directory.hpp"
 #include "cases/scenes/room/room_study.hpp"
 #include "cases/study/study.hpp"
 #include "geometry/base/error.hpp"
@@ -247,6 +248,17 @@ TEST_F(Stages, a_process_killed_in_the_middle_leaves_a_manifest_that_says_so) {
     ASSERT_TRUE(WIFSIGNALED(status));
     expect_contains(refusal(), "the stage run");
     EXPECT_EQ(go(true), (Names{"run resumed", "report"}));
+}
+
+TEST_F(Stages, a_run_that_begins_anew_keeps_the_users_folders) {
+    const Names of_the_run{"0.25", "1e-05", "3", "processor0", "processor11", "postProcessing", "checkpoints"};
+    const Names of_others{"0",   "0.orig", "constant", "2026-11-29", "1.2.3",     "e",          "-",
+                          "...", "nan",    "inf",      "0x10",       "processor", "processor_0"};
+    for (const Names& folders : {of_the_run, of_others})
+        for (const std::string& name : folders) fs::create_directories(folder_ / name / "kept");
+    remove_unfinished_run(folder_);
+    for (const std::string& name : of_the_run) EXPECT_FALSE(fs::exists(folder_ / name)) << name;
+    for (const std::string& name : of_others) EXPECT_TRUE(fs::exists(folder_ / name / "kept")) << name;
 }
 
 TEST_F(Stages, one_that_fails_notes_what_its_programs_took) {

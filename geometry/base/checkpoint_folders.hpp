@@ -5,8 +5,11 @@
 
 namespace cutterflow {
 
-/// Folders directly in `root` that are called by a time, in the order of their times.
+/// Folders directly in `root` that are called by a time as OpenFOAM writes one, in the order of their times.
 std::vector<std::filesystem::path> time_folders(const std::filesystem::path& root);
+
+/// Folders of the ranks of a decomposed case, `processor0` and so on, in no order. \pre the case is a folder
+std::vector<std::filesystem::path> processor_folders(const std::filesystem::path& case_folder);
 
 /// Complete checkpoints of a case (`checkpoints/<time>`), the newest last.
 std::vector<std::filesystem::path> checkpoint_folders(const std::filesystem::path& case_folder);
