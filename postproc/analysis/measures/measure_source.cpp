@@ -35,13 +35,14 @@ std::vector<double> array_of(const std::string& text, const std::string& name, c
     return std::move(*numbers);
 }
 
-Table joined_with(const fs::path& run, const std::string& what, const std::string& file, const TableRules& rules) {
+Table joined_with(const fs::path& run, const std::string& what, const std::string& file, const TableRules& rules,
+                  const std::vector<std::string>& identity = {}) {
     const auto folders = start_folders(run, what);
     const bool there = std::any_of(folders.begin(), folders.end(), [&](const auto& folder) { return fs::exists(folder.second / file); });
     if (!there)
         throw UserError({{run.string(), fmt::format("there is no postProcessing/{}/<time>/{}", what, file), "The measure is made from it",
                           "Let the run record it, or remove the measure"}});
-    return read_joined_table(run, what, file, rules);
+    return read_joined_table(run, what, file, rules, identity);
 }
 
 }  // namespace
@@ -122,7 +123,8 @@ void MeasureSource::require_gate(const std::string& gate) const {
 
 PassedMass MeasureSource::through_gate(const std::string& gate) const {
     require_gate(gate);
-    const Table rows = joined_with(directory_, "rock", "gates.csv", {{"time_s", "direction", "mass_kg"}, {"gate"}, {}, k_run_again});
+    const Table rows = joined_with(directory_, "rock", "gates.csv", {{"time_s", "id", "direction", "mass_kg"}, {"gate"}, {}, k_run_again},
+                                   {"gate", "id", "direction"});
     PassedMass passed;
     for (std::size_t n = 0; n < rows.rows(); ++n) {
         if (rows.text("gate")[n] != gate) continue;
@@ -184,8 +186,8 @@ double MeasureSource::removed_at(const std::string& wall) const {
 
 /// Rows of a wall that was taken away count as long as it stood.
 Signal MeasureSource::wall_force(const std::string& wall, const std::string& component) const {
-    const Table rows =
-        joined_with(directory_, "rock", "walls.csv", {{"time_s", "force_x_n", "force_y_n", "force_z_n"}, {"wall"}, {}, k_run_again});
+    const Table rows = joined_with(directory_, "rock", "walls.csv",
+                                   {{"time_s", "force_x_n", "force_y_n", "force_z_n"}, {"wall"}, {}, k_run_again}, {"wall"});
     const double end = removed_at(wall);
     Signal signal;
     for (std::size_t n = 0; n < rows.rows(); ++n) {

@@ -11,6 +11,7 @@
 #include "geometry/base/profiles/profile.hpp"
 #include "geometry/base/sphere.hpp"
 #include "postproc/analysis/measures/measure_run.hpp"
+#include "postproc/analysis/measures/measure_source.hpp"
 #include "postproc/analysis/measures/measure_table.hpp"
 #include "postproc/draw/gnuplot.hpp"
 #include "postproc/pages/measures/measure_figures.hpp"
@@ -100,6 +101,17 @@ TEST_F(MeasuredRun, counts_what_passes_a_gate_once_through_a_restart) {
     EXPECT_FALSE(results["flow"]["standard_error"].is_null());
     EXPECT_EQ(read_measures(run_), results);
     EXPECT_EQ(measure_figures(results).size(), 6U);
+}
+
+// Times that are nearer to each other than the name of a start's folder tells are the same time, not the same grain or wall.
+TEST_F(MeasuredRun, keeps_what_was_recorded_just_before_a_restart) {
+    const std::string gates = "time_s,gate,id,direction,mass_kg\n", walls = "time_s,wall,force_x_n,force_y_n,force_z_n\n";
+    write("postProcessing/rock/0/gates.csv", gates + "1,outlet,1,1,0.5\n1.999999,outlet,2,1,0.5\n2,outlet,3,1,0.5\n");
+    write("postProcessing/rock/2/gates.csv", gates + "2,outlet,3,1,0.5\n2.000001,outlet,4,1,0.5\n2.000001,outlet,3,-1,0.5\n");
+    write("postProcessing/rock/0/walls.csv", walls + "1,lid,1,0,0\n1,floor,4,0,0\n2,lid,3,0,0\n2,floor,4,0,0\n");
+    write("postProcessing/rock/2/walls.csv", walls + "2.000001,floor,4,0,0\n3,floor,4,0,0\n");
+    EXPECT_NEAR(MeasureSource(run_).through_gate("outlet").total(), 3 * 0.5, 1e-12);
+    EXPECT_EQ(MeasureSource(run_).wall_force("lid", "x").value, (std::vector<double>{1, 3}));
 }
 
 const char* const k_emptying = R"([
