@@ -66,7 +66,7 @@ std::string vtp_of(const WallWork& work) {
 }  // namespace
 
 CsvRecorder::CsvRecorder(const std::filesystem::path& case_folder, const CouplingSettings& settings, double start_time)
-    : root_(case_folder / "postProcessing"), settings_(settings), start_time_(start_time), start_(time_name(start_time)) {}
+    : root_(case_folder / "postProcessing"), settings_(settings), start_(time_name(start_time)) {}
 
 void CsvRecorder::begin() {
     const std::string soil = settings_.soil ? ",soil_force_x_n,soil_force_y_n,soil_force_z_n" : "";
@@ -115,14 +115,21 @@ void CsvRecorder::begin() {
         extractions_ = open(k_rock, "extract.csv", "time_s,event,due_kg,extracted_kg,in_region,starved");
     if (!settings_.shapes.empty()) write_shapes(settings_.shapes);
 
-    // Pictures of an earlier part of the run stay in the series.
+    keep_pictures_before_start();
+}
+
+/// Pictures of an earlier part of the run stay in the series; those of the part that this start replaces leave it at once, and stay in
+/// the folder.
+void CsvRecorder::keep_pictures_before_start() {
     const std::filesystem::path pictures = root_ / k_rock / "vtk";
     std::filesystem::create_directories(pictures);
+    const double start = std::strtod(start_.c_str(), nullptr);  // in as many digits as the names of the pictures
     for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
         const std::string name = entry.path().stem().string();
-        const double time = name.rfind("rocks_", 0) == 0 ? std::strtod(name.c_str() + 6, nullptr) : start_time_ + 1.0;
-        if (time <= start_time_) pictures_[time] = "vtk/" + entry.path().filename().string();
+        const double time = name.rfind("rocks_", 0) == 0 ? std::strtod(name.c_str() + 6, nullptr) : start + 1.0;
+        if (time <= start) pictures_[time] = "vtk/" + entry.path().filename().string();
     }
+    if (std::filesystem::exists(root_ / k_rock / "rocks.pvd")) write_series();
 }
 
 void CsvRecorder::describe(std::vector<ModelNote> models, std::map<std::string, std::string> versions) {

@@ -48,11 +48,11 @@ private:
     void write_shapes(const std::vector<ClumpShape>& shapes) const;
     std::filesystem::path folder(const std::string& what) const;
     std::ofstream open(const std::string& what, const std::string& file, const std::string& header) const;
+    void keep_pictures_before_start();
     void write_series() const;
 
     std::filesystem::path root_;
     CouplingSettings settings_;
-    double start_time_;
     std::string start_;
     std::ofstream events_, rejected_, account_, gates_, extractions_, contacts_, walls_, fates_, ledger_, outflow_, flux_, loads_, balance_,
         cost_, wall_work_, warnings_;

@@ -35,6 +35,22 @@ std::vector<double> array_of(const std::string& text, const std::string& name, c
     return std::move(*numbers);
 }
 
+/// Pictures of the series that the run shows: a resumed start leaves those of the part that it replaces out of rocks.pvd, not out of the
+/// folder. Without a series, those of the folder. \param rock  postProcessing/rock
+std::vector<fs::path> pictures_in(const fs::path& rock) {
+    std::vector<fs::path> files;
+    if (fs::exists(rock / "rocks.pvd")) {
+        const std::string text = read_file(rock / "rocks.pvd"), before = "file=\"";
+        for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+            at += before.size();
+            files.push_back(rock / text.substr(at, text.find('"', at) - at));
+        }
+    } else if (fs::is_directory(rock / "vtk")) {
+        for (const auto& entry : fs::directory_iterator(rock / "vtk")) files.push_back(entry.path());
+    }
+    return files;
+}
+
 Table joined_with(const fs::path& run, const std::string& what, const std::string& file, const TableRules& rules,
                   const std::vector<std::string>& identity = {}) {
     const auto folders = start_folders(run, what);
@@ -70,13 +86,10 @@ MeasureSource::MeasureSource(fs::path run_directory) : directory_(std::move(run_
 const std::vector<double>& MeasureSource::picture_times() const {
     if (!times_.empty()) return times_;
     std::vector<std::pair<double, fs::path>> found;
-    const fs::path folder = directory_ / "postProcessing/rock/vtk";
-    if (fs::is_directory(folder)) {
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const std::string name = entry.path().stem().string();
-            if (entry.path().extension() == ".vtp" && name.rfind("rocks_", 0) == 0)
-                found.emplace_back(std::strtod(name.c_str() + 6, nullptr), entry.path());
-        }
+    for (const fs::path& file : pictures_in(directory_ / "postProcessing/rock")) {
+        const std::string name = file.stem().string();
+        if (file.extension() == ".vtp" && name.rfind("rocks_", 0) == 0 && fs::exists(file))
+            found.emplace_back(std::strtod(name.c_str() + 6, nullptr), file);
     }
     if (found.empty())
         throw UserError(

@@ -24,7 +24,7 @@ public:
 
     const std::filesystem::path& directory() const { return directory_; }
 
-    /// Times of the pictures (postProcessing/rock/vtk). \throws UserError  when there are none
+    /// Times of the pictures (postProcessing/rock/vtk) that the run shows in rocks.pvd. \throws UserError  when there are none
     const std::vector<double>& picture_times() const;
     /// Index of the picture nearest to a time; the last one without a time.
     std::size_t picture_near(std::optional<double> time) const;

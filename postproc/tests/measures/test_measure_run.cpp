@@ -240,6 +240,19 @@ TEST_F(MeasuredRun, measures_grains_of_its_pictures) {
 }
 
 /// Outside a round bed there is no cavity; a box within it has none either, and its own level.
+// The run went on from 3 s: its later pictures of before are in the folder, not in the series.
+TEST_F(MeasuredRun, measures_no_picture_that_a_restart_replaced) {
+    emptying_region();
+    const MeasureSource all(run_);
+    EXPECT_EQ(all.picture_times(), (std::vector<double>{1, 2, 3, 4, 5})) << "a run without a series";
+    write("postProcessing/rock/rocks.pvd",
+          "<Collection>\n<DataSet timestep=\"1\" file=\"vtk/rocks_1.vtp\"/>\n<DataSet timestep=\"2\" file=\"vtk/rocks_2.vtp\"/>\n"
+          "<DataSet timestep=\"2.5\" file=\"vtk/rocks_2.5.vtp\"/>\n<DataSet timestep=\"3\" file=\"vtk/rocks_3.vtp\"/>\n</Collection>\n");
+    const MeasureSource shown(run_);
+    EXPECT_EQ(shown.picture_times(), (std::vector<double>{1, 2, 3})) << "one was deleted by hand";
+    EXPECT_EQ(shown.grains(shown.picture_near(std::nullopt)).size(), 12U - 2 * 3);
+}
+
 TEST_F(MeasuredRun, finds_no_cavity_beside_a_round_bed) {
     const Grains bed =
         testing::packed_grains({-0.1, -0.1, 0.0}, {0.1, 0.1, 0.06}, k_d, 1, [](const Vec3& place) { return place.head<2>().norm() < 0.1; });

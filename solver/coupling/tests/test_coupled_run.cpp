@@ -1181,6 +1181,31 @@ TEST(CsvRecorder, has_tables_as_far_as_its_pictures) {
     EXPECT_NE(text_of(rejected).find("7,0.25,no_room"), std::string::npos);
 }
 
+TEST(CsvRecorder, leaves_pictures_that_it_replaces_out_of_the_series_at_once) {
+    const TemporaryFolder folder;
+    const CouplingSettings settings = case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n");
+    const double resumed_at = 0.2512336;  // less than the name of its picture
+    const auto picture_at = [](CsvRecorder& recorder, double time) {
+        RockPicture picture;
+        picture.time = time;
+        recorder.picture(picture);
+    };
+    CsvRecorder killed(folder.path(), settings, 0.0);
+    killed.begin();
+    for (const double time : {0.125, resumed_at, 0.375}) picture_at(killed, time);
+    CsvRecorder resumed(folder.path(), settings, resumed_at);
+    resumed.begin();
+    const auto has = [&](const char* name) {
+        return text_of(folder.path() / "postProcessing/rock/rocks.pvd").find(name) != std::string::npos;
+    };
+    EXPECT_TRUE(has("rocks_0.125.vtp"));
+    EXPECT_TRUE(has("rocks_0.251234.vtp"));
+    EXPECT_FALSE(has("rocks_0.375.vtp"));
+    picture_at(resumed, 0.5);
+    EXPECT_TRUE(has("rocks_0.5.vtp"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "postProcessing/rock/vtk/rocks_0.375.vtp"));
+}
+
 TEST(CsvRecorder, keeps_the_warnings_of_a_start_that_is_killed) {
     const TemporaryFolder folder;
     CsvRecorder recorder(folder.path(), case_settings(folder, "1,0,0.1,0,-0.05,0.02,2650\n"), 0.5);
